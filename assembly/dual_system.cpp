@@ -1,0 +1,192 @@
+#include "assembly/dual_system.hpp"
+
+#include "assembly/edge_forces.hpp"
+#include "assembly/flexibility.hpp"
+#include "assembly/stress_field.hpp"
+
+namespace airybench {
+namespace {
+
+// Rows of C_F or C_C in the making, each with the force that belongs to it.
+struct ForceRows {
+  std::vector<Eigen::Triplet<double>> entries;
+  std::vector<double> force;
+
+  void add(const Eigen::Matrix<double, 1, 7>& values, const std::array<int, 7>& dofs, double f) {
+    const int row = static_cast<int>(force.size());
+    for (int k = 0; k < 7; ++k)
+      if (dofs[k] != DofNumbering::gauge && values(k) != 0)
+        entries.emplace_back(row, dofs[k], values(k));
+    force.push_back(f);
+  }
+  SparseRows matrix(int n) const {
+    SparseRows result(static_cast<Eigen::Index>(force.size()), n);
+    result.setFromTriplets(entries.begin(), entries.end());
+    return result;
+  }
+  Eigen::VectorXd forces() const {
+    return Eigen::Map<const Eigen::VectorXd>(force.data(), static_cast<Eigen::Index>(force.size()));
+  }
+};
+
+// One boundary edge: its ends, frame, and force functionals in the scaled unknowns.
+struct EdgeFunctionals {
+  std::array<Eigen::Vector2d, 2> end;
+  EdgeFrame frame;
+  EdgeForces forces;  // rows F^a_x, F^a_y, F^b_x, F^b_y
+  std::array<int, 7> dofs;
+};
+
+EdgeFunctionals edge_functionals(const DualSystem& system, int row) {
+  const Problem& problem = *system.problem;
+  const auto [a, b] = problem.mesh.boundary[row].vertices;
+  const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
+  EdgeFunctionals edge{{xa, xb},
+                       edge_frame(xa, xb),
+                       edge_forces(xa, xb, a < b ? 1 : -1),
+                       system.dofs.of_edge_walk(a, b, problem.edges.of_boundary[row])};
+  for (int k = 0; k < 7; ++k)
+    if (edge.dofs[k] != DofNumbering::gauge) edge.forces.col(k) *= system.scale(edge.dofs[k]);
+  return edge;
+}
+
+template <typename Visit>
+void for_each_edge(const DualSystem& system, BoundaryRole role, Visit visit) {
+  const auto& boundary = system.problem->mesh.boundary;
+  for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
+    if (boundary[row].role == role) visit(row, edge_functionals(system, row));
+}
+
+// The force of the particular stress at an end of the edge, N.
+Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& edge, int end) {
+  if (!problem.loads.has_body_force()) return Eigen::Vector2d::Zero();
+  return edge.frame.length_mm / 2 *
+         traction(problem.particular_stress(edge.end[end]), edge.frame.normal);
+}
+
+void build_constraints(DualSystem& system) {
+  const Problem& problem = *system.problem;
+  const Loads& loads = problem.loads;
+  ForceRows on_force, on_contact;
+
+  for_each_edge(system, BoundaryRole::force, [&](int, const EdgeFunctionals& edge) {
+    for (int k = 0; k < 2; ++k) {
+      Eigen::Vector2d f = -particular_force(problem, edge, k);
+      if (loads.traction_MPa)
+        f += edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal);
+      for (int i = 0; i < 2; ++i) on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
+    }
+  });
+
+  ContactPoints& contact = system.contact;
+  contact.friction = problem.friction;
+  contact.components = problem.friction > 0 ? 2 : 1;
+  std::vector<double> gap;
+  for_each_edge(system, BoundaryRole::contact, [&](int row, const EdgeFunctionals& edge) {
+    for (int k = 0; k < 2; ++k) {
+      const auto rows = edge.forces.middleRows<2>(2 * k);
+      const Eigen::Vector2d f = particular_force(problem, edge, k);
+      const Eigen::Vector2d &n = edge.frame.normal, &s = edge.frame.tangent;
+      on_contact.add(n.transpose() * rows, edge.dofs, n.dot(f));
+      if (contact.components == 2)
+        on_contact.add(s.transpose() * rows, edge.dofs, s.dot(f));
+      else
+        on_force.add(s.transpose() * rows, edge.dofs, -s.dot(f));
+      contact.boundary.push_back(row);
+    }
+    if (loads.gap_mm) {
+      const Eigen::Vector2d middle = (edge.end[0] + edge.end[1]) / 2;
+      const auto [start, end] =
+          edge_moments(loads.gap_mm(edge.end[0]), loads.gap_mm(middle), loads.gap_mm(edge.end[1]));
+      gap.insert(gap.end(), {start, end});
+    }
+  });
+  contact.count = static_cast<int>(contact.boundary.size());
+  contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
+
+  system.C_F = on_force.matrix(system.dofs.count);
+  system.C_C = on_contact.matrix(system.dofs.count);
+  if (loads.traction_MPa || loads.has_body_force()) system.F = on_force.forces();
+  if (loads.has_body_force()) system.F0 = on_contact.forces();
+}
+
+// q_i = ∫_{Γ_D} u0·σ(φ_i)n − ∫ σ(φ_i):C:σ_p.
+void build_load(DualSystem& system) {
+  const Problem& problem = *system.problem;
+  const Loads& loads = problem.loads;
+  if (!loads.displacement_mm && !loads.has_body_force()) return;
+  system.q = Eigen::VectorXd::Zero(system.dofs.count);
+
+  if (loads.displacement_mm) {
+    for_each_edge(system, BoundaryRole::displacement, [&](int, const EdgeFunctionals& edge) {
+      const Eigen::Vector2d middle = (edge.end[0] + edge.end[1]) / 2;
+      const auto [start, end] =
+          edge_moments(loads.displacement_mm(edge.end[0]), loads.displacement_mm(middle),
+                       loads.displacement_mm(edge.end[1]));
+      const Eigen::Vector4d u(start.x(), start.y(), end.x(), end.y());
+      for (int k = 0; k < 7; ++k)
+        if (edge.dofs[k] != DofNumbering::gauge)
+          system.q(edge.dofs[k]) += u.dot(edge.forces.col(k));
+    });
+  }
+  if (loads.has_body_force()) {
+    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+      const TriangleVertices v = problem.vertices_of(t);
+      const HctStress stress = hct_stress(v, problem.edge_signs(t));
+      const ElementStress dual = stress_dual(particular_element_stress(problem, t),
+                                             problem.area_mm2(t), problem.compliance_of(t));
+      const Eigen::Matrix<double, 12, 1> load = stress.transpose() * dual.reshaped();
+      const auto dofs = system.dofs.of_triangle(problem, t);
+      for (int k = 0; k < 12; ++k)
+        if (dofs[k] != DofNumbering::gauge) system.q(dofs[k]) -= load(k) * system.scale(dofs[k]);
+    }
+  }
+}
+
+std::size_t bytes_of(const auto& sparse) {
+  return static_cast<std::size_t>(sparse.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         static_cast<std::size_t>(sparse.outerSize() + 1) * sizeof(int);
+}
+
+}  // namespace
+
+std::size_t DualSystem::bytes() const {
+  const auto vectors = scale.size() + q.size() + F.size() + F0.size() + contact.gap.size();
+  return bytes_of(S) + bytes_of(C_F) + bytes_of(C_C) +
+         static_cast<std::size_t>(vectors) * sizeof(double) +
+         (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
+}
+
+DualSystem assemble(std::shared_ptr<const Problem> problem) {
+  DualSystem system;
+  system.problem = std::move(problem);
+  {
+    const NodeGraph graph = airy_node_graph(*system.problem);
+    const std::vector<int> position = cuthill_mckee(graph);
+    system.dofs = number_dofs(*system.problem, position);
+    system.S = assemble_flexibility(*system.problem, system.dofs, graph, position);
+  }
+  system.scale = equilibrate(system.S);
+  build_constraints(system);
+  build_load(system);
+  return system;
+}
+
+Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x) {
+  const DofNumbering& dofs = system.dofs;
+  const auto vertices = static_cast<Eigen::Index>(dofs.of_vertex.size());
+  const auto edges = static_cast<Eigen::Index>(dofs.of_edge.size());
+  Eigen::VectorXd phi(3 * vertices + edges);
+  for (Eigen::Index v = 0; v < vertices; ++v)
+    for (int k = 0; k < 3; ++k) {
+      const int dof = dofs.of_vertex[v];
+      phi(3 * v + k) = dof == DofNumbering::gauge ? 0 : system.scale(dof + k) * x(dof + k);
+    }
+  for (Eigen::Index e = 0; e < edges; ++e) {
+    const int dof = dofs.of_edge[e];
+    phi(3 * vertices + e) = system.scale(dof) * x(dof);
+  }
+  return phi;
+}
+
+}  // namespace airybench

@@ -1,0 +1,62 @@
+// The discrete contact problem in the Airy function, the paper's eq. (4):
+//
+//   ⎡ S   C_Fᵀ C_Cᵀ  0 ⎤ ⎡ φ  ⎤   ⎡ q   ⎤     S    n×n      ∫ σ(φ_i):C:σ(φ_j), N⁻¹ mm …
+//   ⎢ C_F  0    0    0 ⎥ ⎢ λ  ⎥ = ⎢ F   ⎥     C_F  n_f×n    forces on Γ_F, x and y
+//   ⎢ C_C  0    0   −I ⎥ ⎢ λ' ⎥   ⎢ −F0 ⎥     C_C  n_c×n    forces on Γ_C, normal and tangential
+//   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
+//
+// with the contact law between F_C and r = ū_C − ḡ at every contact point (two per edge, its ends):
+//   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;   |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n.
+//
+// Forces and displacements on edges are those of edge_forces.hpp. As an unknown the φ here is
+// x = φ/scale: S is equilibrated, its diagonal is 1, and q, C_F, C_C are scaled alike. Rows are
+// numbered by Cuthill–McKee and the gauge is removed, so n = n_φ − 3 and S is symmetric positive
+// definite; C = [C_F; C_C] has full rank.
+//
+// What a scene does not need is not built: an empty vector is zero. Without friction the tangential
+// contact forces are prescribed to zero: their rows move to the end of C_F.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <memory>
+
+#include "assembly/dof_numbering.hpp"
+#include "assembly/problem.hpp"
+
+namespace airybench {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
+
+struct ContactPoints {
+  int count = 0;              // two per contact edge: its start, its end
+  int components = 2;         // per point: normal and tangential, or with μ = 0 normal only
+  double friction = 0;        // μ
+  Eigen::VectorXd gap;        // ḡ per point, mm; empty: zero
+  std::vector<int> boundary;  // per point: row of Mesh::boundary
+  int size() const { return count * components; }  // n_c
+};
+
+struct DualSystem {
+  std::shared_ptr<const Problem> problem;
+  DofNumbering dofs;
+  Eigen::VectorXd scale;  // φ = scale ∘ x
+  SparseColumns S;        // lower triangle
+  SparseRows C_F, C_C;
+  Eigen::VectorXd q;   // empty: zero
+  Eigen::VectorXd F;   // N; empty: zero
+  Eigen::VectorXd F0;  // N, contact forces of the particular stress; empty: zero
+  ContactPoints contact;
+
+  int n() const { return static_cast<int>(S.rows()); }
+  int n_f() const { return static_cast<int>(C_F.rows()); }
+  int n_c() const { return static_cast<int>(C_C.rows()); }
+  std::size_t bytes() const;  // of all blocks
+};
+
+DualSystem assemble(std::shared_ptr<const Problem> problem);
+
+// From x to φ, φ,x, φ,y of every vertex, then ∂φ/∂n of every edge (3V + E values).
+Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x);
+
+}  // namespace airybench

@@ -1,0 +1,41 @@
+// Generalised forces on an edge.
+//
+// Walk an edge a→b of length L counter-clockwise around its triangle: tangent s = (b−a)/L, outward
+// normal n = (s_y, −s_x). The traction is t = σn = d/ds (φ,y, −φ,x). Along the edge ∇φ is
+// quadratic, so t is linear, and its end values say all. The generalised forces are F^k = (L/2)
+// t(x_k), in N. Their work partners are ū_k = (2/L) ∫ N_k u ds with the linear N_k:  ∫ u·t ds = Σ_k
+// F^k·ū_k.
+//
+// With g_a, g_b the end gradients and g_m the middle one — tangential part from the cubic Hermite
+// of φ, normal part the edge's own degree of freedom — and R = [0 1; −1 0]:
+//   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
+#pragma once
+
+#include <Eigen/Core>
+
+namespace airybench {
+
+struct EdgeFrame {
+  double length_mm;
+  Eigen::Vector2d tangent, normal;  // unit vectors; normal is outward
+};
+inline EdgeFrame edge_frame(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double length = (b - a).norm();
+  const Eigen::Vector2d s = (b - a) / length;
+  return {length, s, {s.y(), -s.x()}};
+}
+
+// Rows: F^a_x, F^a_y, F^b_x, F^b_y. Columns: φ, φ,x, φ,y at a, the same at b, ∂φ/∂n at the middle.
+// outward: +1 when the edge's global normal (see hct.hpp) is n, −1 when it is −n.
+using EdgeForces = Eigen::Matrix<double, 4, 7>;
+EdgeForces edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double outward);
+
+// ū_a, ū_b (rows) of a field sampled at the edge's start, middle and end (columns): Simpson's rule,
+// exact for quadratic fields.
+//   ū_a = u_a/3 + 2 u_m/3,  ū_b = 2 u_m/3 + u_b/3
+template <typename Value>
+std::pair<Value, Value> edge_moments(const Value& start, const Value& middle, const Value& end) {
+  return {Value(start / 3 + 2 * middle / 3), Value(2 * middle / 3 + end / 3)};
+}
+
+}  // namespace airybench

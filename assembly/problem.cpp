@@ -1,0 +1,55 @@
+#include "assembly/problem.hpp"
+
+#include <cassert>
+#include <limits>
+
+namespace airybench {
+
+TriangleVertices Problem::vertices_of(int triangle) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  TriangleVertices v;
+  v << mesh.vertices[a], mesh.vertices[b], mesh.vertices[c];
+  return v;
+}
+
+double Problem::area_mm2(int triangle) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
+}
+
+EdgeSigns Problem::edge_signs(int triangle) const {
+  const auto& [a, b, c] = mesh.triangles[triangle];
+  return {a < b ? 1. : -1., b < c ? 1. : -1., c < a ? 1. : -1.};
+}
+
+Eigen::Vector3d Problem::particular_stress(const Eigen::Vector2d& x) const {
+  const Eigen::Vector2d d = x - mesh.vertices[central_vertex];
+  const Eigen::Vector2d& b = loads.body_force_N_per_mm3;
+  return {-b.x() * d.x(), -b.y() * d.y(), 0};
+}
+
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     double friction) {
+  assert(compliance.size() == mesh.body_names.size());
+  Problem problem{std::move(mesh), {}, std::move(compliance), std::move(loads), friction, 0};
+  problem.edges = number_edges(problem.mesh);
+
+  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  double area = 0;
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    area += problem.area_mm2(t);
+    moment += problem.area_mm2(t) * problem.vertices_of(t).rowwise().mean();
+  }
+  const Eigen::Vector2d centroid = moment / area;
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int v = 0; v < static_cast<int>(problem.mesh.vertices.size()); ++v) {
+    const double distance = (problem.mesh.vertices[v] - centroid).squaredNorm();
+    if (distance < nearest) {
+      nearest = distance;
+      problem.central_vertex = v;
+    }
+  }
+  return problem;
+}
+
+}  // namespace airybench

@@ -1,0 +1,60 @@
+// The contact problem on a mesh, in physical terms, before any choice of unknowns.
+//
+//   −div σ = b,  ε(u) = C σ in Ω;   u = u0 on Γ_D;   σn = f on Γ_F;
+//   on Γ_C, with gap g0 along the outward normal and the solution's own σ_n as threshold:
+//     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
+//
+// Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "assembly/elasticity.hpp"
+#include "assembly/hct.hpp"
+#include "assembly/mesh.hpp"
+
+namespace airybench {
+
+// Boundary data and body force. An empty function is zero and costs nothing.
+struct Loads {
+  std::function<Eigen::Vector2d(const Eigen::Vector2d& x)> displacement_mm;  // u0 on Γ_D
+  std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal)>
+      traction_MPa;                                        // f on Γ_F; linear on every edge
+  std::function<double(const Eigen::Vector2d& x)> gap_mm;  // g0 on Γ_C; quadratic on every edge
+  Eigen::Vector2d body_force_N_per_mm3 = {0, 0};           // b, constant
+
+  bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
+};
+
+struct Problem {
+  Mesh mesh;
+  MeshEdges edges;
+  std::vector<Eigen::Matrix3d> compliance;  // per row of mesh.body_names, 1/MPa
+  Loads loads;
+  double friction = 0;  // μ ≥ 0
+  int central_vertex =
+      0;  // nearest to the centroid; φ and the particular stress are anchored there
+
+  const Eigen::Matrix3d& compliance_of(int triangle) const {
+    return compliance[mesh.triangle_body[triangle]];
+  }
+  TriangleVertices vertices_of(int triangle) const;
+  double area_mm2(int triangle) const;
+  EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
+
+  // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
+  Eigen::Vector3d particular_stress(const Eigen::Vector2d& x) const;
+};
+
+// Takes a valid mesh (see validate()) and one compliance per body.
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     double friction);
+
+// Traction σn of a stress (xx, yy, xy).
+inline Eigen::Vector2d traction(const Eigen::Vector3d& stress, const Eigen::Vector2d& normal) {
+  return {stress(0) * normal.x() + stress(2) * normal.y(),
+          stress(2) * normal.x() + stress(1) * normal.y()};
+}
+
+}  // namespace airybench

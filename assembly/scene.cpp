@@ -1,0 +1,137 @@
+#include "assembly/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace airybench {
+namespace {
+
+// Geometry given in a scene must agree with the mesh to this relative accuracy.
+constexpr double geometry_tolerance = 1e-6;
+
+[[noreturn]] void fail(const Scene& scene, const std::string& key, const auto& value,
+                       const std::string& why) {
+  std::ostringstream line;
+  line << scene.name << ": " << key << ": " << value << " " << why;
+  throw SceneError(line.str());
+}
+
+void check_length(const Scene& scene, const std::string& key, std::optional<double> given,
+                  double of_mesh, const Mesh& mesh) {
+  if (!given || std::abs(*given - of_mesh) <= geometry_tolerance * of_mesh) return;
+  std::ostringstream why;
+  why << "contradicts the mesh " << mesh.name << ", which has " << of_mesh;
+  fail(scene, key, *given, why.str());
+}
+
+struct Face {
+  Eigen::Vector2d middle;  // of the segment between the face's ends
+  double half_height;      // half that segment's length
+};
+
+std::vector<Face> contact_faces(const Mesh& mesh) {
+  std::vector<Face> faces;
+  for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
+    const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
+    const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
+    faces.push_back({(start + end) / 2, (end - start).norm() / 2});
+  }
+  return faces;
+}
+
+// Half the height of the first tooth at its root: the force boundary's vertices on x = 0 nearest to
+// the tooth's axis are the feet of its flanks. 0 when there are none.
+double root_half_height(const Mesh& mesh, const Face& face) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    if (edge.role != BoundaryRole::force) continue;
+    for (const int v : edge.vertices)
+      if (std::abs(mesh.vertices[v].x()) <= geometry_tolerance * face.half_height)
+        nearest = std::min(nearest, std::abs(mesh.vertices[v].y() - face.middle.y()));
+  }
+  return std::isfinite(nearest) ? nearest : 0;
+}
+
+void check_geometry(const Scene& scene, const Mesh& mesh, const std::vector<Face>& faces) {
+  if (scene.teeth && *scene.teeth != static_cast<int>(faces.size()))
+    fail(scene, "teeth", *scene.teeth,
+         "contradicts the mesh " + mesh.name + ", which has " + std::to_string(faces.size()) +
+             " contact face(s)");
+  if (faces.empty()) return;
+  const Face& face = faces.front();
+  check_length(scene, "tip_half_height_mm", scene.tip_half_height_mm, face.half_height, mesh);
+  check_length(scene, "length_mm", scene.length_mm, face.middle.x(), mesh);
+  check_length(scene, "root_half_height_mm", scene.root_half_height_mm,
+               root_half_height(mesh, face), mesh);
+}
+
+std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
+  for (const auto& [body, material] : scene.materials)
+    if (std::find(mesh.body_names.begin(), mesh.body_names.end(), body) == mesh.body_names.end()) {
+      std::string valid;
+      for (const std::string& name : mesh.body_names) valid += (valid.empty() ? "" : ", ") + name;
+      fail(scene, "materials", body,
+           "is no body of the mesh " + mesh.name + " (its bodies: " + valid + ")");
+    }
+  std::vector<Eigen::Matrix3d> result;
+  for (const std::string& body : mesh.body_names) {
+    const auto own = scene.materials.find(body);
+    result.push_back(
+        compliance(own == scene.materials.end() ? scene.material : own->second, scene.plane));
+  }
+  return result;
+}
+
+void check_material(const Scene& scene, const std::string& prefix, const Material& material) {
+  if (!(material.young_MPa > 0) || !std::isfinite(material.young_MPa))
+    fail(scene, prefix + "young_MPa", material.young_MPa, "(allowed: > 0)");
+  if (!(material.poisson > -1 && material.poisson < 0.5))
+    fail(scene, prefix + "poisson", material.poisson,
+         "(allowed: between -1 and 0.5, both excluded)");
+}
+
+void check_values(const Scene& scene) {
+  check_material(scene, "", scene.material);
+  for (const auto& [body, material] : scene.materials)
+    check_material(scene, "materials: " + body + ": ", material);
+  if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
+    fail(scene, "friction", scene.friction, "(allowed: >= 0)");
+  if (scene.crown_radius_mm &&
+      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
+    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
+         "(allowed: > 0, or null for a flat wall)");
+  if (!(scene.clearance_mm >= 0) || !std::isfinite(scene.clearance_mm))
+    fail(scene, "clearance_mm", scene.clearance_mm, "(allowed: >= 0)");
+  if (!scene.displacement_mm.allFinite())
+    fail(scene, "displacement_mm", scene.displacement_mm.transpose(), "(allowed: finite numbers)");
+  if (!scene.body_force_N_per_mm3.allFinite())
+    fail(scene, "body_force_N_per_mm3", scene.body_force_N_per_mm3.transpose(),
+         "(allowed: finite numbers)");
+}
+
+}  // namespace
+
+Problem pose(const Scene& scene, Mesh mesh) {
+  check_values(scene);
+  const std::vector<Face> faces = contact_faces(mesh);
+  check_geometry(scene, mesh, faces);
+
+  Loads loads;
+  if (!scene.displacement_mm.isZero(0))
+    loads.displacement_mm = [u = scene.displacement_mm](const Eigen::Vector2d&) { return u; };
+  loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
+  if (scene.crown_radius_mm || scene.clearance_mm > 0) {
+    const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;
+    loads.gap_mm = [faces, curvature, clearance = scene.clearance_mm](const Eigen::Vector2d& x) {
+      double nearest = std::numeric_limits<double>::infinity();
+      for (const Face& face : faces) nearest = std::min(nearest, (x - face.middle).squaredNorm());
+      return clearance + nearest * curvature / 2;
+    };
+  }
+  std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
+  return make_problem(std::move(mesh), std::move(by_body), std::move(loads), scene.friction);
+}
+
+}  // namespace airybench

@@ -1,0 +1,43 @@
+// A scene: what is done to a mesh. Its defaults are the steel tooth of the documentation, pressed
+// by 0.02 mm against a crowned rigid wall and sheared by 0.006 mm, with open, sticking and slipping
+// contact points at once.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "assembly/problem.hpp"
+
+namespace airybench {
+
+struct Scene {
+  std::string name = "default";
+
+  // Geometry belongs to the mesh. What is given here is compared with it, and a contradiction is
+  // refused.
+  std::optional<int> teeth;  // separate contact faces
+  std::optional<double> root_half_height_mm, length_mm, tip_half_height_mm;
+
+  Material material;                          // every body …
+  std::map<std::string, Material> materials;  // … but those named here
+  Plane plane = Plane::strain;
+
+  double friction = 0.2;                        // μ ≥ 0
+  std::optional<double> crown_radius_mm = 400;  // of the wall; none: flat
+  Eigen::Vector2d displacement_mm = {0.02, 0.006};
+  double clearance_mm = 0;  // added to the gap everywhere, ≥ 0
+  Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
+};
+
+// A scene that cannot be posed on a mesh. what(): one line with scene, key, value, what is allowed.
+struct SceneError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// Poses the scene. On every contact face g0 = clearance + d²/(2R), where d is the distance from the
+// midpoint of the face's two ends (the tooth's axis). Throws SceneError.
+Problem pose(const Scene& scene, Mesh mesh);
+
+}  // namespace airybench

@@ -1,0 +1,85 @@
+#include "assembly/stress_field.hpp"
+
+#include <cmath>
+
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+
+ElementStress particular_element_stress(const Problem& problem, int triangle) {
+  const TriangleVertices v = problem.vertices_of(triangle);
+  const Eigen::Vector3d centre = problem.particular_stress(v.rowwise().mean());
+  ElementStress stress;
+  for (int t = 0; t < 3; ++t)
+    stress.middleCols<3>(3 * t) << problem.particular_stress(v.col(t)),
+        problem.particular_stress(v.col((t + 1) % 3)), centre;
+  return stress;
+}
+
+StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi) {
+  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
+  StressField field(problem.mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    const auto& corner = problem.mesh.triangles[t];
+    Eigen::Matrix<double, 12, 1> local;
+    for (int k = 0; k < 3; ++k) {
+      local.segment<3>(3 * k) = phi.segment<3>(3 * corner[k]);
+      local(9 + k) = phi(3 * vertices + problem.edges.of_triangle[t][k]);
+    }
+    // An affine part carries no stress; without it less cancels.
+    const Eigen::Vector2d slope =
+        (local.segment<2>(1) + local.segment<2>(4) + local.segment<2>(7)) / 3;
+    const double value = (local(0) + local(3) + local(6)) / 3;
+    const Eigen::Vector2d centroid = v.rowwise().mean();
+    const EdgeSigns outward = problem.edge_signs(t);
+    for (int k = 0; k < 3; ++k) {
+      local(3 * k) -= value + slope.dot(v.col(k) - centroid);
+      local.segment<2>(3 * k + 1) -= slope;
+      local(9 + k) -= outward[k] * slope.dot(edge_frame(v.col(k), v.col((k + 1) % 3)).normal);
+    }
+    const HctStress from_dofs = hct_stress(v, outward);
+    field[t].reshaped() = from_dofs * local;
+    if (problem.loads.has_body_force()) field[t] += particular_element_stress(problem, t);
+  }
+  return field;
+}
+
+ElementStress stress_dual(const ElementStress& stress, double area_mm2,
+                          const Eigen::Matrix3d& compliance) {
+  // On a third of area a: ∫ λ_m λ_n = a (1 + δ_mn) / 12.
+  ElementStress dual;
+  for (int t = 0; t < 3; ++t) {
+    const auto corners = stress.middleCols<3>(3 * t);
+    dual.middleCols<3>(3 * t) =
+        area_mm2 / 36 * compliance * (corners.colwise() + corners.rowwise().sum());
+  }
+  return dual;
+}
+
+double stress_norm_squared(const Problem& problem, const StressField& stress) {
+  double sum = 0;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    sum += stress[t]
+               .cwiseProduct(stress_dual(stress[t], problem.area_mm2(t), problem.compliance_of(t)))
+               .sum();
+  return sum;
+}
+
+double relative_stress_error(const Problem& problem, const StressField& stress,
+                             const StressField& reference) {
+  StressField difference(stress.size());
+  for (std::size_t t = 0; t < stress.size(); ++t) difference[t] = stress[t] - reference[t];
+  const double error = stress_norm_squared(problem, difference);
+  return error == 0 ? 0 : std::sqrt(error / stress_norm_squared(problem, reference));
+}
+
+Eigen::Matrix2d element_edge_forces(const TriangleVertices& v, const ElementStress& stress, int k) {
+  const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
+  Eigen::Matrix2d forces;
+  forces << traction(stress.col(3 * k), frame.normal),
+      traction(stress.col(3 * k + 1), frame.normal);
+  return frame.length_mm / 2 * forces;
+}
+
+}  // namespace airybench

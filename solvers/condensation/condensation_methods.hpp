@@ -1,0 +1,22 @@
+// Methods that condense the problem on the contact boundary and then solve the contact law there.
+#pragma once
+
+#include "assembly/dual_system.hpp"
+#include "solvers/condensation/condensed.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+// 3STEPD: three-step condensation with the skyline LDLᵀ factorisation.
+Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control);
+// 3STEPD:CHOLMOD: the same with CHOLMOD's supernodal Cholesky factorisation.
+Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& control);
+// HYBRID: hybridized equilibrium elements, K_II factorised by CHOLMOD.
+Solution solve_hybridized(const DualSystem& system, const RunControl& control);
+
+// What they share: the contact law by Gauss–Seidel into the solution's forces, status, counts and
+// history. Without contact points there is nothing to do and the status is ok.
+void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                             const RunControl& control, Solution& solution);
+
+}  // namespace airybench

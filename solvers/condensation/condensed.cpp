@@ -1,0 +1,29 @@
+#include <sstream>
+
+#include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
+
+namespace airybench {
+
+void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                             const RunControl& control, Solution& solution) {
+  solution.status = Status::ok;
+  solution.message.clear();
+  if (contact.size() == 0) return;
+  const StageTimer timer(solution.times.contact_s);
+  ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+  solution.F_C = std::move(result.F_C);
+  solution.contact_iterations = result.sweeps;
+  if (control.histories)
+    solution.histories.push_back(
+        {"relative change of F_C per Gauss-Seidel sweep", std::move(result.history)});
+  if (!result.converged) {
+    std::ostringstream message;
+    message << "Gauss-Seidel: natural map residual " << result.natural_map_residual << " after "
+            << result.sweeps << " sweeps (tolerance " << control.contact_tolerance << ")";
+    solution.status = Status::not_converged;
+    solution.message = message.str();
+  }
+}
+
+}  // namespace airybench

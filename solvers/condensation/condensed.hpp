@@ -1,0 +1,18 @@
+// The condensed contact problem, the paper's eq. (5): contact displacements from contact forces.
+//
+//   ū_C = D F_C − G      D  n_c × n_c, mm/N, symmetric positive definite compliance of the body
+//                        G  n_c, mm; −G are the displacements with no contact force
+//
+// Rows in the order of ContactPoints: per point normal, tangential (μ = 0: normal only).
+#pragma once
+
+#include <Eigen/Core>
+
+namespace airybench {
+
+struct CondensedSystem {
+  Eigen::MatrixXd D;
+  Eigen::VectorXd G;
+};
+
+}  // namespace airybench

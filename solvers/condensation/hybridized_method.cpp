@@ -1,0 +1,38 @@
+#include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/condensation/hybridized.hpp"
+
+namespace airybench {
+
+Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
+  const Problem& problem = *airy.problem;
+  Solution solution;
+  HybridizedSystem system;
+  CholmodFactor factor;
+  {
+    const StageTimer timer(solution.times.condense_s);
+    system = assemble_hybridized(problem, airy.contact);
+  }
+  {
+    const StageTimer timer(solution.times.order_s);
+    factor.analyse(system.K_II);
+  }
+  {
+    const StageTimer timer(solution.times.factor_s);
+    factor.factor(system.K_II);
+  }
+  CondensedSystem condensed;
+  {
+    const StageTimer timer(solution.times.condense_s);
+    condensed = condense(system, factor, control.deadline);
+  }
+  solution.storage_bytes = system.bytes() + factor.bytes() +
+                           static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solve_condensed_contact(condensed, airy.contact, control, solution);
+  const StageTimer timer(solution.times.recover_s);
+  Eigen::VectorXd displacement(airy.contact.size());
+  if (airy.contact.size() > 0) displacement = condensed.D * solution.F_C - condensed.G;
+  solution.stress = hybridized_stress(problem, system, factor, displacement);
+  return solution;
+}
+
+}  // namespace airybench

@@ -1,0 +1,43 @@
+// Three-step condensation (the paper, section 3.2.3).
+//
+//   1  X = S⁻¹ [C_Fᵀ C_Cᵀ],  x = S⁻¹ q;   K = C X  in blocks K_FF, K_FC, K_CC
+//   2  eliminate λ:   K_FF λ = C_F x − F − K_FC λ'
+//   3  eliminate λ':  W = K_CC − K_CF K_FF⁻¹ K_FC,  D = W⁻¹,
+//                     G = D (C_C x + F0 − K_CF K_FF⁻¹ (C_F x − F))
+//
+// K, K_FF and W are symmetric positive definite since C has full rank. Step 2 is left out where no
+// force is prescribed, step 3 where there is no contact, x where there is no load. As in the paper
+// X is stored whole: n (n_f + n_c) numbers, most of the method's memory.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <functional>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/condensation/condensed.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+// X ← S⁻¹ X for a block of right-hand sides.
+using SolveInPlace = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
+
+struct ThreeStep {
+  CondensedSystem condensed;          // empty without contact
+  std::vector<int> row_of_column;     // column k of X belongs to row row_of_column[k] of [C_F; C_C]
+  Eigen::MatrixXd X;                  // n × (n_f + n_c)
+  Eigen::VectorXd x;                  // S⁻¹ q; empty: zero
+  Eigen::MatrixXd K_FF_inverse_K_FC;  // n_f × n_c
+  Eigen::VectorXd lambda_0;           // K_FF⁻¹ (C_F x − F); empty: zero
+
+  std::size_t bytes() const;
+};
+
+// Throws Breakdown when K_FF or W is not positive definite to rounding.
+ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve);
+
+// The scaled Airy unknowns that belong to contact forces F_C (see DualSystem).
+Eigen::VectorXd recover_airy_unknowns(const ThreeStep& three_step, const DualSystem& system,
+                                      const Eigen::VectorXd& F_C);
+
+}  // namespace airybench

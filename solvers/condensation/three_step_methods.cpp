@@ -1,0 +1,64 @@
+#include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/cholmod.hpp"
+#include "solvers/direct/skyline.hpp"
+
+namespace airybench {
+namespace {
+
+// Everything after the factorisation of S.
+void condense_and_solve(const DualSystem& system, const RunControl& control,
+                        const SolveInPlace& solve_S, Solution& solution) {
+  ThreeStep steps;
+  {
+    const StageTimer timer(solution.times.condense_s);
+    steps = condense_in_three_steps(system, solve_S);
+  }
+  solution.storage_bytes += steps.bytes();
+  solve_condensed_contact(steps.condensed, system.contact, control, solution);
+  const StageTimer timer(solution.times.recover_s);
+  solution.phi = airy_function(system, recover_airy_unknowns(steps, system, solution.F_C));
+  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+}
+
+}  // namespace
+
+Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control) {
+  Solution solution;
+  SkylineProfile profile;
+  {
+    const StageTimer timer(solution.times.order_s);
+    profile = analyse_skyline(system.S);
+  }
+  SkylineFactor factor;
+  {
+    const StageTimer timer(solution.times.factor_s);
+    factor = factor_ldlt(std::move(profile), system.S, control.deadline);
+  }
+  solution.storage_bytes = factor.bytes();
+  condense_and_solve(
+      system, control,
+      [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X, control.deadline); },
+      solution);
+  return solution;
+}
+
+Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& control) {
+  Solution solution;
+  CholmodFactor factor;
+  {
+    const StageTimer timer(solution.times.order_s);
+    factor.analyse(system.S);
+  }
+  {
+    const StageTimer timer(solution.times.factor_s);
+    factor.factor(system.S);
+  }
+  solution.storage_bytes = factor.bytes();
+  condense_and_solve(
+      system, control,
+      [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); }, solution);
+  return solution;
+}
+
+}  // namespace airybench

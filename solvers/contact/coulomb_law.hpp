@@ -1,0 +1,29 @@
+// Signorini's and Coulomb's law at one contact point, and how far a pair (F, r) is from it.
+//
+//   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;   |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n
+//
+// F force on the body (N), r displacement minus gap (mm), n outward. Without friction, only the
+// normal part is there.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "assembly/dual_system.hpp"
+
+namespace airybench {
+
+// The F that meets the law with r = D F + b, exactly: open, stick, slip in either direction are
+// tried in turn. D is symmetric positive definite. The solution is unique for μ |D_nt| < D_nn;
+// beyond that the first case that holds is taken, and when none does, the one that holds best.
+Eigen::Vector2d solve_coulomb_law(const Eigen::Matrix2d& D, const Eigen::Vector2d& b, double mu);
+double solve_signorini_law(double D, double b);
+
+// Projection in two steps: F_n to min(F_n, 0), then F_t to [μF_n, −μF_n].
+Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
+
+// F − P(F − ρ r) at every point, with ρ_n = 1/D_nn and ρ_t = 1/D_tt: zero exactly when the law
+// holds; N. displacement: ū_C. The vectors are ordered as DualSystem::contact says.
+Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
+
+}  // namespace airybench

@@ -1,0 +1,83 @@
+#include "solvers/methods.hpp"
+
+#include <fnmatch.h>
+
+#include <cmath>
+#include <new>
+#include <sstream>
+#include <stdexcept>
+
+#include "solvers/condensation/condensation_methods.hpp"
+
+namespace airybench {
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> table = {
+      {"3STEPD", "three-step condensation, skyline LDLT", true, solve_three_step_skyline},
+      {"3STEPD:CHOLMOD", "three-step condensation, CHOLMOD supernodal Cholesky", false,
+       solve_three_step_cholmod},
+      {"HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors", false,
+       solve_hybridized},
+  };
+  return table;
+}
+
+std::vector<Method> select_methods(std::string_view selection) {
+  std::vector<bool> selected(methods().size(), false);
+  std::istringstream items{std::string(selection)};
+  for (std::string item; std::getline(items, item, ',');) {
+    bool matched = false;
+    for (std::size_t i = 0; i < methods().size(); ++i)
+      if (fnmatch(item.c_str(), methods()[i].name.c_str(), 0) == 0) selected[i] = matched = true;
+    if (!matched) {
+      std::string valid;
+      for (const Method& method : methods()) valid += (valid.empty() ? "" : ", ") + method.name;
+      throw std::invalid_argument("no method matches '" + item + "' (valid: " + valid +
+                                  "; globs like '3STEP*')");
+    }
+  }
+  std::vector<Method> result;
+  for (std::size_t i = 0; i < selected.size(); ++i)
+    if (selected[i]) result.push_back(methods()[i]);
+  if (result.empty()) throw std::invalid_argument("no method is named");
+  return result;
+}
+
+namespace {
+
+Solution failed(Status status, const std::string& message) {
+  Solution solution;
+  solution.status = status;
+  solution.message = message;
+  return solution;
+}
+
+bool is_finite(const Solution& solution) {
+  if (!solution.F_C.allFinite() || !solution.phi.allFinite()) return false;
+  for (const ElementStress& stress : solution.stress)
+    if (!stress.allFinite()) return false;
+  return true;
+}
+
+}  // namespace
+
+Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
+  try {
+    Solution solution = method.solve(system, control);
+    if (solution.status == Status::ok && !is_finite(solution)) {
+      solution.status = Status::breakdown;
+      solution.message = "the result is not finite";
+    }
+    return solution;
+  } catch (const TimeoutReached& timeout) {
+    return failed(Status::timeout, timeout.what());
+  } catch (const std::bad_alloc&) {
+    return failed(Status::out_of_memory, "an allocation was refused");
+  } catch (const Breakdown& breakdown) {
+    return failed(Status::breakdown, breakdown.what());
+  } catch (const std::exception& error) {
+    return failed(Status::crashed, error.what());
+  }
+}
+
+}  // namespace airybench

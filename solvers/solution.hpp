@@ -1,0 +1,113 @@
+// What a method returns, and what it is told.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assembly/stress_field.hpp"
+
+namespace airybench {
+
+enum class Status {
+  ok,
+  inaccurate,     // finished, but the verifier finds an error above the target
+  not_converged,  // an iteration ended before its tolerance was met
+  breakdown,      // a pivot, a scalar or a result that the method cannot go on with
+  timeout,
+  out_of_memory,
+  crashed,
+  skipped,
+};
+std::string_view name_of(Status status);
+
+// Wall-clock seconds by stage. Empty: the method has no such stage, or the scene does not need it.
+struct StageTimes {
+  std::optional<double> order_s;         // symbolic analysis, fill-reducing ordering
+  std::optional<double> precondition_s;  // building a preconditioner
+  std::optional<double> factor_s;        // numeric factorisation
+  std::optional<double> condense_s;      // from the factor to D and G
+  std::optional<double> contact_s;       // the contact law
+  std::optional<double> recover_s;       // F_C to φ and stresses
+};
+
+struct IterationHistory {
+  std::string what;              // "natural map residual of the contact sweeps"
+  std::vector<double> residual;  // one per iteration
+};
+
+// The defaults are those of a method that never ran.
+struct Solution {
+  Status status = Status::crashed;
+  std::string message = "the method returned nothing";
+  Eigen::VectorXd F_C;  // contact forces, N; per point normal, tangential (μ = 0: normal)
+  Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
+  StressField stress;   // MPa
+  StageTimes times;
+  std::size_t storage_bytes = 0;  // the method's matrices by its own count, without the blocks
+  std::optional<int> linear_iterations;
+  std::optional<int> contact_iterations;
+  std::optional<int> uzawa_iterations;
+  std::vector<IterationHistory> histories;
+};
+
+// Thrown by Deadline::check(); the runner of methods turns it into Status::timeout.
+struct TimeoutReached : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+// A numerical dead end inside a kernel; the runner of methods turns it into Status::breakdown.
+struct Breakdown : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// A cooperative time limit, asked between right-hand sides, panels and iterations.
+class Deadline {
+ public:
+  Deadline() = default;  // none
+  static Deadline after(double seconds) {
+    Deadline deadline;
+    deadline.end_ = std::chrono::steady_clock::now() +
+                    std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+                        std::chrono::duration<double>(seconds));
+    return deadline;
+  }
+  // Throws TimeoutReached naming what was being done.
+  void check(std::string_view doing) const {
+    if (end_ && std::chrono::steady_clock::now() > *end_)
+      throw TimeoutReached("time limit reached during " + std::string(doing));
+  }
+
+ private:
+  std::optional<std::chrono::steady_clock::time_point> end_;
+};
+
+struct RunControl {
+  Deadline deadline;
+  bool histories = false;            // keep iteration histories
+  double contact_tolerance = 1e-12;  // natural map residual ≤ tolerance · ‖F_C‖
+  int contact_sweeps = 100000;       // at most
+};
+
+// Measures one stage: adds the time from construction to destruction.
+class StageTimer {
+ public:
+  explicit StageTimer(std::optional<double>& seconds) : seconds_(seconds) {}
+  ~StageTimer() {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    seconds_ = seconds_.value_or(0) + spent.count();
+  }
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+
+ private:
+  std::optional<double>& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace airybench

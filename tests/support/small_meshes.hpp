@@ -1,0 +1,12 @@
+// Meshes made on the spot, so that a test shows what it is about.
+#pragma once
+
+#include "assembly/mesh.hpp"
+
+namespace airybench::testing {
+
+// The tooth of the documentation as nx×ny cells of two triangles each, their inner vertices moved a
+// little (deterministically) so that nothing holds by symmetry. Roles as for the generated meshes.
+Mesh small_tooth(int nx, int ny);
+
+}  // namespace airybench::testing
