@@ -19,10 +19,9 @@ struct ForceRows {
         entries.emplace_back(row, dofs[k], values(k));
     force.push_back(f);
   }
-  SparseRows matrix(int n) const {
-    SparseRows result(static_cast<Eigen::Index>(force.size()), n);
-    result.setFromTriplets(entries.begin(), entries.end());
-    return result;
+  void store(SparseRows& matrix, int n) const {
+    matrix.resize(static_cast<Eigen::Index>(force.size()), n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
   }
   Eigen::VectorXd forces() const {
     return Eigen::Map<const Eigen::VectorXd>(force.data(), static_cast<Eigen::Index>(force.size()));
@@ -54,7 +53,7 @@ template <typename Visit>
 void for_each_edge(const DualSystem& system, BoundaryRole role, Visit visit) {
   const auto& boundary = system.problem->mesh.boundary;
   for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
-    if (boundary[row].role == role) visit(row, edge_functionals(system, row));
+    if (boundary[row].role == role) visit(edge_functionals(system, row));
 }
 
 // The force of the particular stress at an end of the edge, N.
@@ -64,12 +63,33 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
          traction(problem.particular_stress(edge.end[end]), edge.frame.normal);
 }
 
+ContactPoints contact_points(const Problem& problem) {
+  ContactPoints contact;
+  contact.friction = problem.friction;
+  contact.components = problem.friction > 0 ? 2 : 1;
+  std::vector<double> gap;
+  const auto& gap_at = problem.loads.gap_mm;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = problem.mesh.boundary[row];
+    if (edge.role != BoundaryRole::contact) continue;
+    contact.boundary.insert(contact.boundary.end(), {row, row});
+    if (!gap_at) continue;
+    const auto &a = problem.mesh.vertices[edge.vertices[0]],
+               &b = problem.mesh.vertices[edge.vertices[1]];
+    const auto [start, end] = edge_moments(gap_at(a), gap_at((a + b) / 2), gap_at(b));
+    gap.insert(gap.end(), {start, end});
+  }
+  contact.count = static_cast<int>(contact.boundary.size());
+  contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
+  return contact;
+}
+
 void build_constraints(DualSystem& system) {
   const Problem& problem = *system.problem;
   const Loads& loads = problem.loads;
   ForceRows on_force, on_contact;
 
-  for_each_edge(system, BoundaryRole::force, [&](int, const EdgeFunctionals& edge) {
+  for_each_edge(system, BoundaryRole::force, [&](const EdgeFunctionals& edge) {
     for (int k = 0; k < 2; ++k) {
       Eigen::Vector2d f = -particular_force(problem, edge, k);
       if (loads.traction_MPa)
@@ -77,35 +97,20 @@ void build_constraints(DualSystem& system) {
       for (int i = 0; i < 2; ++i) on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
     }
   });
-
-  ContactPoints& contact = system.contact;
-  contact.friction = problem.friction;
-  contact.components = problem.friction > 0 ? 2 : 1;
-  std::vector<double> gap;
-  for_each_edge(system, BoundaryRole::contact, [&](int row, const EdgeFunctionals& edge) {
+  for_each_edge(system, BoundaryRole::contact, [&](const EdgeFunctionals& edge) {
     for (int k = 0; k < 2; ++k) {
       const auto rows = edge.forces.middleRows<2>(2 * k);
       const Eigen::Vector2d f = particular_force(problem, edge, k);
       const Eigen::Vector2d &n = edge.frame.normal, &s = edge.frame.tangent;
       on_contact.add(n.transpose() * rows, edge.dofs, n.dot(f));
-      if (contact.components == 2)
+      if (system.contact.components == 2)
         on_contact.add(s.transpose() * rows, edge.dofs, s.dot(f));
       else
         on_force.add(s.transpose() * rows, edge.dofs, -s.dot(f));
-      contact.boundary.push_back(row);
-    }
-    if (loads.gap_mm) {
-      const Eigen::Vector2d middle = (edge.end[0] + edge.end[1]) / 2;
-      const auto [start, end] =
-          edge_moments(loads.gap_mm(edge.end[0]), loads.gap_mm(middle), loads.gap_mm(edge.end[1]));
-      gap.insert(gap.end(), {start, end});
     }
   });
-  contact.count = static_cast<int>(contact.boundary.size());
-  contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
-
-  system.C_F = on_force.matrix(system.dofs.count);
-  system.C_C = on_contact.matrix(system.dofs.count);
+  on_force.store(system.C_F, system.dofs.count);
+  on_contact.store(system.C_C, system.dofs.count);
   if (loads.traction_MPa || loads.has_body_force()) system.F = on_force.forces();
   if (loads.has_body_force()) system.F0 = on_contact.forces();
 }
@@ -118,7 +123,7 @@ void build_load(DualSystem& system) {
   system.q = Eigen::VectorXd::Zero(system.dofs.count);
 
   if (loads.displacement_mm) {
-    for_each_edge(system, BoundaryRole::displacement, [&](int, const EdgeFunctionals& edge) {
+    for_each_edge(system, BoundaryRole::displacement, [&](const EdgeFunctionals& edge) {
       const Eigen::Vector2d middle = (edge.end[0] + edge.end[1]) / 2;
       const auto [start, end] =
           edge_moments(loads.displacement_mm(edge.end[0]), loads.displacement_mm(middle),
@@ -157,14 +162,17 @@ std::size_t DualSystem::bytes() const {
          (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
 }
 
-DualSystem assemble(std::shared_ptr<const Problem> problem) {
+DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks) {
   DualSystem system;
   system.problem = std::move(problem);
+  system.contact = contact_points(*system.problem);
+  if (blocks == Blocks::contact_points) return system;
   {
     const NodeGraph graph = airy_node_graph(*system.problem);
     const std::vector<int> position = cuthill_mckee(graph);
     system.dofs = number_dofs(*system.problem, position);
-    system.S = assemble_flexibility(*system.problem, system.dofs, graph, position);
+    SparseColumns S = assemble_flexibility(*system.problem, system.dofs, graph, position);
+    system.S.swap(S);
   }
   system.scale = equilibrate(system.S);
   build_constraints(system);

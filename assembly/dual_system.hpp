@@ -54,7 +54,10 @@ struct DualSystem {
   std::size_t bytes() const;  // of all blocks
 };
 
-DualSystem assemble(std::shared_ptr<const Problem> problem);
+// Which blocks a method needs: all of them, or, when it does not work with the Airy function, the
+// contact points only (the rest stays empty).
+enum class Blocks { airy, contact_points };
+DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy);
 
 // From x to φ, φ,x, φ,y of every vertex, then ∂φ/∂n of every edge (3V + E values).
 Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x);

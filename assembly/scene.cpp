@@ -14,7 +14,7 @@ constexpr double geometry_tolerance = 1e-6;
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const auto& value,
                        const std::string& why) {
   std::ostringstream line;
-  line << scene.name << ": " << key << ": " << value << " " << why;
+  line << scene.source << ": " << key << ": " << value << " " << why;
   throw SceneError(line.str());
 }
 
@@ -92,6 +92,8 @@ void check_material(const Scene& scene, const std::string& prefix, const Materia
          "(allowed: between -1 and 0.5, both excluded)");
 }
 
+}  // namespace
+
 void check_values(const Scene& scene) {
   check_material(scene, "", scene.material);
   for (const auto& [body, material] : scene.materials)
@@ -110,8 +112,6 @@ void check_values(const Scene& scene) {
     fail(scene, "body_force_N_per_mm3", scene.body_force_N_per_mm3.transpose(),
          "(allowed: finite numbers)");
 }
-
-}  // namespace
 
 Problem pose(const Scene& scene, Mesh mesh) {
   check_values(scene);

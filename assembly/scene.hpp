@@ -14,6 +14,7 @@ namespace airybench {
 
 struct Scene {
   std::string name = "default";
+  std::string source = "default scene";  // where it comes from; for messages
 
   // Geometry belongs to the mesh. What is given here is compared with it, and a contradiction is
   // refused.
@@ -35,6 +36,9 @@ struct Scene {
 struct SceneError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
+
+// Throws SceneError when a value is impossible in itself: ν ≥ 0.5, μ < 0, E ≤ 0, …
+void check_values(const Scene& scene);
 
 // Poses the scene. On every contact face g0 = clearance + d²/(2R), where d is the distance from the
 // midpoint of the face's two ends (the tooth's axis). Throws SceneError.

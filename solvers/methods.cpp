@@ -13,10 +13,23 @@ namespace airybench {
 
 const std::vector<Method>& methods() {
   static const std::vector<Method> table = {
-      {"3STEPD", "three-step condensation, skyline LDLT", true, solve_three_step_skyline},
-      {"3STEPD:CHOLMOD", "three-step condensation, CHOLMOD supernodal Cholesky", false,
+      {"3STEPD",
+       "three-step condensation, skyline LDLT",
+       true,
+       Blocks::airy,
+       {"order", "factor", "condense", "contact", "recover"},
+       solve_three_step_skyline},
+      {"3STEPD:CHOLMOD",
+       "three-step condensation, CHOLMOD supernodal Cholesky",
+       false,
+       Blocks::airy,
+       {"order", "factor", "condense", "contact", "recover"},
        solve_three_step_cholmod},
-      {"HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors", false,
+      {"HYBRID",
+       "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
+       false,
+       Blocks::contact_points,
+       {"order", "factor", "condense", "contact", "recover"},
        solve_hybridized},
   };
   return table;

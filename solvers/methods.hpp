@@ -15,9 +15,11 @@
 namespace airybench {
 
 struct Method {
-  std::string name;     // "3STEPD:CHOLMOD"
-  std::string summary;  // one line
-  bool in_paper;        // compared there; these are run by default
+  std::string name;                 // "3STEPD:CHOLMOD"
+  std::string summary;              // one line
+  bool in_paper;                    // compared there; these are run by default
+  Blocks blocks;                    // what it needs assembled
+  std::vector<std::string> stages;  // in order, as StageTimes names them
   std::function<Solution(const DualSystem&, const RunControl&)> solve;
 };
 

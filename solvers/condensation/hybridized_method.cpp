@@ -6,12 +6,11 @@ namespace airybench {
 Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   const Problem& problem = *airy.problem;
   Solution solution;
-  HybridizedSystem system;
-  CholmodFactor factor;
-  {
+  const HybridizedSystem system = [&] {
     const StageTimer timer(solution.times.condense_s);
-    system = assemble_hybridized(problem, airy.contact);
-  }
+    return assemble_hybridized(problem, airy.contact);
+  }();
+  CholmodFactor factor;
   {
     const StageTimer timer(solution.times.order_s);
     factor.analyse(system.K_II);

@@ -44,7 +44,6 @@ ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
     for (int p = 0; p < contact.count; ++p) offset(contact.components * p) += contact.gap(p);
   Eigen::VectorXd& F = result.F_C;
   F.setZero(contact.size());
-  if (control.histories) result.history.reserve(static_cast<std::size_t>(control.contact_sweeps));
 
   while (result.sweeps < control.contact_sweeps) {
     const double change =

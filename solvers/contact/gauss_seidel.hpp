@@ -21,7 +21,7 @@ struct ContactResult {
 };
 
 // Starts from F_C = 0. Not converged after control.contact_sweeps, or when a force is not finite.
-// Nothing is allocated inside a sweep.
+// Nothing is allocated inside a sweep, but for the history.
 ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
                                             const ContactPoints& contact,
                                             const RunControl& control);

@@ -1,0 +1,33 @@
+// What the process has on the heap, counted at the allocator itself.
+//
+// heap_probe.cpp replaces malloc, calloc, realloc, free and the aligned family for the whole
+// process, so the libraries' allocations (Eigen, CHOLMOD, METIS, LAPACK) are counted as well as
+// ours; operator new goes through malloc. A block counts with its usable size. Memory that is
+// mapped without the allocator is not heap: OpenBLAS maps one packing buffer per thread at its
+// first call, which shows in the resident set only.
+//
+// Where the probe cannot be (sanitizers bring their own allocator), heap_probe_off.cpp stands in
+// and is_active() says so.
+#pragma once
+
+#include <cstdint>
+
+namespace airybench::heap {
+
+bool is_active();
+std::int64_t live_bytes();
+std::int64_t peak_bytes();   // highest live_bytes() since reset_peak()
+std::int64_t allocations();  // calls that returned a block, since the start
+void reset_peak();           // the peak is then what is live now
+
+// Allocations that would lift live_bytes() above the limit fail, as on a full machine. For the
+// scope of the object.
+class Limit {
+ public:
+  explicit Limit(std::int64_t live_bytes_at_most);
+  ~Limit();
+  Limit(const Limit&) = delete;
+  Limit& operator=(const Limit&) = delete;
+};
+
+}  // namespace airybench::heap

@@ -1,0 +1,13 @@
+#include "bench/heap_probe.hpp"
+
+namespace airybench::heap {
+
+bool is_active() { return false; }
+std::int64_t live_bytes() { return 0; }
+std::int64_t peak_bytes() { return 0; }
+std::int64_t allocations() { return 0; }
+void reset_peak() {}
+Limit::Limit(std::int64_t) {}
+Limit::~Limit() = default;
+
+}  // namespace airybench::heap

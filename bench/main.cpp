@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+
+#include "assembly/mesh_selection.hpp"
+#include "bench/environment.hpp"
+#include "bench/mesh_files.hpp"
+#include "bench/options.hpp"
+#include "bench/record_files.hpp"
+#include "bench/runner.hpp"
+#include "bench/scene_file.hpp"
+#include "bench/stages.hpp"
+#include "bench/terminal.hpp"
+
+namespace airybench {
+namespace {
+
+enum ExitCode { all_ok = 0, some_case_failed = 1, wrong_usage = 2 };
+
+std::string paper_methods() {
+  std::string names;
+  for (const Method& method : methods())
+    if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
+  return names;
+}
+
+void print_list() {
+  fmt::print("meshes ({}):\n", mesh_directory().string());
+  for (const std::string_view name : catalogue_mesh_names) fmt::print("  {}\n", name);
+  fmt::print("methods (* of the paper, run by default):\n");
+  for (const Method& method : methods())
+    fmt::print("  {}{:<16}  {}\n", method.in_paper ? "*" : " ", method.name, method.summary);
+}
+
+std::vector<PosedScene> pose_all(const Options& options) {
+  std::vector<Scene> scenes;
+  for (const auto& file : options.scenes) {
+    scenes.push_back(read_scene(file));
+    for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
+      if (scenes[i].name == scenes.back().name)
+        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scenes[i].name,
+                                     scenes[i].source, scenes.back().source));
+  }
+  if (scenes.empty()) scenes.emplace_back();
+  std::vector<PosedScene> posed;
+  for (const MeshFile& file : read_meshes(options.meshes))
+    for (const Scene& scene : scenes)
+      posed.push_back(
+          {scene.name, file.sha256, std::make_shared<const Problem>(pose(scene, file.mesh))});
+  return posed;
+}
+
+void print_plan(const std::vector<Case>& cases, bool explain) {
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const Case& c = cases[k];
+    const MeshSizes sizes = mesh_sizes(c.posed.problem->mesh);
+    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", k + 1, cases.size(), c.name(), sizes.n_phi,
+               sizes.n_f, sizes.n_c);
+    if (!explain) continue;
+    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
+      fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
+                 decision.run ? "" : ": ", decision.reason);
+  }
+}
+
+int bench(int argc, char** argv) {
+  const Options options = parse_options(argc, argv);
+  if (options.list) {
+    print_list();
+    return all_ok;
+  }
+  const std::vector<Method> selected =
+      select_methods(options.methods.empty() ? paper_methods() : options.methods);
+  const std::vector<Case> cases = plan_cases(pose_all(options), selected);
+  if (options.dry_run || options.explain) {
+    print_plan(cases, options.explain);
+    return all_ok;
+  }
+  set_threads(options.threads);
+  const std::vector<Record> records =
+      run_cases(cases, options, describe_environment(options.threads));
+  fmt::print("\n{}\nrecords.jsonl, results.csv, results.json in {}\n", results_table(records),
+             options.out.string());
+  for (const Record& record : records)
+    if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
+  return all_ok;
+}
+
+}  // namespace
+}  // namespace airybench
+
+int main(int argc, char** argv) {
+  try {
+    return airybench::bench(argc, argv);
+  } catch (const airybench::HelpRequested& help) {
+    fmt::print("{}", help.what());
+    return airybench::all_ok;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench: {}\n", error.what());
+    return airybench::wrong_usage;
+  }
+}

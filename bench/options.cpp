@@ -1,0 +1,91 @@
+#include "bench/options.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstring>
+
+namespace airybench {
+namespace {
+
+constexpr const char* footer = R"(
+Everything after "--" goes to Google Benchmark.
+
+Exit status  0  every case is ok, or skipped with a reason
+             1  some case is not
+             2  wrong usage, or an input that cannot be used: one line on standard error
+
+Examples
+  bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
+  bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
+)";
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  CLI::App app(
+      "Time, memory and error of methods for stress-formulated contact with friction, for every "
+      "mesh, scene and method chosen.",
+      "bench");
+  app.footer(footer);
+  app.set_version_flag("--version", "airybench " AIRYBENCH_VERSION);
+  std::int64_t limit_MiB = 0;
+  app.add_option("--mesh", options.meshes,
+                 "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files")
+      ->capture_default_str();
+  app.add_option("--method", options.methods,
+                 "names or globs, separated by commas; default: all the paper's methods");
+  app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
+      ->delimiter(',');
+  app.add_option("--target-error", options.target_error,
+                 "a case whose errors or residuals are above this is `inaccurate`")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--repetitions", options.repetitions, "timed runs of each case")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of BLAS")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--timeout", options.timeout_s, "seconds that one solve may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  auto* limit = app.add_option("--memory-limit", limit_MiB,
+                               "MiB of heap that one solve may use, its blocks included")
+                    ->check(CLI::PositiveNumber);
+  app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
+  app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
+  app.add_flag("--list", options.list, "print meshes and methods, and end");
+  app.add_flag("--dry-run", options.dry_run, "print the cases, and end");
+  app.add_flag("--explain", options.explain,
+               "print each case's stages, those left out and why, and end");
+
+  int own = argc;
+  for (int i = 1; i < argc; ++i)
+    if (std::strcmp(argv[i], "--") == 0) {
+      own = i;
+      options.benchmark_arguments.assign(argv + i + 1, argv + argc);
+      break;
+    }
+  try {
+    app.parse(own, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw HelpRequested(app.help());
+  } catch (const CLI::CallForVersion&) {
+    throw HelpRequested("airybench " AIRYBENCH_VERSION "\n");
+  } catch (const CLI::ExtrasError& error) {
+    std::string valid;
+    for (const CLI::Option* option : app.get_options())
+      valid += (valid.empty() ? "" : " ") + option->get_name();
+    throw UsageError(fmt::format("{} (valid: {})", error.what(), valid));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
+  return options;
+}
+
+}  // namespace airybench

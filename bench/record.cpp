@@ -1,0 +1,125 @@
+#include "bench/record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
+Json number_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+// Median over the runs that have the stage.
+Json stage_median(const Record& record, std::optional<double> StageTimes::*stage) {
+  std::vector<double> values;
+  for (const StageTimes& times : record.stage_samples)
+    if (times.*stage) values.push_back(*(times.*stage));
+  return number_or_null(median(std::move(values)));
+}
+
+template <typename T>
+Json verified(const Record& record, std::optional<T> Verification::*value) {
+  return record.verification ? or_null(*record.verification.*value) : Json();
+}
+Json verified(const Record& record, double Verification::*value) {
+  return record.verification ? number_or_null(*record.verification.*value) : Json();
+}
+
+}  // namespace
+
+double median(std::vector<double> values) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  const std::size_t middle = values.size() / 2;
+  std::nth_element(values.begin(), values.begin() + middle, values.end());
+  const double upper = values[middle];
+  if (values.size() % 2 == 1) return upper;
+  return (*std::max_element(values.begin(), values.begin() + middle) + upper) / 2;
+}
+
+double median_absolute_deviation(const std::vector<double>& values) {
+  const double centre = median(values);
+  std::vector<double> deviations;
+  for (const double value : values) deviations.push_back(std::abs(value - centre));
+  return median(std::move(deviations));
+}
+
+Columns columns(const Record& r) {
+  const auto smallest = std::min_element(r.samples_s.begin(), r.samples_s.end());
+  return {
+      {"mesh", r.mesh},
+      {"scene", r.scene},
+      {"method", r.method},
+      {"status", std::string(name_of(r.status))},
+      {"status_reason", r.status_reason.empty() ? Json() : Json(r.status_reason)},
+      {"n_phi", r.n_phi},
+      {"n_f", r.n_f},
+      {"n_c", r.n_c},
+      {"threads", r.threads},
+      {"repetitions", r.samples_s.size()},
+      {"time_s", number_or_null(median(r.samples_s))},
+      {"time_min_s", smallest == r.samples_s.end() ? Json() : Json(*smallest)},
+      {"time_mad_s", number_or_null(median_absolute_deviation(r.samples_s))},
+      {"assembly_s", number_or_null(median(r.assembly_samples_s))},
+      {"stage_order_s", stage_median(r, &StageTimes::order_s)},
+      {"stage_precondition_s", stage_median(r, &StageTimes::precondition_s)},
+      {"stage_factor_s", stage_median(r, &StageTimes::factor_s)},
+      {"stage_condense_s", stage_median(r, &StageTimes::condense_s)},
+      {"stage_contact_s", stage_median(r, &StageTimes::contact_s)},
+      {"stage_recover_s", stage_median(r, &StageTimes::recover_s)},
+      {"peak_heap_bytes", or_null(r.peak_heap_bytes)},
+      {"peak_rss_bytes", or_null(r.peak_rss_bytes)},
+      {"storage_bytes", r.storage_bytes > 0 ? Json(r.storage_bytes) : Json()},
+      {"linear_iterations", or_null(r.linear_iterations)},
+      {"contact_iterations", or_null(r.contact_iterations)},
+      {"uzawa_iterations", or_null(r.uzawa_iterations)},
+      {"error_stress", verified(r, &Verification::error_stress)},
+      {"error_force", verified(r, &Verification::error_force)},
+      {"equilibrium_residual", verified(r, &Verification::equilibrium_residual)},
+      {"natural_map_residual", verified(r, &Verification::natural_map_residual)},
+      {"signorini_violation_N", verified(r, &Verification::signorini_violation_N)},
+      {"coulomb_violation_N", verified(r, &Verification::coulomb_violation_N)},
+      {"normal_resultant_N", verified(r, &Verification::normal_resultant_N)},
+      {"tangential_resultant_N", verified(r, &Verification::tangential_resultant_N)},
+      {"strain_energy_Nmm", verified(r, &Verification::strain_energy_Nmm)},
+      {"complementary_energy_Nmm", verified(r, &Verification::complementary_energy_Nmm)},
+      {"n_open", verified(r, &Verification::n_open)},
+      {"n_stick", verified(r, &Verification::n_stick)},
+      {"n_slip", verified(r, &Verification::n_slip)},
+  };
+}
+
+nlohmann::ordered_json to_json(const Record& r) {
+  OrderedJson json;
+  for (const auto& [name, value] : columns(r)) json[name] = value;
+  json["samples_s"] = r.samples_s;
+  json["assembly_samples_s"] = r.assembly_samples_s;
+  json["mesh_sha256"] = r.mesh_sha256;
+  json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
+  json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
+  json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);
+  OrderedJson run = OrderedJson::array(), left_out = OrderedJson::object();
+  for (const StageDecision& decision : r.stages) {
+    if (decision.run)
+      run.push_back(decision.stage);
+    else
+      left_out[decision.stage] = decision.reason;
+  }
+  json["stages_run"] = run;
+  json["stages_left_out"] = left_out;
+  if (!r.histories.empty()) {
+    OrderedJson histories = OrderedJson::object();
+    for (const IterationHistory& history : r.histories) histories[history.what] = history.residual;
+    json["histories"] = histories;
+  }
+  return json;
+}
+
+}  // namespace airybench

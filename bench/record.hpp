@@ -1,0 +1,46 @@
+// One case's record: everything that a line of the output says.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "assembly/mesh.hpp"
+#include "bench/stages.hpp"
+#include "bench/verifier.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+struct Record {
+  std::string mesh, mesh_sha256, scene, method;
+  Status status = Status::crashed;
+  std::string status_reason = "the case did not run";
+  int n_phi = 0, n_f = 0, n_c = 0;  // as solved: μ = 0 moves the tangential contact rows to n_f
+  int threads = 1;
+  std::vector<double> samples_s;           // every timed run, blocks assembled → F_C and stresses
+  std::vector<StageTimes> stage_samples;   // of the same runs
+  std::vector<double> assembly_samples_s;  // the blocks' assembly
+  std::optional<std::int64_t> peak_heap_bytes;  // blocks and all that the solve added, at the peak
+  std::optional<std::int64_t> peak_rss_bytes;   // of the process, during the solve
+  std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
+  std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during assembly
+  std::optional<std::int64_t> process_peak_heap_bytes;   // as peak_heap_bytes, all of the process
+  std::size_t storage_bytes = 0;
+  std::optional<int> linear_iterations, contact_iterations, uzawa_iterations;
+  std::optional<Verification> verification;
+  std::vector<StageDecision> stages;
+  std::vector<IterationHistory> histories;
+};
+
+double median(std::vector<double> values);  // NaN when empty
+double median_absolute_deviation(const std::vector<double>& values);
+
+// The flat view: names and values of the columns, in order; null: does not apply.
+using Columns = std::vector<std::pair<std::string, nlohmann::json>>;
+Columns columns(const Record& record);
+
+// A line of records.jsonl: the columns, then samples, stages, mesh hash and histories.
+nlohmann::ordered_json to_json(const Record& record);
+
+}  // namespace airybench

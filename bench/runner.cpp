@@ -1,0 +1,157 @@
+#include "bench/runner.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "bench/record_files.hpp"
+#include "bench/terminal.hpp"
+#include "bench/workbench.hpp"
+
+namespace airybench {
+namespace {
+
+// The state of a run. Google Benchmark calls measure() once per repetition and the reporter when a
+// case has all of its own.
+class CaseRunner {
+ public:
+  CaseRunner(const std::vector<Case>& cases, const Options& options, RecordFiles& files)
+      : cases_(cases), options_(options), files_(files), progress_(sizes(cases)) {
+    records_.resize(cases.size());
+  }
+
+  void measure(std::size_t k, benchmark::State& state) {
+    if (!records_[k]) begin(k);
+    Record& record = *records_[k];
+    for (auto _ : state) {
+      if (record.status != Status::ok && record.status != Status::inaccurate) {
+        state.SkipWithError(
+            fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
+        break;
+      }
+      state.SetIterationTime(bench_->measure_time(cases_[k].method, record));
+    }
+    for (const auto& [name, value] : columns(record))
+      if (value.is_number() && name != "time_s" && name != "time_min_s" && name != "time_mad_s")
+        state.counters[name] = value.get<double>();
+  }
+
+  void finish(const std::string& case_name) {
+    const std::size_t k = index_of(case_name);
+    files_.append(*records_[k]);
+    finished_.push_back(k);
+    std::cerr << progress_.line(k, *records_[k]) << std::flush;
+  }
+
+  std::vector<Record> finished_records() const {
+    std::vector<Record> result;
+    for (const std::size_t k : finished_) result.push_back(*records_[k]);
+    return result;
+  }
+
+ private:
+  static std::vector<int> sizes(const std::vector<Case>& cases) {
+    std::vector<int> n_phi;
+    for (const Case& c : cases) n_phi.push_back(mesh_sizes(c.posed.problem->mesh).n_phi);
+    return n_phi;
+  }
+  std::size_t index_of(const std::string& case_name) const {
+    for (std::size_t k = 0; k < cases_.size(); ++k)
+      if (cases_[k].name() == case_name) return k;
+    throw std::logic_error("no case is named " + case_name);
+  }
+
+  // Detail and memory run; the blocks and the reference of the last scene are kept for the next.
+  void begin(std::size_t k) {
+    const Case& c = cases_[k];
+    if (!bench_ || &bench_->problem() != c.posed.problem.get()) {
+      bench_.reset();
+      bench_ = std::make_unique<Workbench>(c.posed.problem, options_);
+    }
+    std::filesystem::path fields;
+    if (options_.fields) {
+      std::string name = c.name();
+      for (char& letter : name)
+        if (letter == '/' || letter == ':') letter = '-';
+      fields = options_.out / "fields" / name;
+    }
+    Record record = bench_->examine(c.method, fields);
+    record.scene = c.posed.scene_name;
+    record.mesh_sha256 = c.posed.mesh_sha256;
+    if (record.status == Status::ok || record.status == Status::inaccurate)
+      bench_->measure_memory(c.method, record);
+    records_[k] = std::move(record);
+  }
+
+  const std::vector<Case>& cases_;
+  const Options& options_;
+  RecordFiles& files_;
+  Progress progress_;
+  std::unique_ptr<Workbench> bench_;
+  std::vector<std::optional<Record>> records_;
+  std::vector<std::size_t> finished_;
+};
+
+class Reporter : public benchmark::BenchmarkReporter {
+ public:
+  explicit Reporter(CaseRunner& run) : run_(run) {}
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    if (!runs.empty() && runs.front().run_type == Run::RT_Iteration)
+      run_.finish(runs.front().run_name.function_name);
+  }
+
+ private:
+  CaseRunner& run_;
+};
+
+void initialize_benchmark(const Options& options, const RecordFiles& files,
+                          const std::map<std::string, std::string>& context) {
+  static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
+  arguments = {"bench", "--benchmark_out=" + files.benchmark_json_in_the_making().string(),
+               "--benchmark_out_format=json"};
+  arguments.insert(arguments.end(), options.benchmark_arguments.begin(),
+                   options.benchmark_arguments.end());
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+  if (argc > 1)
+    throw UsageError(
+        fmt::format("{}: unknown to Google Benchmark (see its --benchmark_* options)", argv[1]));
+  for (const auto& [key, value] : context) benchmark::AddCustomContext(key, value);
+}
+
+}  // namespace
+
+std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
+                             const std::vector<Method>& methods) {
+  std::vector<Case> cases;
+  for (const PosedScene& scene : scenes)
+    for (const Method& method : methods) cases.push_back({scene, method});
+  return cases;
+}
+
+std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& options,
+                              const std::map<std::string, std::string>& context) {
+  RecordFiles files(options.out, context);
+  initialize_benchmark(options, files, context);
+  CaseRunner run(cases, options, files);
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    benchmark::RegisterBenchmark(cases[k].name().c_str(),
+                                 [&run, k](benchmark::State& state) { run.measure(k, state); })
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Repetitions(options.repetitions)
+        ->Unit(benchmark::kMillisecond);
+  Reporter reporter(run);
+  benchmark::RunSpecifiedBenchmarks(&reporter);
+  benchmark::ClearRegisteredBenchmarks();
+  std::vector<Record> records = run.finished_records();
+  files.write_csv(records);
+  files.finish_benchmark_json();
+  return records;
+}
+
+}  // namespace airybench

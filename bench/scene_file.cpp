@@ -1,0 +1,143 @@
+#include "bench/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::json;
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  using Setter = std::function<void(const std::string& key, const Json& value)>;
+
+  // Hands every key to its setter; unknown keys are refused.
+  void object(const std::string& prefix, const Json& json,
+              const std::vector<std::pair<std::string, Setter>>& keys) const {
+    if (!json.is_object()) fail(prefix.empty() ? "the scene" : prefix, json, "a JSON object");
+    for (const auto& [key, value] : json.items()) {
+      const auto found = std::find_if(keys.begin(), keys.end(),
+                                      [&](const auto& known) { return known.first == key; });
+      if (found == keys.end()) {
+        std::string valid;
+        for (const auto& known : keys) valid += (valid.empty() ? "" : ", ") + known.first;
+        throw SceneError(
+            fmt::format("{}: {}{}: unknown key (allowed: {})", file_, prefix, key, valid));
+      }
+      found->second(prefix + key, value);
+    }
+  }
+  double number(const std::string& key, const Json& value) const {
+    if (!value.is_number()) fail(key, value, "a number");
+    return value.get<double>();
+  }
+  double positive(const std::string& key, const Json& value) const {
+    const double number = this->number(key, value);
+    if (!(number > 0)) fail(key, value, "a number > 0");
+    return number;
+  }
+  Eigen::Vector2d vector(const std::string& key, const Json& value) const {
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number())
+      fail(key, value, "two numbers [x, y]");
+    return {value[0].get<double>(), value[1].get<double>()};
+  }
+  [[noreturn]] void fail(const std::string& key, const Json& value, const char* allowed) const {
+    throw SceneError(fmt::format("{}: {}: {} (allowed: {})", file_, key, value.dump(), allowed));
+  }
+
+ private:
+  std::string file_;
+};
+
+void read_materials(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
+  if (!json.is_object()) reader.fail(key, json, "an object with a body's name as each key");
+  for (const auto& [body, value] : json.items()) {
+    Material material = scene.material;
+    reader.object(key + ": " + body + ": ", value,
+                  {{"young_MPa", [&](const auto& k,
+                                     const Json& v) { material.young_MPa = reader.number(k, v); }},
+                   {"poisson", [&](const auto& k, const Json& v) {
+                      material.poisson = reader.number(k, v);
+                    }}});
+    scene.materials[body] = material;
+  }
+}
+
+Scene from_json(const Json& json, const std::string& file) {
+  const Reader reader(file);
+  Scene scene;
+  scene.source = file;
+  Json materials;
+  const auto optional_length = [&](std::optional<double>& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.positive(k, v); };
+  };
+  const auto number = [&](double& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.number(k, v); };
+  };
+  const auto vector = [&](Eigen::Vector2d& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.vector(k, v); };
+  };
+  reader.object("", json,
+                {{"teeth",
+                  [&](const auto& k, const Json& v) {
+                    if (!v.is_number_integer() || v.get<std::int64_t>() < 1 ||
+                        v.get<std::int64_t>() > 1000000)
+                      reader.fail(k, v, "a whole number from 1 to 1000000");
+                    scene.teeth = v.get<int>();
+                  }},
+                 {"root_half_height_mm", optional_length(scene.root_half_height_mm)},
+                 {"length_mm", optional_length(scene.length_mm)},
+                 {"tip_half_height_mm", optional_length(scene.tip_half_height_mm)},
+                 {"young_MPa", number(scene.material.young_MPa)},
+                 {"poisson", number(scene.material.poisson)},
+                 {"plane",
+                  [&](const auto& k, const Json& v) {
+                    if (v != "strain" && v != "stress")
+                      reader.fail(k, v, "\"strain\" or \"stress\"");
+                    scene.plane = v == "strain" ? Plane::strain : Plane::stress;
+                  }},
+                 {"friction", number(scene.friction)},
+                 {"crown_radius_mm",
+                  [&](const auto& k, const Json& v) {
+                    if (v.is_null())
+                      scene.crown_radius_mm.reset();
+                    else
+                      scene.crown_radius_mm = reader.number(k, v);
+                  }},
+                 {"clearance_mm", number(scene.clearance_mm)},
+                 {"displacement_mm", vector(scene.displacement_mm)},
+                 {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
+                 {"materials", [&](const auto&, const Json& v) { materials = v; }}});
+  if (!materials.is_null()) read_materials(reader, "materials", materials, scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file, error))
+    throw SceneError(file.string() + ": cannot be opened as a scene file");
+  Json json;
+  try {
+    json = Json::parse(in);
+  } catch (const Json::parse_error& parse) {
+    std::string what = parse.what();  // "[json.exception.parse_error.101] parse error at line 1, …"
+    throw SceneError(file.string() + ": not JSON: " + what.substr(what.find("] ") + 2));
+  }
+  Scene scene = from_json(json, file.string());
+  scene.name = file.stem().string();
+  check_values(scene);
+  return scene;
+}
+
+}  // namespace airybench

@@ -1,0 +1,21 @@
+// Scene files: JSON with the keys of the struct Scene; missing keys take its defaults.
+//
+//   { "teeth": 1, "root_half_height_mm": 5, "length_mm": 10, "tip_half_height_mm": 3,
+//     "young_MPa": 210000, "poisson": 0.3, "plane": "strain", "friction": 0.2,
+//     "crown_radius_mm": 400, "clearance_mm": 0, "displacement_mm": [0.02, 0.006],
+//     "body_force_N_per_mm3": [0, 0],
+//     "materials": { "a body's name": { "young_MPa": 70000, "poisson": 0.33 } } }
+//
+// "crown_radius_mm": null is a flat wall; "plane" is "strain" or "stress".
+#pragma once
+
+#include <filesystem>
+
+#include "assembly/scene.hpp"
+
+namespace airybench {
+
+// Throws SceneError, one line: file, key, value, what is allowed. Scene::name is the file's stem.
+Scene read_scene(const std::filesystem::path& file);
+
+}  // namespace airybench

@@ -1,0 +1,22 @@
+// Which stages a case needs, and which are left out and why.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "assembly/problem.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+
+struct StageDecision {
+  std::string stage;
+  bool run;
+  std::string reason;  // why it is left out; empty when it is run
+};
+
+// From the problem alone, before anything is computed.
+std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
+                                         bool fields_asked);
+
+}  // namespace airybench

@@ -1,0 +1,35 @@
+// What a user sees: a line per case while it runs, and the table at the end.
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "bench/record.hpp"
+
+namespace airybench {
+
+// "1.24 ms", "3.4 MiB", "2.3e-12"; a dash for what does not apply.
+std::string show_seconds(double seconds);
+std::string show_bytes(std::optional<std::int64_t> bytes);
+std::string show_error(std::optional<double> error);
+
+std::string results_table(const std::vector<Record>& records);
+
+// "1 h 02 min", "3 min 10 s", "12 s".
+std::string show_duration(double seconds);
+
+// Estimates the time to come from the cases done, with cost ∝ n_φ^1.7 (as measured for 3STEPD).
+class Progress {
+ public:
+  explicit Progress(std::vector<int> n_phi_of_cases);
+  // The line for case k (from 0), which has just ended.
+  std::string line(std::size_t k, const Record& record);
+
+ private:
+  std::vector<double> cost_;
+  double done_ = 0, total_ = 0;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace airybench
