@@ -5,12 +5,16 @@
 // of Large Sparse Positive Definite Systems, ch. 4. There is no pivoting; S is symmetric positive
 // definite, or at least has non-singular leading blocks.
 //
-// Rows are kept in panels so that the work is matrix–matrix products:
+// Rows are kept in panels so that the work is matrix–matrix products. In a reverse Cuthill–McKee
+// numbering tall rows alternate with short ones, so inside a panel the tall rows are put first, and
+// each kind has its own leading column:
 //
-//        c        r         r+m       panel of rows r..r+m−1, from its leading column c:
-//   c.. ┌─────────┬─────────┐         one dense column-major block, m × (r+m−c);
-//       │  left   │  corner │  m rows the corner's upper triangle is not used
-//       └─────────┴─────────┘
+//        column     short_column    row
+//          ┌──────────────────────┬───────┐  tall     three dense column-major blocks:
+//          │         tall         │       │  rows     tall, short, corner; the corner's
+//          └──────────┬───────────┤corner │           upper triangle is not used
+//                     │   short   │       │  the
+//                     └───────────┴───────┘  rest
 //
 // Up-looking by panels: with W = L D, panel I takes for every earlier panel K it reaches
 //   W_IK = (A_IK − Σ_J W_IJ L_KJᵀ) L_KK⁻ᵀ,   then L_I = W_I D⁻¹,  L_II D_I L_IIᵀ = A_II − W_I L_Iᵀ.
@@ -25,33 +29,41 @@
 namespace airybench {
 
 struct SkylinePanel {
-  int row;              // its first row
-  int rows;             // m
-  int column;           // its leading column, ≤ row
-  std::int64_t offset;  // where its block begins in SkylineFactor::values
-  int left() const { return row - column; }
-  int width() const { return row + rows - column; }
+  int row = 0;              // its first row
+  int rows = 0;             // how many
+  int tall = 0;             // how many of them are tall; these come first
+  int column = 0;           // leading column of the tall rows, ≤ row
+  int short_column = 0;     // leading column of the others, between column and row
+  std::int64_t offset = 0;  // where its blocks begin in SkylineFactor::values
+  std::int64_t size() const {
+    return std::int64_t{tall} * (row - column) + std::int64_t{rows - tall} * (row - short_column) +
+           std::int64_t{rows} * rows;
+  }
 };
 
-// Symbolic analysis: the panels, from the pattern alone.
+// Symbolic analysis: from the pattern alone.
 struct SkylineProfile {
   int n = 0;
   std::vector<SkylinePanel> panels;
   std::vector<int> panel_of_row;
-  std::int64_t profile = 0;  // Σ_i (i − first column of row i + 1), the classical skyline
-  std::int64_t stored = 0;   // entries of all panels, ≥ profile
+  std::vector<int> position;  // of every row of S, in its panel's order; it stays in its panel
+  std::int64_t profile = 0;  // Σ_i h_i, h_i = i − first column of row i + 1: the classical skyline
+  std::int64_t stored = 0;  // entries of all panels, ≥ profile
   // Additions and multiplications that the skyline itself needs, padding not counted.
   double factor_flops = 0;                                                   // Σ_i h_i²
   double solve_flops() const { return 4.0 * static_cast<double>(profile); }  // per dense column
 };
 
-// lower: lower triangle with sorted columns. panel_rows: the most rows a panel may have.
-SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows = 64);
+// lower: lower triangle with sorted columns. panel_rows: rows per panel, 1 … most_panel_rows; the
+// last may have fewer. More rows make faster products and more padding (Mesh7: 1.19 of the profile
+// is stored with 48, 1.25 with 64).
+inline constexpr int most_panel_rows = 256;
+SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows = 48);
 
 struct SkylineFactor {
   SkylineProfile profile;
   std::vector<double> values;  // L in panels
-  Eigen::VectorXd diagonal;    // D
+  Eigen::VectorXd diagonal;    // D, in the panels' order
   std::size_t bytes() const {
     return (values.size() + static_cast<std::size_t>(diagonal.size())) * sizeof(double);
   }
@@ -61,7 +73,7 @@ struct SkylineFactor {
 SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<double>& lower,
                           const Deadline& deadline = {});
 
-// X ← S⁻¹ X for n × k right-hand sides. Rows above the first non-zero of a block of columns are
+// X ← S⁻¹ X for n × k right-hand sides. Panels above the first non-zero of a block of columns are
 // skipped in the forward sweep, so neighbouring columns should begin alike.
 void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,
                     const Deadline& deadline = {});

@@ -10,6 +10,8 @@
 #include <cblas.h>
 
 #include <chrono>
+#include <functional>
+#include <map>
 #include <memory>
 
 #include "assembly/dual_system.hpp"
@@ -93,7 +95,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   for (const std::string mesh : mesh_names) {
-    for (const auto& [name, run] : {std::pair{"factor", factor}, std::pair{"solve", solve}})
+    for (const auto& [name, run] : {std::pair{"factor", &factor}, std::pair{"solve", &solve}})
       benchmark::RegisterBenchmark((std::string(name) + "/" + mesh).c_str(),
                                    [run = run, mesh](benchmark::State& s) { run(s, mesh); })
           ->UseManualTime()
