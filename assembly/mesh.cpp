@@ -191,9 +191,11 @@ std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole rol
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != role || taken[row]) continue;
     int first = row;
-    for (int before = ending_at[mesh.boundary[first].vertices[0]]; before != -1 && before != row;
-         before = ending_at[mesh.boundary[first].vertices[0]])
+    for (int before = ending_at[mesh.boundary[first].vertices[0]]; before != -1;
+         before = ending_at[mesh.boundary[first].vertices[0]]) {
       first = before;
+      if (before == row) break;  // once around a closed chain
+    }
     auto& chain = chains.emplace_back();
     for (int next = first; next != -1 && !taken[next];
          next = starting_at[mesh.boundary[next].vertices[1]]) {

@@ -18,6 +18,12 @@ constexpr double geometry_tolerance = 1e-6;
   throw SceneError(line.str());
 }
 
+std::string shown(const Eigen::Vector2d& v) {
+  std::ostringstream text;
+  text << "[" << v.x() << ", " << v.y() << "]";
+  return text.str();
+}
+
 void check_length(const Scene& scene, const std::string& key, std::optional<double> given,
                   double of_mesh, const Mesh& mesh) {
   if (!given || std::abs(*given - of_mesh) <= geometry_tolerance * of_mesh) return;
@@ -107,9 +113,9 @@ void check_values(const Scene& scene) {
   if (!(scene.clearance_mm >= 0) || !std::isfinite(scene.clearance_mm))
     fail(scene, "clearance_mm", scene.clearance_mm, "(allowed: >= 0)");
   if (!scene.displacement_mm.allFinite())
-    fail(scene, "displacement_mm", scene.displacement_mm.transpose(), "(allowed: finite numbers)");
+    fail(scene, "displacement_mm", shown(scene.displacement_mm), "(allowed: finite numbers)");
   if (!scene.body_force_N_per_mm3.allFinite())
-    fail(scene, "body_force_N_per_mm3", scene.body_force_N_per_mm3.transpose(),
+    fail(scene, "body_force_N_per_mm3", shown(scene.body_force_N_per_mm3),
          "(allowed: finite numbers)");
 }
 

@@ -66,12 +66,11 @@ double stress_norm_squared(const Problem& problem, const StressField& stress) {
   return sum;
 }
 
-double relative_stress_error(const Problem& problem, const StressField& stress,
-                             const StressField& reference) {
+double stress_distance(const Problem& problem, const StressField& stress,
+                       const StressField& other) {
   StressField difference(stress.size());
-  for (std::size_t t = 0; t < stress.size(); ++t) difference[t] = stress[t] - reference[t];
-  const double error = stress_norm_squared(problem, difference);
-  return error == 0 ? 0 : std::sqrt(error / stress_norm_squared(problem, reference));
+  for (std::size_t t = 0; t < stress.size(); ++t) difference[t] = stress[t] - other[t];
+  return std::sqrt(stress_norm_squared(problem, difference));
 }
 
 Eigen::Matrix2d element_edge_forces(const TriangleVertices& v, const ElementStress& stress, int k) {

@@ -28,10 +28,8 @@ ElementStress stress_dual(const ElementStress& stress, double area_mm2,
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm. Twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
 
-// √(∫(σ−τ):C:(σ−τ) / ∫τ:C:τ), the energy norm of σ's error against τ. 0 when both vanish, infinite
-// when only τ does.
-double relative_stress_error(const Problem& problem, const StressField& stress,
-                             const StressField& reference);
+// √∫(σ−τ):C:(σ−τ), the distance of two fields in the energy norm, √(N mm).
+double stress_distance(const Problem& problem, const StressField& stress, const StressField& other);
 
 // Generalised forces (edge_forces.hpp) of an element's stress on its edge k, with the outward
 // normal: columns at the edge's start and end as the element walks it; rows x, y; N.

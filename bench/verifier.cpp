@@ -1,5 +1,6 @@
 #include "bench/verifier.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -56,8 +57,17 @@ Eigen::Matrix2d walked(const Problem& problem, const EdgeBalance& balance, int r
   return a < b ? sum : Eigen::Matrix2d(sum.rowwise().reverse());
 }
 
+// The quantity, or the load scale where the quantity is nothing but rounding.
+double denominator(double quantity, double scale) {
+  constexpr double resolvable = 1e-9;
+  return quantity > resolvable * scale ? quantity : scale;
+}
+double ratio(double error, double quantity, double scale) {
+  return error == 0 ? 0 : error / denominator(quantity, scale);
+}
+
 double equilibrium_residual(const DualSystem& system, const Solution& solution,
-                            const EdgeBalance& balance) {
+                            const EdgeBalance& balance, const LoadScale& scale) {
   const Problem& problem = *system.problem;
   const Mesh& mesh = problem.mesh;
   double unbalanced = balance.divergence;
@@ -88,7 +98,7 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
   for (std::size_t edge = 0; edge < balance.sum.size(); ++edge)
     if (!on_boundary[edge])
       unbalanced = std::max(unbalanced, balance.sum[edge].cwiseAbs().maxCoeff());
-  return unbalanced == 0 ? 0 : unbalanced / balance.largest;
+  return ratio(unbalanced, balance.largest, scale.force_N);
 }
 
 // ∫_{Γ_D} u0·σn.
@@ -108,7 +118,7 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 }
 
 void verify_contact(const ContactPoints& contact, const Solution& solution,
-                    const Reference* reference, Verification& result) {
+                    const Reference* reference, const LoadScale& scale, Verification& result) {
   const Eigen::VectorXd& F = solution.F_C;
   const int m = contact.components;
   double normal = 0, tangential = 0;
@@ -130,7 +140,7 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   const CondensedSystem& condensed = reference->condensed;
   const Eigen::VectorXd residual =
       natural_map(contact, condensed.D.diagonal(), F, condensed.D * F - condensed.G);
-  result.natural_map_residual = residual.isZero(0) ? 0 : residual.norm() / F.norm();
+  result.natural_map_residual = ratio(residual.norm(), F.norm(), scale.force_N);
   double signorini = 0, coulomb = 0;
   for (int p = 0; p < contact.count; ++p) {
     signorini = std::max(signorini, std::abs(residual(m * p)));
@@ -139,10 +149,10 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   result.signorini_violation_N = signorini;
   if (m == 2) result.coulomb_violation_N = coulomb;
 
-  const Eigen::VectorXd error = F - reference->F_C;
-  const double squared = error.dot(condensed.D * error);
-  result.error_force =
-      squared == 0 ? 0 : std::sqrt(squared / reference->F_C.dot(condensed.D * reference->F_C));
+  const auto D_norm = [&](const Eigen::VectorXd& f) {
+    return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
+  };
+  result.error_force = ratio(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
 }
 
 }  // namespace
@@ -170,16 +180,47 @@ Verification verify(const DualSystem& system, const Solution& solution,
   const Problem& problem = *system.problem;
   Verification result;
   const EdgeBalance balance = edge_balance(problem, solution.stress);
-  result.equilibrium_residual = equilibrium_residual(system, solution, balance);
+  const LoadScale scale = load_scale(problem);
+  result.equilibrium_residual = equilibrium_residual(system, solution, balance, scale);
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
   double work = work_of_prescribed_displacement(problem, balance);
   for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
     work += system.contact.gap(p) * solution.F_C(system.contact.components * p);
   result.complementary_energy_Nmm = result.strain_energy_Nmm - work;
   if (reference != nullptr)
-    result.error_stress = relative_stress_error(problem, solution.stress, reference->stress);
-  if (system.contact.count > 0) verify_contact(system.contact, solution, reference, result);
+    result.error_stress =
+        ratio(stress_distance(problem, solution.stress, reference->stress),
+              std::sqrt(stress_norm_squared(problem, reference->stress)), scale.energy_norm);
+  if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   return result;
+}
+
+LoadScale load_scale(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const Loads& loads = problem.loads;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
+  const double diameter = box.diagonal().norm();
+  double displacement = 0, stress = loads.body_force_N_per_mm3.norm() * diameter;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    for (const Eigen::Vector2d& x : {a, b}) {
+      if (edge.role == BoundaryRole::displacement && loads.displacement_mm)
+        displacement = std::max(displacement, loads.displacement_mm(x).norm());
+      if (edge.role == BoundaryRole::force && loads.traction_MPa)
+        stress = std::max(stress, loads.traction_MPa(x, edge_frame(a, b).normal).norm());
+    }
+  }
+  LoadScale scale;
+  double energy = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const double c = problem.compliance_of(t)(0, 0);
+    energy +=
+        problem.area_mm2(t) * (std::pow(displacement / diameter, 2) / c + c * stress * stress);
+    scale.force_N = std::max(scale.force_N, displacement / c + stress * diameter);
+  }
+  scale.energy_norm = std::sqrt(energy);
+  return scale;
 }
 
 WorstMeasure worst_measure(const Verification& v) {

@@ -37,6 +37,12 @@ struct Verification {
 // reference: may be null.
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
 
+struct LoadScale {
+  double energy_norm = 0;  // √(N mm)
+  double force_N = 0;
+};
+LoadScale load_scale(const Problem& problem);
+
 // The largest of the relative measures that decide between ok and inaccurate.
 struct WorstMeasure {
   const char* name;

@@ -65,11 +65,14 @@ Solution failed(Status status, const std::string& message) {
   return solution;
 }
 
-bool is_finite(const Solution& solution) {
-  if (!solution.F_C.allFinite() || !solution.phi.allFinite()) return false;
-  for (const ElementStress& stress : solution.stress)
-    if (!stress.allFinite()) return false;
-  return true;
+// What is wrong with a result that claims success; null: nothing that can be seen here.
+const char* flaw(const Solution& solution, const DualSystem& system) {
+  if (solution.F_C.size() != system.contact.size()) return "contact forces are missing";
+  if (solution.stress.size() != system.problem->mesh.triangles.size())
+    return "stresses are missing";
+  bool finite = solution.F_C.allFinite() && solution.phi.allFinite();
+  for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
+  return finite ? nullptr : "the result is not finite";
 }
 
 }  // namespace
@@ -77,9 +80,11 @@ bool is_finite(const Solution& solution) {
 Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
   try {
     Solution solution = method.solve(system, control);
-    if (solution.status == Status::ok && !is_finite(solution)) {
-      solution.status = Status::breakdown;
-      solution.message = "the result is not finite";
+    if (solution.status == Status::ok) {
+      if (const char* what = flaw(solution, system)) {
+        solution.status = Status::breakdown;
+        solution.message = what;
+      }
     }
     return solution;
   } catch (const TimeoutReached& timeout) {

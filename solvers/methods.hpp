@@ -30,7 +30,7 @@ const std::vector<Method>& methods();
 std::vector<Method> select_methods(std::string_view selection);
 
 // Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
-// std::exception (crashed). A solution that is not finite is a breakdown, whatever the method says.
+// std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
 Solution run(const Method& method, const DualSystem& system, const RunControl& control);
 
 }  // namespace airybench

@@ -1,0 +1,214 @@
+#include "assembly/dual_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+
+#include "assembly/edge_forces.hpp"
+#include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
+#include "assembly/stress_field.hpp"
+#include "tests/support/exact_fields.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench {
+namespace {
+
+using testing::small_tooth;
+
+std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh) {
+  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+}
+
+// The exact solution's Airy unknowns for φ given as a function with gradient.
+Eigen::VectorXd interpolate(const DualSystem& system,
+                            const std::function<double(const Eigen::Vector2d&)>& phi,
+                            const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& slope) {
+  const Problem& problem = *system.problem;
+  const Eigen::Vector2d x0 = problem.mesh.vertices[problem.central_vertex];
+  const double phi0 = phi(x0);
+  const Eigen::Vector2d slope0 = slope(x0);
+  Eigen::VectorXd x(system.n());
+  for (std::size_t v = 0; v < problem.mesh.vertices.size(); ++v) {
+    const int dof = system.dofs.of_vertex[v];
+    if (dof == DofNumbering::gauge) continue;
+    const Eigen::Vector2d& at = problem.mesh.vertices[v];
+    x(dof) = phi(at) - phi0 - slope0.dot(at - x0);
+    x.segment<2>(dof + 1) = slope(at) - slope0;
+  }
+  for (int e = 0; e < problem.edges.count(); ++e) {
+    const auto [low, high] = problem.edges.vertices[e];
+    const auto &a = problem.mesh.vertices[low], &b = problem.mesh.vertices[high];
+    x(system.dofs.of_edge[e]) = edge_frame(a, b).normal.dot(slope((a + b) / 2) - slope0);
+  }
+  return x.cwiseQuotient(system.scale);
+}
+
+TEST(DualSystem, SizesFollowTheMesh) {
+  const Mesh mesh = small_tooth(5, 4);
+  const MeshSizes sizes = mesh_sizes(mesh);
+  const DualSystem system = assemble(posed({}, mesh));
+  EXPECT_EQ(system.n(), sizes.n_phi - 3);
+  EXPECT_EQ(system.n_f(), 4 * 10);
+  EXPECT_EQ(system.n_c(), 4 * 4);
+  EXPECT_EQ(system.contact.count, 8);
+}
+
+TEST(DualSystem, FlexibilityIsEquilibratedSymmetricPositiveDefinite) {
+  const DualSystem system = assemble(posed({}, small_tooth(3, 3)));
+  const Eigen::MatrixXd S = Eigen::MatrixXd(system.S).selfadjointView<Eigen::Lower>();
+  EXPECT_LT((S.diagonal().array() - 1).abs().maxCoeff(), 1e-15);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S).eigenvalues()(0), 0);
+}
+
+TEST(DualSystem, ConstraintsHaveFullRank) {
+  for (const char* name : {"Mesh0", "Mesh4"}) {
+    const DualSystem system = assemble(
+        posed({}, read_msh(std::filesystem::path(MESH_DIR) / (std::string(name) + ".msh"))));
+    Eigen::MatrixXd C(system.n_f() + system.n_c(), system.n());
+    C << Eigen::MatrixXd(system.C_F), Eigen::MatrixXd(system.C_C);
+    EXPECT_EQ(C.transpose().colPivHouseholderQr().rank(), C.rows()) << name;
+  }
+}
+
+TEST(DualSystem, QuadraticFormAndForcesOfAKnownAiryFunction) {
+  // φ = x²y/2 + y³/6 − x y: σ = (y, y, 1 − x).
+  const DualSystem system = assemble(posed({}, small_tooth(4, 3)));
+  const Problem& problem = *system.problem;
+  const Eigen::VectorXd x = interpolate(
+      system,
+      [](const Eigen::Vector2d& p) {
+        return p.x() * p.x() * p.y() / 2 + p.y() * p.y() * p.y() / 6 - p.x() * p.y();
+      },
+      [](const Eigen::Vector2d& p) {
+        return Eigen::Vector2d(p.x() * p.y() - p.y(),
+                               p.x() * p.x() / 2 + p.y() * p.y() / 2 - p.x());
+      });
+  const auto stress_at = [](const Eigen::Vector2d& p) {
+    return Eigen::Vector3d(p.y(), p.y(), 1 - p.x());
+  };
+  const StressField field = stress_of_airy_function(problem, airy_function(system, x));
+  for (int t = 0; t < static_cast<int>(field.size()); ++t)
+    for (int c = 0; c < 9; ++c) {
+      const TriangleVertices v = problem.vertices_of(t);
+      const Eigen::Vector2d at = c % 3 == 2 ? Eigen::Vector2d(v.rowwise().mean())
+                                            : Eigen::Vector2d(v.col((c / 3 + c % 3) % 3));
+      EXPECT_LT((field[t].col(c) - stress_at(at)).norm(), 1e-11);
+    }
+  const double energy = x.dot(system.S.selfadjointView<Eigen::Lower>() * x);
+  EXPECT_NEAR(energy, stress_norm_squared(problem, field), 1e-10 * energy);
+
+  const Eigen::VectorXd F_C = system.C_C * x;
+  for (int p = 0; p < system.contact.count; ++p) {
+    const auto [a, b] = problem.mesh.boundary[system.contact.boundary[p]].vertices;
+    const EdgeFrame frame = edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]);
+    const Eigen::Vector2d t =
+        frame.length_mm / 2 *
+        traction(stress_at(problem.mesh.vertices[p % 2 == 0 ? a : b]), frame.normal);
+    EXPECT_NEAR(F_C(2 * p), frame.normal.dot(t), 1e-10);
+    EXPECT_NEAR(F_C(2 * p + 1), frame.tangent.dot(t), 1e-10);
+  }
+}
+
+TEST(DualSystem, BuildsOnlyWhatTheSceneNeeds) {
+  const Mesh mesh = small_tooth(4, 3);
+  Scene scene;
+  scene.displacement_mm.setZero();
+  scene.crown_radius_mm.reset();
+  scene.friction = 0;
+  const DualSystem bare = assemble(posed(scene, mesh));
+  EXPECT_EQ(bare.q.size(), 0);
+  EXPECT_EQ(bare.F.size(), 0);
+  EXPECT_EQ(bare.F0.size(), 0);
+  EXPECT_EQ(bare.contact.gap.size(), 0);
+  EXPECT_EQ(bare.contact.components, 1);
+  EXPECT_EQ(bare.n_c(), 2 * 3);
+  EXPECT_EQ(bare.n_f(), 4 * 8 + 2 * 3);  // tangential contact rows are prescribed
+
+  const DualSystem full = assemble(posed({}, mesh));
+  EXPECT_EQ(full.q.size(), full.n());
+  EXPECT_EQ(full.F.size(), 0);
+  EXPECT_EQ(full.contact.gap.size(), full.contact.count);
+
+  scene.body_force_N_per_mm3 = {1, 0};
+  const DualSystem heavy = assemble(posed(scene, mesh));
+  EXPECT_EQ(heavy.F.size(), heavy.n_f());
+  EXPECT_EQ(heavy.F0.size(), heavy.n_c());
+
+  const DualSystem points = assemble(posed({}, mesh), Blocks::contact_points);
+  EXPECT_EQ(points.n(), 0);
+  EXPECT_EQ(points.contact.count, 6);
+}
+
+TEST(DualSystem, GapIsTheWorkPartnerOfTheNormalForce) {
+  // ∫ g σ_n over an edge for linear σ_n equals Σ F_n ḡ.
+  Scene scene;
+  scene.clearance_mm = 0.01;
+  const DualSystem system = assemble(posed(scene, small_tooth(4, 4)));
+  const Problem& problem = *system.problem;
+  for (int p = 0; p < system.contact.count; p += 2) {
+    const auto [a, b] = problem.mesh.boundary[system.contact.boundary[p]].vertices;
+    const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
+    const double length = (xb - xa).norm();
+    const double sigma_a = -3, sigma_b = 2;
+    double work = 0;  // three-point Gauss
+    for (const auto& [s, w] : {std::pair{0.5 - std::sqrt(0.15), 5 / 18.}, std::pair{0.5, 8 / 18.},
+                               std::pair{0.5 + std::sqrt(0.15), 5 / 18.}})
+      work += w * length * problem.loads.gap_mm((1 - s) * xa + s * xb) *
+              ((1 - s) * sigma_a + s * sigma_b);
+    EXPECT_NEAR(
+        length / 2 * (sigma_a * system.contact.gap(p) + sigma_b * system.contact.gap(p + 1)), work,
+        1e-14);
+  }
+}
+
+TEST(StressField, EnergyKeepsItsDigitsWhereTheAiryFunctionIsLarge) {
+  // A constant stress on the rack: the energy is known, φ reaches 1e5.
+  const DualSystem system =
+      assemble(posed({}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")));
+  const Problem& problem = *system.problem;
+  const Eigen::VectorXd x = interpolate(
+      system, [](const Eigen::Vector2d& p) { return 50 * p.y() * p.y(); },
+      [](const Eigen::Vector2d& p) { return Eigen::Vector2d(0, 100 * p.y()); });
+  const StressField field = stress_of_airy_function(problem, airy_function(system, x));
+  double area = 0;
+  for (int t = 0; t < static_cast<int>(field.size()); ++t) area += problem.area_mm2(t);
+  const double expected = 1e4 * area * problem.compliance[0](0, 0);
+  EXPECT_NEAR(stress_norm_squared(problem, field) / expected, 1, 1e-12);
+}
+
+TEST(StressField, DistanceIsTheEnergyNormOfTheDifference) {
+  const auto problem = posed({}, small_tooth(2, 2));
+  const std::size_t triangles = problem->mesh.triangles.size();
+  const StressField one(triangles, ElementStress::Ones()),
+      two(triangles, 2 * ElementStress::Ones());
+  EXPECT_EQ(stress_distance(*problem, one, one), 0);
+  EXPECT_NEAR(stress_distance(*problem, one, two), std::sqrt(stress_norm_squared(*problem, one)),
+              1e-15);
+  // ∫ of a constant energy density over the tooth's 80 mm².
+  EXPECT_NEAR(stress_norm_squared(*problem, one), 80 * problem->compliance[0].sum(), 1e-15);
+}
+
+TEST(CuthillMcKee, IsAPermutationThatNarrowsTheSkyline) {
+  const auto problem = posed({}, small_tooth(12, 6));
+  const NodeGraph graph = airy_node_graph(*problem);
+  const std::vector<int> position = cuthill_mckee(graph);
+  std::vector<int> sorted = position;
+  std::sort(sorted.begin(), sorted.end());
+  for (int i = 0; i < static_cast<int>(sorted.size()); ++i) ASSERT_EQ(sorted[i], i);
+  const auto profile = [&](auto place) {
+    long sum = 0;
+    for (int i = 0; i + 1 < static_cast<int>(graph.start.size()); ++i) {
+      int first = place(i);
+      for (int k = graph.start[i]; k < graph.start[i + 1]; ++k)
+        first = std::min(first, place(graph.neighbour[k]));
+      sum += place(i) - first;
+    }
+    return sum;
+  };
+  EXPECT_LT(2 * profile([&](int i) { return position[i]; }), profile([](int i) { return i; }));
+}
+
+}  // namespace
+}  // namespace airybench

@@ -1,0 +1,91 @@
+#include "assembly/scene.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/msh_format.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench {
+namespace {
+
+using testing::small_tooth;
+
+std::string complaint(const Scene& scene, const Mesh& mesh) {
+  try {
+    pose(scene, mesh);
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Scene, CrownIsCentredOnEachToothsAxis) {
+  const Problem tooth = pose({}, small_tooth(4, 4));
+  EXPECT_NEAR(tooth.loads.gap_mm({10, 0}), 0, 1e-15);
+  EXPECT_NEAR(tooth.loads.gap_mm({10, 3}), 9 / 800., 1e-15);
+  const Problem rack = pose({}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh"));
+  for (const double axis : {6.25, 18.75, 31.25, 43.75}) {
+    EXPECT_NEAR(rack.loads.gap_mm({10, axis}), 0, 1e-12);
+    EXPECT_NEAR(rack.loads.gap_mm({10, axis - 3}), 9 / 800., 1e-9);
+  }
+}
+
+TEST(Scene, GeometryThatTheMeshHasIsAccepted) {
+  Scene scene;
+  scene.root_half_height_mm = 5;
+  scene.length_mm = 10;
+  scene.tip_half_height_mm = 3;
+  scene.teeth = 1;
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)), "none");
+  scene.teeth = 4;
+  EXPECT_EQ(complaint(scene, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")), "none");
+}
+
+TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
+  const Mesh mesh = small_tooth(4, 4);
+  const auto with = [&](auto change) {
+    Scene scene;
+    change(scene);
+    return complaint(scene, mesh);
+  };
+  EXPECT_EQ(
+      with([](Scene& s) { s.teeth = 4; }),
+      "default scene: teeth: 4 contradicts the mesh small tooth, which has 1 contact face(s)");
+  EXPECT_EQ(with([](Scene& s) { s.length_mm = 11; }),
+            "default scene: length_mm: 11 contradicts the mesh small tooth, which has 10");
+  EXPECT_EQ(with([](Scene& s) { s.root_half_height_mm = 4; }),
+            "default scene: root_half_height_mm: 4 contradicts the mesh small tooth, which has 5");
+  EXPECT_EQ(with([](Scene& s) { s.tip_half_height_mm = 2; }),
+            "default scene: tip_half_height_mm: 2 contradicts the mesh small tooth, which has 3");
+  EXPECT_EQ(with([](Scene& s) { s.material.poisson = 0.5; }),
+            "default scene: poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(with([](Scene& s) { s.material.young_MPa = 0; }),
+            "default scene: young_MPa: 0 (allowed: > 0)");
+  EXPECT_EQ(with([](Scene& s) { s.friction = -0.1; }),
+            "default scene: friction: -0.1 (allowed: >= 0)");
+  EXPECT_EQ(with([](Scene& s) { s.crown_radius_mm = -1; }),
+            "default scene: crown_radius_mm: -1 (allowed: > 0, or null for a flat wall)");
+  EXPECT_EQ(with([](Scene& s) { s.clearance_mm = -1; }),
+            "default scene: clearance_mm: -1 (allowed: >= 0)");
+  EXPECT_EQ(with([](Scene& s) { s.displacement_mm.x() = std::nan(""); }),
+            "default scene: displacement_mm: [nan, 0.006] (allowed: finite numbers)");
+  EXPECT_EQ(
+      with([](Scene& s) {
+        s.materials["rubber"] = {1, 0.3};
+      }),
+      "default scene: materials: rubber is no body of the mesh small tooth (its bodies: body)");
+}
+
+TEST(Scene, EveryBodyCanHaveItsMaterial) {
+  Mesh mesh = small_tooth(4, 4);
+  mesh.body_names = {"root", "tip"};
+  for (std::size_t t = 16; t < mesh.triangles.size(); ++t) mesh.triangle_body[t] = 1;
+  Scene scene;
+  scene.materials["tip"] = {70000, 0.33};
+  const Problem problem = pose(scene, mesh);
+  EXPECT_EQ(problem.compliance_of(0), compliance({210000, 0.3}, Plane::strain));
+  EXPECT_EQ(problem.compliance_of(20), compliance({70000, 0.33}, Plane::strain));
+}
+
+}  // namespace
+}  // namespace airybench

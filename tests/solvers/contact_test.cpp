@@ -1,0 +1,149 @@
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
+
+namespace airybench {
+namespace {
+
+// Every clause of the law, to a relative tolerance; scale_N and scale_mm make it dimensionless.
+void expect_coulomb_law(const Eigen::Vector2d& F, const Eigen::Vector2d& r, double mu,
+                        double scale_N, double scale_mm) {
+  const double small_N = 1e-12 * scale_N, small_mm = 1e-12 * scale_mm;
+  EXPECT_LE(F(0), small_N);
+  EXPECT_LE(r(0), small_mm);
+  EXPECT_LE(std::abs(F(0) * r(0)), 1e-12 * scale_N * scale_mm);
+  EXPECT_LE(std::abs(F(1)), -mu * F(0) + small_N);
+  EXPECT_LE(F(1) * r(1), 1e-12 * scale_N * scale_mm);
+  if (std::abs(r(1)) > small_mm) {
+    EXPECT_NEAR(std::abs(F(1)), -mu * F(0), small_N);
+  }
+}
+
+TEST(CoulombLaw, IsMetExactlyByRandomPoints) {
+  std::mt19937 generator(9);
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  int open = 0, stick = 0, slip = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Eigen::Matrix2d root;
+    root << uniform(generator), uniform(generator), uniform(generator), uniform(generator);
+    const Eigen::Matrix2d D = root * root.transpose() + 0.05 * Eigen::Matrix2d::Identity();
+    const Eigen::Vector2d b(uniform(generator), uniform(generator));
+    const double mu = 0.5 * std::abs(uniform(generator));
+    if (mu * std::abs(D(0, 1)) >= D(0, 0)) continue;  // not unique there
+    const Eigen::Vector2d F = solve_coulomb_law(D, b, mu), r = D * F + b;
+    expect_coulomb_law(F, r, mu, 50, 2);
+    if (F.isZero(0))
+      ++open;
+    else if (r.norm() < 1e-12)
+      ++stick;
+    else
+      ++slip;
+  }
+  EXPECT_GT(open, 100);
+  EXPECT_GT(stick, 100);
+  EXPECT_GT(slip, 100);
+}
+
+TEST(CoulombLaw, ProjectionClipsTheNormalForceFirst) {
+  EXPECT_EQ(project_on_coulomb({5, 3}, 0.2), Eigen::Vector2d(0, 0));
+  EXPECT_EQ(project_on_coulomb({-10, 3}, 0.2), Eigen::Vector2d(-10, 2));
+  EXPECT_EQ(project_on_coulomb({-10, -3}, 0.2), Eigen::Vector2d(-10, -2));
+  EXPECT_EQ(project_on_coulomb({-10, 1}, 0.2), Eigen::Vector2d(-10, 1));
+}
+
+TEST(SignoriniLaw, PressesOrOpens) {
+  EXPECT_EQ(solve_signorini_law(2, 1), -0.5);
+  EXPECT_EQ(solve_signorini_law(2, -1), 0);
+}
+
+ContactPoints points(int count, int components, double mu) {
+  ContactPoints contact;
+  contact.count = count;
+  contact.components = components;
+  contact.friction = mu;
+  contact.gap = Eigen::VectorXd::Constant(count, 0.01);
+  return contact;
+}
+
+CondensedSystem random_condensed(int size, unsigned seed) {
+  std::srand(seed);
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
+  return {root * root.transpose() + size * Eigen::MatrixXd::Identity(size, size),
+          -size * Eigen::VectorXd::Random(size).cwiseAbs()};
+}
+
+TEST(GaussSeidel, MeetsTheLawAtEveryPoint) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  const CondensedSystem condensed = random_condensed(24, 10);
+  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  ASSERT_TRUE(result.converged);
+  EXPECT_LE(result.natural_map_residual, 1e-12);
+  Eigen::VectorXd r = condensed.D * result.F_C - condensed.G;
+  for (int p = 0; p < 12; ++p) {
+    r(2 * p) -= contact.gap(p);
+    expect_coulomb_law(result.F_C.segment<2>(2 * p), r.segment<2>(2 * p), 0.3, 100, 100);
+  }
+}
+
+TEST(GaussSeidel, WithoutFrictionItIsTheComplementarityProblem) {
+  const ContactPoints contact = points(12, 1, 0);
+  const CondensedSystem condensed = random_condensed(12, 11);
+  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  ASSERT_TRUE(result.converged);
+  const Eigen::VectorXd r = condensed.D * result.F_C - condensed.G - contact.gap;
+  EXPECT_LE(result.F_C.maxCoeff(), 0);
+  EXPECT_LE(r.maxCoeff(), 1e-10);
+  EXPECT_LE((result.F_C.cwiseProduct(r)).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(GaussSeidel, NothingTouchesAndZeroForcesConverge) {
+  const ContactPoints contact = points(4, 2, 0.3);
+  CondensedSystem condensed = random_condensed(8, 12);
+  condensed.G.setConstant(1);  // displacements −1: away from the wall
+  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  EXPECT_TRUE(result.converged);
+  EXPECT_TRUE(result.F_C.isZero(0));
+}
+
+TEST(GaussSeidel, TooFewSweepsOrNaNIsNotConverged) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  CondensedSystem condensed = random_condensed(24, 13);
+  RunControl control;
+  control.contact_sweeps = 2;
+  const ContactResult few = solve_contact_by_gauss_seidel(condensed, contact, control);
+  EXPECT_FALSE(few.converged);
+  EXPECT_EQ(few.sweeps, 2);
+  control.contact_sweeps = 0;
+  EXPECT_FALSE(solve_contact_by_gauss_seidel(condensed, contact, control).converged);
+  condensed.G(3) = std::nan("");
+  EXPECT_FALSE(solve_contact_by_gauss_seidel(condensed, contact, {}).converged);
+}
+
+TEST(GaussSeidel, KeepsAHistoryOnRequest) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  const CondensedSystem condensed = random_condensed(24, 14);
+  RunControl control;
+  control.histories = true;
+  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.sweeps));
+  EXPECT_LE(result.history.back(), control.contact_tolerance);
+  EXPECT_TRUE(solve_contact_by_gauss_seidel(condensed, contact, {}).history.empty());
+}
+
+TEST(NaturalMap, IsZeroExactlyWhereTheLawHolds) {
+  const ContactPoints contact = points(2, 2, 0.5);
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(4, 2.0);
+  // Point 1 sticks under −10, 2; point 2 is open, 0.3 away. ū_C = r + gap.
+  const Eigen::Vector4d F(-10, 2, 0, 0), u(0.01, 0, 0.01 - 0.3, 0.4);
+  EXPECT_LT(natural_map(contact, diagonal, F, u).norm(), 1e-14);
+  const Eigen::Vector4d penetrating(0.01 + 0.2, 0, 0.01 - 0.3, 0.4);
+  EXPECT_NEAR(natural_map(contact, diagonal, F, penetrating)(0), 0.1, 1e-14);  // r_n / D_nn
+  const Eigen::Vector4d pulling(1, 0, 0, 0);
+  EXPECT_GT(natural_map(contact, diagonal, pulling, u).norm(), 0.9);
+}
+
+}  // namespace
+}  // namespace airybench

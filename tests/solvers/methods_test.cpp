@@ -1,0 +1,315 @@
+// Every method of the table on small systems: exact fields, scenes, and injected failures.
+#include "solvers/methods.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "assembly/edge_forces.hpp"
+#include "assembly/scene.hpp"
+#include "solvers/condensation/hybridized.hpp"
+#include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "tests/support/exact_fields.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench {
+namespace {
+
+using testing::small_tooth;
+
+std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh = small_tooth(6, 5)) {
+  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+}
+
+std::string readable(const ::testing::TestParamInfo<Method>& info) {
+  std::string name = info.param.name;
+  for (char& letter : name)
+    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
+  return name;
+}
+
+class EveryMethod : public ::testing::TestWithParam<Method> {
+ protected:
+  Solution solve(std::shared_ptr<const Problem> problem, const RunControl& control = {}) {
+    system_ = assemble(std::move(problem), GetParam().blocks);
+    return run(GetParam(), system_, control);
+  }
+  // The largest deviation from an exact stress, relative to its largest value.
+  static double deviation(const Problem& problem, const StressField& field,
+                          const std::function<Eigen::Vector3d(const Eigen::Vector2d&)>& exact) {
+    double worst = 0, size = 0;
+    for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+      const TriangleVertices v = problem.vertices_of(t);
+      for (int c = 0; c < 9; ++c) {
+        const Eigen::Vector2d x = c % 3 == 2 ? Eigen::Vector2d(v.rowwise().mean())
+                                             : Eigen::Vector2d(v.col((c / 3 + c % 3) % 3));
+        worst = std::max(worst, (field[t].col(c) - exact(x)).cwiseAbs().maxCoeff());
+        size = std::max(size, exact(x).cwiseAbs().maxCoeff());
+      }
+    }
+    return worst / size;
+  }
+  DualSystem system_;
+};
+INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(methods()), readable);
+
+TEST_P(EveryMethod, ReproducesLinearStressesExactlyWithoutContact) {
+  Mesh mesh = small_tooth(5, 4);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  constexpr double young = 2000, poisson = 0.3;
+  for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
+    const auto problem = std::make_shared<const Problem>(make_problem(
+        mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0.2));
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    EXPECT_LT(deviation(*problem, solution.stress, exact.stress), 1e-10) << exact.name;
+    EXPECT_FALSE(solution.contact_iterations) << exact.name;
+    EXPECT_FALSE(solution.times.contact_s) << exact.name;
+  }
+}
+
+TEST_P(EveryMethod, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
+  // A flat wall at x = 10: u_n = 0 there. σ = (−100, σyy, τ) with εyy = 0 sticks for |τ| < 100 μ;
+  // for τ = 100 μ it slips by any amount against the friction.
+  constexpr double young = 2000, poisson = 0.3, mu = 0.25;
+  const Eigen::Matrix3d c = compliance({young, poisson}, Plane::stress);
+  for (const auto& [tau, slip] : {std::pair{10.0, 0.0}, {-20.0, 0.0}, {25.0, -0.5}, {-25.0, 0.3}}) {
+    const Eigen::Vector3d stress(-100, -100 * poisson, tau);
+    const Eigen::Vector3d strain = c * stress;
+    testing::ExactField exact;
+    exact.body_force.setZero();
+    exact.stress = [=](const Eigen::Vector2d&) { return stress; };
+    exact.displacement = [=, slip = slip](const Eigen::Vector2d& x) {
+      return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slip);
+    };
+    const auto problem = std::make_shared<const Problem>(
+        make_problem(small_tooth(5, 4), {c}, testing::loads_of(exact), mu));
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    EXPECT_LT(deviation(*problem, solution.stress, exact.stress), 1e-9) << tau;
+    for (int p = 0; p < system_.contact.count; ++p) {  // four edges of 1.5 mm
+      EXPECT_NEAR(solution.F_C(2 * p), -75, 1e-7);
+      EXPECT_NEAR(solution.F_C(2 * p + 1), 0.75 * tau, 1e-7);
+    }
+  }
+}
+
+struct NamedScene {
+  std::string name;
+  Scene scene;
+};
+
+std::vector<NamedScene> scene_variants() {
+  const auto with = [](const char* name, auto change) {
+    Scene scene;
+    change(scene);
+    return NamedScene{name, scene};
+  };
+  return {
+      with("default", [](Scene&) {}),
+      with("frictionless", [](Scene& s) { s.friction = 0; }),
+      with("plane stress", [](Scene& s) { s.plane = Plane::stress; }),
+      with("body force",
+           [](Scene& s) {
+             s.body_force_N_per_mm3 = {3, -1};
+           }),
+      with("frictionless, body force",
+           [](Scene& s) {
+             s.friction = 0;
+             s.body_force_N_per_mm3 = {3, -1};
+           }),
+      with("flat face", [](Scene& s) { s.crown_radius_mm.reset(); }),
+      with("clearance", [](Scene& s) { s.clearance_mm = 0.005; }),
+      with("high friction", [](Scene& s) { s.friction = 5; }),
+      with("no load", [](Scene& s) { s.displacement_mm.setZero(); }),
+      with("nothing touches", [](Scene& s) { s.clearance_mm = 1; }),
+      with("pulled away", [](Scene& s) { s.displacement_mm.x() = -0.02; }),
+  };
+}
+
+TEST_P(EveryMethod, AgreesWithTheHybridizedOneOnEveryScene) {
+  for (const auto& [name, scene] : scene_variants()) {
+    const auto problem = posed(scene);
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
+    const Solution other =
+        run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+    EXPECT_LE((solution.F_C - other.F_C).norm(), 1e-9 * other.F_C.norm()) << name;
+    // The norm is about 7 where the body is stressed, and 0 where it is only moved.
+    EXPECT_LE(stress_distance(*problem, solution.stress, other.stress), 1e-9) << name;
+  }
+}
+
+TEST_P(EveryMethod, ScenesWithNoForceHaveNoStress) {
+  for (const char* name : {"no load", "nothing touches", "pulled away"}) {
+    const std::vector<NamedScene> variants = scene_variants();
+    const auto variant = std::find_if(variants.begin(), variants.end(),
+                                      [&](const NamedScene& v) { return v.name == name; });
+    const auto problem = posed(variant->scene);
+    const Solution solution = solve(problem);
+    EXPECT_TRUE(solution.F_C.isZero(0)) << name;
+    EXPECT_LT(std::sqrt(stress_norm_squared(*problem, solution.stress)), 1e-9) << name;
+  }
+}
+
+TEST_P(EveryMethod, StressIsStrictlyAdmissibleOnWholeContactEdges) {
+  const auto problem = posed({});
+  const Solution solution = solve(problem);
+  const double mu = problem->friction;
+  const double largest = solution.F_C.cwiseAbs().maxCoeff();
+  for (std::size_t row = 0; row < problem->mesh.boundary.size(); ++row) {
+    if (problem->mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const int edge = problem->edges.of_boundary[row];
+    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        if (problem->edges.of_triangle[t][k] != edge) continue;
+        const TriangleVertices v = problem->vertices_of(t);
+        const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
+        for (int i = 0; i <= 10; ++i) {  // the stress is linear along the edge
+          const Eigen::Vector3d stress = (1 - i / 10.) * solution.stress[t].col(3 * k) +
+                                         i / 10. * solution.stress[t].col(3 * k + 1);
+          const Eigen::Vector2d force = frame.length_mm / 2 * traction(stress, frame.normal);
+          const double normal = force.dot(frame.normal), tangential = force.dot(frame.tangent);
+          EXPECT_LE(normal, 1e-9 * largest);
+          EXPECT_LE(std::abs(tangential), -mu * normal + 1e-9 * largest);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EveryMethod, TwoMaterialsAndStiffContrastAgreeWithTheHybridizedOne) {
+  Mesh mesh = small_tooth(6, 5);
+  mesh.body_names = {"root", "tip"};
+  for (std::size_t t = mesh.triangles.size() / 2; t < mesh.triangles.size(); ++t)
+    mesh.triangle_body[t] = 1;
+  Scene scene;
+  scene.materials["tip"] = {2100, 0.45};
+  const auto problem = posed(scene, mesh);
+  const Solution solution = solve(problem);
+  const Solution other =
+      run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+  EXPECT_LE((solution.F_C - other.F_C).norm(), 1e-8 * other.F_C.norm());
+}
+
+TEST_P(EveryMethod, OutOfTimeIsATimeout) {
+  RunControl control;
+  control.deadline = Deadline::after(-1);
+  const Solution solution = solve(posed({}), control);
+  EXPECT_EQ(solution.status, Status::timeout);
+  EXPECT_NE(solution.message.find("time limit reached during"), std::string::npos);
+}
+
+TEST_P(EveryMethod, TooFewSweepsIsNotConverged) {
+  RunControl control;
+  control.contact_sweeps = 1;
+  const Solution solution = solve(posed({}), control);
+  EXPECT_EQ(solution.status, Status::not_converged);
+  EXPECT_NE(solution.message.find("natural map residual"), std::string::npos);
+}
+
+TEST_P(EveryMethod, CountsItsStorage) { EXPECT_GT(solve(posed({})).storage_bytes, 0u); }
+
+TEST(Methods, SelectionByNamesAndGlobs) {
+  EXPECT_EQ(select_methods("3STEPD").size(), 1u);
+  EXPECT_EQ(select_methods("*").size(), methods().size());
+  EXPECT_EQ(select_methods("HYBRID,3STEPD").front().name, "3STEPD");  // in the table's order
+  EXPECT_EQ(select_methods("3STEPD,3STEP*,3STEPD").size(), 2u);
+  try {
+    select_methods("3STEPD,4STEP");
+    FAIL() << "an unknown method was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "no method matches '4STEP' (valid: 3STEPD, 3STEPD:CHOLMOD, HYBRID; globs like "
+                 "'3STEP*')");
+  }
+  EXPECT_THROW(select_methods(""), std::invalid_argument);
+}
+
+Method made_up(std::function<Solution(const DualSystem&, const RunControl&)> solve) {
+  return {"MADE_UP", "for a test", false, Blocks::contact_points, {}, std::move(solve)};
+}
+
+TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
+  const DualSystem system = assemble(posed({}), Blocks::contact_points);
+  const auto status = [&](auto solve) { return run(made_up(solve), system, {}).status; };
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::bad_alloc(); }),
+            Status::out_of_memory);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw Breakdown("x"); }), Status::breakdown);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw TimeoutReached("x"); }), Status::timeout);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::logic_error("x"); }), Status::crashed);
+  EXPECT_EQ(status([](auto&, auto&) { return Solution{}; }), Status::crashed);
+  const auto claim_success = [](auto change) {
+    return [=](const DualSystem& s, const RunControl&) {
+      Solution solution;
+      solution.status = Status::ok;
+      solution.F_C = Eigen::VectorXd::Zero(s.contact.size());
+      solution.stress.assign(s.problem->mesh.triangles.size(), ElementStress::Zero());
+      change(solution);
+      return solution;
+    };
+  };
+  EXPECT_EQ(status(claim_success([](Solution&) {})), Status::ok);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C(1) = std::nan(""); })), Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress[3](1, 2) = INFINITY; })),
+            Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress.clear(); })), Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C.resize(1); })), Status::breakdown);
+}
+
+CondensedSystem three_step_condensed(const DualSystem& system) {
+  const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
+  return condense_in_three_steps(system,
+                                 [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); })
+      .condensed;
+}
+
+TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
+  const CondensedSystem condensed = three_step_condensed(assemble(posed({})));
+  EXPECT_EQ((condensed.D - condensed.D.transpose()).norm(), 0);
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(condensed.D).eigenvalues();
+  EXPECT_GT(eigenvalues(0), 1e-5 * eigenvalues(eigenvalues.size() - 1));
+}
+
+TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
+  for (const auto& [name, scene] : scene_variants()) {
+    const DualSystem system = assemble(posed(scene));
+    const CondensedSystem airy = three_step_condensed(system);
+    const HybridizedSystem hybrid = assemble_hybridized(*system.problem, system.contact);
+    CholmodFactor factor;
+    factor.analyse(hybrid.K_II);
+    factor.factor(hybrid.K_II);
+    const CondensedSystem other = condense(hybrid, factor);
+    EXPECT_LT((airy.D - other.D).norm(), 1e-11 * other.D.norm()) << name;
+    EXPECT_LE((airy.G - other.G).norm(), 1e-11 * other.G.norm()) << name;
+  }
+}
+
+TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
+  DualSystem system = assemble(posed({}));
+  SparseRows doubled = system.C_F;
+  doubled.row(1) = doubled.row(0);
+  system.C_F = doubled;
+  const Solution solution = run(select_methods("3STEPD").front(), system, {});
+  EXPECT_EQ(solution.status, Status::breakdown);
+  EXPECT_EQ(solution.message, "three-step condensation: K_FF is not positive definite to rounding");
+}
+
+TEST(Condensation, NotFiniteInputIsABreakdown) {
+  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const char* method : {"3STEPD", "3STEPD:CHOLMOD"}) {
+      DualSystem system = assemble(posed({}));
+      system.S.valuePtr()[5] = poison;
+      const Solution solution = run(select_methods(method).front(), system, {});
+      EXPECT_TRUE(solution.status == Status::breakdown || solution.status == Status::not_converged)
+          << method << ": " << name_of(solution.status);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace airybench
