@@ -1,0 +1,178 @@
+#include "bench/heap_probe.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <new>
+#include <thread>
+
+#include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
+#include "bench/rss_probe.hpp"
+#include "bench/workbench.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr std::int64_t MiB = 1024 * 1024;
+
+TEST(HeapProbe, CountsEveryKindOfAllocation) {
+  struct Kind {
+    const char* name;
+    std::function<void*()> allocate;
+  };
+  const Kind kinds[] = {
+      {"malloc", [] { return std::malloc(MiB); }},
+      {"calloc", [] { return std::calloc(MiB / 8, 8); }},
+      {"realloc", [] { return std::realloc(std::malloc(100), MiB); }},
+      {"aligned_alloc", [] { return std::aligned_alloc(64, MiB); }},
+      {"posix_memalign",
+       [] {
+         void* block = nullptr;
+         return posix_memalign(&block, 128, MiB) == 0 ? block : nullptr;
+       }},
+  };
+  for (const Kind& kind : kinds) {
+    const std::int64_t before = heap::live_bytes();
+    heap::reset_peak();
+    void* block = kind.allocate();
+    ASSERT_NE(block, nullptr) << kind.name;
+    EXPECT_NEAR(static_cast<double>(heap::live_bytes() - before), MiB, 8192) << kind.name;
+    EXPECT_GE(heap::peak_bytes(), heap::live_bytes()) << kind.name;
+    std::free(block);
+    EXPECT_EQ(heap::live_bytes(), before) << kind.name;
+    EXPECT_GE(heap::peak_bytes() - before, MiB) << kind.name;
+  }
+}
+
+TEST(HeapProbe, SeesOperatorNewAndEigen) {
+  const std::int64_t before = heap::live_bytes();
+  {
+    const auto array = std::make_unique<double[]>(MiB / 8);
+    EXPECT_GE(heap::live_bytes() - before, MiB);
+    const Eigen::MatrixXd matrix(512, 512);  // 2 MiB
+    EXPECT_GE(heap::live_bytes() - before, 3 * MiB);
+  }
+  EXPECT_EQ(heap::live_bytes(), before);
+}
+
+TEST(HeapProbe, CountsAllThreads) {
+  const std::int64_t before = heap::live_bytes();
+  void* block = nullptr;
+  std::thread([&] { block = std::malloc(MiB); }).join();
+  EXPECT_GE(heap::live_bytes() - before, MiB);
+  std::free(block);
+}
+
+TEST(HeapProbe, LimitRefusesWhatWouldPassIt) {
+  const heap::Limit limit(heap::live_bytes() + MiB);
+  EXPECT_THROW(std::make_unique<char[]>(2 * MiB), std::bad_alloc);
+  EXPECT_EQ(std::calloc(2 * MiB, 1), nullptr);
+  EXPECT_EQ(std::aligned_alloc(64, 2 * MiB), nullptr);
+  void* small = std::malloc(MiB / 2);
+  ASSERT_NE(small, nullptr);
+  void* moved = std::realloc(small, 4 * MiB);
+  EXPECT_EQ(moved, nullptr);
+  std::free(moved == nullptr ? small : moved);  // the block is still there
+}
+
+TEST(HeapProbe, FailedAndZeroSizedCallsKeepTheCount) {
+  const std::int64_t before = heap::live_bytes();
+  volatile std::size_t huge = SIZE_MAX / 2;
+  EXPECT_EQ(std::malloc(huge), nullptr);
+  EXPECT_EQ(std::calloc(huge, 4), nullptr);
+  std::free(nullptr);
+  void* block = std::malloc(64);
+  block = std::realloc(block, 0);
+  std::free(block);
+  EXPECT_EQ(heap::live_bytes(), before);
+}
+
+TEST(RssProbe, PeakFollowsTouchedMemoryAndCanBeReset) {
+  if (!rss::reset_peak()) FAIL() << "/proc/self/clear_refs cannot be written here";
+  const std::int64_t before = rss::peak_bytes().value();
+  {
+    std::vector<char> touched(64 * MiB, 1);
+    EXPECT_GE(rss::peak_bytes().value() - before, 60 * MiB);
+  }
+  ASSERT_TRUE(rss::reset_peak());
+  EXPECT_LT(rss::peak_bytes().value() - before, 30 * MiB);
+}
+
+CondensedSystem condensed(int size) {
+  std::srand(1);
+  const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
+  return {root * root.transpose() + Eigen::MatrixXd::Identity(size, size),
+          -size * Eigen::VectorXd::Random(size).cwiseAbs()};
+}
+
+TEST(Allocations, NoneInsideAContactSweep) {
+  for (const int components : {1, 2}) {
+    ContactPoints contact;
+    contact.components = components;
+    contact.count = 40 / components;
+    contact.friction = components == 2 ? 0.3 : 0;
+    const CondensedSystem system = condensed(40);
+    const auto allocations = [&](int sweeps) {
+      RunControl control;
+      control.contact_tolerance = 0;  // never met: all sweeps are made
+      control.contact_sweeps = sweeps;
+      const std::int64_t before = heap::allocations();
+      const ContactResult result = solve_contact_by_gauss_seidel(system, contact, control);
+      EXPECT_EQ(result.sweeps, sweeps);
+      return heap::allocations() - before;
+    };
+    EXPECT_EQ(allocations(3), allocations(30)) << components;
+  }
+}
+
+class MemoryRun : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun, ::testing::Values("3STEPD", "3STEPD:CHOLMOD"),
+                         [](const auto& method) { return "m" + std::to_string(method.index); });
+
+TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
+  Options options;
+  options.repetitions = 1;
+  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(16, 12))),
+                  options);
+  const Method method = select_methods(GetParam()).front();
+  Record record = bench.examine(method, {});
+  bench.measure_memory(method, record);
+  ASSERT_EQ(record.status, Status::ok) << record.status_reason;
+  const auto least =
+      static_cast<std::int64_t>(record.storage_bytes) + record.blocks_heap_bytes.value();
+  EXPECT_GE(record.peak_heap_bytes.value(), least);
+  EXPECT_LT(record.peak_heap_bytes.value(), 6 * least);
+  EXPECT_LE(record.assembly_peak_heap_bytes.value(), 3 * record.blocks_heap_bytes.value());
+}
+
+TEST_P(MemoryRun, AboveTheLimitIsOutOfMemory) {
+  Options options;
+  options.repetitions = 1;
+  options.memory_limit_bytes = MiB;
+  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(24, 24))),
+                  options);
+  const Record record = bench.examine(select_methods(GetParam()).front(), {});
+  EXPECT_EQ(record.status, Status::out_of_memory);
+}
+
+TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {
+  const auto problem = std::make_shared<const Problem>(
+      pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh7.msh")));
+  heap::reset_peak();
+  const std::int64_t before = heap::live_bytes();
+  const DualSystem system = assemble(problem);
+  const std::int64_t blocks = heap::live_bytes() - before;
+  EXPECT_LE(heap::peak_bytes() - before, 3 * blocks);
+  EXPECT_NEAR(static_cast<double>(blocks), static_cast<double>(system.bytes()),
+              0.05 * static_cast<double>(blocks));
+}
+
+}  // namespace
+}  // namespace airybench

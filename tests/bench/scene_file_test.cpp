@@ -1,0 +1,104 @@
+#include "bench/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace airybench {
+namespace {
+
+class SceneFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    file_ =
+        std::filesystem::path(::testing::TempDir()) /
+        (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
+  }
+  void TearDown() override { std::filesystem::remove(file_); }
+  Scene read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return read_scene(file_);
+  }
+  // The complaint without the file's name in front.
+  std::string complaint(const std::string& text) {
+    try {
+      read(text);
+    } catch (const SceneError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind(file_.string() + ": ", 0), 0u) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+      return what.substr(file_.string().size() + 2);
+    }
+    return "none";
+  }
+  std::filesystem::path file_;
+};
+
+TEST_F(SceneFile, MissingKeysTakeTheDefaults) {
+  const Scene scene = read("{}"), standard;
+  EXPECT_EQ(scene.name, "MissingKeysTakeTheDefaults");
+  EXPECT_EQ(scene.friction, standard.friction);
+  EXPECT_EQ(scene.crown_radius_mm, standard.crown_radius_mm);
+  EXPECT_EQ(scene.displacement_mm, standard.displacement_mm);
+  EXPECT_FALSE(scene.teeth);
+}
+
+TEST_F(SceneFile, EveryKeyIsRead) {
+  const Scene scene = read(R"({ "teeth": 1, "root_half_height_mm": 5, "length_mm": 10,
+    "tip_half_height_mm": 3, "young_MPa": 70000, "poisson": 0.33, "plane": "stress",
+    "friction": 0.5, "crown_radius_mm": null, "clearance_mm": 0.001,
+    "displacement_mm": [0.01, -0.002], "body_force_N_per_mm3": [1, 2],
+    "materials": { "tip": { "young_MPa": 3000 } } })");
+  EXPECT_EQ(scene.teeth, 1);
+  EXPECT_EQ(scene.root_half_height_mm, 5);
+  EXPECT_EQ(scene.length_mm, 10);
+  EXPECT_EQ(scene.tip_half_height_mm, 3);
+  EXPECT_EQ(scene.material.young_MPa, 70000);
+  EXPECT_EQ(scene.material.poisson, 0.33);
+  EXPECT_EQ(scene.plane, Plane::stress);
+  EXPECT_EQ(scene.friction, 0.5);
+  EXPECT_FALSE(scene.crown_radius_mm);
+  EXPECT_EQ(scene.clearance_mm, 0.001);
+  EXPECT_EQ(scene.displacement_mm, Eigen::Vector2d(0.01, -0.002));
+  EXPECT_EQ(scene.body_force_N_per_mm3, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(scene.materials.at("tip").young_MPa, 3000);
+  EXPECT_EQ(scene.materials.at("tip").poisson, 0.33);  // the scene's own
+}
+
+TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
+  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 32), "frction: unknown key (allowed: t");
+  EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
+  EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
+            "poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"young_MPa": 0})"), "young_MPa: 0 (allowed: > 0)");
+  EXPECT_EQ(complaint(R"({"plane": "bent"})"),
+            "plane: \"bent\" (allowed: \"strain\" or \"stress\")");
+  EXPECT_EQ(complaint(R"({"teeth": 0})"), "teeth: 0 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"teeth": 1.5})"),
+            "teeth: 1.5 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"length_mm": -2})"), "length_mm: -2 (allowed: a number > 0)");
+  EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
+            "displacement_mm: [1] (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
+            "crown_radius_mm: 0 (allowed: > 0, or null for a flat wall)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
+            "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
+            "materials: a: poisson: 0.7 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint("[]"), "the scene: [] (allowed: a JSON object)");
+  EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
+  EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");
+}
+
+TEST_F(SceneFile, AMissingFileIsNamed) {
+  try {
+    read_scene("no/such/scene.json");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened as a scene file");
+  }
+}
+
+}  // namespace
+}  // namespace airybench
