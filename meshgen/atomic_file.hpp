@@ -1,0 +1,13 @@
+// Files that are either the old or the new text, never a part of it.
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+namespace airybench {
+
+// Writes beside the file, then renames. Throws std::runtime_error "file: why"; the file that was
+// there is untouched then.
+void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace airybench

@@ -1,0 +1,116 @@
+#include "meshgen/commands.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+
+#include "assembly/mesh_selection.hpp"
+#include "assembly/msh_format.hpp"
+#include "assembly/sha256.hpp"
+#include "meshgen/atomic_file.hpp"
+#include "meshgen/catalogue.hpp"
+#include "meshgen/check.hpp"
+#include "meshgen/checksums.hpp"
+#include "meshgen/convert.hpp"
+#include "meshgen/gmsh_mesher.hpp"
+#include "meshgen/tooth_mesh.hpp"
+
+namespace airybench {
+namespace {
+
+std::string msh_text(const Mesh& mesh) {
+  std::ostringstream text;
+  write_msh(text, mesh);
+  return text.str();
+}
+
+void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
+  const MeshSizes sizes = mesh_sizes(mesh);
+  const MeshQuality quality = mesh_quality(mesh);
+  fmt::print(
+      "{}: n_phi {}, n_f {}, n_C {}; edges displacement {}, force {}, contact {}; vertices {}, "
+      "triangles {}, bodies {}; smallest angle {:.2f} degrees, mean ratio min {:.3f} mean {:.3f}\n",
+      file.string(), sizes.n_phi, sizes.n_f, sizes.n_c, sizes.displacement_edges, sizes.force_edges,
+      sizes.contact_edges, mesh.vertices.size(), mesh.triangles.size(), mesh.body_names.size(),
+      quality.smallest_angle_deg, quality.min_mean_ratio, quality.mean_mean_ratio);
+}
+
+}  // namespace
+
+int remake_command(const std::string& selection, const std::filesystem::path& repository,
+                   const std::optional<std::filesystem::path>& out) {
+  const std::vector<std::string> names = expand_mesh_selection(selection);
+  for (const std::string& name : names)
+    if (is_mesh_file(name))
+      throw std::invalid_argument(
+          fmt::format("--mesh: '{}' is a file; only Mesh0..Mesh7 can be made anew", name));
+  if (out) std::filesystem::create_directories(*out);
+
+  const GmshSession session;
+  bool all_identical = true;
+  for (const std::string& name : names) {
+    const std::string text = msh_text(make_catalogue_mesh(catalogue_row(name)));
+    const std::string hash = sha256_hex(text);
+    const std::filesystem::path file = repository / (name + ".msh");
+    const bool present = std::filesystem::exists(file);
+    const bool identical = present && sha256_of_file(file) == hash;
+    all_identical = all_identical && identical;
+    fmt::print("{}  {}  {}\n", name, hash,
+               identical ? "identical" : (present ? "differs from " : "missing: ") + file.string());
+    std::fflush(stdout);
+    if (out) write_file_atomically(*out / (name + ".msh"), text);
+  }
+  if (out) write_file_atomically(*out / checksums_file_name, checksums_of_folder(*out));
+  if (!all_identical)
+    fmt::print("The catalogue was made with Gmsh {}; this library is Gmsh {}.\n",
+               catalogue_gmsh_version, gmsh_version());
+  return all_identical ? 0 : 1;
+}
+
+int check_command(const std::filesystem::path& repository) {
+  const std::vector<CheckedMesh> meshes = check_folder(repository);
+  fmt::print(
+      "            |     n_phi     |    n_f    |    n_C    |               |     edges on     |"
+      " smallest |  mean ratio\n"
+      "mesh  teeth |  ours  Tab. 1 | ours Tab.1| ours Tab.1|     V    tri. | disp force cont. |"
+      "    angle |   min   mean\n");
+  bool fine = true;
+  for (const CheckedMesh& mesh : meshes) {
+    const CatalogueRow& row = *mesh.row;
+    fmt::print(
+        "{:<6}{:>5} | {:>5}  {:>6} | {:>4} {:>4} | {:>4} {:>4} | {:>5}  {:>6} | {:>4} {:>5} {:>5} |"
+        " {:>8.2f} | {:>5.3f}  {:>5.3f}\n",
+        row.name, row.teeth, mesh.sizes.n_phi, row.paper_n_phi, mesh.sizes.n_f, row.paper_n_f,
+        mesh.sizes.n_c, row.paper_n_c, mesh.vertices, mesh.triangles, mesh.sizes.displacement_edges,
+        mesh.sizes.force_edges, mesh.sizes.contact_edges, mesh.quality.smallest_angle_deg,
+        mesh.quality.min_mean_ratio, mesh.quality.mean_mean_ratio);
+    fine = fine && mesh.differences.empty();
+  }
+  fmt::print(
+      "Angles in degrees; mean ratio 4 sqrt(3) area / (sum of squared edges), 1 is equilateral.\n"
+      "Mesh0: Tab. 1 prints n_C = {}, which is no multiple of 4 (4 per contact edge); the mesh has "
+      "{}.\n",
+      catalogue[0].paper_n_c, mesh0_n_c);
+  for (const CheckedMesh& mesh : meshes)
+    for (const std::string& difference : mesh.differences) fmt::print("{}\n", difference);
+  fmt::print("{}\n", fine ? "All meshes are as they should be." : "Some meshes differ.");
+  return fine ? 0 : 1;
+}
+
+int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
+                  std::optional<int> vertices, const std::filesystem::path& out) {
+  const GmshSession session;
+  const Mesh mesh = tooth_mesh(dimensions, edges, vertices, out.stem().string());
+  write_file_atomically(out, msh_text(mesh));
+  print_summary(out, mesh);
+  return 0;
+}
+
+int convert_command(const std::filesystem::path& model, const std::filesystem::path& out) {
+  const Mesh mesh = convert_model(model);
+  write_file_atomically(out, msh_text(mesh));
+  print_summary(out, mesh);
+  return 0;
+}
+
+}  // namespace airybench

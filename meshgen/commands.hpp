@@ -1,0 +1,29 @@
+// What the `meshgen` command does; one function per mode. They print to standard output and return
+// the exit code: 0 fine, 1 a difference was found. Complaints are thrown: std::invalid_argument for
+// wrong usage, any other std::exception for what cannot be done.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "meshgen/tooth_geometry.hpp"
+
+namespace airybench {
+
+// Makes catalogue meshes anew and compares them with the files in `repository`; writes them and
+// SHA256SUMS to `out` if given (made when missing).
+int remake_command(const std::string& selection, const std::filesystem::path& repository,
+                   const std::optional<std::filesystem::path>& out);
+
+// Prints the files of `repository` beside the paper's Tab. 1.
+int check_command(const std::filesystem::path& repository);
+
+// Writes one tooth or rack of the user's own dimensions.
+int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
+                  std::optional<int> vertices, const std::filesystem::path& out);
+
+// Writes a user's Gmsh model in our format.
+int convert_command(const std::filesystem::path& model, const std::filesystem::path& out);
+
+}  // namespace airybench

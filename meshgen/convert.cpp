@@ -1,0 +1,251 @@
+#include "meshgen/convert.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gmsh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "meshgen/gmsh_mesher.hpp"
+#include "meshgen/quiet_stdout.hpp"
+
+namespace airybench {
+namespace {
+
+using Nodes = std::array<std::size_t, 2>;  // Gmsh node numbers of an edge, in walking order
+
+// The elements of our two kinds as Gmsh numbers them.
+struct GmshTriangle {
+  std::array<std::size_t, 3> nodes;
+  int body;
+};
+struct GmshModel {
+  std::map<std::size_t, std::array<double, 3>> position;  // of the nodes in use
+  std::vector<GmshTriangle> triangles;
+  std::vector<std::string> body_names;
+  std::map<Nodes, BoundaryRole> role_of_line;
+};
+
+[[noreturn]] void fail(const std::string& what) { throw MeshError(what); }
+
+std::string list_of(const std::vector<std::string>& other_groups) {
+  if (other_groups.empty()) return "";
+  return fmt::format(" (others found: {})", fmt::join(other_groups, ", "));
+}
+
+std::vector<int> entities_of(int dimension, int group) {
+  std::vector<int> entities;
+  gmsh::model::getEntitiesForPhysicalGroup(dimension, group, entities);
+  return entities;
+}
+
+// Node numbers of an entity's elements, which must all be of the Gmsh type `wanted`.
+std::vector<std::size_t> elements_of(int dimension, int entity, int wanted,
+                                     std::string_view allowed) {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
+  for (const int type : types) {
+    if (type == wanted) continue;
+    std::string type_name;
+    int type_dimension, order, node_count, primary_nodes;
+    std::vector<double> local;
+    gmsh::model::mesh::getElementProperties(type, type_name, type_dimension, order, node_count,
+                                            local, primary_nodes);
+    fail(fmt::format("{} {} has elements '{}'; only {} are allowed",
+                     dimension == 1 ? "curve" : "surface", entity, type_name, allowed));
+  }
+  return nodes.empty() ? std::vector<std::size_t>() : nodes.front();
+}
+
+void read_triangles(GmshModel& model) {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  if (groups.empty())
+    fail("no physical surface; at least one is needed (one per body; any name is allowed)");
+  std::map<int, int> group_of_surface;
+  for (const auto& [dimension, group] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(2, group, name);
+    if (name.empty()) name = groups.size() == 1 ? "body" : fmt::format("body{}", group);
+    if (name.find_first_of("\"\n") != name.npos)
+      fail(fmt::format("physical surface {}: its name must not hold quotes or line ends", group));
+    const auto known = std::find(model.body_names.begin(), model.body_names.end(), name);
+    const int body = static_cast<int>(known - model.body_names.begin());
+    if (known == model.body_names.end()) model.body_names.push_back(name);
+    for (const int surface : entities_of(2, group)) {
+      if (!group_of_surface.emplace(surface, group).second)
+        fail(fmt::format("surface {} is in the physical surfaces {} and {}; one body is allowed",
+                         surface, group_of_surface[surface], group));
+      constexpr int gmsh_triangle = 2;
+      const auto nodes = elements_of(2, surface, gmsh_triangle, "3-node triangles");
+      for (std::size_t k = 0; k < nodes.size(); k += 3)
+        model.triangles.push_back({{nodes[k], nodes[k + 1], nodes[k + 2]}, body});
+    }
+  }
+  if (model.triangles.empty()) {
+    std::string reason;
+    gmsh::logger::getLastError(reason);
+    fail("its physical surfaces hold no triangles" + (reason.empty() ? "" : "; Gmsh: " + reason));
+  }
+}
+
+void read_lines(GmshModel& model, std::vector<std::string>& other_groups) {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 1);
+  for (const auto& [dimension, group] : groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(1, group, name);
+    const auto known = std::find(boundary_role_names.begin(), boundary_role_names.end(), name);
+    if (known == boundary_role_names.end()) {
+      other_groups.push_back(name.empty() ? std::to_string(group) : "'" + name + "'");
+      continue;
+    }
+    const auto role = static_cast<BoundaryRole>(known - boundary_role_names.begin());
+    for (const int curve : entities_of(1, group)) {
+      constexpr int gmsh_line = 1;
+      const auto nodes = elements_of(1, curve, gmsh_line, "2-node lines");
+      for (std::size_t k = 0; k < nodes.size(); k += 2) {
+        const auto [entry, is_new] = model.role_of_line.emplace(
+            Nodes{std::min(nodes[k], nodes[k + 1]), std::max(nodes[k], nodes[k + 1])}, role);
+        if (!is_new)
+          fail(fmt::format(
+              "curve {}: an edge is in the physical curves {} and {}; one role is allowed", curve,
+              boundary_role_names[static_cast<std::size_t>(entry->second)], name));
+      }
+    }
+  }
+  if (std::none_of(model.role_of_line.begin(), model.role_of_line.end(),
+                   [](const auto& line) { return line.second == BoundaryRole::displacement; }))
+    fail(fmt::format(
+        "no edges in a physical curve named displacement{}; it is needed, force and contact are "
+        "allowed",
+        list_of(other_groups)));
+}
+
+// Positions of the triangles' nodes; refuses a model that is not in a plane z = constant.
+void read_positions(GmshModel& model) {
+  std::vector<std::size_t> nodes;
+  std::vector<double> xyz, parameters;
+  gmsh::model::mesh::getNodes(nodes, xyz, parameters, -1, -1, false, false);
+  std::map<std::size_t, std::size_t> row_of_node;
+  for (std::size_t row = 0; row < nodes.size(); ++row) row_of_node.emplace(nodes[row], row);
+  for (const GmshTriangle& triangle : model.triangles) {
+    for (const std::size_t node : triangle.nodes) {
+      const auto row = row_of_node.find(node);
+      if (row == row_of_node.end()) fail(fmt::format("node {} does not exist", node));
+      const double* p = &xyz[3 * row->second];
+      model.position.emplace(node, std::array{p[0], p[1], p[2]});
+    }
+  }
+  const double z0 = model.position.begin()->second[2];
+  double extent = 0;
+  for (const auto& [node, p] : model.position)
+    extent = std::max({extent, std::abs(p[0]), std::abs(p[1])});
+  for (const auto& [node, p] : model.position)
+    if (!(std::abs(p[2] - z0) <= 1e-9 * extent))
+      fail(fmt::format("node {} has z = {}, others {}; the body must lie in a plane z = constant",
+                       node, p[2], z0));
+}
+
+void orient(GmshModel& model) {
+  const auto point = [&](std::size_t node) {
+    const auto& p = model.position.at(node);
+    return Eigen::Vector2d(p[0], p[1]);
+  };
+  for (GmshTriangle& triangle : model.triangles) {
+    auto& [a, b, c] = triangle.nodes;
+    const Eigen::Vector2d pa = point(a), pb = point(b), pc = point(c);
+    const double twice_area = cross_area(pa, pb, pc);
+    const double longest_squared =
+        std::max({(pb - pa).squaredNorm(), (pc - pb).squaredNorm(), (pa - pc).squaredNorm()});
+    if (!(std::abs(twice_area) > flat_triangle_tolerance * longest_squared))
+      fail(fmt::format("triangle of nodes {}, {}, {} at ({:.6g}, {:.6g}) has zero area", a, b, c,
+                       pa.x(), pa.y()));
+    if (twice_area < 0) std::swap(b, c);
+  }
+}
+
+Mesh renumbered(const GmshModel& model, const std::vector<std::string>& other_groups) {
+  Mesh mesh;
+  mesh.body_names = model.body_names;
+  std::map<std::size_t, int> vertex;
+  for (const auto& [node, p] : model.position) {
+    vertex.emplace(node, static_cast<int>(mesh.vertices.size()));
+    mesh.vertices.emplace_back(p[0], p[1]);
+  }
+  std::set<Nodes> sides;
+  for (const auto& [nodes, body] : model.triangles) {
+    mesh.triangles.push_back({vertex[nodes[0]], vertex[nodes[1]], vertex[nodes[2]]});
+    mesh.triangle_body.push_back(body);
+    for (std::size_t k = 0; k < 3; ++k) sides.insert({nodes[k], nodes[(k + 1) % 3]});
+  }
+
+  const auto place = [&](const Nodes& line) {
+    const auto &a = model.position.at(line[0]), &b = model.position.at(line[1]);
+    return fmt::format("edge from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", a[0], a[1], b[0], b[1]);
+  };
+  auto without_side = model.role_of_line;
+  for (const Nodes& side : sides) {
+    if (sides.contains({side[1], side[0]})) continue;
+    const auto role = without_side.find({std::min(side[0], side[1]), std::max(side[0], side[1])});
+    if (role == without_side.end())
+      fail(fmt::format("boundary {} is in no physical curve named displacement, force or contact{}",
+                       place(side), list_of(other_groups)));
+    mesh.boundary.push_back({{vertex[side[0]], vertex[side[1]]}, role->second});
+    without_side.erase(role);
+  }
+  if (!without_side.empty()) {
+    const auto& [line, role] = *without_side.begin();
+    const auto name = boundary_role_names[static_cast<std::size_t>(role)];
+    if (!model.position.contains(line[0]) || !model.position.contains(line[1]))
+      fail(fmt::format("physical curve '{}' has an edge that touches no triangle", name));
+    fail(fmt::format("physical curve '{}': {} is not on the body's boundary", name, place(line)));
+  }
+  return mesh;
+}
+
+Mesh convert_open_model() {
+  std::vector<int> types;
+  std::vector<std::vector<std::size_t>> elements, nodes;
+  gmsh::model::mesh::getElements(types, elements, nodes, 2);
+  if (types.empty()) gmsh::model::mesh::generate(2);
+
+  GmshModel model;
+  std::vector<std::string> other_groups;  // physical curves that are none of the three roles
+  read_triangles(model);
+  read_lines(model, other_groups);
+  read_positions(model);
+  orient(model);
+  return renumbered(model, other_groups);
+}
+
+}  // namespace
+
+Mesh convert_model(const std::filesystem::path& model) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(model, error))
+    throw MeshError(model.string() + ": no such file");
+  Mesh mesh;
+  try {
+    const GmshSession session;
+    {
+      const QuietStdout quiet;  // OpenCASCADE, inside Gmsh, complains there whatever Gmsh is told
+      gmsh::open(model.string());
+    }
+    mesh = convert_open_model();
+  } catch (const std::string& message) {
+    throw MeshError(model.string() + ": Gmsh: " + message);
+  } catch (const MeshError& complaint) {
+    throw MeshError(model.string() + ": " + complaint.what());
+  }
+  mesh.name = model.string();  // for validate() to complain about
+  validate(mesh);
+  mesh.name = model.stem().string();
+  return mesh;
+}
+
+}  // namespace airybench

@@ -1,0 +1,23 @@
+// A user's Gmsh model as a mesh of ours.
+//
+// The model (.geo, .msh of any version, .step and whatever else Gmsh opens) needs physical curves
+// named displacement (at least one), force, contact, which together make the whole boundary, and
+// one or more physical surfaces, each a body of its own material. It is meshed if it holds no
+// surface mesh yet. Other physical groups are left aside; so are surfaces in no physical group.
+#pragma once
+
+#include <filesystem>
+
+#include "assembly/mesh.hpp"
+
+namespace airybench {
+
+// Opens a GmshSession of its own (none may live), because a model may set Gmsh's options. Nodes of
+// no triangle are dropped, vertices numbered in the order of Gmsh's node numbers, triangles turned
+// counter-clockwise, boundary edges walked with the body on the left; coordinates are kept as they
+// are, in mm. A surface group without a name becomes "body", or "body<number>" when there are
+// several groups. The result is valid. Throws MeshError, one line "file: what is wrong", with
+// Gmsh's own message where it fails.
+Mesh convert_model(const std::filesystem::path& model);
+
+}  // namespace airybench

@@ -1,0 +1,226 @@
+// The built `meshgen`, run as a user runs it.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "assembly/msh_format.hpp"
+#include "assembly/sha256.hpp"
+#include "meshgen/catalogue.hpp"
+#include "meshgen/gmsh_mesher.hpp"
+#include "tests/meshgen/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::text_of, testing::write_text;
+
+const std::string tooth = "--tooth --contact-edges=8 --force-edges=20 --displacement-edges=6 ";
+
+struct Outcome {
+  int exit_code;
+  std::string out, err;
+};
+
+class Command : public ::testing::Test {
+ protected:
+  // Arguments as in a shell, in the folder of this test.
+  Outcome run(const std::string& arguments, const std::string& environment = "") const {
+    const std::string command = "cd '" + folder.path().string() + "' && " + environment + " '" +
+                                MESHGEN_COMMAND "' " + arguments + " >.out 2>.err";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".out"),
+            text_of(folder / ".err")};
+  }
+  // Exit code 2 or 1, nothing on standard output, one line on standard error that holds `parts`.
+  void expect_refusal(const std::string& arguments, int exit_code,
+                      std::initializer_list<const char*> parts) const {
+    SCOPED_TRACE("meshgen " + arguments);
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("meshgen: ")) << outcome.err;
+    for (const char* part : parts)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+  // Names in the test's folder but for the two of run().
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder.path()))
+      if (entry.path().filename() != ".out" && entry.path().filename() != ".err")
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  bool gmsh_is_the_catalogues() const {
+    const GmshSession session;
+    return gmsh_version() == catalogue_gmsh_version;
+  }
+
+  const testing::TemporaryFolder folder;
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(Command, HelpNamesTheModes) {
+  const Outcome outcome = run("--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* mode : {"--mesh", "--check", "--tooth", "--convert"})
+    EXPECT_NE(outcome.out.find(mode), std::string::npos) << mode;
+}
+
+TEST_F(Command, WrongUsageIsOneLineAndExitCode2) {
+  expect_refusal("", 2, {"--mesh, --check, --tooth, --convert"});
+  expect_refusal("--check --mesh=Mesh0", 2, {"--mesh, --check, --tooth, --convert"});
+  expect_refusal("--fancy", 2, {"--fancy", "valid:", "--mesh", "--convert"});
+  expect_refusal("Mesh0", 2, {"Mesh0", "valid:", "--mesh"});
+  expect_refusal("--mesh", 2, {"--mesh", "valid:"});
+  expect_refusal("--mesh=Mesh8", 2, {"'Mesh8'", "valid: Mesh0..Mesh7"});
+  expect_refusal("--mesh=Mesh3..Mesh0", 2, {"'Mesh3..Mesh0'", "valid: Mesh0..Mesh7"});
+  expect_refusal("--mesh=Mesh0,", 2, {"''", "valid: Mesh0..Mesh7"});
+  expect_refusal("--mesh='Rack*'", 2, {"'Rack*'", "valid: Mesh0..Mesh7"});
+  expect_refusal("--mesh=own.msh", 2, {"'own.msh'", "Mesh0..Mesh7"});
+  expect_refusal("--check --out=x.msh", 2, {"--out", "--check"});
+  expect_refusal("--check --teeth=2", 2, {"--teeth", "--tooth"});
+  expect_refusal("--convert=a.geo", 2, {"--out"});
+  expect_refusal("--convert=a.geo --out=b.txt", 2, {"'b.txt'", ".msh"});
+  expect_refusal("--tooth --out=a.msh --force-edges=9", 2, {"--contact-edges"});
+  EXPECT_EQ(files(), Names{});
+}
+
+TEST_F(Command, BadNumbersAreRefused) {
+  expect_refusal(tooth + "--out=a.msh --teeth=two", 2, {"--teeth", "two"});
+  expect_refusal(tooth + "--out=a.msh --teeth=0", 2, {"--teeth", "0", "1 to 1000000"});
+  expect_refusal(tooth + "--out=a.msh --vertices=-5", 2, {"--vertices", "-5", "1 to 1000000"});
+  expect_refusal(tooth + "--out=a.msh --vertices=10", 2, {"vertices: 10", "34"});
+  expect_refusal(tooth + "--out=a.msh --length=0", 2, {"length is 0 mm", "positive"});
+  expect_refusal(tooth + "--out=a.msh --length=nan", 2, {"length is nan mm", "positive"});
+  expect_refusal(tooth + "--out=a.msh --teeth=3 --pitch=9", 2, {"pitch is 9 mm", "10"});
+  expect_refusal(tooth + "--out=a.msh --teeth=9", 2, {"contact edges: 8", "9"});
+  EXPECT_EQ(files(), Names{});
+}
+
+TEST_F(Command, MeshThatCannotBeMadeLeavesTheOldFile) {
+  write_text(folder / "old.msh", "old");
+  expect_refusal(tooth + "--out=old.msh --vertices=34", 1, {"34 vertices", "nearest"});
+  expect_refusal("--convert=no.geo --out=old.msh", 1, {"no.geo: no such file"});
+  EXPECT_EQ(text_of(folder / "old.msh"), "old");
+  EXPECT_EQ(files(), Names{"old.msh"});
+}
+
+TEST_F(Command, FileThatCannotBeWritten) {
+  expect_refusal(tooth + "--out=nowhere/a.msh", 1,
+                 {"nowhere/a.msh: cannot be written: No such file or directory"});
+  fs::create_directory(folder / "taken.msh");
+  expect_refusal(tooth + "--out=taken.msh", 1, {"taken.msh: cannot be written"});
+  EXPECT_EQ(files(), Names{"taken.msh"});
+}
+
+TEST_F(Command, ToothOfOwnDimensions) {
+  const Outcome outcome = run(tooth + "--out=own.msh --vertices=90 --length=12");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  const Mesh mesh = read_msh(folder / "own.msh");
+  EXPECT_EQ(mesh.vertices.size(), 90u);
+  EXPECT_EQ(mesh.vertices[10], Eigen::Vector2d(12, -3));
+  EXPECT_NE(outcome.out.find("own.msh: n_phi 503, n_f 80, n_C 32;"), std::string::npos)
+      << outcome.out;
+  EXPECT_EQ(files(), Names{"own.msh"});
+}
+
+TEST_F(Command, RackOfOwnDimensions) {
+  const Outcome outcome =
+      run("--tooth --teeth=2 --contact-edges=6 --force-edges=30 --displacement-edges=5 --pitch=14 "
+          "--block-depth=3 --root-half-height=6 --tip-half-height=2 --out=rack.msh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Mesh mesh = read_msh(folder / "rack.msh");
+  double left = 0, top = 0;
+  for (const auto& vertex : mesh.vertices) {
+    left = std::min(left, vertex.x());
+    top = std::max(top, vertex.y());
+  }
+  EXPECT_EQ(left, -3);
+  EXPECT_EQ(top, 28);
+}
+
+TEST_F(Command, ConvertsAModel) {
+  write_text(folder / "square.geo", R"(
+Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {1, 1, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};
+Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Physical Curve("displacement") = {1, 2, 3};
+Physical Surface("steel") = {1};
+)");
+  const Outcome outcome = run("--convert=square.geo --out=square.msh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(read_msh(folder / "square.msh").body_names, Names{"steel"});
+  EXPECT_EQ(files(), (Names{"square.geo", "square.msh"}));
+}
+
+TEST_F(Command, CheckOfTheRepositoryPasses) {
+  const Outcome outcome = run("--check");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  for (const char* part : {"Mesh7", "50483", "Tab. 1 prints n_C = 38", "the mesh has 40"})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
+}
+
+TEST_F(Command, CheckNoticesAnotherMesh) {
+  fs::copy(MESH_DIR, folder / "meshes");
+  fs::copy_file(folder / "meshes/Mesh0.msh", folder / "meshes/Mesh1.msh",
+                fs::copy_options::overwrite_existing);
+  const Outcome outcome = run("--check --meshes=meshes");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("Mesh1: n_phi is 761, should be 1973\n"), std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(Command, CheckNoticesAnotherHashAndObeysTheEnvironment) {
+  fs::copy(MESH_DIR, folder / "meshes");
+  write_text(folder / "meshes/Mesh2.msh", text_of(folder / "meshes/Mesh2.msh") + "\n");
+  const Outcome outcome = run("--check", "AIRYBENCH_MESH_DIR=meshes");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("Mesh2: SHA256SUMS has another hash\n"), std::string::npos)
+      << outcome.out;
+}
+
+TEST_F(Command, CheckNeedsTheFiles) {
+  expect_refusal("--check --meshes=nowhere", 1, {"nowhere/SHA256SUMS: cannot be opened"});
+  fs::copy(MESH_DIR, folder / "meshes");
+  fs::remove(folder / "meshes/Mesh5.msh");
+  expect_refusal("--check --meshes=meshes", 1, {"meshes/Mesh5.msh: cannot be opened"});
+}
+
+TEST_F(Command, RemakesIdenticalFiles) {
+  if (!gmsh_is_the_catalogues()) GTEST_SKIP() << "another version of Gmsh makes other meshes";
+  const Outcome outcome = run("--mesh='Mesh0..Mesh1,Mesh[0-2]' --out=new");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
+  std::string expected;
+  for (const std::string name : {"Mesh0", "Mesh1", "Mesh2"}) {
+    const fs::path file = fs::path(MESH_DIR) / (name + ".msh");
+    expected += name + "  " + sha256_of_file(file) + "  identical\n";
+    EXPECT_EQ(sha256_of_file(folder / "new" / (name + ".msh")), sha256_of_file(file));
+  }
+  EXPECT_EQ(outcome.out, expected);
+  EXPECT_EQ(std::system(("cd '" + (folder / "new").string() +
+                         "' && sha256sum --status --strict -c SHA256SUMS")
+                            .c_str()),
+            0);
+}
+
+TEST_F(Command, RemakeNoticesADifferenceAndSaysTheVersions) {
+  fs::create_directory(folder / "meshes");
+  write_text(folder / "meshes/Mesh0.msh", "another mesh");
+  const Outcome outcome = run("--mesh=Mesh0,Mesh1 --meshes=meshes");
+  EXPECT_EQ(outcome.exit_code, 1);
+  for (const char* part : {"  differs from meshes/Mesh0.msh\n", "  missing: meshes/Mesh1.msh\n",
+                           "The catalogue was made with Gmsh 4.8.4; this library is Gmsh "})
+    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  EXPECT_EQ(text_of(folder / "meshes/Mesh0.msh"), "another mesh");
+}
+
+}  // namespace
+}  // namespace airybench

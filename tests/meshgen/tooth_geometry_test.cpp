@@ -1,0 +1,211 @@
+#include "meshgen/tooth_geometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <stdexcept>
+
+namespace airybench {
+namespace {
+
+constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
+               contact = BoundaryRole::contact;
+
+ToothDimensions rack(int teeth) {
+  ToothDimensions dimensions;
+  dimensions.teeth = teeth;
+  return dimensions;
+}
+
+// Shoelace formula; positive when counter-clockwise.
+double area(const BoundaryPolygon& polygon) {
+  double twice = 0;
+  const std::size_t n = polygon.vertices.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto &a = polygon.vertices[i], &b = polygon.vertices[(i + 1) % n];
+    twice += a.x() * b.y() - b.x() * a.y();
+  }
+  return twice / 2;
+}
+
+double edge_length(const BoundaryPolygon& polygon, std::size_t i) {
+  return (polygon.vertices[(i + 1) % polygon.vertices.size()] - polygon.vertices[i]).norm();
+}
+
+std::map<BoundaryRole, int> counts(const BoundaryPolygon& polygon) {
+  std::map<BoundaryRole, int> count;
+  for (const BoundaryRole role : polygon.roles) ++count[role];
+  return count;
+}
+
+TEST(BoundarySegments, OneToothIsATrapezoid) {
+  const auto segments = boundary_segments({});
+  ASSERT_EQ(segments.size(), 4u);
+  EXPECT_EQ(segments[0].start, Eigen::Vector2d(0, -5));
+  EXPECT_EQ(segments[1].start, Eigen::Vector2d(10, -3));
+  EXPECT_EQ(segments[2].start, Eigen::Vector2d(10, 3));
+  EXPECT_EQ(segments[3].start, Eigen::Vector2d(0, 5));
+  EXPECT_EQ(segments[0].role, force);
+  EXPECT_EQ(segments[1].role, contact);
+  EXPECT_EQ(segments[2].role, force);
+  EXPECT_EQ(segments[3].role, displacement);
+}
+
+TEST(BoundarySegments, AreClosed) {
+  for (const int teeth : {1, 2, 4, 7}) {
+    const auto segments = boundary_segments(rack(teeth));
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+      EXPECT_EQ(segments[i].end, segments[(i + 1) % segments.size()].start);
+      EXPECT_GT(segments[i].length(), 0);
+    }
+  }
+}
+
+TEST(BoundarySegments, RackOfFour) {
+  const auto segments = boundary_segments(rack(4));
+  int tips = 0;
+  for (const auto& segment : segments) {
+    if (segment.role == contact) {
+      const double axis_y = 6.25 + 12.5 * tips++;
+      EXPECT_EQ(segment.start, Eigen::Vector2d(10, axis_y - 3));
+      EXPECT_EQ(segment.end, Eigen::Vector2d(10, axis_y + 3));
+    }
+    if (segment.role == displacement) {
+      EXPECT_EQ(segment.start, Eigen::Vector2d(-6, 50));
+      EXPECT_EQ(segment.end, Eigen::Vector2d(-6, 0));
+    }
+  }
+  EXPECT_EQ(tips, 4);
+  EXPECT_EQ(segments.size(), 4u * 3 + 5 + 2 + 1);  // teeth, gaps, bottom and top, displacement
+}
+
+TEST(BoundarySegments, TouchingRootsLeaveNoGaps) {
+  ToothDimensions dimensions = rack(3);
+  dimensions.pitch = 2 * dimensions.root_half_height;
+  EXPECT_EQ(boundary_segments(dimensions).size(), 3u * 3 + 2 + 1);
+}
+
+TEST(BoundaryPolygon, ClosedCounterClockwiseWithTheBodysArea) {
+  EXPECT_NEAR(area(boundary_polygon({}, {6, 24, 10})), 80, 1e-8);
+  EXPECT_NEAR(area(boundary_polygon(rack(4), {21, 98, 50})), 6 * 50 + 4 * 80, 1e-8);
+}
+
+TEST(BoundaryPolygon, EdgeCountsAreExact) {
+  for (const EdgeCounts& edges : {EdgeCounts{6, 24, 10}, {1, 2, 1}, {3, 17, 5}}) {
+    auto count = counts(boundary_polygon({}, edges));
+    EXPECT_EQ(count[displacement], edges.displacement);
+    EXPECT_EQ(count[force], edges.force);
+    EXPECT_EQ(count[contact], edges.contact);
+  }
+}
+
+TEST(BoundaryPolygon, ContactEdgesAreSharedOutTwelveOrThirteenPerTooth) {
+  const BoundaryPolygon polygon = boundary_polygon(rack(4), {21, 98, 50});
+  std::vector<int> per_tooth(4, 0);
+  for (std::size_t i = 0; i < polygon.roles.size(); ++i)
+    if (polygon.roles[i] == contact) ++per_tooth[static_cast<int>(polygon.vertices[i].y() / 12.5)];
+  EXPECT_EQ(per_tooth, (std::vector{13, 13, 12, 12}));
+}
+
+TEST(BoundaryPolygon, ContactAndDisplacementEdgesAreEqual) {
+  const BoundaryPolygon polygon = boundary_polygon({}, {6, 24, 10});
+  for (std::size_t i = 0; i < polygon.roles.size(); ++i) {
+    if (polygon.roles[i] == force) continue;
+    EXPECT_NEAR(edge_length(polygon, i), polygon.roles[i] == contact ? 0.6 : 10.0 / 6, 1e-9);
+  }
+}
+
+TEST(BoundaryPolygon, FlankEdgesAreGradedTowardsTheContactFace) {
+  const EdgeCounts edges{6, 24, 10};
+  const BoundaryPolygon polygon = boundary_polygon({}, edges);
+  // On a flank ds/h is the same for all edges, so lengths have the ratio of h at their ends.
+  const double ratio = std::pow((6.0 / 10) / (10.0 / 6), 1.0 / 10);  // of h per mm of x
+  for (std::size_t i = 0; i + 1 < 12; ++i) {
+    const double shrink = edge_length(polygon, i + 1) / edge_length(polygon, i);
+    const double x0 = polygon.vertices[i].x(), x2 = polygon.vertices[i + 2].x();
+    EXPECT_LT(shrink, 1);
+    EXPECT_GT(shrink, std::pow(ratio, x2 - x0));
+    EXPECT_NEAR(polygon.vertices[i].y(), -5 + 0.2 * x0, 1e-9);  // on the straight flank
+  }
+  const SizeField h = size_field({}, edges);
+  const double first = edge_length(polygon, 0) / h.at(polygon.vertices[1].x() / 2);
+  const double last = edge_length(polygon, 11) / h.at((polygon.vertices[11].x() + 10) / 2);
+  EXPECT_NEAR(first, last, 0.01 * first);
+}
+
+TEST(BoundaryPolygon, OneToothIsSymmetric) {
+  const BoundaryPolygon polygon = boundary_polygon({}, {6, 24, 10});
+  // Vertices 0..12 go up the lower flank, 22..34 down the upper one.
+  for (std::size_t k = 0; k <= 12; ++k) {
+    EXPECT_NEAR(polygon.vertices[k].x(), polygon.vertices[34 - k].x(), 2e-10);
+    EXPECT_NEAR(polygon.vertices[k].y(), -polygon.vertices[34 - k].y(), 2e-10);
+  }
+}
+
+TEST(SizeField, RunsGeometricallyFromDisplacementToContact) {
+  const SizeField h = size_field(rack(4), {40, 230, 160});
+  EXPECT_DOUBLE_EQ(h.at(-6), 50.0 / 40);
+  EXPECT_DOUBLE_EQ(h.at(10), 24.0 / 160);
+  EXPECT_DOUBLE_EQ(h.at(2), std::sqrt(h.at(-6) * h.at(10)));  // half-way
+  EXPECT_DOUBLE_EQ(h.at(2, 2), h.h_d * std::pow(h.h_c / h.h_d, 0.25));
+  EXPECT_DOUBLE_EQ(h.at(-7), h.h_d);
+  EXPECT_DOUBLE_EQ(h.at(11), h.h_c);
+}
+
+TEST(RoundedCoordinate, ToTenDecimalsWithoutNegativeZero) {
+  EXPECT_EQ(rounded_coordinate(1.23456789012345), 1.2345678901);
+  EXPECT_EQ(rounded_coordinate(-5), -5);
+  EXPECT_FALSE(std::signbit(rounded_coordinate(-1e-12)));
+}
+
+std::string complaint(const ToothDimensions& dimensions, const EdgeCounts& edges) {
+  try {
+    boundary_polygon(dimensions, edges);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(BoundaryPolygon, RefusesImpossibleDimensions) {
+  const EdgeCounts edges{6, 40, 10};
+  ToothDimensions bad;
+  bad.root_half_height = 0;
+  EXPECT_EQ(complaint(bad, edges), "root half height is 0 mm; a positive number is needed");
+  bad = {};
+  bad.length = -10;
+  EXPECT_EQ(complaint(bad, edges), "length is -10 mm; a positive number is needed");
+  bad = {};
+  bad.tip_half_height = std::nan("");
+  EXPECT_EQ(complaint(bad, edges), "tip half height is nan mm; a positive number is needed");
+  bad = rack(0);
+  EXPECT_EQ(complaint(bad, edges), "teeth is 0; at least 1 is needed");
+  bad = rack(2);
+  bad.pitch = 9;
+  EXPECT_EQ(complaint(bad, edges),
+            "pitch is 9 mm; the roots need at least 10 (twice the root half height)");
+  bad.tip_half_height = 7;
+  bad.pitch = 14;
+  EXPECT_EQ(complaint(bad, edges),
+            "pitch is 14 mm; the tips need more than 14 (twice the tip half height)");
+  bad = rack(2);
+  bad.block_depth = 0;
+  EXPECT_EQ(complaint(bad, edges), "block depth is 0 mm; a positive number is needed");
+}
+
+TEST(BoundaryPolygon, RackOnlyDimensionsDoNotMatterToOneTooth) {
+  ToothDimensions tooth;
+  tooth.pitch = 1;
+  tooth.block_depth = -1;
+  EXPECT_EQ(complaint(tooth, {6, 24, 10}), "no complaint");
+}
+
+TEST(BoundaryPolygon, RefusesTooFewEdges) {
+  EXPECT_EQ(complaint({}, {0, 24, 10}), "displacement edges: 0; at least 1 is needed");
+  EXPECT_EQ(complaint({}, {6, 1, 10}), "force edges: 1; at least 2 needed, one per straight piece");
+  EXPECT_EQ(complaint(rack(4), {6, 40, 3}), "contact edges: 3; at least 4 needed, one per tooth");
+}
+
+}  // namespace
+}  // namespace airybench
