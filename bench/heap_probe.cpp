@@ -20,13 +20,17 @@ void __libc_free(void*);
 namespace {
 
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
-std::atomic<std::int64_t> live{0}, peak{0}, count{0}, limit{no_limit};
+std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, count{0}, limit{no_limit};
+
+void raise(std::atomic<std::int64_t>& highest, std::int64_t now) {
+  std::int64_t before = highest.load(std::memory_order_relaxed);
+  while (now > before && !highest.compare_exchange_weak(before, now, std::memory_order_relaxed)) {
+  }
+}
 
 void add(std::int64_t bytes) {
   const std::int64_t now = live.fetch_add(bytes, std::memory_order_relaxed) + bytes;
-  std::int64_t highest = peak.load(std::memory_order_relaxed);
-  while (now > highest && !peak.compare_exchange_weak(highest, now, std::memory_order_relaxed)) {
-  }
+  raise(peak, now);
 }
 
 std::int64_t size_of(void* block) { return static_cast<std::int64_t>(malloc_usable_size(block)); }
@@ -107,7 +111,14 @@ bool is_active() { return true; }
 std::int64_t live_bytes() { return live.load(std::memory_order_relaxed); }
 std::int64_t peak_bytes() { return peak.load(std::memory_order_relaxed); }
 std::int64_t allocations() { return count.load(std::memory_order_relaxed); }
-void reset_peak() { peak.store(live_bytes(), std::memory_order_relaxed); }
+std::int64_t peak_ever_bytes() {
+  raise(peak_ever, peak_bytes());
+  return peak_ever.load(std::memory_order_relaxed);
+}
+void reset_peak() {
+  raise(peak_ever, peak_bytes());
+  peak.store(live_bytes(), std::memory_order_relaxed);
+}
 
 Limit::Limit(std::int64_t live_bytes_at_most) { limit.store(live_bytes_at_most); }
 Limit::~Limit() { limit.store(no_limit); }

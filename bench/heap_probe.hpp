@@ -16,9 +16,10 @@ namespace airybench::heap {
 
 bool is_active();
 std::int64_t live_bytes();
-std::int64_t peak_bytes();   // highest live_bytes() since reset_peak()
-std::int64_t allocations();  // calls that returned a block, since the start
-void reset_peak();           // the peak is then what is live now
+std::int64_t peak_bytes();       // highest live_bytes() since reset_peak()
+std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
+std::int64_t allocations();      // calls that returned a block, since the start
+void reset_peak();               // the peak is then what is live now
 
 // Allocations that would lift live_bytes() above the limit fail, as on a full machine. For the
 // scope of the object.

@@ -5,6 +5,7 @@ namespace airybench::heap {
 bool is_active() { return false; }
 std::int64_t live_bytes() { return 0; }
 std::int64_t peak_bytes() { return 0; }
+std::int64_t peak_ever_bytes() { return 0; }
 std::int64_t allocations() { return 0; }
 void reset_peak() {}
 Limit::Limit(std::int64_t) {}

@@ -25,7 +25,7 @@ struct Record {
   std::optional<std::int64_t> peak_rss_bytes;   // of the process, during the solve
   std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
   std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during assembly
-  std::optional<std::int64_t> process_peak_heap_bytes;   // as peak_heap_bytes, all of the process
+  std::optional<std::int64_t> process_peak_heap_bytes;   // highest of the process so far
   std::size_t storage_bytes = 0;
   std::optional<int> linear_iterations, contact_iterations, uzawa_iterations;
   std::optional<Verification> verification;

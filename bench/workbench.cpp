@@ -127,7 +127,7 @@ void Workbench::measure_memory(const Method& method, Record& record) {
   const std::int64_t peak = heap::peak_bytes();
   if (rss_is_reset) record.peak_rss_bytes = rss::peak_bytes();
   record.peak_heap_bytes = if_probed(peak - before + assembled.heap_bytes.value_or(0));
-  record.process_peak_heap_bytes = if_probed(peak);
+  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
 }
 
 double Workbench::measure_time(const Method& method, Record& record) {

@@ -204,7 +204,7 @@ CondensedSystem condense(const HybridizedSystem& system, CholmodFactor& factor,
   CondensedSystem condensed;
   if (system.K_CC.size() == 0) return condensed;
   Eigen::MatrixXd K_c = system.K_CC;
-  constexpr Eigen::Index columns_at_once = 128;
+  constexpr Eigen::Index columns_at_once = 16;
   for (Eigen::Index j = 0; j < K_c.cols(); j += columns_at_once) {
     const Eigen::Index columns = std::min(columns_at_once, K_c.cols() - j);
     Eigen::MatrixXd solved = system.K_IC.middleCols(j, columns);

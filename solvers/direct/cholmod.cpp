@@ -7,7 +7,7 @@ namespace airybench {
 namespace {
 
 // cholmod_solve returns a new matrix; this many columns at once keep that copy small.
-constexpr Eigen::Index columns_at_once = 128;
+constexpr Eigen::Index columns_at_once = 32;
 
 }  // namespace
 

@@ -1,0 +1,140 @@
+"""Draws the stress in a body, and the points and the pressure of a contact face, into given axes.
+
+Pictures are turned by 90 degrees: y to the right, x down, so that a tip rests on its foundation.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import groupby
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Normalize
+from matplotlib.patheffects import withTickedStroke
+from matplotlib.tri import Triangulation
+
+from fields import Fields, chains, largest_shear
+
+COLORMAP = "viridis"
+# Okabe and Ito's colours; shape and lightness say the same in grey.
+STATE = {
+    "open": dict(marker="o", color="black", fill="none"),
+    "stick": dict(marker="s", color="#0072B2", fill="#56A3D9"),
+    "slip": dict(marker="^", color="#D55E00", fill="#F5B183"),
+}
+ROLE = {
+    "displacement": dict(color="black", linewidth=1.4, linestyle="-"),
+    "force": dict(color="black", linewidth=0.8, linestyle="-"),
+    "contact": dict(color="#D00060", linewidth=2.0, linestyle=(0, (2, 1))),
+}
+FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
+TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
+
+
+@dataclass(frozen=True)
+class Scales:
+    """Common to the panels of a picture."""
+
+    shear: Normalize     # MPa
+    pressure_MPa: float  # end of the axis
+
+    @staticmethod
+    def of(solutions: list[Fields]) -> Scales:
+        shear = max(largest_shear(s.stress).max() for s in solutions) or 1
+        pressure = max(np.abs(s.traction).max(initial=0) for s in solutions)
+        return Scales(Normalize(0, shear), 1.08 * pressure or 1)
+
+
+def marker(state: str) -> dict[str, str]:
+    style = STATE[state]
+    return dict(marker=style["marker"], markeredgecolor=style["color"],
+                markerfacecolor="none" if state == "open" else style["color"])
+
+
+def turned(points: np.ndarray) -> np.ndarray:
+    """(..., 2) x, y -> y, x; the vertical axis points down."""
+    return points[..., ::-1]
+
+
+def cut(values: np.ndarray, parts: int) -> np.ndarray:
+    """Linear functions by their corner values (N, 3, c), on parts^2 triangles each: (., 3, c)."""
+    k = range(parts)
+    up = [((i, j), (i + 1, j), (i, j + 1)) for i in k for j in k if i + j < parts]
+    down = [((i, j), (i - 1, j), (i, j - 1)) for i in k for j in k if i and j and i + j <= parts]
+    ij = np.array(up + down) / parts
+    weights = np.stack([1 - ij.sum(-1), ij[..., 0], ij[..., 1]], axis=-1)  # (parts^2, 3, 3)
+    return np.einsum("kcw,nwx->nkcx", weights, values).reshape(-1, 3, values.shape[-1])
+
+
+def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> None:
+    """tau_max on the chosen triangles (T,); the stress is linear on each third, tau_max is not."""
+    parts = int(np.clip(np.sqrt(6e4 / (3 * chosen.sum())), 2, 8))
+    xy = cut(turned(s.corners[chosen]).reshape(-1, 3, 2), parts).reshape(-1, 2)
+    tau = largest_shear(cut(s.stress[chosen].reshape(-1, 3, 3), parts)).ravel()
+    mesh = Triangulation(*xy.T, np.arange(len(xy)).reshape(-1, 3))
+    axes.tripcolor(mesh, tau, shading="gouraud", cmap=COLORMAP, norm=scales.shear, rasterized=True)
+    corners = axes.transData.transform(turned(s.triangles[chosen]).reshape(-1, 2)).reshape(-1, 3, 2)
+    size_pt = np.hypot(*(corners - corners[:, [1, 2, 0]]).T).mean(0) * 72 / axes.figure.dpi
+    axes.add_collection(PolyCollection(turned(s.triangles[chosen]), facecolor="none", alpha=0.4,
+                                       edgecolor="black", rasterized=True,
+                                       linewidths=np.clip(0.04 * size_pt, 0.05, 0.3)))
+
+
+def draw_boundary(axes: Axes, s: Fields) -> None:
+    for role, style in ROLE.items():
+        edges = turned(s.boundary[s.role == role])
+        for chain in chains(edges):
+            points = np.vstack([edges[chain, 0], edges[chain[-1:], 1]])
+            line, = axes.plot(*points.T, **style, zorder=3, solid_capstyle="butt")
+            if role == "displacement":
+                line.set_path_effects([TICKED])
+
+
+def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
+    """The whole body; the axes keep their limits."""
+    draw_stress(axes, s, np.full(len(s.corners), True), scales)
+    draw_boundary(axes, s)
+
+
+def face_frame(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]:
+    """Origin (2,), frame (2, 2) of outward normal and tangent, and whether the tangent is y.
+
+    edges (n, 2, 2): a face, the body on its left.
+    """
+    tangent = edges[-1, 1] - edges[0, 0]
+    tangent = tangent / np.hypot(*tangent)
+    normal = np.array([tangent[1], -tangent[0]])
+    return edges[0, 0] @ normal * normal, np.stack([normal, tangent], 1), tangent[1] > 0.999
+
+
+def draw_strip(axes: Axes, s: Fields, face: np.ndarray, scales: Scales, marker_pt: float) -> None:
+    """Elements behind a face and its contact points; s in the face's frame, axes with limits set.
+
+    A point is drawn outside the body, a quarter of the edge's length from its end of the edge; the
+    edge's second point a little farther out.
+    """
+    (left, right), (outside, inside) = axes.get_xlim(), axes.get_ylim()
+    x, y = s.triangles[..., 0], s.triangles[..., 1]
+    draw_stress(axes, s, (x.max(1) > inside) & (y.max(1) > left) & (y.min(1) < right), scales)
+    draw_boundary(axes, s)
+    along, state = s.edges[face, :, 1], s.state[face]
+    along = 0.75 * along + 0.25 * along[:, ::-1]
+    off = np.broadcast_to(np.array([0.42, 0.75]) * outside, along.shape)
+    for name in STATE:
+        axes.plot(along[state == name], off[state == name], linestyle="none", **marker(name),
+                  markersize=marker_pt, markeredgewidth=0.5)
+
+
+def draw_traction(axes: Axes, s: Fields, face: np.ndarray) -> None:
+    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face."""
+    along, traction = s.edges[face, :, 1], np.abs(s.traction[face])
+    a, b = along.T
+    p, q = traction[:, :, 0].T
+    x = np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)  # half an edge for each point
+    y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
+    for state, run in groupby(range(len(x)), s.state[face].ravel().__getitem__):
+        run = list(run)
+        axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
+    axes.plot(along.T, traction[:, :, 0].T, color="black", linewidth=0.8)
+    axes.plot(along.T, traction[:, :, 1].T, **FRICTION)

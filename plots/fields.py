@@ -1,0 +1,168 @@
+"""Reads fields/NAME.{stress,contact,boundary}.csv as `bench --fields` writes them, and checks them.
+
+Lengths in mm, stresses in MPa, forces in N (per mm of thickness).
+T triangles, B boundary edges, P = 2 x (contact edges) contact points.
+"""
+from __future__ import annotations
+
+import csv
+import re
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+
+STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
+CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
+BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,role"
+STATES = ("open", "stick", "slip")
+ROLES = ("displacement", "force", "contact")
+
+
+class FieldsError(Exception):
+    """Names a file or folder, what is wrong with it and what is expected."""
+
+
+@dataclass(frozen=True)
+class Fields:
+    """One solution. Edges have the body on their left."""
+
+    name: str
+    corners: np.ndarray   # (T, 3, 3, 2) mm: third, corner; corners of third k: v_k, v_k+1, centroid
+    stress: np.ndarray    # (T, 3, 3, 3) MPa: third, corner; sxx, syy, sxy; linear on a third
+    boundary: np.ndarray  # (B, 2, 2) mm: start, end
+    role: np.ndarray      # (B,) of ROLES
+    edges: np.ndarray     # (P/2, 2, 2) mm: contact edges; contact point 2e is the start of edge e
+    traction: np.ndarray  # (P/2, 2, 2) MPa: start, end; normal (pressure < 0), tangential
+    state: np.ndarray     # (P/2, 2) of STATES
+    n_phi: int | None     # from results.csv; None: it has no such row
+
+    @property
+    def triangles(self) -> np.ndarray:
+        """(T, 3, 2) mm."""
+        return self.corners[:, :, 0]
+
+    def moved(self, origin: np.ndarray, frame: np.ndarray) -> Fields:
+        """Positions seen from origin (2,) along the frame's columns (2, 2); stresses stay."""
+        return replace(self, **{key: (getattr(self, key) - origin) @ frame
+                                for key in ("corners", "boundary", "edges")})
+
+    def faces(self) -> list[np.ndarray]:
+        """Numbers of the contact edges, a chain for each face."""
+        return chains(self.edges)
+
+
+def chains(edges: np.ndarray) -> list[np.ndarray]:
+    """Numbers of the edges (n, 2, 2), chained end to start; a ring begins anywhere."""
+    following = {tuple(start): e for e, start in enumerate(edges[:, 0])}
+    ends = {tuple(end) for end in edges[:, 1]}
+    firsts = [e for start, e in following.items() if start not in ends]
+    found = []
+    while following:
+        e = firsts.pop(0) if firsts else next(iter(following.values()))
+        chain = []
+        while e is not None:
+            chain.append(e)
+            del following[tuple(edges[e, 0])]
+            e = following.get(tuple(edges[e, 1]))
+        found.append(np.array(chain))
+    return found
+
+
+def largest_shear(stress: np.ndarray) -> np.ndarray:
+    """tau_max = sqrt(((sxx - syy)/2)^2 + sxy^2), MPa; (..., 3) -> (...)."""
+    return np.hypot((stress[..., 0] - stress[..., 1]) / 2, stress[..., 2])
+
+
+def area(starts: np.ndarray, ends: np.ndarray) -> float:
+    """Area on the left of edges (..., 2) that form closed lines, mm^2."""
+    return float((starts[..., 0] * ends[..., 1] - starts[..., 1] * ends[..., 0]).sum()) / 2
+
+
+def read_table(path: Path, header: str,
+               words: tuple[str, ...] = ()) -> tuple[np.ndarray, np.ndarray]:
+    """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them."""
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "not text"
+        raise FieldsError(f"{path}: cannot be read: {reason}; expected the CSV of bench --fields")
+    if not lines or lines[0] != header:
+        raise FieldsError(f"{path}:1: expected the header {header}")
+    columns = header.split(",")
+    numbers, last = [], []
+    for at, line in enumerate(lines[1:], 2):
+        cells = line.split(",")
+        if len(cells) != len(columns):
+            raise FieldsError(f"{path}:{at}: {len(cells)} values, expected "
+                              f"{len(columns)}: {header}")
+        if words and cells[-1] not in words:
+            raise FieldsError(f"{path}:{at}: {columns[-1]} is '{cells[-1]}', expected one of "
+                              + ", ".join(words))
+        row = []
+        for cell, column in zip(cells[:-1] if words else cells, columns):
+            try:
+                row.append(float(cell))
+            except ValueError:
+                row.append(np.nan)
+            if not np.isfinite(row[-1]):
+                raise FieldsError(f"{path}:{at}: {column} is '{cell}', expected a finite number")
+        numbers.append(row)
+        last.append(cells[-1])
+    width = len(columns) - bool(words)
+    return np.array(numbers).reshape(-1, width), np.array(last, dtype=object)
+
+
+def read_n_phi(results: Path, name: str) -> int | None:
+    """n_phi of the row whose mesh/scene/method gave the file name; None without file or row."""
+    if not results.is_file():
+        return None
+    try:
+        with results.open(newline="", encoding="utf-8") as file:
+            for row in csv.DictReader(file):
+                if re.sub("[/:]", "-", f"{row['mesh']}/{row['scene']}/{row['method']}") == name:
+                    return int(row["n_phi"])
+    except (OSError, UnicodeDecodeError, csv.Error, KeyError, ValueError, TypeError) as error:
+        raise FieldsError(f"{results}: {error!r}; expected columns mesh, scene, method, n_phi")
+    return None
+
+
+def names_in(results: Path) -> list[str]:
+    """Names of the solutions in results/fields, sorted."""
+    folder = results / "fields"
+    if not results.is_dir():
+        raise FieldsError(f"{results}: no such folder; expected the --out of bench --fields")
+    names = sorted(path.name[: -len(".stress.csv")] for path in folder.glob("*.stress.csv"))
+    if not names:
+        raise FieldsError(f"{folder}: no fields; expected NAME.stress.csv from bench --fields")
+    return names
+
+
+def read_fields(results: Path, name: str) -> Fields:
+    """One solution; throws FieldsError. The three files must describe the same body."""
+    path = {part: results / "fields" / f"{name}.{part}.csv"
+            for part in ("stress", "contact", "boundary")}
+    rows, _ = read_table(path["stress"], STRESS)
+    n = len(rows) // 9
+    count = np.arange(len(rows))
+    order = np.stack([count // 9, count // 3 % 3, count % 3], axis=1) + 1
+    if n == 0 or len(rows) % 9 or (rows[:, :3] != order).any():
+        raise FieldsError(f"{path['stress']}: {len(rows)} rows; expected nine per triangle, "
+                          "thirds 1 to 3 with corners 1 to 3, triangles from 1")
+    corners = rows[:, 3:5].reshape(n, 3, 3, 2)
+    boundary, role = read_table(path["boundary"], BOUNDARY, ROLES)
+    boundary = boundary.reshape(-1, 2, 2)
+
+    inside, outline = area(corners[:, :, 0], corners[:, :, 1]), area(*boundary.swapaxes(0, 1))
+    if not np.isclose(inside, outline, rtol=1e-9):
+        raise FieldsError(f"{path['boundary']}: encloses {outline:.9g} mm^2; expected the "
+                          f"{inside:.9g} mm^2 of the triangles in {path['stress'].name}")
+    points, state = read_table(path["contact"], CONTACT, STATES)
+    contact = boundary[role == "contact"]
+    if not np.array_equal(points[:, :2], contact.reshape(-1, 2)):
+        raise FieldsError(f"{path['contact']}: {len(points)} points; expected start and end of "
+                          f"each of the {len(contact)} contact edges of {path['boundary'].name}")
+    half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
+    return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
+                  traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
+                  state=state.reshape(-1, 2), n_phi=read_n_phi(results / "results.csv", name))

@@ -1,0 +1,131 @@
+#!/usr/bin/python3
+"""Draws the stress field and the contact points of solutions from `bench --fields`.
+
+    gallery.py RESULTS_DIR [--out DIR] [--each]
+
+gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
+with --each, fields_NAME.png for every solution. Exit 2: wrong input; one line says which, and
+nothing is written.
+"""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
+
+from field_drawing import Scales
+from field_panel import draw_legend, draw_panel, height_of, width_of
+from fields import Fields, FieldsError, names_in, read_fields
+
+TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
+STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
+         "xtick.labelsize": 7, "ytick.labelsize": 7}
+DPI = 160
+WIDTH, HEADER, FOOTER = 10.0, 0.5, 0.6  # inches
+BODY = 5.0  # highest body in a picture of its own
+HEADING = (
+    r"Largest shear stress in the plane, "
+    r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
+    "stresses linear on each third of a triangle, nothing averaged.\n"
+    "Below each body its contact faces, enlarged: elements, contact points (two per edge), "
+    "contact pressure. Scene and method: ")
+
+
+def compose(rows: list[list[Fields]]) -> Figure:
+    """A figure of rows of panels, as wide as they fit; a single body at most BODY high."""
+    scales = Scales.of([s for row in rows for s in row])
+    widths = [WIDTH / len(row) for row in rows]
+    if len(rows) == len(rows[0]) == 1:
+        widths = [min(WIDTH, width_of(rows[0][0], BODY))]
+    heights = [max(height_of(s, width) for s in row) for row, width in zip(rows, widths)]
+    figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
+    top = figure.get_size_inches()[1]
+    heading = HEADING + rows[0][0].name.partition("-")[2].replace("$", r"\$")
+    figure.text(0.5, 1 - 0.1 / top, heading, ha="center", va="top")
+    top -= HEADER
+    for row, width, height in zip(rows, widths, heights):
+        for k, s in enumerate(row):
+            draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width, scales)
+        top -= height
+    draw_legend(figure, scales)
+    return figure
+
+
+def write(figure: Figure, path: Path) -> None:
+    """A PNG in steps of 6/255 of colour, which halves it; an SVG with the triangles as images."""
+    if path.suffix == ".svg":
+        figure.savefig(path, dpi=120, metadata={"Date": None})
+        return
+    figure.set_dpi(DPI)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
+    rounded = 255 - (255 - pixels + 2) // 6 * 6
+    Image.fromarray(rounded.astype(np.uint8)).save(path, optimize=True, dpi=(DPI, DPI))
+
+
+def save(figure: Figure, targets: list[Path]) -> None:
+    """All of the files or none: each is written beside its place and then moved there."""
+    folder = targets[0].parent
+    folder.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".gallery-") as temporary:
+        for target in targets:
+            write(figure, Path(temporary) / target.name)
+        for target in targets:
+            os.replace(Path(temporary) / target.name, target)
+            print(target)
+
+
+def choose(names: list[str]) -> list[str] | None:
+    """Mesh0, Mesh1, Mesh3 and the smallest rack, of one scene and method; None: not all there."""
+    for suffix in [name.removeprefix("Mesh0") for name in names if name.startswith("Mesh0-")]:
+        racks = [rack + suffix for rack in RACKS if rack + suffix in names]
+        if racks and all(tooth + suffix in names for tooth in TEETH):
+            return [tooth + suffix for tooth in TEETH] + racks[:1]
+    return None
+
+
+def fail(message: object) -> None:
+    print(f"gallery.py: {message}", file=sys.stderr)
+    sys.exit(2)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR",
+                        help="the --out of bench --fields")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
+    parser.add_argument("--each", action="store_true", help="also a picture per solution")
+    parser.error = fail
+    args = parser.parse_args()
+    out = args.out or args.results / "figures"
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(STYLE)
+    try:
+        names = names_in(args.results)
+        chosen = choose(names)
+        wanted = names if args.each or not chosen else chosen
+        solutions = {name: read_fields(args.results, name) for name in wanted}
+        if chosen:
+            *teeth, rack = (solutions[name] for name in chosen)
+            save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
+        if args.each or not chosen:
+            for name, s in solutions.items():
+                save(compose([[s]]), [out / f"fields_{name}.png"])
+    except FieldsError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}; expected a folder to write to")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,210 @@
+"""plots/gallery.py on a made-up square of two triangles.  /usr/bin/python3 -m unittest FILE"""
+import shutil
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+PLOTS = Path(__file__).resolve().parents[2] / "plots"
+sys.path.insert(0, str(PLOTS))
+
+import field_drawing  # noqa: E402
+import fields  # noqa: E402
+
+CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
+TRIANGLES = [(0, 1, 2), (0, 2, 3)]
+NAMES = [f"{mesh}-default-3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4")]
+
+
+def stress_at(x: float, y: float) -> tuple[float, float, float]:
+    """Linear: sxx, syy, sxy in MPa."""
+    return -100 + 10 * x, 5 * y, 20 - x
+
+
+def write_solution(folder: Path, name: str, contact: bool = True) -> None:
+    rows = [fields.STRESS]
+    for t, vertices in enumerate(TRIANGLES):
+        v = [np.array(CORNERS[i], float) for i in vertices]
+        for c in range(9):
+            third, corner = divmod(c, 3)
+            x, y = sum(v) / 3 if corner == 2 else v[(third + corner) % 3]
+            rows.append(",".join(map(str, (t + 1, third + 1, corner + 1, x, y, *stress_at(x, y)))))
+    roles = ["force", "contact" if contact else "force", "force", "displacement"]
+    edges = [(*CORNERS[k], *CORNERS[(k + 1) % 4], role) for k, role in enumerate(roles)]
+    points = ["2,0,1,0,2,-30,-6,slip", "2,2,1,0,2,0,0,open"] if contact else []
+    for part, lines in (("stress", rows), ("contact", [fields.CONTACT, *points]),
+                        ("boundary", [fields.BOUNDARY, *(",".join(map(str, e)) for e in edges)])):
+        (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+class GalleryTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.results = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.results)
+        self.fields = self.results / "fields"
+        self.fields.mkdir()
+
+    def run_gallery(self, *arguments: object) -> subprocess.CompletedProcess:
+        return subprocess.run([sys.executable, PLOTS / "gallery.py", *map(str, arguments)],
+                              capture_output=True, text=True, check=False)
+
+    def assert_png(self, path: Path, width: int, most_bytes: int = 1_000_000) -> None:
+        data = path.read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">I", data[16:20])[0], width)
+        self.assertLess(len(data), most_bytes)
+
+    def assert_refused(self, *parts: str, arguments: tuple = ()) -> None:
+        """Exit 2, one line that has all the parts, and nothing written."""
+        done = self.run_gallery(self.results, *arguments)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stdout, "")
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        for part in parts:
+            self.assertIn(part, done.stderr)
+        self.assertFalse((self.results / "figures").exists())
+
+    def edit(self, part: str, change) -> str:
+        """Passes the lines of Mesh1's file through change; its path."""
+        for name in NAMES:
+            write_solution(self.fields, name)
+        path = self.fields / f"{NAMES[1]}.{part}.csv"
+        path.write_text("\n".join(change(path.read_text().splitlines())) + "\n")
+        return str(path)
+
+    def test_the_four_meshes_make_one_picture(self) -> None:
+        for name in NAMES:
+            write_solution(self.fields, name)
+        done = self.run_gallery(self.results)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        figures = self.results / "figures"
+        self.assertEqual({p.name for p in figures.iterdir()}, {"gallery.png", "gallery.svg"})
+        self.assert_png(figures / "gallery.png", 1600)
+        svg = (figures / "gallery.svg").read_text()
+        self.assertTrue(svg.startswith("<?xml"))
+        self.assertLess(len(svg), 2_000_000)
+
+    def test_each_and_out(self) -> None:
+        for name in NAMES:
+            write_solution(self.fields, name)
+        out = self.results / "some" / "where"
+        self.assertEqual(self.run_gallery(self.results, "--each", "--out", out).returncode, 0)
+        self.assertEqual({p.name for p in out.iterdir()},
+                         {"gallery.png", "gallery.svg", *(f"fields_{name}.png" for name in NAMES)})
+
+    def test_without_the_four_meshes_each_solution_has_its_picture(self) -> None:
+        write_solution(self.fields, NAMES[1], contact=False)
+        self.assertEqual(self.run_gallery(self.results).returncode, 0)
+        figures = self.results / "figures"
+        self.assertEqual([p.name for p in figures.iterdir()], [f"fields_{NAMES[1]}.png"])
+        self.assert_png(figures / f"fields_{NAMES[1]}.png", 1600)
+
+    def test_the_same_input_gives_the_same_picture(self) -> None:
+        for name in NAMES:
+            write_solution(self.fields, name)
+        for out in ("a", "b"):
+            self.run_gallery(self.results, "--out", self.results / out)
+        for name in ("gallery.png", "gallery.svg"):
+            self.assertEqual((self.results / "a" / name).read_bytes(),
+                             (self.results / "b" / name).read_bytes(), name)
+
+    def test_missing_folder(self) -> None:
+        shutil.rmtree(self.fields)
+        self.assert_refused(f"{self.fields}: no fields", "bench --fields")
+        self.results.rmdir()
+        self.assert_refused(f"{self.results}: no such folder", "bench --fields")
+        self.results.mkdir()
+
+    def test_missing_file(self) -> None:
+        path = self.edit("contact", lambda lines: lines)
+        Path(path).unlink()
+        self.assert_refused(path, "No such file")
+
+    def test_truncated_row(self) -> None:
+        path = self.edit("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]])
+        self.assert_refused(f"{path}:19: 6 values, expected 8")
+
+    def test_not_a_number(self) -> None:
+        for word in ("abc", "nan", ""):
+            path = self.edit("stress", lambda lines: [*lines[:3], f"1,1,3,1.3,{word},0,0,0",
+                                                      *lines[4:]])
+            self.assert_refused(f"{path}:4: y_mm is '{word}', expected a finite number")
+
+    def test_unknown_word(self) -> None:
+        path = self.edit("contact", lambda lines: [line.replace("slip", "glue") for line in lines])
+        self.assert_refused(f"{path}:2: state is 'glue'", "open, stick, slip")
+
+    def test_wrong_header(self) -> None:
+        path = self.edit("boundary", lambda lines: lines[1:])
+        self.assert_refused(f"{path}:1: expected the header x0_mm")
+
+    def test_files_cut_at_the_end_of_a_row(self) -> None:
+        path = self.edit("stress", lambda lines: lines[:-1])
+        self.assert_refused(f"{path}: 17 rows; expected nine per triangle")
+        self.edit("stress", lambda lines: lines[:-9])
+        self.assert_refused("encloses 4 mm^2; expected the 2 mm^2")
+        self.edit("stress", lambda lines: lines)
+        path = self.edit("boundary", lambda lines: lines[:-2])
+        self.assert_refused(path, "expected the 4 mm^2")
+        self.edit("boundary", lambda lines: lines)
+        path = self.edit("contact", lambda lines: lines[:-1])
+        self.assert_refused(f"{path}: 1 points; expected start and end of each of the 1 contact")
+
+    def test_damaged_table_of_results(self) -> None:
+        self.edit("stress", lambda lines: lines)
+        (self.results / "results.csv").write_text("mesh,scene\nMesh1,default\n")
+        self.assert_refused(str(self.results / "results.csv"), "expected columns mesh, scene")
+
+    def test_wrong_option_and_unusable_out(self) -> None:
+        write_solution(self.fields, NAMES[0])
+        self.assert_refused("--nonsense", arguments=("--nonsense",))
+        self.assert_refused("expected a folder to write to",
+                            arguments=("--out", self.fields / f"{NAMES[0]}.stress.csv"))
+
+
+class FieldsTest(unittest.TestCase):
+    def test_read_back(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            results = Path(folder)
+            (results / "fields").mkdir()
+            write_solution(results / "fields", NAMES[0])
+            (results / "results.csv").write_text(
+                "mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
+            s = fields.read_fields(results, NAMES[0])
+        self.assertEqual((s.corners.shape, s.n_phi), ((2, 3, 3, 2), 761))
+        np.testing.assert_array_equal(s.triangles[1], [CORNERS[0], CORNERS[2], CORNERS[3]])
+        np.testing.assert_allclose(s.traction, [[[-30, -6], [0, 0]]])  # F = (L/2) t, L = 2
+        self.assertEqual(s.state.tolist(), [["slip", "open"]])
+
+    def test_chains(self) -> None:
+        def edge(a: float, b: float) -> list:
+            return [[0, a], [0, b]]
+        edges = np.array([edge(1, 2), edge(5, 6), edge(0, 1), edge(2, 3)])
+        self.assertEqual([c.tolist() for c in fields.chains(edges)], [[1], [2, 0, 3]])
+        ring = np.array([edge(0, 1), edge(1, 2), edge(2, 0)])
+        self.assertEqual([c.tolist() for c in fields.chains(ring)], [[0, 1, 2]])
+
+    def test_largest_shear_is_that_of_mohrs_circle(self) -> None:
+        stress = np.random.default_rng(1).normal(size=(20, 3))
+        tensors = stress[:, [[0, 2], [2, 1]]]
+        principal = np.linalg.eigvalsh(tensors)
+        np.testing.assert_allclose(fields.largest_shear(stress), np.ptp(principal, axis=1) / 2)
+
+    def test_cutting_keeps_linear_functions_and_area(self) -> None:
+        corners = np.array([[(0, 0), (3, 0), (1, 2)], [(1, 1), (2, 5), (0, 4)]], float)
+        for parts in (1, 2, 5):
+            pieces = field_drawing.cut(corners, parts)
+            self.assertEqual(pieces.shape, (2 * parts**2, 3, 2))
+            a, b = (pieces[:, k] - pieces[:, 0] for k in (1, 2))
+            areas = (a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+            np.testing.assert_allclose(areas[:parts**2], 3 / parts**2)
+            values = field_drawing.cut(corners @ [[2.0], [-1.0]], parts)
+            np.testing.assert_allclose(values, pieces @ [[2.0], [-1.0]])
+
+
+if __name__ == "__main__":
+    unittest.main()
