@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "assembly/atomic_file.hpp"
 #include "assembly/edge_forces.hpp"
 #include "bench/record_files.hpp"
 #include "bench/verifier.hpp"
@@ -64,9 +65,10 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
-  write_file(folder / (name + ".stress.csv"), stress_csv(*system.problem, solution.stress));
-  write_file(folder / (name + ".contact.csv"), contact_csv(system, solution));
-  write_file(folder / (name + ".boundary.csv"), boundary_csv(system.problem->mesh));
+  write_file_atomically(folder / (name + ".stress.csv"),
+                        stress_csv(*system.problem, solution.stress));
+  write_file_atomically(folder / (name + ".contact.csv"), contact_csv(system, solution));
+  write_file_atomically(folder / (name + ".boundary.csv"), boundary_csv(system.problem->mesh));
 }
 
 }  // namespace airybench

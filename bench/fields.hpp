@@ -14,7 +14,7 @@
 
 namespace airybench {
 
-// Writes the three files folder/NAME.*.csv; throws OutputError.
+// Writes the three files folder/NAME.*.csv; throws std::runtime_error.
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const DualSystem& system, const Solution& solution);
 

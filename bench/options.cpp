@@ -14,7 +14,7 @@ Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
              1  some case is not
-             2  wrong usage, or an input that cannot be used: one line on standard error
+             2  wrong usage, or a file that cannot be used or written: one line on standard error
 
 Examples
   bench --mesh=Mesh0..Mesh7 --method='3STEPD*'

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "assembly/atomic_file.hpp"
+
 namespace airybench {
 namespace {
 
@@ -30,20 +32,6 @@ std::string csv_text(const std::vector<Record>& records) {
   return text;
 }
 
-void write_file(const std::filesystem::path& file, const std::string& text) {
-  const std::filesystem::path part = file.string() + ".part";
-  {
-    std::ofstream out(part, std::ios::binary);
-    out << text << std::flush;
-    if (!out) {
-      std::error_code ignored;
-      std::filesystem::remove(part, ignored);
-      throw OutputError(file.string() + ": cannot be written");
-    }
-  }
-  std::filesystem::rename(part, file);
-}
-
 RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context)
     : folder_(std::move(folder)), context_(std::move(context)) {
   std::error_code error;
@@ -65,7 +53,7 @@ void RecordFiles::append(const Record& record) {
 }
 
 void RecordFiles::write_csv(const std::vector<Record>& records) const {
-  write_file(folder_ / "results.csv", csv_text(records));
+  write_file_atomically(folder_ / "results.csv", csv_text(records));
 }
 
 std::filesystem::path RecordFiles::benchmark_json_in_the_making() const {

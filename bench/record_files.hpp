@@ -36,7 +36,4 @@ class RecordFiles {
 // results.csv as text: a header, a row per record; empty: does not apply. RFC 4180.
 std::string csv_text(const std::vector<Record>& records);
 
-// Writes a file under a temporary name and renames it. Throws OutputError.
-void write_file(const std::filesystem::path& file, const std::string& text);
-
 }  // namespace airybench

@@ -4,10 +4,10 @@
 
 #include <sstream>
 
+#include "assembly/atomic_file.hpp"
 #include "assembly/mesh_selection.hpp"
 #include "assembly/msh_format.hpp"
 #include "assembly/sha256.hpp"
-#include "meshgen/atomic_file.hpp"
 #include "meshgen/catalogue.hpp"
 #include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"

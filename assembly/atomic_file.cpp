@@ -1,4 +1,4 @@
-#include "meshgen/atomic_file.hpp"
+#include "assembly/atomic_file.hpp"
 
 #include <unistd.h>
 
