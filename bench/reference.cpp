@@ -11,9 +11,10 @@ Reference compute_reference(const DualSystem& airy) {
   constexpr double aim = 1e-14, at_least = 1e-10;
   const Problem& problem = *airy.problem;
   const HybridizedSystem system = assemble_hybridized(problem, airy.contact);
-  CholmodFactor factor;
-  factor.analyse(system.K_II);
-  factor.factor(system.K_II);
+  HybridizedFactor factor;
+  factor.cholesky.analyse(system.K, system.n_c);
+  factor.cholesky.factor(system.K);
+  factor.y = factor.cholesky.forward(system.b);
 
   Reference reference;
   Eigen::VectorXd displacement;

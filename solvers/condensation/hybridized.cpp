@@ -127,25 +127,41 @@ void prescribe_displacements(const Problem& problem, HybridizedSystem& system) {
   }
 }
 
+// The prescribed forces on Γ_F into b.
+void add_tractions(const Problem& problem, HybridizedSystem& system) {
+  if (!problem.loads.traction_MPa) return;
+  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
+    const int edge = problem.edges.of_boundary[row];
+    const auto [start, stop] = problem.mesh.boundary[row].vertices;
+    const EdgeFrame frame = edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[stop]);
+    for (int end = 0; end < 2; ++end) {
+      const auto& at = problem.mesh.vertices[problem.edges.vertices[edge][end]];
+      const Eigen::Vector2d force =
+          frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal);
+      for (int k = 0; k < 2; ++k) system.b(system.unknown[edge][2 * end + k]) += force(k);
+    }
+  }
+}
+
 }  // namespace
 
 std::size_t HybridizedSystem::bytes() const {
-  const auto entries = static_cast<std::size_t>(K_II.nonZeros() + K_IC.nonZeros());
-  const auto dense = static_cast<std::size_t>(K_CC.size() + b_I.size() + b_C.size());
-  return entries * (sizeof(double) + sizeof(int)) + dense * sizeof(double) +
-         static_cast<std::size_t>(K_II.cols() + K_IC.cols()) * sizeof(int) +
-         unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
+  return static_cast<std::size_t>(K.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         static_cast<std::size_t>(K.cols() + 1) * sizeof(int) +
+         static_cast<std::size_t>(b.size()) * sizeof(double) + unknown.size() * sizeof(unknown[0]) +
+         displacement.size() * sizeof(Eigen::Vector4d);
 }
 
 HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints& contact) {
   HybridizedSystem system;
-  const int n_inner = number_unknowns(problem, contact, system), n_c = contact.size();
+  system.n_c = contact.size();
+  const int n = number_unknowns(problem, contact, system) + system.n_c;
   prescribe_displacements(problem, system);
   const std::vector<bool> is_contact = contact_edges(problem);
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n_inner + n_c);
-  system.K_CC.setZero(n_c, n_c);
-  std::vector<Eigen::Triplet<double>> inner, coupling;
-  inner.reserve(78 * problem.mesh.triangles.size());
+  system.b = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(78 * problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const HybridElement element = make_element(problem, system, is_contact, t);
@@ -161,76 +177,36 @@ HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints
     for (int j = 0; j < 12; ++j) {
       const int column = element.unknown[j];
       if (column == HybridizedSystem::prescribed) continue;
-      b(column) -= f(j);
-      for (int i = 0; i < 12; ++i) {
-        const int row = element.unknown[i];
-        if (row == HybridizedSystem::prescribed) continue;
-        if (column < n_inner && row < n_inner) {
-          if (row >= column) inner.emplace_back(row, column, K(i, j));
-        } else if (row < n_inner) {
-          coupling.emplace_back(row, column - n_inner, K(i, j));
-        } else if (column >= n_inner) {
-          system.K_CC(row - n_inner, column - n_inner) += K(i, j);
-        }
-      }
+      system.b(column) -= f(j);
+      for (int i = 0; i < 12; ++i)
+        if (element.unknown[i] >= column)  // the lower triangle, and nothing prescribed
+          entries.emplace_back(element.unknown[i], column, K(i, j));
     }
   }
-  if (problem.loads.traction_MPa) {
-    for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
-      if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
-      const int edge = problem.edges.of_boundary[row];
-      const auto [a, z] = problem.mesh.boundary[row].vertices;
-      const EdgeFrame frame = edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[z]);
-      const auto [low, high] = problem.edges.vertices[edge];
-      for (int end = 0; end < 2; ++end) {
-        const Eigen::Vector2d force =
-            frame.length_mm / 2 *
-            problem.loads.traction_MPa(problem.mesh.vertices[end == 0 ? low : high], frame.normal);
-        for (int k = 0; k < 2; ++k) b(system.unknown[edge][2 * end + k]) += force(k);
-      }
-    }
-  }
-  system.K_II.resize(n_inner, n_inner);
-  system.K_II.setFromTriplets(inner.begin(), inner.end());
-  system.K_IC.resize(n_inner, n_c);
-  system.K_IC.setFromTriplets(coupling.begin(), coupling.end());
-  system.b_I = b.head(n_inner);
-  system.b_C = b.tail(n_c);
+  add_tractions(problem, system);
+  system.K.resize(n, n);
+  system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
 }
 
-CondensedSystem condense(const HybridizedSystem& system, CholmodFactor& factor,
-                         const Deadline& deadline) {
+CondensedSystem condense(const HybridizedSystem& system, HybridizedFactor& factor) {
   CondensedSystem condensed;
-  if (system.K_CC.size() == 0) return condensed;
-  Eigen::MatrixXd K_c = system.K_CC;
-  constexpr Eigen::Index columns_at_once = 16;
-  for (Eigen::Index j = 0; j < K_c.cols(); j += columns_at_once) {
-    const Eigen::Index columns = std::min(columns_at_once, K_c.cols() - j);
-    Eigen::MatrixXd solved = system.K_IC.middleCols(j, columns);
-    factor.solve_in_place(solved, deadline);
-    K_c.middleCols(j, columns) -= system.K_IC.transpose() * solved;
-  }
-  const Eigen::LLT<Eigen::MatrixXd> llt((K_c + K_c.transpose()) / 2);
-  if (llt.info() != Eigen::Success || !K_c.allFinite())
-    throw Breakdown("hybridized: K_c is not positive definite to rounding");
-  Eigen::VectorXd inner = system.b_I;
-  factor.solve_in_place(inner, deadline);
-  const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(K_c.rows(), K_c.cols()));
-  condensed.D = (inverse + inverse.transpose()) / 2;
-  condensed.G = llt.solve(system.K_IC.transpose() * inner - system.b_C);
+  if (system.n_c == 0) return condensed;
+  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd inverse = lower.solve(Eigen::MatrixXd::Identity(system.n_c, system.n_c));
+  condensed.D = inverse.transpose() * inverse;
+  condensed.G = -lower.transpose().solve(factor.y.tail(system.n_c));
   return condensed;
 }
 
 StressField hybridized_stress(const Problem& problem, const HybridizedSystem& system,
-                              CholmodFactor& factor, const Eigen::VectorXd& contact_displacement) {
-  Eigen::VectorXd u(system.n_inner() + contact_displacement.size());
-  {
-    Eigen::VectorXd inner = system.b_I;
-    if (contact_displacement.size() > 0) inner -= system.K_IC * contact_displacement;
-    factor.solve_in_place(inner);
-    u << inner, contact_displacement;
-  }
+                              HybridizedFactor& factor,
+                              const Eigen::VectorXd& contact_displacement) {
+  Eigen::VectorXd u = factor.y;
+  if (system.n_c > 0)
+    u.tail(system.n_c) = factor.cholesky.trailing_factor().transpose() * contact_displacement;
+  u = factor.cholesky.backward(u);
   const std::vector<bool> is_contact = contact_edges(problem);
   StressField field(problem.mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {

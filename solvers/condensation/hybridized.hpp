@@ -15,6 +15,9 @@
 //   ⎡ K_II K_IC ⎤ ⎡ u_I ⎤   ⎡ b_I       ⎤      K_c = K_CC − K_CI K_II⁻¹ K_IC,   D = K_c⁻¹
 //   ⎣ K_CI K_CC ⎦ ⎣ ū_C ⎦ = ⎣ b_C + F_C ⎦      G = −D (b_C − K_CI K_II⁻¹ b_I)
 //
+// With K = L Lᵀ and y = L⁻¹ b (cholmod_schur.hpp), K_c = L_CC L_CCᵀ and G = −L_CC⁻ᵀ y_C: no solve
+// with n_c right-hand sides. Given ū_C, the inner unknowns come from Lᵀ u = (y_I, L_CCᵀ ū_C).
+//
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
 #pragma once
@@ -24,7 +27,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "solvers/condensation/condensed.hpp"
-#include "solvers/direct/cholmod.hpp"
+#include "solvers/direct/cholmod_schur.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -35,26 +38,29 @@ struct HybridizedSystem {
   // on Γ_C normal and tangential at its start and end. Inner unknowns first, then the contact rows
   // in the order of ContactPoints (without friction the tangential ones are inner unknowns).
   std::vector<std::array<int, 4>> unknown;
-  std::vector<Eigen::Vector4d>
-      displacement;    // ū0 of displacement edges, else zero; empty: all zero
-  SparseColumns K_II;  // n_I×n_I, lower triangle, N/mm
-  SparseColumns K_IC;  // n_I×n_c
-  Eigen::MatrixXd K_CC;
-  Eigen::VectorXd b_I, b_C;  // N
-  int n_inner() const { return static_cast<int>(K_II.rows()); }
-  std::size_t bytes() const;  // of K and b
+  std::vector<Eigen::Vector4d> displacement;  // ū0 of displacement edges, else 0; empty: all zero
+  SparseColumns K;                            // lower triangle, N/mm
+  Eigen::VectorXd b;                          // N, without the contact forces
+  int n_c = 0;                                // the last unknowns
+  std::size_t bytes() const;                  // of K and b
 };
 
-// `contact` is that of the Airy system: it says which contact unknowns there are.
+// `contact` is that of the Airy system: it says which contact unknowns there are. Throws Breakdown
+// naming the triangle whose flexibility is not positive definite to rounding.
 HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints& contact);
 
-// D and G from a factor of K_II. Throws Breakdown when K_c is not positive definite to rounding.
-CondensedSystem condense(const HybridizedSystem& system, CholmodFactor& K_II_factor,
-                         const Deadline& deadline = {});
+// K's factor and y = L⁻¹ b.
+struct HybridizedFactor {
+  CholmodSchur cholesky;
+  Eigen::VectorXd y;
+};
 
-// The stresses that belong to contact displacements ū_C (size 0 without contact).
+// D and G; empty without contact.
+CondensedSystem condense(const HybridizedSystem& system, HybridizedFactor& factor);
+
+// The stresses that belong to contact displacements ū_C (size n_c).
 StressField hybridized_stress(const Problem& problem, const HybridizedSystem& system,
-                              CholmodFactor& K_II_factor,
+                              HybridizedFactor& factor,
                               const Eigen::VectorXd& contact_displacement);
 
 }  // namespace airybench

@@ -10,21 +10,24 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
     const StageTimer timer(solution.times.condense_s);
     return assemble_hybridized(problem, airy.contact);
   }();
-  CholmodFactor factor;
+  HybridizedFactor factor;
   {
     const StageTimer timer(solution.times.order_s);
-    factor.analyse(system.K_II);
+    factor.cholesky.analyse(system.K, system.n_c);
   }
+  control.deadline.check("the ordering of the hybridized system");
   {
     const StageTimer timer(solution.times.factor_s);
-    factor.factor(system.K_II);
+    factor.cholesky.factor(system.K);
   }
+  control.deadline.check("the factorisation of the hybridized system");
   CondensedSystem condensed;
   {
     const StageTimer timer(solution.times.condense_s);
-    condensed = condense(system, factor, control.deadline);
+    factor.y = factor.cholesky.forward(system.b);
+    condensed = condense(system, factor);
   }
-  solution.storage_bytes = system.bytes() + factor.bytes() +
+  solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
                            static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, airy.contact, control, solution);
   const StageTimer timer(solution.times.recover_s);
