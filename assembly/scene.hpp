@@ -40,8 +40,9 @@ struct SceneError : std::runtime_error {
 // Throws SceneError when a value is impossible in itself: ν ≥ 0.5, μ < 0, E ≤ 0, …
 void check_values(const Scene& scene);
 
-// Poses the scene. On every contact face g0 = clearance + d²/(2R), where d is the distance from the
-// midpoint of the face's two ends (the tooth's axis). Throws SceneError.
+// Poses the scene. g0 = clearance + d²/(2R) on the contact boundary, where d is the distance from
+// the nearest of the contact faces' middles (the midpoint of a face's two ends: the tooth's axis).
+// Throws SceneError.
 Problem pose(const Scene& scene, Mesh mesh);
 
 }  // namespace airybench

@@ -54,7 +54,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
 void print_plan(const std::vector<Case>& cases, bool explain) {
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const Case& c = cases[k];
-    const MeshSizes sizes = mesh_sizes(c.posed.problem->mesh);
+    const MeshSizes sizes = solved_sizes(*c.posed.problem);
     fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", k + 1, cases.size(), c.name(), sizes.n_phi,
                sizes.n_f, sizes.n_c);
     if (!explain) continue;

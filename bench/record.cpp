@@ -53,7 +53,7 @@ double median_absolute_deviation(const std::vector<double>& values) {
 
 Columns columns(const Record& r) {
   const auto smallest = std::min_element(r.samples_s.begin(), r.samples_s.end());
-  return {
+  Columns result = {
       {"mesh", r.mesh},
       {"scene", r.scene},
       {"method", r.method},
@@ -68,12 +68,9 @@ Columns columns(const Record& r) {
       {"time_min_s", smallest == r.samples_s.end() ? Json() : Json(*smallest)},
       {"time_mad_s", number_or_null(median_absolute_deviation(r.samples_s))},
       {"assembly_s", number_or_null(median(r.assembly_samples_s))},
-      {"stage_order_s", stage_median(r, &StageTimes::order_s)},
-      {"stage_precondition_s", stage_median(r, &StageTimes::precondition_s)},
-      {"stage_factor_s", stage_median(r, &StageTimes::factor_s)},
-      {"stage_condense_s", stage_median(r, &StageTimes::condense_s)},
-      {"stage_contact_s", stage_median(r, &StageTimes::contact_s)},
-      {"stage_recover_s", stage_median(r, &StageTimes::recover_s)},
+  };
+  for (const auto& [name, stage] : stage_columns) result.emplace_back(name, stage_median(r, stage));
+  const Columns measures = {
       {"peak_heap_bytes", or_null(r.peak_heap_bytes)},
       {"peak_rss_bytes", or_null(r.peak_rss_bytes)},
       {"storage_bytes", r.storage_bytes > 0 ? Json(r.storage_bytes) : Json()},
@@ -94,6 +91,8 @@ Columns columns(const Record& r) {
       {"n_stick", verified(r, &Verification::n_stick)},
       {"n_slip", verified(r, &Verification::n_slip)},
   };
+  result.insert(result.end(), measures.begin(), measures.end());
+  return result;
 }
 
 nlohmann::ordered_json to_json(const Record& r) {

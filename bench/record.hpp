@@ -1,8 +1,10 @@
 // One case's record: everything that a line of the output says.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assembly/mesh.hpp"
@@ -35,6 +37,15 @@ struct Record {
 
 double median(std::vector<double> values);  // NaN when empty
 double median_absolute_deviation(const std::vector<double>& values);
+
+// The columns of the stages.
+inline constexpr std::array<std::pair<const char*, std::optional<double> StageTimes::*>, 6>
+    stage_columns = {{{"stage_order_s", &StageTimes::order_s},
+                      {"stage_precondition_s", &StageTimes::precondition_s},
+                      {"stage_factor_s", &StageTimes::factor_s},
+                      {"stage_condense_s", &StageTimes::condense_s},
+                      {"stage_contact_s", &StageTimes::contact_s},
+                      {"stage_recover_s", &StageTimes::recover_s}}};
 
 // The flat view: names and values of the columns, in order; null: does not apply.
 using Columns = std::vector<std::pair<std::string, nlohmann::json>>;

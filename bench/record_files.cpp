@@ -39,32 +39,36 @@ RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), error.message()));
-  for (const char* stale : {"results.csv", "results.json"})
-    std::filesystem::remove(folder_ / stale, error);
-  lines_.open(folder_ / "records.jsonl", std::ios::binary | std::ios::trunc);
-  if (!lines_) throw OutputError((folder_ / "records.jsonl").string() + ": cannot be written");
 }
 
 void RecordFiles::append(const Record& record) {
+  if (!lines_.is_open()) {
+    std::error_code ignored;
+    for (const char* stale : {"results.csv", "results.json"})
+      std::filesystem::remove(folder_ / stale, ignored);
+    lines_.open(folder_ / "records.jsonl", std::ios::binary | std::ios::trunc);
+  }
   nlohmann::ordered_json json = to_json(record);
   json["context"] = context_;
   lines_ << json.dump() << "\n" << std::flush;
   if (!lines_) throw OutputError((folder_ / "records.jsonl").string() + ": cannot be written");
 }
 
-void RecordFiles::write_csv(const std::vector<Record>& records) const {
+void RecordFiles::finish(const std::vector<Record>& records) const {
   write_file_atomically(folder_ / "results.csv", csv_text(records));
-}
-
-std::filesystem::path RecordFiles::benchmark_json_in_the_making() const {
-  return folder_ / "results.json.part";
-}
-
-void RecordFiles::finish_benchmark_json() const {
   std::error_code error;
-  std::filesystem::rename(benchmark_json_in_the_making(), folder_ / "results.json", error);
+  std::filesystem::rename(benchmark_json_part(folder_), folder_ / "results.json", error);
   if (error)
     throw OutputError(fmt::format("{}: {}", (folder_ / "results.json").string(), error.message()));
+}
+
+void RecordFiles::abandon() const {
+  std::error_code ignored;
+  std::filesystem::remove(benchmark_json_part(folder_), ignored);
+}
+
+std::filesystem::path RecordFiles::benchmark_json_part(const std::filesystem::path& folder) {
+  return folder / "results.json.part";
 }
 
 }  // namespace airybench

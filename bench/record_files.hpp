@@ -19,13 +19,17 @@ struct OutputError : std::runtime_error {
 
 class RecordFiles {
  public:
-  // Makes the folder and begins records.jsonl anew. Throws OutputError.
+  // Makes the folder. What an earlier run left there stays until the first record of this one.
+  // Throws OutputError.
   RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context);
 
   void append(const Record& record);  // one line, flushed; throws OutputError
-  void write_csv(const std::vector<Record>& records) const;
-  std::filesystem::path benchmark_json_in_the_making() const;  // hidden until finished
-  void finish_benchmark_json() const;
+  // results.csv, and Google Benchmark's file under its name.
+  void finish(const std::vector<Record>& records) const;
+  void abandon() const;  // nothing was recorded: removes Google Benchmark's file
+
+  // Where Google Benchmark writes while the run goes on.
+  static std::filesystem::path benchmark_json_part(const std::filesystem::path& folder);
 
  private:
   std::filesystem::path folder_;

@@ -12,6 +12,18 @@
 namespace airybench {
 namespace {
 
+// What a repetition shows beside its time in Google Benchmark's JSON: this repetition's stages, and
+// the columns that hold for all. Not the columns that Google Benchmark has itself.
+void add_counters(const Record& record, benchmark::State& state) {
+  for (const auto& [name, value] : columns(record))
+    if (value.is_number() && !name.starts_with("time_") && !name.starts_with("stage_") &&
+        name != "threads" && name != "repetitions")
+      state.counters[name] = value.get<double>();
+  if (record.stage_samples.empty()) return;
+  for (const auto& [name, stage] : stage_columns)
+    if (const auto& seconds = record.stage_samples.back().*stage) state.counters[name] = *seconds;
+}
+
 // The state of a run. Google Benchmark calls measure() once per repetition and the reporter when a
 // case has all of its own.
 class CaseRunner {
@@ -30,11 +42,9 @@ class CaseRunner {
             fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
         break;
       }
-      state.SetIterationTime(bench_->measure_time(cases_[k].method, record));
+      state.SetIterationTime(bench_of(k).measure_time(cases_[k].method, record));
     }
-    for (const auto& [name, value] : columns(record))
-      if (value.is_number() && name != "time_s" && name != "time_min_s" && name != "time_mad_s")
-        state.counters[name] = value.get<double>();
+    add_counters(record, state);
   }
 
   void finish(const std::string& case_name) {
@@ -62,13 +72,18 @@ class CaseRunner {
     throw std::logic_error("no case is named " + case_name);
   }
 
-  // Detail and memory run; the blocks and the reference of the last scene are kept for the next.
+  // Blocks and reference of a posed scene, made at its first case and kept: Google Benchmark may
+  // interleave the repetitions of all cases.
+  Workbench& bench_of(std::size_t k) {
+    const auto& problem = cases_[k].posed.problem;
+    auto& bench = benches_[problem.get()];
+    if (!bench) bench = std::make_unique<Workbench>(problem, options_);
+    return *bench;
+  }
+
+  // Detail and memory run.
   void begin(std::size_t k) {
     const Case& c = cases_[k];
-    if (!bench_ || &bench_->problem() != c.posed.problem.get()) {
-      bench_.reset();
-      bench_ = std::make_unique<Workbench>(c.posed.problem, options_);
-    }
     std::filesystem::path fields;
     if (options_.fields) {
       std::string name = c.name();
@@ -76,11 +91,11 @@ class CaseRunner {
         if (letter == '/' || letter == ':') letter = '-';
       fields = options_.out / "fields" / name;
     }
-    Record record = bench_->examine(c.method, fields);
+    Record record = bench_of(k).examine(c.method, fields);
     record.scene = c.posed.scene_name;
     record.mesh_sha256 = c.posed.mesh_sha256;
     if (record.status == Status::ok || record.status == Status::inaccurate)
-      bench_->measure_memory(c.method, record);
+      bench_of(k).measure_memory(c.method, record);
     records_[k] = std::move(record);
   }
 
@@ -88,7 +103,7 @@ class CaseRunner {
   const Options& options_;
   RecordFiles& files_;
   Progress progress_;
-  std::unique_ptr<Workbench> bench_;
+  std::map<const Problem*, std::unique_ptr<Workbench>> benches_;
   std::vector<std::optional<Record>> records_;
   std::vector<std::size_t> finished_;
 };
@@ -106,13 +121,20 @@ class Reporter : public benchmark::BenchmarkReporter {
   CaseRunner& run_;
 };
 
-void initialize_benchmark(const Options& options, const RecordFiles& files,
+// Before any file is touched. Throws UsageError.
+void initialize_benchmark(const Options& options,
                           const std::map<std::string, std::string>& context) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
-  arguments = {"bench", "--benchmark_out=" + files.benchmark_json_in_the_making().string(),
+  arguments = {"bench", "--benchmark_out=" + RecordFiles::benchmark_json_part(options.out).string(),
                "--benchmark_out_format=json"};
-  arguments.insert(arguments.end(), options.benchmark_arguments.begin(),
-                   options.benchmark_arguments.end());
+  for (const std::string& argument : options.benchmark_arguments) {
+    for (const char* own : {"--benchmark_out", "--benchmark_report_aggregates_only",
+                            "--benchmark_display_aggregates_only", "--benchmark_list_tests"})
+      if (argument.starts_with(own))
+        throw UsageError(
+            fmt::format("{}: is set by bench itself (see --out, --dry-run)", argument));
+    arguments.push_back(argument);
+  }
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   int argc = static_cast<int>(argv.size());
@@ -135,8 +157,8 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
 
 std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& options,
                               const std::map<std::string, std::string>& context) {
+  initialize_benchmark(options, context);
   RecordFiles files(options.out, context);
-  initialize_benchmark(options, files, context);
   CaseRunner run(cases, options, files);
   for (std::size_t k = 0; k < cases.size(); ++k)
     benchmark::RegisterBenchmark(cases[k].name().c_str(),
@@ -149,8 +171,11 @@ std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& opt
   benchmark::RunSpecifiedBenchmarks(&reporter);
   benchmark::ClearRegisteredBenchmarks();
   std::vector<Record> records = run.finished_records();
-  files.write_csv(records);
-  files.finish_benchmark_json();
+  if (records.empty()) {
+    files.abandon();
+    throw UsageError("no case ran: the arguments after -- select none");
+  }
+  files.finish(records);
   return records;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <vector>
 
 namespace airybench {
@@ -127,11 +128,20 @@ Scene read_scene(const std::filesystem::path& file) {
   std::ifstream in(file);
   if (!in || std::filesystem::is_directory(file, error))
     throw SceneError(file.string() + ": cannot be opened as a scene file");
+  // JSON allows a key to be repeated; a scene does not.
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw SceneError(file.string() + ": " + value.get<std::string>() + ": given twice");
+    return true;
+  };
   Json json;
   try {
-    json = Json::parse(in);
-  } catch (const Json::parse_error& parse) {
-    std::string what = parse.what();  // "[json.exception.parse_error.101] parse error at line 1, …"
+    json = Json::parse(in, watch);
+  } catch (const Json::exception& wrong) {
+    const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
     throw SceneError(file.string() + ": not JSON: " + what.substr(what.find("] ") + 2));
   }
   Scene scene = from_json(json, file.string());

@@ -15,6 +15,10 @@ struct StageDecision {
   std::string reason;  // why it is left out; empty when it is run
 };
 
+// The sizes that a problem is solved with: without friction the tangential contact rows count in
+// n_f.
+MeshSizes solved_sizes(const Problem& problem);
+
 // From the problem alone, before anything is computed.
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
                                          bool fields_asked);

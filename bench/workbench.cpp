@@ -89,14 +89,14 @@ void Workbench::judge(const AssembledBlocks& blocks, const Solution& solution, R
 
 Record Workbench::examine(const Method& method, const std::filesystem::path& fields) {
   const AssembledBlocks& assembled = blocks(method.blocks);
-  const MeshSizes sizes = mesh_sizes(problem_->mesh);
+  const MeshSizes sizes = solved_sizes(*problem_);
   Record record;
   record.mesh = problem_->mesh.name;
   record.method = method.name;
   record.threads = options_.threads;
   record.n_phi = sizes.n_phi;
-  record.n_c = assembled.system->contact.size();
-  record.n_f = sizes.n_f + sizes.n_c - record.n_c;
+  record.n_f = sizes.n_f;
+  record.n_c = sizes.n_c;
   record.assembly_samples_s = assembled.samples_s;
   record.blocks_heap_bytes = assembled.heap_bytes;
   record.assembly_peak_heap_bytes = assembled.peak_heap_bytes;

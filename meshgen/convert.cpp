@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "assembly/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/quiet_stdout.hpp"
 
@@ -229,6 +230,12 @@ Mesh convert_model(const std::filesystem::path& model) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(model, error))
     throw MeshError(model.string() + ": no such file");
+  if (model.extension() == ".msh") {
+    try {
+      return read_msh(model);  // it is one of ours already
+    } catch (const MeshError&) {
+    }
+  }
   Mesh mesh;
   try {
     const GmshSession session;

@@ -1,6 +1,7 @@
 #include "solvers/direct/cholmod_schur.hpp"
 
 #include <Eigen/CholmodSupport>
+#include <algorithm>
 #include <new>
 #include <numeric>
 #include <vector>
@@ -28,9 +29,10 @@ void CholmodSchur::analyse(const Eigen::SparseMatrix<double>& lower, int trailin
     const Eigen::SparseMatrix<double> K_II = lower.topLeftCorner(inner, inner);
     cholmod_sparse view = Eigen::viewAsCholmod(K_II.selfadjointView<Eigen::Lower>());
     cholmod_factor* symbolic = cholmod_analyze(&view, &common_);
-    throw_if_out_of_memory();
-    std::copy_n(static_cast<const int*>(symbolic->Perm), inner, order.begin());
+    if (symbolic != nullptr)
+      std::copy_n(static_cast<const int*>(symbolic->Perm), inner, order.begin());
     cholmod_free_factor(&symbolic, &common_);
+    throw_if_out_of_memory();
   }
   // K_II's order is already a postorder; another one would move the trailing unknowns.
   common_.nmethods = 1;

@@ -86,6 +86,8 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
             "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
   EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
             "materials: a: poisson: 0.7 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"friction": 0.2, "friction": 0.3})"), "friction: given twice");
+  EXPECT_EQ(complaint(R"({"friction": 1e400})").substr(0, 30), "not JSON: number overflow pars");
   EXPECT_EQ(complaint("[]"), "the scene: [] (allowed: a JSON object)");
   EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
   EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");

@@ -313,6 +313,36 @@ TEST_F(Convert, RefusesFlatTriangles) {
             "triangle of nodes 20, 10, 50 at (1, 0) has zero area");
 }
 
+TEST_F(Convert, KeepsAFileThatIsOneOfOursAlready) {
+  // One tag per element: allowed in MSH 2.2 and read by read_msh(), but not by Gmsh.
+  const Mesh mesh = convert("ours.msh", R"($MeshFormat
+2.2 0 8
+$EndMeshFormat
+$PhysicalNames
+3
+1 1 "displacement"
+1 2 "force"
+2 4 "steel"
+$EndPhysicalNames
+$Nodes
+3
+1 0 0 0
+2 1 0 0
+3 0 1 0
+$EndNodes
+$Elements
+4
+1 1 1 1 1 2
+2 1 1 2 2 3
+3 1 1 2 3 1
+4 2 1 4 1 2 3
+$EndElements
+)");
+  EXPECT_EQ(mesh.triangles.size(), 1u);
+  EXPECT_EQ(mesh.body_names.front(), "steel");
+  EXPECT_EQ(mesh_sizes(mesh).n_f, 8);
+}
+
 TEST_F(Convert, RefusesSeparateBodiesAndHoles) {
   const std::string points = R"(
 Point(1) = {0, 0, 0, 1}; Point(2) = {4, 0, 0, 1}; Point(3) = {0, 4, 0, 1};

@@ -217,14 +217,15 @@ TEST(Methods, SelectionByNamesAndGlobs) {
   EXPECT_EQ(select_methods("3STEPD").size(), 1u);
   EXPECT_EQ(select_methods("*").size(), methods().size());
   EXPECT_EQ(select_methods("HYBRID,3STEPD").front().name, "3STEPD");  // in the table's order
-  EXPECT_EQ(select_methods("3STEPD,3STEP*,3STEPD").size(), 2u);
+  EXPECT_EQ(select_methods("3STEPD,3STEP*,3STEPD").size(), select_methods("3STEP*").size());
   try {
     select_methods("3STEPD,4STEP");
     FAIL() << "an unknown method was accepted";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(),
-                 "no method matches '4STEP' (valid: 3STEPD, 3STEPD:CHOLMOD, HYBRID; globs like "
-                 "'3STEP*')");
+    std::string valid;
+    for (const Method& method : methods()) valid += (valid.empty() ? "" : ", ") + method.name;
+    EXPECT_EQ(error.what(),
+              "no method matches '4STEP' (valid: " + valid + "; globs like '3STEP*')");
   }
   EXPECT_THROW(select_methods(""), std::invalid_argument);
 }
