@@ -63,14 +63,21 @@ const Reference* Workbench::reference() {
 }
 
 Solution Workbench::solve(const Method& method, const AssembledBlocks& blocks, bool histories) {
-  std::optional<heap::Limit> limit;
-  if (options_.memory_limit_bytes)
-    limit.emplace(heap::live_bytes() - blocks.heap_bytes.value_or(0) +
-                  *options_.memory_limit_bytes);
   RunControl control;
   control.deadline = Deadline::after(options_.timeout_s);
   control.histories = histories;
-  return run(method, *blocks.system, control);
+  try {
+    std::optional<heap::Limit> limit;
+    if (options_.memory_limit_bytes)
+      limit.emplace(heap::live_bytes() - blocks.heap_bytes.value_or(0) +
+                    *options_.memory_limit_bytes);
+    return run(method, *blocks.system, control);
+  } catch (const std::bad_alloc&) {  // so little that not even a message could be written
+    Solution solution;
+    solution.status = Status::out_of_memory;
+    solution.message = "an allocation was refused";
+    return solution;
+  }
 }
 
 void Workbench::judge(const AssembledBlocks& blocks, const Solution& solution, Record& record) {

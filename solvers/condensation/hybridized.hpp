@@ -15,7 +15,7 @@
 //   ⎡ K_II K_IC ⎤ ⎡ u_I ⎤   ⎡ b_I       ⎤      K_c = K_CC − K_CI K_II⁻¹ K_IC,   D = K_c⁻¹
 //   ⎣ K_CI K_CC ⎦ ⎣ ū_C ⎦ = ⎣ b_C + F_C ⎦      G = −D (b_C − K_CI K_II⁻¹ b_I)
 //
-// With K = L Lᵀ and y = L⁻¹ b (cholmod_schur.hpp), K_c = L_CC L_CCᵀ and G = −L_CC⁻ᵀ y_C: no solve
+// With K = L Lᵀ and y = L⁻¹ b (cholmod.hpp), K_c = L_CC L_CCᵀ and G = −L_CC⁻ᵀ y_C: no solve
 // with n_c right-hand sides. Given ū_C, the inner unknowns come from Lᵀ u = (y_I, L_CCᵀ ū_C).
 //
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
@@ -27,7 +27,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "solvers/condensation/condensed.hpp"
-#include "solvers/direct/cholmod_schur.hpp"
+#include "solvers/direct/cholmod.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -51,7 +51,7 @@ HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints
 
 // K's factor and y = L⁻¹ b.
 struct HybridizedFactor {
-  CholmodSchur cholesky;
+  CholmodFactor cholesky;
   Eigen::VectorXd y;
 };
 

@@ -1,11 +1,17 @@
 // Supernodal Cholesky factorisation by CHOLMOD (Chen, Davis, Hager & Rajamanickam 2008,
-// doi:10.1145/1391989.1391995), through Eigen's wrapper.
+// doi:10.1145/1391989.1391995), symmetric positive definite.
 //
-// S P = P L Lᵀ with a fill-reducing permutation P that CHOLMOD chooses (AMD, or METIS where AMD
-// leaves much fill). S is symmetric positive definite.
+//   P S Pᵀ = L Lᵀ with a fill-reducing permutation P that CHOLMOD chooses (AMD, or METIS where AMD
+// leaves much fill). On request the last unknowns C stay last, and L ends in a Schur complement:
+//
+//   ⎡ K_II  ·   ⎤     ⎡ L_II      ⎤ ⎡ L_IIᵀ L_CIᵀ ⎤
+//   ⎣ K_CI K_CC ⎦  =  ⎣ L_CI L_CC ⎦ ⎣       L_CCᵀ ⎦      K_CC − K_CI K_II⁻¹ K_CIᵀ = L_CC L_CCᵀ
+//
+// (I permuted), with no solve for it.
 #pragma once
 
-#include <Eigen/CholmodSupport>
+#include <cholmod.h>
+
 #include <Eigen/SparseCore>
 
 #include "solvers/solution.hpp"
@@ -15,21 +21,35 @@ namespace airybench {
 class CholmodFactor {
  public:
   CholmodFactor();
-  // Ordering and symbolic factorisation of a lower triangle. Throws std::bad_alloc.
-  void analyse(const Eigen::SparseMatrix<double>& lower);
+  ~CholmodFactor();
+  CholmodFactor(const CholmodFactor&) = delete;
+  CholmodFactor& operator=(const CholmodFactor&) = delete;
+
+  // Ordering and symbolic factorisation of a lower triangle with sorted columns; the last
+  // `trailing` unknowns keep their place and order. Throws std::bad_alloc.
+  void analyse(const Eigen::SparseMatrix<double>& lower, int trailing = 0);
   // Of the matrix that was analysed, or one with its pattern. Throws Breakdown when it is not
-  // positive definite, std::bad_alloc.
+  // positive definite or not finite, std::bad_alloc.
   void factor(const Eigen::SparseMatrix<double>& lower);
 
   // X ← S⁻¹ X, a few columns at a time. Throws TimeoutReached between them, std::bad_alloc.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
 
-  std::size_t bytes() const { return bytes_; }  // of L, by CHOLMOD's count of its entries
+  // y = L⁻¹ P b and Pᵀ L⁻ᵀ z: the halves of a solve. In y and z the trailing unknowns are the last
+  // ones too; the inner ones are in the factor's order.
+  Eigen::VectorXd forward(const Eigen::VectorXd& b);
+  Eigen::VectorXd backward(const Eigen::VectorXd& z);
+  Eigen::MatrixXd trailing_factor() const;  // L_CC, lower triangular
+
+  std::size_t bytes() const;  // of L as it is stored
 
  private:
-  void throw_if_out_of_memory();
-  Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>, Eigen::Lower> llt_;
-  std::size_t bytes_ = 0;
+  void solve(int system, Eigen::Ref<Eigen::MatrixXd> X);
+  void throw_if_out_of_memory() const;
+  cholmod_common common_;
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense *solution_ = nullptr, *permuted_ = nullptr, *gathered_ = nullptr;  // workspace
+  int trailing_ = 0;
 };
 
 }  // namespace airybench

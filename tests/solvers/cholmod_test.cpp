@@ -1,10 +1,8 @@
-#include "solvers/direct/cholmod_schur.hpp"
+#include "solvers/direct/cholmod.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-
-#include "solvers/direct/cholmod.hpp"
 
 namespace airybench {
 namespace {
@@ -24,13 +22,13 @@ Eigen::SparseMatrix<double> lower(const Eigen::MatrixXd& A) {
   return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
 }
 
-TEST(CholmodSchur, TrailingFactorIsThatOfTheSchurComplement) {
+TEST(Cholmod, TrailingFactorIsThatOfTheSchurComplement) {
   for (const int side : {2, 7, 20}) {
     const Eigen::MatrixXd A = grid_matrix(side);
     const int n = side * side;
     for (const int trailing : {0, 1, side, n - 1}) {
       const int inner = n - trailing;
-      CholmodSchur cholesky;
+      CholmodFactor cholesky;
       cholesky.analyse(lower(A), trailing);
       cholesky.factor(lower(A));
       const Eigen::MatrixXd L = cholesky.trailing_factor();
@@ -50,9 +48,9 @@ TEST(CholmodSchur, TrailingFactorIsThatOfTheSchurComplement) {
   }
 }
 
-TEST(CholmodSchur, TheTrailingPartOfAForwardSolveIsInItsPlace) {
+TEST(Cholmod, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   const Eigen::MatrixXd A = grid_matrix(6);
-  CholmodSchur cholesky;
+  CholmodFactor cholesky;
   cholesky.analyse(lower(A), 5);
   cholesky.factor(lower(A));
   // Given the last unknowns, the inner ones follow from the backward sweep alone.
@@ -64,14 +62,14 @@ TEST(CholmodSchur, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   EXPECT_LT((A.topRows(31) * x - b.head(31)).norm(), 1e-12);
 }
 
-TEST(CholmodSchur, IndefiniteAndNaNAreBreakdowns) {
+TEST(Cholmod, IndefiniteAndNaNAreBreakdowns) {
   Eigen::MatrixXd A = grid_matrix(4);
   A(7, 7) = -1;
-  CholmodSchur cholesky;
+  CholmodFactor cholesky;
   cholesky.analyse(lower(A), 3);
   EXPECT_THROW(cholesky.factor(lower(A)), Breakdown);
   A(7, 7) = std::nan("");
-  CholmodSchur other;
+  CholmodFactor other;
   other.analyse(lower(A), 3);
   EXPECT_THROW(other.factor(lower(A)), Breakdown);
 }
