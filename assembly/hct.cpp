@@ -29,9 +29,13 @@ Eigen::Matrix<double, 2, 3> barycentric_gradients(const Eigen::Vector2d& a,
   return gradients / cross_area(a, b, c);
 }
 
+// The triangle moved to the origin: far from it, sums of coordinates would lose digits.
+TriangleVertices at_origin(const TriangleVertices& v) { return v.colwise() - v.col(0); }
+
 }  // namespace
 
-HctCoefficients hct_coefficients(const TriangleVertices& v, const EdgeSigns& outward) {
+HctCoefficients hct_coefficients(const TriangleVertices& vertices, const EdgeSigns& outward) {
+  const TriangleVertices v = at_origin(vertices);
   const Eigen::Vector2d centroid = v.rowwise().mean();
   HctCoefficients c = HctCoefficients::Zero();
   for (int i = 0; i < 3; ++i) {
@@ -67,7 +71,8 @@ std::array<int, 10> hct_third(int t) {
   return {i, j, 18, 3 + 2 * t, 4 + 2 * t, 9 + i, 9 + j, 12 + t, 15 + i, 15 + j};
 }
 
-HctStress hct_stress(const TriangleVertices& v, const EdgeSigns& outward) {
+HctStress hct_stress(const TriangleVertices& vertices, const EdgeSigns& outward) {
+  const TriangleVertices v = at_origin(vertices);
   // Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
   // (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
   constexpr int at[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};

@@ -128,6 +128,7 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
 std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
   std::map<long, int> vertex_of_node;
   const int count = read_count(reader, "the number of nodes");
+  double plane = 0;
   for (int i = 0; i < count; ++i) {
     reader.next_line("a node (" + std::to_string(count) + " announced, " + std::to_string(i) +
                      " found)");
@@ -135,10 +136,13 @@ std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
     const std::string name = "node " + std::to_string(node);
     const double x = reader.field<double>(name + ": x, a number,");
     const double y = reader.field<double>(name + ": y, a number,");
-    reader.field<double>(name + ": z, a number,");
+    const double z = reader.field<double>(name + ": z, a number,");
     reader.end_of_line();
     if (!std::isfinite(x) || !std::isfinite(y))
       reader.fail(name + ": coordinates must be finite numbers");
+    if (i == 0) plane = z;
+    if (!(z == plane))
+      reader.fail(name + ": z is not that of the first node; the body must lie in one plane");
     if (!vertex_of_node.emplace(node, static_cast<int>(mesh.vertices.size())).second)
       reader.fail(name + " is given twice");
     mesh.vertices.emplace_back(x, y);
@@ -199,7 +203,7 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   reader.next_line("the format's version");
   const double version = reader.field<double>("the format's version");
   const int binary = reader.field<int>("the file type");
-  if (version < 2 || version >= 3 || binary != 0)
+  if (!(version >= 2 && version < 3) || binary != 0)
     reader.fail("only MSH 2 in ASCII is read here; convert with `meshgen --convert`");
   reader.expect("$EndMeshFormat");
   reader.expect("$PhysicalNames");

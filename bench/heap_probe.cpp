@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
@@ -19,6 +20,8 @@ void __libc_free(void*);
 
 namespace {
 
+constexpr std::size_t always_granted = 64 * 1024;
+std::atomic<bool> limit_passed{false};
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
 std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, count{0}, limit{no_limit};
 
@@ -38,8 +41,11 @@ std::int64_t size_of(void* block) { return static_cast<std::int64_t>(malloc_usab
 bool too_much(std::size_t bytes) {
   const std::int64_t most = limit.load(std::memory_order_relaxed);
   if (most == no_limit) return false;
-  return bytes > static_cast<std::size_t>(most) ||
-         live.load(std::memory_order_relaxed) + static_cast<std::int64_t>(bytes) > most;
+  const bool passed =
+      bytes > static_cast<std::size_t>(std::max<std::int64_t>(most, 0)) ||
+      live.load(std::memory_order_relaxed) + static_cast<std::int64_t>(bytes) > most;
+  if (passed) limit_passed.store(true, std::memory_order_relaxed);
+  return passed && bytes >= always_granted;
 }
 
 void* refused() {
@@ -120,7 +126,11 @@ void reset_peak() {
   peak.store(live_bytes(), std::memory_order_relaxed);
 }
 
-Limit::Limit(std::int64_t live_bytes_at_most) { limit.store(live_bytes_at_most); }
+Limit::Limit(std::int64_t live_bytes_at_most) {
+  limit_passed.store(false);
+  limit.store(live_bytes_at_most);
+}
 Limit::~Limit() { limit.store(no_limit); }
+bool Limit::exceeded() const { return limit_passed.load(); }
 
 }  // namespace airybench::heap

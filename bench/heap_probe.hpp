@@ -21,14 +21,16 @@ std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
 std::int64_t allocations();      // calls that returned a block, since the start
 void reset_peak();               // the peak is then what is live now
 
-// Allocations that would lift live_bytes() above the limit fail, as on a full machine. For the
-// scope of the object.
+// Allocations that would lift live_bytes() above the limit fail, as on a full machine, for the
+// scope of the object. Blocks below 64 KiB are granted all the same, because libraries (OpenBLAS,
+// OpenMP's) do not survive their refusal; exceeded() then says that the limit was passed.
 class Limit {
  public:
   explicit Limit(std::int64_t live_bytes_at_most);
   ~Limit();
   Limit(const Limit&) = delete;
   Limit& operator=(const Limit&) = delete;
+  bool exceeded() const;
 };
 
 }  // namespace airybench::heap

@@ -10,5 +10,6 @@ std::int64_t allocations() { return 0; }
 void reset_peak() {}
 Limit::Limit(std::int64_t) {}
 Limit::~Limit() = default;
+bool Limit::exceeded() const { return false; }
 
 }  // namespace airybench::heap

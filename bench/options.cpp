@@ -54,7 +54,7 @@ Options parse_options(int argc, const char* const* argv) {
       ->capture_default_str();
   auto* limit = app.add_option("--memory-limit", limit_MiB,
                                "MiB of heap that one solve may use, its blocks included")
-                    ->check(CLI::PositiveNumber);
+                    ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
@@ -84,6 +84,11 @@ Options parse_options(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(error.what());
   }
+  if (!(options.timeout_s > 0 && options.timeout_s <= 1e9))
+    throw UsageError(fmt::format("--timeout: {} (allowed: above 0, up to 1e9)", options.timeout_s));
+  if (!(options.target_error > 0 && options.target_error <= 1e9))
+    throw UsageError(
+        fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
   if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
   return options;
 }

@@ -128,11 +128,14 @@ void initialize_benchmark(const Options& options,
   arguments = {"bench", "--benchmark_out=" + RecordFiles::benchmark_json_part(options.out).string(),
                "--benchmark_out_format=json"};
   for (const std::string& argument : options.benchmark_arguments) {
-    for (const char* own : {"--benchmark_out", "--benchmark_report_aggregates_only",
-                            "--benchmark_display_aggregates_only", "--benchmark_list_tests"})
-      if (argument.starts_with(own))
-        throw UsageError(
-            fmt::format("{}: is set by bench itself (see --out, --dry-run)", argument));
+    const bool allowed = argument.starts_with("--benchmark_filter=") ||
+                         argument.starts_with("--benchmark_enable_random_interleaving") ||
+                         argument.starts_with("--benchmark_context=");
+    if (!allowed)
+      throw UsageError(
+          fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
+                      "--benchmark_enable_random_interleaving=, --benchmark_context=)",
+                      argument));
     arguments.push_back(argument);
   }
   std::vector<char*> argv;

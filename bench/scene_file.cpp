@@ -130,7 +130,8 @@ Scene read_scene(const std::filesystem::path& file) {
     throw SceneError(file.string() + ": cannot be opened as a scene file");
   // JSON allows a key to be repeated; a scene does not.
   std::vector<std::set<std::string>> keys;
-  const auto watch = [&](int, Json::parse_event_t event, Json& value) {
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > 8) throw SceneError(file.string() + ": nested more than 8 deep");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)

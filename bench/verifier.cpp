@@ -187,10 +187,13 @@ Verification verify(const DualSystem& system, const Solution& solution,
   for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
     work += system.contact.gap(p) * solution.F_C(system.contact.components * p);
   result.complementary_energy_Nmm = result.strain_energy_Nmm - work;
-  if (reference != nullptr)
-    result.error_stress =
-        ratio(stress_distance(problem, solution.stress, reference->stress),
-              std::sqrt(stress_norm_squared(problem, reference->stress)), scale.energy_norm);
+  if (reference != nullptr) {
+    const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
+    result.relative_to_loads =
+        scale.energy_norm > 0 && denominator(reference_norm, scale.energy_norm) != reference_norm;
+    result.error_stress = ratio(stress_distance(problem, solution.stress, reference->stress),
+                                reference_norm, scale.energy_norm);
+  }
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   return result;
 }

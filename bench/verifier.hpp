@@ -11,6 +11,7 @@
 //   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "assembly/dual_system.hpp"
@@ -23,6 +24,7 @@ namespace airybench {
 struct Verification {
   std::optional<double> error_stress;
   std::optional<double> error_force;
+  bool relative_to_loads = false;  // a denominator was replaced by the load scale
   double equilibrium_residual = std::numeric_limits<double>::infinity();
   std::optional<double> natural_map_residual;
   std::optional<double> signorini_violation_N;   // largest normal component of the natural map

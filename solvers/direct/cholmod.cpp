@@ -35,6 +35,7 @@ CholmodFactor::~CholmodFactor() {
 
 void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing) {
   trailing_ = trailing;
+  if (lower.rows() == 0) return;  // nothing to solve
   cholmod_sparse whole = view_of(lower);
   if (trailing == 0) {
     factor_ = cholmod_analyze(&whole, &common_);
@@ -61,6 +62,7 @@ void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int traili
 }
 
 void CholmodFactor::factor(const Eigen::SparseMatrix<double>& lower) {
+  if (factor_ == nullptr) return;
   cholmod_sparse whole = view_of(lower);
   cholmod_factorize(&whole, factor_, &common_);
   throw_if_out_of_memory();
@@ -92,13 +94,14 @@ Eigen::VectorXd CholmodFactor::backward(const Eigen::VectorXd& z) {
 }
 
 Eigen::MatrixXd CholmodFactor::trailing_factor() const {
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(trailing_, trailing_);
+  if (factor_ == nullptr) return L;
   const auto first = static_cast<int>(factor_->n) - trailing_;
   const auto* super = static_cast<const int*>(factor_->super);  // first column of each supernode
   const auto* rows_at = static_cast<const int*>(factor_->pi);
   const auto* values_at = static_cast<const int*>(factor_->px);
   const auto* rows = static_cast<const int*>(factor_->s);
   const auto* values = static_cast<const double*>(factor_->x);
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(trailing_, trailing_);
   for (std::size_t k = 0; k < factor_->nsuper; ++k) {
     const int height = rows_at[k + 1] - rows_at[k];
     for (int column = std::max(super[k], first); column < super[k + 1]; ++column) {
@@ -110,9 +113,12 @@ Eigen::MatrixXd CholmodFactor::trailing_factor() const {
   return L;
 }
 
-std::size_t CholmodFactor::bytes() const { return factor_->xsize * sizeof(double); }
+std::size_t CholmodFactor::bytes() const {
+  return factor_ == nullptr ? 0 : factor_->xsize * sizeof(double);
+}
 
 void CholmodFactor::solve(int system, Eigen::Ref<Eigen::MatrixXd> X) {
+  if (factor_ == nullptr) return;
   // Workspace is made here and kept: cholmod_solve2 does not survive an allocation of its own that
   // fails (CHOLMOD 3.0.14).
   const auto n = factor_->n, columns = static_cast<std::size_t>(X.cols());

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "solvers/methods.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {
@@ -31,15 +32,6 @@ std::string content(const fs::path& file) {
 
 class Command : public ::testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = fs::path(::testing::TempDir()) /
-              ("airybench_" +
-               std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
   Result bench(const std::string& arguments) const {
     const std::string command = "cd '" + folder_.string() + "' && '" BENCH_EXECUTABLE "' " +
                                 arguments + " >out.txt 2>err.txt </dev/null";
@@ -61,7 +53,8 @@ class Command : public ::testing::Test {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  fs::path folder_;
+  const testing::TemporaryFolder temporary_;
+  const fs::path folder_ = temporary_.path();
 };
 
 TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {

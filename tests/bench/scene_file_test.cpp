@@ -4,17 +4,13 @@
 
 #include <fstream>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace airybench {
 namespace {
 
 class SceneFile : public ::testing::Test {
  protected:
-  void SetUp() override {
-    file_ =
-        std::filesystem::path(::testing::TempDir()) /
-        (std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()) + ".json");
-  }
-  void TearDown() override { std::filesystem::remove(file_); }
   Scene read(const std::string& text) {
     std::ofstream(file_) << text;
     return read_scene(file_);
@@ -31,12 +27,13 @@ class SceneFile : public ::testing::Test {
     }
     return "none";
   }
-  std::filesystem::path file_;
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "my scene.json";
 };
 
 TEST_F(SceneFile, MissingKeysTakeTheDefaults) {
   const Scene scene = read("{}"), standard;
-  EXPECT_EQ(scene.name, "MissingKeysTakeTheDefaults");
+  EXPECT_EQ(scene.name, "my scene");
   EXPECT_EQ(scene.friction, standard.friction);
   EXPECT_EQ(scene.crown_radius_mm, standard.crown_radius_mm);
   EXPECT_EQ(scene.displacement_mm, standard.displacement_mm);

@@ -11,7 +11,7 @@
 #include "meshgen/checksums.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/tooth_mesh.hpp"
-#include "tests/meshgen/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {

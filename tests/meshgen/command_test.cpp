@@ -10,7 +10,7 @@
 #include "assembly/sha256.hpp"
 #include "meshgen/catalogue.hpp"
 #include "meshgen/gmsh_mesher.hpp"
-#include "tests/meshgen/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "assembly/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
-#include "tests/meshgen/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {

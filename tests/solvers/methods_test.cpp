@@ -51,6 +51,11 @@ class EveryMethod : public ::testing::TestWithParam<Method> {
     }
     return worst / size;
   }
+  // The answer of a method of another kind.
+  static Solution other_answer(const std::shared_ptr<const Problem>& problem) {
+    const Method other = select_methods(GetParam().name == "HYBRID" ? "3STEPD" : "HYBRID").front();
+    return run(other, assemble(problem, other.blocks), {});
+  }
   DualSystem system_;
 };
 INSTANTIATE_TEST_SUITE_P(Table, EveryMethod, ::testing::ValuesIn(methods()), readable);
@@ -130,13 +135,12 @@ std::vector<NamedScene> scene_variants() {
   };
 }
 
-TEST_P(EveryMethod, AgreesWithTheHybridizedOneOnEveryScene) {
+TEST_P(EveryMethod, AgreesWithAnotherKindOfMethodOnEveryScene) {
   for (const auto& [name, scene] : scene_variants()) {
     const auto problem = posed(scene);
     const Solution solution = solve(problem);
     ASSERT_EQ(solution.status, Status::ok) << name << ": " << solution.message;
-    const Solution other =
-        run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+    const Solution other = other_answer(problem);
     EXPECT_LE((solution.F_C - other.F_C).norm(), 1e-9 * other.F_C.norm()) << name;
     // The norm is about 7 where the body is stressed, and 0 where it is only moved.
     EXPECT_LE(stress_distance(*problem, solution.stress, other.stress), 1e-9) << name;
@@ -181,7 +185,7 @@ TEST_P(EveryMethod, StressIsStrictlyAdmissibleOnWholeContactEdges) {
   }
 }
 
-TEST_P(EveryMethod, TwoMaterialsAndStiffContrastAgreeWithTheHybridizedOne) {
+TEST_P(EveryMethod, TwoMaterialsAndStiffContrastAgreeWithAnotherKindOfMethod) {
   Mesh mesh = small_tooth(6, 5);
   mesh.body_names = {"root", "tip"};
   for (std::size_t t = mesh.triangles.size() / 2; t < mesh.triangles.size(); ++t)
@@ -190,9 +194,44 @@ TEST_P(EveryMethod, TwoMaterialsAndStiffContrastAgreeWithTheHybridizedOne) {
   scene.materials["tip"] = {2100, 0.45};
   const auto problem = posed(scene, mesh);
   const Solution solution = solve(problem);
-  const Solution other =
-      run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  const Solution other = other_answer(problem);
   EXPECT_LE((solution.F_C - other.F_C).norm(), 1e-8 * other.F_C.norm());
+}
+
+TEST_P(EveryMethod, ReactionsAndContactForcesBalanceTheBodyForce) {
+  for (const double mu : {0.2, 0.0}) {
+    Scene scene;
+    scene.friction = mu;
+    scene.body_force_N_per_mm3 = {3, -1};
+    const auto problem = posed(scene);
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    Eigen::Vector2d reactions = Eigen::Vector2d::Zero(), contact = Eigen::Vector2d::Zero();
+    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k)
+        for (std::size_t row = 0; row < problem->mesh.boundary.size(); ++row)
+          if (problem->edges.of_boundary[row] == problem->edges.of_triangle[t][k] &&
+              problem->mesh.boundary[row].role == BoundaryRole::displacement)
+            reactions +=
+                element_edge_forces(problem->vertices_of(t), solution.stress[t], k).rowwise().sum();
+    for (int p = 0; p < system_.contact.count; ++p)  // n = x, s = y on the tip
+      for (int k = 0; k < system_.contact.components; ++k)
+        contact(k) += solution.F_C(system_.contact.components * p + k);
+    const Eigen::Vector2d weight = 80 * scene.body_force_N_per_mm3;  // 80 mm² of body
+    EXPECT_LT((reactions + contact + weight).norm(), 1e-9 * reactions.norm()) << mu;
+  }
+}
+
+TEST_P(EveryMethod, ABodyFarFromTheOriginHasTheSameAnswer) {
+  Mesh moved = small_tooth(6, 5);
+  for (Eigen::Vector2d& x : moved.vertices) x += Eigen::Vector2d(1e5, -2e5);
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  const Solution here = solve(posed(scene)), there = solve(posed(scene, moved));
+  ASSERT_EQ(there.status, Status::ok) << there.message;
+  // The moved coordinates themselves are rounded to 3e-11 mm.
+  EXPECT_LT((here.F_C - there.F_C).norm(), 1e-8 * here.F_C.norm());
 }
 
 TEST_P(EveryMethod, OutOfTimeIsATimeout) {
