@@ -18,6 +18,9 @@ namespace {
 
 enum ExitCode { all_ok = 0, some_case_failed = 1, wrong_usage = 2 };
 
+// The methods of figure 3: both iterative condensations with every preconditioner.
+constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
+
 std::string paper_methods() {
   std::string names;
   for (const Method& method : methods())
@@ -29,8 +32,17 @@ void print_list() {
   fmt::print("meshes ({}):\n", mesh_directory().string());
   for (const std::string_view name : catalogue_mesh_names) fmt::print("  {}\n", name);
   fmt::print("methods (* of the paper, run by default):\n");
-  for (const Method& method : methods())
-    fmt::print("  {}{:<16}  {}\n", method.in_paper ? "*" : " ", method.name, method.summary);
+  for (const Method& method : methods()) {
+    const std::string same =
+        method.general_name.empty() ? "" : fmt::format(" (= {})", method.general_name);
+    fmt::print("  {}{:<16}  {}{}\n", method.in_paper ? "*" : " ", method.name, method.summary,
+               same);
+  }
+  fmt::print(
+      "also: 3STEPCG:<preconditioner>[,lanes=1], "
+      "SYMMLQ:<preconditioner>[,schur=sparse][,lanes=1],\n"
+      "      ALM:r=<r>,rho=<rho>; preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, "
+      "NONE\n");
 }
 
 std::vector<PosedScene> pose_all(const Options& options) {
@@ -65,7 +77,11 @@ void print_plan(const std::vector<Case>& cases, bool explain) {
 }
 
 int bench(int argc, char** argv) {
-  const Options options = parse_options(argc, argv);
+  Options options = parse_options(argc, argv);
+  if (options.figure) {
+    options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
+    options.methods = *options.figure == 3 ? figure_3_methods : paper_methods();
+  }
   if (options.list) {
     print_list();
     return all_ok;

@@ -18,6 +18,7 @@ Exit status  0  every case is ok, or skipped with a reason
 
 Examples
   bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
+  bench --figure=3 --out=results/figure3
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
@@ -39,23 +40,41 @@ Options parse_options(int argc, const char* const* argv) {
                  "names or globs, separated by commas; default: all the paper's methods");
   app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
       ->delimiter(',');
+  app.add_option("--figure", options.figure,
+                 "exactly the cases of the paper's figure 3, 4 or 5 (4 and 5 are the same)")
+      ->check(CLI::IsMember({3, 4, 5}))
+      ->excludes(app.get_option("--mesh"))
+      ->excludes(app.get_option("--method"));
   app.add_option("--target-error", options.target_error,
-                 "a case whose errors or residuals are above this is `inaccurate`")
+                 "every iterative method is tightened until its errors and residuals are below "
+                 "this; a case that stays above is `inaccurate`")
       ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  std::string stop = "target";
+  app.add_option("--stop", stop,
+                 "when iterative methods stop: target (see --target-error), or paper (the paper's "
+                 "own stops, whatever error they leave)")
+      ->check(CLI::IsMember({"target", "paper"}))
       ->capture_default_str();
   app.add_option("--repetitions", options.repetitions, "timed runs of each case")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of BLAS")
+  app.add_option("--threads", options.threads, "threads of BLAS and for right-hand sides")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--timeout", options.timeout_s, "seconds that one solve may take")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--long-case", options.long_case_s,
+                 "seconds above which a solve is measured once and not repeated")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   auto* limit = app.add_option("--memory-limit", limit_MiB,
                                "MiB of heap that one solve may use, its blocks included")
                     ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_flag("--append", options.append,
+               "keep the records in the folder, but those of the cases that are run");
   app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
   app.add_flag("--list", options.list, "print meshes and methods, and end");
@@ -89,6 +108,7 @@ Options parse_options(int argc, const char* const* argv) {
   if (!(options.target_error > 0 && options.target_error <= 1e9))
     throw UsageError(
         fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
+  if (stop == "paper") options.stop = Stop::paper;
   if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
   return options;
 }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "solvers/solution.hpp"
+
 namespace airybench {
 
 struct Options {
@@ -15,10 +17,14 @@ struct Options {
   std::string methods;                        // empty: all the paper's
   std::vector<std::filesystem::path> scenes;  // empty: the default scene
   std::filesystem::path out = "results/latest";
+  std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods
   double target_error = 1e-6;
+  Stop stop = Stop::target;
+  bool append = false;  // keep the records that are in the folder
   int repetitions = 5;
   int threads = 1;
   double timeout_s = 900;                          // per solve
+  double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
   bool fields = false;                             // write stresses and contact points
   bool histories = false;                          // keep iteration histories in records.jsonl

@@ -51,6 +51,25 @@ double median_absolute_deviation(const std::vector<double>& values) {
   return median(std::move(deviations));
 }
 
+GridSummary summary_of(const std::vector<GridPoint>& grid) {
+  if (grid.empty()) return {};
+  std::vector<double> iterations;
+  GridSummary summary;
+  summary.failures = 0;
+  for (const GridPoint& point : grid) {
+    if (point.outcome == "diverged")
+      ++*summary.failures;
+    else
+      iterations.push_back(point.iterations);
+    if (point.outcome == "converged")
+      summary.best = std::min(summary.best.value_or(point.iterations), point.iterations);
+  }
+  if (iterations.empty()) return summary;
+  summary.median = static_cast<int>(median(iterations));
+  summary.worst = static_cast<int>(*std::max_element(iterations.begin(), iterations.end()));
+  return summary;
+}
+
 Columns columns(const Record& r) {
   const auto smallest = std::min_element(r.samples_s.begin(), r.samples_s.end());
   Columns result = {
@@ -70,6 +89,7 @@ Columns columns(const Record& r) {
       {"assembly_s", number_or_null(median(r.assembly_samples_s))},
   };
   for (const auto& [name, stage] : stage_columns) result.emplace_back(name, stage_median(r, stage));
+  const GridSummary grid = summary_of(r.grid);
   const Columns measures = {
       {"peak_heap_bytes", or_null(r.peak_heap_bytes)},
       {"peak_rss_bytes", or_null(r.peak_rss_bytes)},
@@ -77,6 +97,18 @@ Columns columns(const Record& r) {
       {"linear_iterations", or_null(r.linear_iterations)},
       {"contact_iterations", or_null(r.contact_iterations)},
       {"uzawa_iterations", or_null(r.uzawa_iterations)},
+      {"stop", r.stop == Stop::paper ? "paper" : "target"},
+      {"target_error", r.target_error},
+      {"tolerance", or_null(r.tolerance)},
+      {"parameters", r.parameters.empty() ? Json() : Json(r.parameters)},
+      {"tuning_s", or_null(r.tuning_s)},
+      {"grid_best", or_null(grid.best)},
+      {"grid_median", or_null(grid.median)},
+      {"grid_worst", or_null(grid.worst)},
+      {"grid_failures", or_null(grid.failures)},
+      {"done_fraction", or_null(r.done_fraction)},
+      {"extrapolated_time_s", or_null(r.extrapolated_time_s)},
+      {"error_so_far", or_null(r.error_so_far)},
       {"error_stress", verified(r, &Verification::error_stress)},
       {"error_force", verified(r, &Verification::error_force)},
       {"equilibrium_residual", verified(r, &Verification::equilibrium_residual)},
@@ -100,6 +132,7 @@ nlohmann::ordered_json to_json(const Record& r) {
   for (const auto& [name, value] : columns(r)) json[name] = value;
   json["samples_s"] = r.samples_s;
   json["assembly_samples_s"] = r.assembly_samples_s;
+  json["measured_once"] = r.measured_once;
   json["mesh_sha256"] = r.mesh_sha256;
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
@@ -113,6 +146,15 @@ nlohmann::ordered_json to_json(const Record& r) {
   }
   json["stages_run"] = run;
   json["stages_left_out"] = left_out;
+  if (!r.grid.empty()) {
+    OrderedJson grid = OrderedJson::array();
+    for (const GridPoint& point : r.grid)
+      grid.push_back({{"r", point.r},
+                      {"rho", point.rho},
+                      {"iterations", point.iterations},
+                      {"outcome", point.outcome}});
+    json["grid"] = grid;
+  }
   if (!r.histories.empty()) {
     OrderedJson histories = OrderedJson::object();
     for (const IterationHistory& history : r.histories) histories[history.what] = history.residual;

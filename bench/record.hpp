@@ -10,6 +10,7 @@
 #include "assembly/mesh.hpp"
 #include "bench/stages.hpp"
 #include "bench/verifier.hpp"
+#include "solvers/method.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -29,7 +30,16 @@ struct Record {
   std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during assembly
   std::optional<std::int64_t> process_peak_heap_bytes;   // highest of the process so far
   std::size_t storage_bytes = 0;
-  std::optional<int> linear_iterations, contact_iterations, uzawa_iterations;
+  std::optional<std::int64_t> linear_iterations;
+  std::optional<int> contact_iterations, uzawa_iterations;
+  Stop stop = Stop::target;
+  double target_error = 1e-6;
+  std::optional<double> tolerance;  // of the linear or Uzawa iteration, relative
+  std::string parameters;           // chosen or changed, "r=20, rho=32"
+  std::optional<double> tuning_s;   // spent on finding them
+  std::vector<GridPoint> grid;      // what was tried
+  std::optional<double> done_fraction, extrapolated_time_s, error_so_far;  // on timeout
+  bool measured_once = false;  // detail, memory and time are of one and the same run
   std::optional<Verification> verification;
   std::vector<StageDecision> stages;
   std::vector<IterationHistory> histories;
@@ -46,6 +56,12 @@ inline constexpr std::array<std::pair<const char*, std::optional<double> StageTi
                       {"stage_condense_s", &StageTimes::condense_s},
                       {"stage_contact_s", &StageTimes::contact_s},
                       {"stage_recover_s", &StageTimes::recover_s}}};
+
+// Iterations of the grid's combinations that converged or were given up, and how many failed.
+struct GridSummary {
+  std::optional<int> best, median, worst, failures;
+};
+GridSummary summary_of(const std::vector<GridPoint>& grid);
 
 // The flat view: names and values of the columns, in order; null: does not apply.
 using Columns = std::vector<std::pair<std::string, nlohmann::json>>;

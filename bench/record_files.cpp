@@ -7,7 +7,7 @@
 namespace airybench {
 namespace {
 
-std::string csv_field(const nlohmann::json& value) {
+std::string csv_field(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();
   std::string text = value.get<std::string>();
@@ -19,43 +19,81 @@ std::string csv_field(const nlohmann::json& value) {
 
 }  // namespace
 
-std::string csv_text(const std::vector<Record>& records) {
+std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
+  const Columns header = columns(Record{});
   std::string text;
-  const auto line = [&](const Columns& fields, auto get) {
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      text += (i > 0 ? "," : "") + csv_field(get(fields[i]));
+  for (std::size_t i = 0; i < header.size(); ++i) text += (i > 0 ? "," : "") + header[i].first;
+  text += "\n";
+  for (const auto& record : records) {
+    for (std::size_t i = 0; i < header.size(); ++i) {
+      const auto value = record.find(header[i].first);
+      text += (i > 0 ? "," : "") + (value != record.end() ? csv_field(*value) : std::string());
+    }
     text += "\n";
-  };
-  line(columns(Record{}), [](const auto& field) { return nlohmann::json(field.first); });
-  for (const Record& record : records)
-    line(columns(record), [](const auto& field) { return field.second; });
+  }
   return text;
 }
 
-RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context)
+namespace {
+
+// The records of a folder, line by line; none if there is no file.
+std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& path) {
+  std::vector<nlohmann::ordered_json> records;
+  std::ifstream file(path);
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
+    if (!record.is_object())
+      throw OutputError(fmt::format("{}:{}: not a record (allowed: a JSON object on a line)",
+                                    path.string(), number));
+    records.push_back(record);
+  }
+  return records;
+}
+
+bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
+  for (const char* key : {"mesh", "scene", "method", "stop"})
+    if (a.value(key, "") != b.value(key, "")) return false;
+  return true;
+}
+
+}  // namespace
+
+RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
+                         bool keep_others)
     : folder_(std::move(folder)), context_(std::move(context)) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), error.message()));
+  if (keep_others) records_ = read_records(folder_ / "records.jsonl");
 }
 
 void RecordFiles::append(const Record& record) {
-  if (!lines_.is_open()) {
+  nlohmann::ordered_json json = to_json(record);
+  json["context"] = context_;
+  const auto replaced = std::erase_if(
+      records_, [&](const nlohmann::ordered_json& other) { return same_case(other, json); });
+  const std::filesystem::path path = folder_ / "records.jsonl";
+  if (!lines_.is_open() || replaced > 0) {
     std::error_code ignored;
     for (const char* stale : {"results.csv", "results.json"})
       std::filesystem::remove(folder_ / stale, ignored);
-    lines_.open(folder_ / "records.jsonl", std::ios::binary | std::ios::trunc);
+    std::string text;
+    for (const auto& other : records_) text += other.dump() + "\n";
+    lines_.close();
+    write_file_atomically(path, text);
+    lines_.open(path, std::ios::binary | std::ios::app);
   }
-  nlohmann::ordered_json json = to_json(record);
-  json["context"] = context_;
   lines_ << json.dump() << "\n" << std::flush;
-  if (!lines_) throw OutputError((folder_ / "records.jsonl").string() + ": cannot be written");
+  if (!lines_) throw OutputError(path.string() + ": cannot be written");
+  records_.push_back(std::move(json));
 }
 
-void RecordFiles::finish(const std::vector<Record>& records) const {
-  write_file_atomically(folder_ / "results.csv", csv_text(records));
+void RecordFiles::finish() const {
+  write_file_atomically(folder_ / "results.csv", csv_text(records_));
   std::error_code error;
   std::filesystem::rename(benchmark_json_part(folder_), folder_ / "results.json", error);
   if (error)

@@ -19,13 +19,15 @@ struct OutputError : std::runtime_error {
 
 class RecordFiles {
  public:
-  // Makes the folder. What an earlier run left there stays until the first record of this one.
-  // Throws OutputError.
-  RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context);
+  // Makes the folder. What an earlier run left there stays until the first record of this one, and
+  // with keep_others beyond: then only records of the same cases (mesh, scene, method, stop) go.
+  // Throws OutputError, also for records to keep that cannot be read.
+  RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
+              bool keep_others);
 
   void append(const Record& record);  // one line, flushed; throws OutputError
-  // results.csv, and Google Benchmark's file under its name.
-  void finish(const std::vector<Record>& records) const;
+  // results.csv of all records, and Google Benchmark's file, which is of this run, under its name.
+  void finish() const;
   void abandon() const;  // nothing was recorded: removes Google Benchmark's file
 
   // Where Google Benchmark writes while the run goes on.
@@ -34,10 +36,12 @@ class RecordFiles {
  private:
   std::filesystem::path folder_;
   std::map<std::string, std::string> context_;
+  std::vector<nlohmann::ordered_json> records_;  // those of the folder
   std::ofstream lines_;
 };
 
-// results.csv as text: a header, a row per record; empty: does not apply. RFC 4180.
-std::string csv_text(const std::vector<Record>& records);
+// results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
+// 4180.
+std::string csv_text(const std::vector<nlohmann::ordered_json>& records);
 
 }  // namespace airybench

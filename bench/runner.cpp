@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <numeric>
+#include <set>
 
 #include "bench/record_files.hpp"
 #include "bench/terminal.hpp"
@@ -42,7 +44,7 @@ class CaseRunner {
             fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
         break;
       }
-      state.SetIterationTime(bench_of(k).measure_time(cases_[k].method, record));
+      state.SetIterationTime(next_sample(k, record, state));
     }
     add_counters(record, state);
   }
@@ -61,6 +63,17 @@ class CaseRunner {
   }
 
  private:
+  // The time of one repetition. A long case has its only one from its detail run.
+  double next_sample(std::size_t k, Record& record, benchmark::State& state) {
+    if (!record.measured_once && sum(record.samples_s) < options_.long_case_s)
+      return bench_of(k).measure_time(cases_[k].method, record);
+    const bool first = record.measured_once && shown_once_.insert(k).second;
+    if (!first) state.SkipWithError("not repeated: a long case");
+    return record.samples_s.back();
+  }
+  static double sum(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+  }
   static std::vector<int> sizes(const std::vector<Case>& cases) {
     std::vector<int> n_phi;
     for (const Case& c : cases) n_phi.push_back(mesh_sizes(c.posed.problem->mesh).n_phi);
@@ -94,7 +107,8 @@ class CaseRunner {
     Record record = bench_of(k).examine(c.method, fields);
     record.scene = c.posed.scene_name;
     record.mesh_sha256 = c.posed.mesh_sha256;
-    if (record.status == Status::ok || record.status == Status::inaccurate)
+    if ((record.status == Status::ok || record.status == Status::inaccurate) &&
+        !record.measured_once)
       bench_of(k).measure_memory(c.method, record);
     records_[k] = std::move(record);
   }
@@ -106,6 +120,7 @@ class CaseRunner {
   std::map<const Problem*, std::unique_ptr<Workbench>> benches_;
   std::vector<std::optional<Record>> records_;
   std::vector<std::size_t> finished_;
+  std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
 };
 
 class Reporter : public benchmark::BenchmarkReporter {
@@ -161,7 +176,7 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
 std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& options,
                               const std::map<std::string, std::string>& context) {
   initialize_benchmark(options, context);
-  RecordFiles files(options.out, context);
+  RecordFiles files(options.out, context, options.append);
   CaseRunner run(cases, options, files);
   for (std::size_t k = 0; k < cases.size(); ++k)
     benchmark::RegisterBenchmark(cases[k].name().c_str(),
@@ -178,7 +193,7 @@ std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& opt
     files.abandon();
     throw UsageError("no case ran: the arguments after -- select none");
   }
-  files.finish(records);
+  files.finish();
   return records;
 }
 

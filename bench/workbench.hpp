@@ -1,9 +1,11 @@
 // One mesh under one scene: its blocks, its reference, and the measuring of methods on them.
 //
 // Detail (errors, counts, histories), memory and time are taken in separate runs of the same solve,
-// so that none disturbs the others.
+// so that none disturbs the others. A solve that takes long is measured once: its detail run then
+// is the other two as well.
 #pragma once
 
+#include <map>
 #include <memory>
 
 #include "bench/options.hpp"
@@ -27,7 +29,8 @@ class Workbench {
   const Problem& problem() const { return *problem_; }
 
   // A record with the sizes, assembly figures and the detail run's verdict: status, errors, counts.
-  // fields: where to write the solution's fields, or empty.
+  // An iterative method is run again with a tighter tolerance until its errors are below the
+  // target. fields: where to write the solution's fields, or empty.
   Record examine(const Method& method, const std::filesystem::path& fields);
   // The memory run: heap and resident set at their peak during one solve.
   void measure_memory(const Method& method, Record& record);
@@ -36,14 +39,29 @@ class Workbench {
   double measure_time(const Method& method, Record& record);
 
  private:
+  // How a method is run on this problem, found in its detail run.
+  struct Choice {
+    Solve solve;
+    double tolerance = 0;
+  };
+  // A solve and what it took.
+  struct Run {
+    Solution solution;
+    double time_s = 0;
+    std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes;
+  };
   const AssembledBlocks& blocks(Blocks which);
   const Reference* reference();  // null when there is none; no_reference_ says why
-  Solution solve(const Method& method, const AssembledBlocks& blocks, bool histories);
+  Run solve(const Choice& choice, const AssembledBlocks& blocks, bool histories);
+  Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
+  // The run that meets the target, or the last that was tried; the choice has its tolerance.
+  Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
   void judge(const AssembledBlocks& blocks, const Solution& solution, Record& record);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;
   std::map<Blocks, AssembledBlocks> blocks_;
+  std::map<std::string, Choice> choices_;  // by the method's name
   std::optional<Reference> reference_;
   std::string no_reference_;
 };

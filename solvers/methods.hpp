@@ -4,33 +4,31 @@
 // `bench --list`, the runs, the tests and the figures.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/method.hpp"
 
 namespace airybench {
 
-struct Method {
-  std::string name;                 // "3STEPD:CHOLMOD"
-  std::string summary;              // one line
-  bool in_paper;                    // compared there; these are run by default
-  Blocks blocks;                    // what it needs assembled
-  std::vector<std::string> stages;  // in order, as StageTimes names them
-  std::function<Solution(const DualSystem&, const RunControl&)> solve;
-};
-
+// The paper's names first. A method may stand there twice, under an alias and under its general
+// name.
 const std::vector<Method>& methods();
 
-// The methods that a comma-separated list of names and globs selects, in the table's order. Throws
-// std::invalid_argument: one line with the item that matches nothing and the valid names.
+// The methods that a comma-separated list selects: names of the table and globs, in the table's
+// order and none twice; then general names that are not in the table, as they come:
+//   3STEPCG:<preconditioner>[,lanes=1]
+//   SYMMLQ:<preconditioner>[,schur=sparse][,lanes=1]
+//   ALM:r=<r>,rho=<rho>
+// Throws std::invalid_argument: one line with the item that matches nothing and what is valid.
 std::vector<Method> select_methods(std::string_view selection);
 
 // Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
 // std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
-Solution run(const Method& method, const DualSystem& system, const RunControl& control);
+Solution run(const Solve& solve, const DualSystem& system, const RunControl& control);
+inline Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
+  return run(method.solve, system, control);
+}
 
 }  // namespace airybench

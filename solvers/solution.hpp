@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -51,15 +52,21 @@ struct Solution {
   StressField stress;   // MPa
   StageTimes times;
   std::size_t storage_bytes = 0;  // the method's matrices by its own count, without the blocks
-  std::optional<int> linear_iterations;
+  std::optional<std::int64_t> linear_iterations;  // of all right-hand sides
   std::optional<int> contact_iterations;
   std::optional<int> uzawa_iterations;
   std::vector<IterationHistory> histories;
+  std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
+  std::optional<double> done_fraction, error_so_far;  // on timeout, where known
 };
 
-// Thrown by Deadline::check(); the runner of methods turns it into Status::timeout.
+// Thrown when time is up; the runner of methods turns it into Status::timeout.
 struct TimeoutReached : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit TimeoutReached(const std::string& message, std::optional<double> done = {},
+                          std::optional<double> error = {})
+      : std::runtime_error(message), done_fraction(done), error_so_far(error) {}
+  std::optional<double> done_fraction;  // of the work, 0 … 1, where it can be told
+  std::optional<double> error_so_far;   // the relative residual that was reached
 };
 // A numerical dead end inside a kernel; the runner of methods turns it into Status::breakdown.
 struct Breakdown : std::runtime_error {
@@ -77,21 +84,29 @@ class Deadline {
                         std::chrono::duration<double>(seconds));
     return deadline;
   }
+  bool passed() const { return end_ && std::chrono::steady_clock::now() > *end_; }
   // Throws TimeoutReached naming what was being done.
   void check(std::string_view doing) const {
-    if (end_ && std::chrono::steady_clock::now() > *end_)
-      throw TimeoutReached("time limit reached during " + std::string(doing));
+    if (passed()) throw TimeoutReached("time limit reached during " + std::string(doing));
   }
 
  private:
   std::optional<std::chrono::steady_clock::time_point> end_;
 };
 
+// When an iterative method stops: by RunControl::tolerance, which the harness tightens until the
+// error is below its target; or as the paper does it.
+enum class Stop { target, paper };
+
 struct RunControl {
   Deadline deadline;
-  bool histories = false;            // keep iteration histories
-  double contact_tolerance = 1e-12;  // natural map residual ≤ tolerance · ‖F_C‖
-  int contact_sweeps = 100000;       // at most
+  bool histories = false;  // keep iteration histories
+  int threads = 1;         // for right-hand sides in parallel
+  Stop stop = Stop::target;
+  double tolerance = 1e-10;           // of linear and Uzawa iterations, relative; see each method
+  double contact_tolerance = 1e-12;   // natural map residual ≤ tolerance · ‖F_C‖
+  double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
+  int contact_sweeps = 100000;        // at most
 };
 
 // Measures one stage: adds the time from construction to destruction.

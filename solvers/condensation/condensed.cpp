@@ -26,4 +26,26 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   }
 }
 
+void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
+                 const RunControl& control, Solution& solution) {
+  solution.linear_iterations = summary.iterations;
+  if (control.histories)
+    solution.histories.push_back(
+        {std::string("relative residual of the first right-hand side, ") + solver,
+         summary.history});
+  if (summary.converged) return;
+  std::ostringstream message;
+  message << solver << ": relative residual " << summary.residual << " after "
+          << summary.most_iterations << " iterations (tolerance " << options.tolerance << ")";
+  solution.status = Status::not_converged;
+  solution.message = message.str();
+}
+
+void note_shift(const Preconditioner& preconditioner, Solution& solution) {
+  if (preconditioner.shift == 0) return;
+  std::ostringstream text;
+  text << "shift=" << preconditioner.shift;
+  solution.parameters = text.str();
+}
+
 }  // namespace airybench

@@ -4,13 +4,13 @@
 #include <numeric>
 
 namespace airybench {
-namespace {
 
-// Row k of [C_F; C_C].
 SparseRows::InnerIterator constraint_row(const DualSystem& system, int k) {
   return k < system.n_f() ? SparseRows::InnerIterator(system.C_F, k)
                           : SparseRows::InnerIterator(system.C_C, k - system.n_f());
 }
+
+namespace {
 
 // Rows of [C_F; C_C] in the order of their first unknown, so that neighbouring right-hand sides
 // share their leading zeros.
@@ -26,13 +26,31 @@ std::vector<int> rows_by_first_unknown(const DualSystem& system) {
   return rows;
 }
 
-// C_block X, with the columns back in the order of [C_F; C_C].
-Eigen::MatrixXd constraint_times(const SparseRows& C, const ThreeStep& steps) {
-  const Eigen::MatrixXd product = C * steps.X;
-  Eigen::MatrixXd ordered(product.rows(), product.cols());
-  for (Eigen::Index k = 0; k < product.cols(); ++k)
-    ordered.col(steps.row_of_column[static_cast<std::size_t>(k)]) = product.col(k);
-  return ordered;
+// Step 1: X where it is kept, and K in the order of [C_F; C_C].
+Eigen::MatrixXd solve_for_multipliers(const DualSystem& system, const SolveInPlace& solve,
+                                      const KeepX& keep, ThreeStep& steps) {
+  const int n_f = system.n_f(), n_c = system.n_c(), columns = n_f + n_c;
+  const bool kept = keep.where != KeepX::Where::nowhere;
+  const int batch = kept ? columns : std::min(keep.batch, columns);
+  ColumnStore store(
+      system.n(), batch,
+      keep.where == KeepX::Where::file ? ColumnStore::Place::file : ColumnStore::Place::memory);
+  Eigen::MatrixXd K(columns, columns);
+  for (int begin = 0; begin < columns; begin += batch) {
+    auto X = store.matrix().leftCols(std::min(batch, columns - begin));
+    if (begin > 0) X.setZero();
+    for (int k = 0; k < X.cols(); ++k)
+      for (auto entry = constraint_row(system, steps.row_of_column[begin + k]); entry; ++entry)
+        X(entry.col(), k) = entry.value();
+    solve(X);
+    for (int k = 0; k < X.cols(); ++k) {
+      auto column = K.col(steps.row_of_column[begin + k]);
+      column.head(n_f) = system.C_F * X.col(k);
+      column.tail(n_c) = system.C_C * X.col(k);
+    }
+  }
+  if (kept) steps.X = std::move(store);
+  return K;
 }
 
 Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const char* name) {
@@ -51,34 +69,29 @@ Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
 }  // namespace
 
 std::size_t ThreeStep::bytes() const {
-  return static_cast<std::size_t>(X.size() + x.size() + K_FF_inverse_K_FC.size() +
-                                  condensed.D.size()) *
-         sizeof(double);
+  return X.bytes() +
+         static_cast<std::size_t>(x.size() + K_FF_inverse_K_FC.size() + condensed.D.size()) *
+             sizeof(double);
 }
 
-ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve) {
+ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
+                                  const KeepX& keep) {
   const int n_f = system.n_f(), n_c = system.n_c();
   ThreeStep steps;
 
   // Step 1.
   steps.row_of_column = rows_by_first_unknown(system);
-  steps.X.setZero(system.n(), n_f + n_c);
-  for (int k = 0; k < n_f + n_c; ++k)
-    for (auto entry = constraint_row(system, steps.row_of_column[k]); entry; ++entry)
-      steps.X(entry.col(), k) = entry.value();
-  solve(steps.X);
+  const Eigen::MatrixXd K = solve_for_multipliers(system, solve, keep, steps);
   if (system.q.size() > 0) {
     steps.x = system.q;
     solve(steps.x);
   }
 
   // Step 2.
-  Eigen::MatrixXd K_C;  // [K_CF K_CC]
-  if (n_c > 0) K_C = constraint_times(system.C_C, steps);
   if (n_f > 0) {
-    const Eigen::MatrixXd K_F = constraint_times(system.C_F, steps);
-    const auto llt = cholesky((K_F.leftCols(n_f) + K_F.leftCols(n_f).transpose()) / 2, "K_FF");
-    if (n_c > 0) steps.K_FF_inverse_K_FC = llt.solve(K_F.rightCols(n_c));
+    const auto K_FF = K.topLeftCorner(n_f, n_f);
+    const auto llt = cholesky((K_FF + K_FF.transpose()) / 2, "K_FF");
+    if (n_c > 0) steps.K_FF_inverse_K_FC = llt.solve(K.topRightCorner(n_f, n_c));
     if (system.q.size() > 0 || system.F.size() > 0) {
       steps.lambda_0 = times_or_zero(system.C_F, steps.x);
       if (system.F.size() > 0) steps.lambda_0 -= system.F;
@@ -88,11 +101,12 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
 
   // Step 3.
   if (n_c > 0) {
-    Eigen::MatrixXd W = K_C.rightCols(n_c);
+    const auto K_CF = K.bottomLeftCorner(n_c, n_f);
+    Eigen::MatrixXd W = K.bottomRightCorner(n_c, n_c);
     Eigen::VectorXd g = times_or_zero(system.C_C, steps.x);
     if (system.F0.size() > 0) g += system.F0;
-    if (n_f > 0) W.noalias() -= K_C.leftCols(n_f) * steps.K_FF_inverse_K_FC;
-    if (steps.lambda_0.size() > 0) g.noalias() -= K_C.leftCols(n_f) * steps.lambda_0;
+    if (n_f > 0) W.noalias() -= K_CF * steps.K_FF_inverse_K_FC;
+    if (steps.lambda_0.size() > 0) g.noalias() -= K_CF * steps.lambda_0;
     const auto llt = cholesky((W + W.transpose()) / 2, "W");
     const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(n_c, n_c));
     steps.condensed.D = (inverse + inverse.transpose()) / 2;
@@ -102,7 +116,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
 }
 
 Eigen::VectorXd recover_airy_unknowns(const ThreeStep& steps, const DualSystem& system,
-                                      const Eigen::VectorXd& F_C) {
+                                      const Eigen::VectorXd& F_C, const SolveInPlace& solve) {
   const int n_f = system.n_f(), n_c = system.n_c();
   Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(n_f + n_c);  // λ, λ'
   if (n_c > 0) multipliers.tail(n_c) = steps.condensed.G - steps.condensed.D * F_C;
@@ -110,13 +124,21 @@ Eigen::VectorXd recover_airy_unknowns(const ThreeStep& steps, const DualSystem& 
     if (steps.lambda_0.size() > 0) multipliers.head(n_f) = steps.lambda_0;
     if (n_c > 0) multipliers.head(n_f).noalias() -= steps.K_FF_inverse_K_FC * multipliers.tail(n_c);
   }
-  Eigen::VectorXd by_column(multipliers.size());
-  for (Eigen::Index k = 0; k < by_column.size(); ++k)
-    by_column(k) = multipliers(steps.row_of_column[static_cast<std::size_t>(k)]);
-  Eigen::VectorXd unknowns =
-      steps.x.size() > 0 ? steps.x : Eigen::VectorXd(Eigen::VectorXd::Zero(system.n()));
-  unknowns.noalias() -= steps.X * by_column;
-  return unknowns;
+  if (steps.X.bytes() > 0) {
+    Eigen::VectorXd by_column(multipliers.size());
+    for (Eigen::Index k = 0; k < by_column.size(); ++k)
+      by_column(k) = multipliers(steps.row_of_column[static_cast<std::size_t>(k)]);
+    Eigen::VectorXd unknowns =
+        steps.x.size() > 0 ? steps.x : Eigen::VectorXd(Eigen::VectorXd::Zero(system.n()));
+    unknowns.noalias() -= steps.X.matrix() * by_column;
+    return unknowns;
+  }
+  Eigen::VectorXd load =
+      system.q.size() > 0 ? system.q : Eigen::VectorXd(Eigen::VectorXd::Zero(system.n()));
+  load.noalias() -= system.C_F.transpose() * multipliers.head(n_f);
+  load.noalias() -= system.C_C.transpose() * multipliers.tail(n_c);
+  solve(load);
+  return load;
 }
 
 }  // namespace airybench

@@ -7,13 +7,15 @@
 //
 // K, K_FF and W are symmetric positive definite since C has full rank. Step 2 is left out where no
 // force is prescribed, step 3 where there is no contact, x where there is no load. As in the paper
-// X is stored whole: n (n_f + n_c) numbers, most of the method's memory.
+// X is stored whole: n (n_f + n_c) numbers, most of the method's memory; in a file, as the paper
+// proposes; or not at all, a batch of columns giving way to the next once it is in K.
 #pragma once
 
 #include <Eigen/Cholesky>
 #include <functional>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/column_store.hpp"
 #include "solvers/condensation/condensed.hpp"
 #include "solvers/solution.hpp"
 
@@ -22,10 +24,16 @@ namespace airybench {
 // X ← S⁻¹ X for a block of right-hand sides.
 using SolveInPlace = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 
+struct KeepX {
+  enum class Where { memory, file, nowhere };
+  Where where = Where::memory;
+  int batch = 192;  // columns at a time, if nowhere
+};
+
 struct ThreeStep {
   CondensedSystem condensed;          // empty without contact
   std::vector<int> row_of_column;     // column k of X belongs to row row_of_column[k] of [C_F; C_C]
-  Eigen::MatrixXd X;                  // n × (n_f + n_c)
+  ColumnStore X;                      // n × (n_f + n_c), or empty if it is kept nowhere
   Eigen::VectorXd x;                  // S⁻¹ q; empty: zero
   Eigen::MatrixXd K_FF_inverse_K_FC;  // n_f × n_c
   Eigen::VectorXd lambda_0;           // K_FF⁻¹ (C_F x − F); empty: zero
@@ -34,10 +42,15 @@ struct ThreeStep {
 };
 
 // Throws Breakdown when K_FF or W is not positive definite to rounding.
-ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve);
+ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
+                                  const KeepX& keep = {});
 
-// The scaled Airy unknowns that belong to contact forces F_C (see DualSystem).
+// The scaled Airy unknowns that belong to contact forces F_C (see DualSystem). `solve` is called
+// once if X was kept nowhere.
 Eigen::VectorXd recover_airy_unknowns(const ThreeStep& three_step, const DualSystem& system,
-                                      const Eigen::VectorXd& F_C);
+                                      const Eigen::VectorXd& F_C, const SolveInPlace& solve);
+
+// Row k of [C_F; C_C].
+SparseRows::InnerIterator constraint_row(const DualSystem& system, int k);
 
 }  // namespace airybench

@@ -1,29 +1,33 @@
+#include <sstream>
+
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/cholmod.hpp"
 #include "solvers/direct/skyline.hpp"
+#include "solvers/krylov/conjugate_gradients.hpp"
 
 namespace airybench {
 namespace {
 
-// Everything after the factorisation of S.
-void condense_and_solve(const DualSystem& system, const RunControl& control,
+// Everything after the factorisation of S, or after its preconditioner.
+void condense_and_solve(const DualSystem& system, const RunControl& control, const KeepX& keep,
                         const SolveInPlace& solve_S, Solution& solution) {
   ThreeStep steps;
   {
     const StageTimer timer(solution.times.condense_s);
-    steps = condense_in_three_steps(system, solve_S);
+    steps = condense_in_three_steps(system, solve_S, keep);
   }
   solution.storage_bytes += steps.bytes();
   solve_condensed_contact(steps.condensed, system.contact, control, solution);
   const StageTimer timer(solution.times.recover_s);
-  solution.phi = airy_function(system, recover_airy_unknowns(steps, system, solution.F_C));
+  solution.phi = airy_function(system, recover_airy_unknowns(steps, system, solution.F_C, solve_S));
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
 }
 
 }  // namespace
 
-Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control) {
+Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control,
+                                  KeepX::Where where) {
   Solution solution;
   SkylineProfile profile;
   {
@@ -37,8 +41,10 @@ Solution solve_three_step_skyline(const DualSystem& system, const RunControl& co
   }
   solution.storage_bytes = factor.bytes();
   condense_and_solve(
-      system, control,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X, control.deadline); },
+      system, control, {where, skyline_columns_at_once * control.threads},
+      [&](Eigen::Ref<Eigen::MatrixXd> X) {
+        solve_in_place(factor, X, control.deadline, control.threads);
+      },
       solution);
   return solution;
 }
@@ -56,8 +62,33 @@ Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& co
   }
   solution.storage_bytes = factor.bytes();
   condense_and_solve(
-      system, control,
+      system, control, {},
       [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); }, solution);
+  return solution;
+}
+
+Solution solve_three_step_cg(const DualSystem& system, const RunControl& control,
+                             const MakePreconditioner& make, int lanes) {
+  Solution solution;
+  const Preconditioner preconditioner = [&] {
+    const StageTimer timer(solution.times.precondition_s);
+    return make(system.S, control.deadline);
+  }();
+  note_shift(preconditioner, solution);
+  solution.storage_bytes = preconditioner.bytes;
+  KrylovOptions options;
+  options.tolerance = control.tolerance;
+  options.lanes = lanes;
+  options.threads = control.threads;
+  KrylovSummary all;
+  condense_and_solve(
+      system, control, {},
+      [&](Eigen::Ref<Eigen::MatrixXd> X) {
+        all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), options,
+                                             control.deadline));
+      },
+      solution);
+  note_krylov("conjugate gradients", all, options, control, solution);
   return solution;
 }
 

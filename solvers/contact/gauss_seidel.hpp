@@ -13,8 +13,8 @@
 namespace airybench {
 
 struct ContactResult {
-  Eigen::VectorXd F_C;     // N
-  bool converged = false;  // ‖natural map‖ ≤ tolerance · ‖F_C‖
+  Eigen::VectorXd F_C;  // N
+  bool converged = false;  // ‖natural map‖ ≤ tolerance · ‖F_C‖, or acceptable at the last sweep
   int sweeps = 0;
   double natural_map_residual = std::numeric_limits<double>::infinity();  // relative to ‖F_C‖
   std::vector<double> history;  // ‖change of a sweep‖/‖F_C‖; kept if the control says so

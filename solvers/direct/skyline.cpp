@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "solvers/parallel.hpp"
+
 namespace airybench {
 namespace {
-
-// Columns solved together: wide enough for matrix products, narrow enough for the cache.
-constexpr Eigen::Index columns_at_once = 192;
 
 // The blocks of a panel; Scalar is double or const double.
 template <typename Scalar>
@@ -20,7 +20,7 @@ struct PanelBlocks {
   Block tall, rest, corner;  // rest: the short rows
 
   PanelBlocks(Scalar* values, const SkylinePanel& p)
-      : tall(values + p.offset, p.tall, p.row - p.column),
+      : tall(values, p.tall, p.row - p.column),
         rest(tall.data() + tall.size(), p.rows - p.tall, p.row - p.short_column),
         corner(rest.data() + rest.size(), p.rows, p.rows) {}
 };
@@ -38,7 +38,7 @@ std::array<RowGroup, 2> row_groups(const SkylinePanel& p) {
 // stored; returns the panel's rows in their new order.
 std::vector<int> split_rows(SkylinePanel& panel, const std::vector<int>& first) {
   std::vector<int> order(static_cast<std::size_t>(panel.rows));
-  for (int i = 0; i < panel.rows; ++i) order[i] = panel.row + i;
+  std::iota(order.begin(), order.end(), panel.row);
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return first[a] < first[b]; });
   panel.column = first[order.front()];
   std::int64_t least = std::numeric_limits<std::int64_t>::max();
@@ -54,19 +54,34 @@ std::vector<int> split_rows(SkylinePanel& panel, const std::vector<int>& first) 
   return order;
 }
 
-void scatter(const Eigen::SparseMatrix<double>& lower, SkylineFactor& factor) {
+std::vector<int> rows_as_numbered(SkylinePanel& panel, const std::vector<int>& first) {
+  std::vector<int> order(static_cast<std::size_t>(panel.rows));
+  std::iota(order.begin(), order.end(), panel.row);
+  for (const int i : order) panel.column = std::min(panel.column, first[i]);
+  panel.tall = panel.rows;
+  return order;
+}
+
+// The rows of S that belong to panel k, into its zeroed blocks.
+void scatter(const Eigen::SparseMatrix<double>& lower, SkylineFactor& factor, std::size_t k) {
   const SkylineProfile& profile = factor.profile;
-  for (int col = 0; col < lower.cols(); ++col) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, col); entry; ++entry) {
-      const int i = profile.position[entry.row()], j = profile.position[col];
-      const SkylinePanel& panel = profile.panels[profile.panel_of_row[i]];
-      PanelBlocks<double> blocks(factor.values.data(), panel);
+  const SkylinePanel& panel = profile.panels[k];
+  const int end = panel.row + panel.rows;
+  PanelBlocks<double> blocks(factor.values[k].data(), panel);
+  for (int col = profile.panels[profile.panel_of_row[panel.column]].row; col < end; ++col) {
+    const int j = profile.position[col];
+    const int* const last = lower.innerIndexPtr() + lower.outerIndexPtr()[col + 1];
+    const int* row =
+        std::lower_bound(lower.innerIndexPtr() + lower.outerIndexPtr()[col], last, panel.row);
+    for (; row != last && *row < end; ++row) {
+      const double value = lower.valuePtr()[row - lower.innerIndexPtr()];
+      const int i = profile.position[*row];
       if (j >= panel.row)
-        blocks.corner(std::max(i, j) - panel.row, std::min(i, j) - panel.row) = entry.value();
+        blocks.corner(std::max(i, j) - panel.row, std::min(i, j) - panel.row) = value;
       else if (i - panel.row < panel.tall)
-        blocks.tall(i - panel.row, j - panel.column) = entry.value();
+        blocks.tall(i - panel.row, j - panel.column) = value;
       else
-        blocks.rest(i - panel.row - panel.tall, j - panel.short_column) = entry.value();
+        blocks.rest(i - panel.row - panel.tall, j - panel.short_column) = value;
     }
   }
 }
@@ -95,7 +110,7 @@ void eliminate_left(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> w, 
   if (w.size() == 0) return;
   for (int k = profile.panel_of_row[first]; k < profile.panel_of_row[end]; ++k) {
     const SkylinePanel& earlier = profile.panels[k];
-    const PanelBlocks<const double> l(factor.values.data(), earlier);
+    const PanelBlocks<const double> l(factor.values[k].data(), earlier);
     const int reached = std::max(first, earlier.row) - earlier.row;  // its rows from here on
     for (const RowGroup& group : row_groups(earlier)) {
       const int begin = std::max(reached, group.begin), count = group.end - begin;
@@ -116,8 +131,9 @@ void eliminate_left(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> w, 
 }
 
 // scaled: workspace, at least rows × left columns.
-void factor_panel(SkylineFactor& factor, const SkylinePanel& panel, Eigen::MatrixXd& scaled) {
-  PanelBlocks<double> own(factor.values.data(), panel);
+void factor_panel(SkylineFactor& factor, std::size_t k, Eigen::MatrixXd& scaled) {
+  const SkylinePanel& panel = factor.profile.panels[k];
+  PanelBlocks<double> own(factor.values[k].data(), panel);
   eliminate_left(factor, own.tall, panel.column, panel.row);
   eliminate_left(factor, own.rest, panel.short_column, panel.row);
 
@@ -158,6 +174,28 @@ void permute_rows(const SkylineProfile& profile, Eigen::Ref<Eigen::MatrixXd> x, 
     }
 }
 
+// Panel after panel; done(k) is called when panel k is. Panels that done() empties must not be
+// reached by later ones.
+void factor_panels(SkylineFactor& factor, const Eigen::SparseMatrix<double>& lower,
+                   const Deadline& deadline, const std::function<void(std::size_t)>& done) {
+  const std::vector<SkylinePanel>& panels = factor.profile.panels;
+  factor.values.resize(panels.size());
+  factor.diagonal.resize(factor.profile.n);
+  int rows = 0, left = 0;
+  for (const SkylinePanel& panel : panels) {
+    rows = std::max(rows, panel.rows);
+    left = std::max(left, panel.row - panel.column);
+  }
+  Eigen::MatrixXd scaled(rows, left);
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    factor.values[k].assign(static_cast<std::size_t>(panels[k].size()), 0.0);
+    scatter(lower, factor, k);
+    factor_panel(factor, k, scaled);
+    done(k);
+    deadline.check("the skyline factorisation");
+  }
+}
+
 Eigen::Index first_nonzero_row(const Eigen::Ref<const Eigen::MatrixXd>& x) {
   Eigen::Index first = x.rows();
   for (Eigen::Index j = 0; j < x.cols(); ++j) {
@@ -168,8 +206,9 @@ Eigen::Index first_nonzero_row(const Eigen::Ref<const Eigen::MatrixXd>& x) {
   return first;
 }
 
-void solve_columns(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> x,
-                   const Deadline& deadline) {
+// Columns: a matrix, or a vector, for which BLAS has faster products.
+template <typename Columns>
+void solve_columns(const SkylineFactor& factor, Columns x, const Deadline& deadline) {
   const SkylineProfile& profile = factor.profile;
   const auto first_row = first_nonzero_row(x);
   if (first_row == profile.n) return;  // all zero
@@ -179,7 +218,7 @@ void solve_columns(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> x,
 
   for (std::size_t k = first_panel; k < profile.panels.size(); ++k) {  // L y = b
     const SkylinePanel& panel = profile.panels[k];
-    const PanelBlocks<const double> l(factor.values.data(), panel);
+    const PanelBlocks<const double> l(factor.values[k].data(), panel);
     for (const RowGroup& group : row_groups(panel)) {
       const int from = std::max(group.column, first), inner = panel.row - from;
       const int count = group.end - group.begin;
@@ -194,12 +233,13 @@ void solve_columns(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> x,
   deadline.check("the skyline solves");
   for (Eigen::Index j = 0; j < x.cols(); ++j)  // z = D⁻¹ y
     x.col(j).tail(profile.n - first).array() /= factor.diagonal.tail(profile.n - first).array();
-  for (auto panel = profile.panels.rbegin(); panel != profile.panels.rend(); ++panel) {  // Lᵀ x = z
-    const PanelBlocks<const double> l(factor.values.data(), *panel);
-    auto solved = x.middleRows(panel->row, panel->rows);
+  for (std::size_t k = profile.panels.size(); k-- > 0;) {  // Lᵀ x = z
+    const SkylinePanel& panel = profile.panels[k];
+    const PanelBlocks<const double> l(factor.values[k].data(), panel);
+    auto solved = x.middleRows(panel.row, panel.rows);
     l.corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace(solved);
-    for (const RowGroup& group : row_groups(*panel)) {
-      const int inner = panel->row - group.column, count = group.end - group.begin;
+    for (const RowGroup& group : row_groups(panel)) {
+      const int inner = panel.row - group.column, count = group.end - group.begin;
       if (count == 0 || inner == 0) continue;
       const auto& block = group.begin == 0 ? l.tall : l.rest;
       x.middleRows(group.column, inner).noalias() -=
@@ -212,7 +252,8 @@ void solve_columns(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> x,
 
 }  // namespace
 
-SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows) {
+SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows,
+                               PanelOrder panel_order) {
   if (panel_rows < 1 || panel_rows > most_panel_rows)
     throw std::invalid_argument("analyse_skyline: panel_rows is " + std::to_string(panel_rows) +
                                 " (allowed: 1 to " + std::to_string(most_panel_rows) + ")");
@@ -228,7 +269,9 @@ SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int pan
     panel.row = panel.column = panel.short_column = row;
     panel.rows = std::min(panel_rows, n - row);
     for (int i = row; i < row + panel.rows; ++i) first[i] = std::min(first[i], row);
-    const std::vector<int> order = split_rows(panel, first);
+    const std::vector<int> order = panel_order == PanelOrder::tall_first
+                                       ? split_rows(panel, first)
+                                       : rows_as_numbered(panel, first);
     for (int i = 0; i < panel.rows; ++i) {
       profile.position[order[i]] = row + i;
       profile.panel_of_row[row + i] = static_cast<int>(profile.panels.size());
@@ -238,7 +281,6 @@ SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int pan
         skyline[entry.row()] = std::min(skyline[entry.row()], col);
         first[entry.row()] = std::min(first[entry.row()], profile.position[col]);
       }
-    panel.offset = profile.stored;
     profile.stored += panel.size();
     profile.panels.push_back(panel);
   }
@@ -253,26 +295,47 @@ SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int pan
 SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<double>& lower,
                           const Deadline& deadline) {
   SkylineFactor factor{std::move(profile), {}, {}};
-  factor.values.assign(static_cast<std::size_t>(factor.profile.stored), 0.0);
-  factor.diagonal.resize(factor.profile.n);
-  scatter(lower, factor);
-  int rows = 0, left = 0;
-  for (const SkylinePanel& panel : factor.profile.panels) {
-    rows = std::max(rows, panel.rows);
-    left = std::max(left, panel.row - panel.column);
-  }
-  Eigen::MatrixXd scaled(rows, left);
-  for (const SkylinePanel& panel : factor.profile.panels) {
-    factor_panel(factor, panel, scaled);
-    deadline.check("the skyline factorisation");
-  }
+  factor_panels(factor, lower, deadline, [](std::size_t) {});
   return factor;
 }
 
+void visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
+                     const Deadline& deadline) {
+  SkylineFactor factor{analyse_skyline(lower, 48, PanelOrder::as_numbered), {}, {}};
+  const std::vector<SkylinePanel>& panels = factor.profile.panels;
+  // The first panel that any panel from k on reaches.
+  std::vector<int> needed(panels.size() + 1, static_cast<int>(panels.size()));
+  for (std::size_t k = panels.size(); k-- > 0;)
+    needed[k] = std::min(needed[k + 1], factor.profile.panel_of_row[panels[k].column]);
+  std::vector<double> row;
+  int forgotten = 0;
+  factor_panels(factor, lower, deadline, [&](std::size_t k) {
+    const SkylinePanel& panel = panels[k];
+    const PanelBlocks<const double> l(factor.values[k].data(), panel);
+    for (int i = 0; i < panel.rows; ++i) {
+      const int left = panel.row - panel.column;
+      row.resize(static_cast<std::size_t>(left + i));
+      Eigen::Map<Eigen::RowVectorXd>(row.data(), left) = l.tall.row(i);
+      Eigen::Map<Eigen::RowVectorXd>(row.data() + left, i) = l.corner.row(i).head(i);
+      visit(panel.row + i, panel.column, row.data(), factor.diagonal.data() + panel.column);
+    }
+    for (; forgotten < needed[k + 1]; ++forgotten)
+      std::vector<double>().swap(factor.values[forgotten]);
+  });
+}
+
 void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,
-                    const Deadline& deadline) {
-  for (Eigen::Index j = 0; j < X.cols(); j += columns_at_once)
-    solve_columns(factor, X.middleCols(j, std::min(columns_at_once, X.cols() - j)), deadline);
+                    const Deadline& deadline, int threads) {
+  if (X.cols() == 1) {
+    solve_columns(factor, Eigen::Ref<Eigen::VectorXd>(X.col(0)), deadline);
+    return;
+  }
+  in_parallel(threads, static_cast<int>(X.cols()), [&](int begin, int end) {
+    for (int j = begin; j < end; j += skyline_columns_at_once) {
+      const int columns = std::min(skyline_columns_at_once, end - j);
+      solve_columns(factor, Eigen::Ref<Eigen::MatrixXd>(X.middleCols(j, columns)), deadline);
+    }
+  });
 }
 
 }  // namespace airybench

@@ -22,6 +22,7 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solvers/solution.hpp"
@@ -29,12 +30,11 @@
 namespace airybench {
 
 struct SkylinePanel {
-  int row = 0;              // its first row
-  int rows = 0;             // how many
-  int tall = 0;             // how many of them are tall; these come first
-  int column = 0;           // leading column of the tall rows, ≤ row
-  int short_column = 0;     // leading column of the others, between column and row
-  std::int64_t offset = 0;  // where its blocks begin in SkylineFactor::values
+  int row = 0;           // its first row
+  int rows = 0;          // how many
+  int tall = 0;          // how many of them are tall; these come first
+  int column = 0;        // leading column of the tall rows, ≤ row
+  int short_column = 0;  // leading column of the others, between column and row
   std::int64_t size() const {
     return std::int64_t{tall} * (row - column) + std::int64_t{rows - tall} * (row - short_column) +
            std::int64_t{rows} * rows;
@@ -54,18 +54,22 @@ struct SkylineProfile {
   double solve_flops() const { return 4.0 * static_cast<double>(profile); }  // per dense column
 };
 
+// Order of the rows inside a panel: tall ones first, or as they are numbered (more padding).
+enum class PanelOrder { tall_first, as_numbered };
+
 // lower: lower triangle with sorted columns. panel_rows: rows per panel, 1 … most_panel_rows; the
 // last may have fewer. More rows make faster products and more padding (Mesh7: 1.19 of the profile
 // is stored with 48, 1.25 with 64).
 inline constexpr int most_panel_rows = 256;
-SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows = 48);
+SkylineProfile analyse_skyline(const Eigen::SparseMatrix<double>& lower, int panel_rows = 48,
+                               PanelOrder order = PanelOrder::tall_first);
 
 struct SkylineFactor {
   SkylineProfile profile;
-  std::vector<double> values;  // L in panels
-  Eigen::VectorXd diagonal;    // D, in the panels' order
+  std::vector<std::vector<double>> values;  // L, the three blocks of each panel
+  Eigen::VectorXd diagonal;                 // D, in the panels' order
   std::size_t bytes() const {
-    return (values.size() + static_cast<std::size_t>(diagonal.size())) * sizeof(double);
+    return static_cast<std::size_t>(profile.stored + diagonal.size()) * sizeof(double);
   }
 };
 
@@ -73,9 +77,17 @@ struct SkylineFactor {
 SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<double>& lower,
                           const Deadline& deadline = {});
 
-// X ← S⁻¹ X for n × k right-hand sides. Panels above the first non-zero of a block of columns are
-// skipped in the forward sweep, so neighbouring columns should begin alike.
+// Row by row and without keeping the whole: calls visit(i, j, l, d) for every row i in order, with
+// l = L_ij, L_i,j+1, …, L_i,i−1 and d = D_j, …, D_i, both valid during the call only. What no later
+// row needs is forgotten, so the memory is that of the rows within a band. Rows are as numbered.
+using VisitRow = std::function<void(int i, int j, const double* l, const double* d)>;
+void visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
+                     const Deadline& deadline = {});
+
+// X ← S⁻¹ X for n × k right-hand sides, in parallel by columns. Panels above the first non-zero of
+// a block of columns are skipped in the forward sweep, so neighbouring columns should begin alike.
+inline constexpr int skyline_columns_at_once = 192;  // as wide as the products need, in the cache
 void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,
-                    const Deadline& deadline = {});
+                    const Deadline& deadline = {}, int threads = 1);
 
 }  // namespace airybench

@@ -1,0 +1,201 @@
+#include "solvers/condensation/symmlq_condensation.hpp"
+
+#include <Eigen/Cholesky>
+#include <memory>
+
+#include "solvers/krylov/symmetric_product.hpp"
+#include "solvers/preconditioners/drop_tolerance.hpp"
+
+namespace airybench {
+namespace {
+
+// y += C x and y += Cᵀ x on lanes, x and y where the rows and columns of C begin.
+template <int lanes>
+void multiply(const SparseRows& C, const double* x, double* y) {
+  for (int i = 0; i < C.rows(); ++i)
+    for (SparseRows::InnerIterator entry(C, i); entry; ++entry)
+      for (int l = 0; l < lanes; ++l)
+        y[i * lanes + l] += entry.value() * x[entry.col() * lanes + l];
+}
+template <int lanes>
+void multiply_transposed(const SparseRows& C, const double* x, double* y) {
+  for (int i = 0; i < C.rows(); ++i)
+    for (SparseRows::InnerIterator entry(C, i); entry; ++entry)
+      for (int l = 0; l < lanes; ++l)
+        y[entry.col() * lanes + l] += entry.value() * x[i * lanes + l];
+}
+
+// C S*⁻¹ Cᵀ, dense, column by column.
+Eigen::MatrixXd dense_schur(const DualSystem& system, const Preconditioner& S_star, int lanes,
+                            int threads, const Deadline& deadline) {
+  const int n = system.n(), m = system.n_f() + system.n_c();
+  Eigen::MatrixXd K(m, m);
+  in_parallel(threads, m, [&](int begin, int end) {
+    const Apply apply = S_star.applier(lanes);
+    LaneBlock X(n, lanes);
+    for (int first = begin; first < end; first += lanes) {
+      const int columns = std::min(lanes, end - first);
+      X.setZero();
+      for (int l = 0; l < columns; ++l)
+        for (auto entry = constraint_row(system, first + l); entry; ++entry)
+          X(entry.col(), l) = entry.value();
+      apply(X);
+      for (int i = 0; i < m; ++i)
+        for (int l = 0; l < columns; ++l) {
+          double sum = 0;
+          for (auto entry = constraint_row(system, i); entry; ++entry)
+            sum += entry.value() * X(entry.col(), l);
+          K(i, first + l) = sum;
+        }
+      deadline.check("the Schur block");
+    }
+  });
+  return (K + K.transpose()) / 2;
+}
+
+struct SchurFactor {
+  Eigen::MatrixXd dense;    // L, or
+  IncompleteFactor sparse;  // complete
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(dense.size()) * sizeof(double) + sparse.bytes();
+  }
+};
+
+SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star, SchurBlock schur,
+                         int lanes, int threads, const Deadline& deadline) {
+  SchurFactor factor;
+  if (schur == SchurBlock::dense) {
+    factor.dense = dense_schur(system, S_star, lanes, threads, deadline);
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(factor.dense);
+    if (in_place.info() != Eigen::Success || !factor.dense.allFinite())
+      throw Breakdown("SYMMLQ: the Schur block is not positive definite");
+    return factor;
+  }
+  SparseRows C(system.n_f() + system.n_c(), system.n());
+  C.reserve(system.C_F.nonZeros() + system.C_C.nonZeros());
+  for (int i = 0; i < C.rows(); ++i) {
+    C.startVec(i);
+    for (auto entry = constraint_row(system, i); entry; ++entry)
+      C.insertBack(i, entry.col()) = entry.value();
+  }
+  C.finalize();
+  const SparseColumns product = C * SparseRows(C.transpose());
+  factor.sparse =
+      drop_tolerance_factor(SparseColumns(product.triangularView<Eigen::Lower>()), 0, deadline);
+  return factor;
+}
+
+}  // namespace
+
+SymmetricOperator saddle_operator(const DualSystem& system) {
+  const Eigen::Index n = system.n();
+  return {n + system.n_f() + system.n_c(), [&system, n](const LaneBlock& X, LaneBlock& Y) {
+            Y.setZero();
+            with_lanes(X.cols(), [&](auto lanes) {
+              symmetric_product<lanes>(system.S, X.data(), Y.data());
+              const Eigen::Index at_F = n * lanes, at_C = at_F + system.n_f() * lanes;
+              multiply<lanes>(system.C_F, X.data(), Y.data() + at_F);
+              multiply<lanes>(system.C_C, X.data(), Y.data() + at_C);
+              multiply_transposed<lanes>(system.C_F, X.data() + at_F, Y.data());
+              multiply_transposed<lanes>(system.C_C, X.data() + at_C, Y.data());
+            });
+          }};
+}
+
+Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditioner& S_star,
+                                     SchurBlock schur, int lanes, int threads,
+                                     const Deadline& deadline) {
+  const auto factor = std::make_shared<const SchurFactor>(
+      factor_schur(system, S_star, schur, lanes, threads, deadline));
+  const Eigen::Index n = system.n(), m = system.n_f() + system.n_c();
+  const auto applier = [factor, n, m, S_star](int own_lanes) -> Apply {
+    return [factor, n, m, apply = S_star.applier(own_lanes), top = LaneBlock(n, own_lanes),
+            bottom = LaneBlock(m, own_lanes),
+            columns = Eigen::MatrixXd(m, own_lanes)](LaneBlock& X) mutable {
+      top = X.topRows(n);
+      apply(top);
+      X.topRows(n) = top;
+      if (factor->dense.size() > 0) {
+        columns = X.bottomRows(m);
+        const auto L = factor->dense.triangularView<Eigen::Lower>();
+        L.solveInPlace(columns);
+        L.transpose().solveInPlace(columns);
+        X.bottomRows(m) = columns;
+      } else {
+        bottom = X.bottomRows(m);
+        solve_in_place(factor->sparse, bottom);
+        X.bottomRows(m) = bottom;
+      }
+    };
+  };
+  return {applier, S_star.bytes + factor->bytes(), S_star.shift};
+}
+
+Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
+                                   const MakePreconditioner& make, SchurBlock schur, int lanes) {
+  const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
+  Solution solution;
+  const Preconditioner preconditioner = [&] {
+    const StageTimer timer(solution.times.precondition_s);
+    return saddle_preconditioner(system, make(system.S, control.deadline), schur, lanes,
+                                 control.threads, control.deadline);
+  }();
+  note_shift(preconditioner, solution);
+  solution.storage_bytes = preconditioner.bytes;
+  KrylovOptions options;
+  options.tolerance = control.tolerance;
+  options.lanes = lanes;
+  options.threads = control.threads;
+  const SymmetricOperator A = saddle_operator(system);
+  const auto load = [&](LaneColumn b) {
+    if (system.q.size() > 0) b.head(n) = system.q;
+    if (system.F.size() > 0) b.segment(n, n_f) = system.F;
+    if (system.F0.size() > 0) b.tail(n_c) = -system.F0;
+  };
+
+  CondensedSystem condensed;
+  KrylovSummary all;
+  if (n_c > 0) {
+    const StageTimer timer(solution.times.condense_s);
+    condensed.D.resize(n_c, n_c);
+    condensed.G.resize(n_c);
+    const RightHandSides sides = {n_c + 1,
+                                  [&](int k, LaneColumn b) {
+                                    if (k == 0)
+                                      load(b);
+                                    else
+                                      b(n + n_f + k - 1) = 1;
+                                  },
+                                  [&](int k, const LaneColumn& x) {
+                                    if (k == 0)
+                                      condensed.G = x.tail(n_c);
+                                    else
+                                      condensed.D.col(k - 1) = -x.tail(n_c);
+                                  }};
+    all.add(solve_by_symmlq(A, preconditioner, sides, options, control.deadline));
+    condensed.D = ((condensed.D + condensed.D.transpose()) / 2).eval();
+    solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  }
+  solve_condensed_contact(condensed, system.contact, control, solution);
+  {
+    const StageTimer timer(solution.times.recover_s);
+    Eigen::VectorXd unknowns;
+    const RightHandSides last = {1,
+                                 [&](int, LaneColumn b) {
+                                   load(b);
+                                   if (n_c > 0) b.tail(n_c) += solution.F_C;
+                                 },
+                                 [&](int, const LaneColumn& x) { unknowns = x.head(n); }};
+    KrylovOptions one = options;
+    one.lanes = 1;
+    const KrylovSummary summary =
+        solve_by_symmlq(A, preconditioner, last, one, control.deadline);
+    all.add({summary.converged, summary.iterations, summary.most_iterations, summary.residual, {}});
+    solution.phi = airy_function(system, unknowns);
+    solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  }
+  note_krylov("SYMMLQ", all, options, control, solution);
+  return solution;
+}
+
+}  // namespace airybench

@@ -1,0 +1,26 @@
+// Condensation by SYMMLQ (the paper, section 3.2.2).
+//
+//        ⎡ S   Cᵀ ⎤ ⎡ φ ⎤   ⎡ q   ⎤
+//   M₁₁  ⎢        ⎥ ⎢   ⎥ = ⎢ F   ⎥    C = [C_F; C_C], Λ = (λ, λ'), symmetric, indefinite
+//        ⎣ C   0  ⎦ ⎣ Λ ⎦   ⎣ −F0 ⎦    (+ F_C in the last rows)
+//
+// λ' = G − D F_C, so the right-hand side above gives G and unit vectors in the last rows give −D:
+// 1 + n_c systems. The preconditioner is
+//
+//   blockdiag(S*, C S*⁻¹ Cᵀ)   dense; with S* = S the preconditioned matrix has three eigenvalues
+//                              (Murphy, Golub & Wathen 2000, doi:10.1137/S1064827599355153), or
+//   blockdiag(S*, C Cᵀ)        sparse: C diag(S)⁻¹ Cᵀ of the equilibrated S
+#pragma once
+
+#include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/krylov/symmlq.hpp"
+
+namespace airybench {
+
+SymmetricOperator saddle_operator(const DualSystem& system);
+// S_star: preconditioner of S. Throws Breakdown when the Schur block is not positive definite.
+Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditioner& S_star,
+                                     SchurBlock schur, int lanes, int threads,
+                                     const Deadline& deadline = {});
+
+}  // namespace airybench

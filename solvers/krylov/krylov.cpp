@@ -1,0 +1,44 @@
+#include "solvers/krylov/krylov.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace airybench {
+
+RightHandSides columns_of(Eigen::Ref<Eigen::MatrixXd> X) {
+  return {static_cast<int>(X.cols()), [X](int k, LaneColumn b) { b = X.col(k); },
+          [X](int k, const LaneColumn& x) mutable { X.col(k) = x; }};
+}
+
+void KrylovSummary::add(const KrylovSummary& other) {
+  converged = converged && other.converged;
+  iterations += other.iterations;
+  most_iterations = std::max(most_iterations, other.most_iterations);
+  residual = std::max(residual, other.residual);
+  if (!other.history.empty()) history = other.history;
+}
+
+bool Lanes::any() const {
+  return std::any_of(in_lane_.begin(), in_lane_.end(), [](int k) { return k != none; });
+}
+
+void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneScalars& residual,
+                       double tolerance) const {
+  if (!deadline.passed()) return;
+  int finished = next_ - begin_;
+  double digits = 0, largest = 0;
+  for (std::size_t l = 0; l < in_lane_.size(); ++l) {
+    if (in_lane_[l] == none) continue;
+    --finished;
+    largest = std::max(largest, residual[l]);
+    digits += std::clamp(std::log(residual[l]) / std::log(tolerance), 0.0, 1.0);
+  }
+  std::ostringstream message;
+  message << "time limit reached during " << solver << ": " << finished << " of " << end_ - begin_
+          << " right-hand sides done, the current ones at relative residuals up to " << largest
+          << " (tolerance " << tolerance << ")";
+  throw TimeoutReached(message.str(), (finished + digits) / (end_ - begin_), largest);
+}
+
+}  // namespace airybench

@@ -1,0 +1,53 @@
+// Several right-hand sides side by side: a row-major n × lanes block. A sparse matrix is then read
+// once for all lanes, and the inner loops run over neighbouring numbers.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <utility>
+
+namespace airybench {
+
+using LaneBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+inline constexpr int most_lanes = 16;
+using LaneScalars = std::array<double, most_lanes>;  // one per lane; those beyond are not used
+
+// Calls f with the number of lanes as a compile-time constant: 1 or most_lanes; any other number
+// is not used by the library.
+template <typename F>
+void with_lanes(Eigen::Index lanes, F f) {
+  if (lanes == 1)
+    f(std::integral_constant<int, 1>());
+  else {
+    eigen_assert(lanes == most_lanes);
+    f(std::integral_constant<int, most_lanes>());
+  }
+}
+
+// y_l += a_l x_l, then what lanes share is done in one pass by the callers that can.
+template <int lanes>
+void axpy(Eigen::Index n, const LaneScalars& a, const double* x, double* y) {
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l) y[i * lanes + l] += a[l] * x[i * lanes + l];
+}
+
+// y_l ← x_l + a_l y_l.
+template <int lanes>
+void xpay(Eigen::Index n, const double* x, const LaneScalars& a, double* y) {
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l)
+      y[i * lanes + l] = x[i * lanes + l] + a[l] * y[i * lanes + l];
+}
+
+template <int lanes>
+LaneScalars dot(Eigen::Index n, const double* x, const double* y) {
+  double sum[lanes] = {};
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (int l = 0; l < lanes; ++l) sum[l] += x[i * lanes + l] * y[i * lanes + l];
+  LaneScalars result{};
+  for (int l = 0; l < lanes; ++l) result[l] = sum[l];
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,48 @@
+// What a method is to the harness: a name, what it needs, and a function.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+using Solve = std::function<Solution(const DualSystem&, const RunControl&)>;
+
+// One combination of parameters that was tried.
+struct GridPoint {
+  double r, rho;
+  int iterations;
+  std::string outcome;  // "converged", "diverged", "given up": slower than the best so far
+};
+
+// Parameters chosen for one problem.
+struct Tuning {
+  std::string parameters;  // "r=20, rho=20"
+  Solve solve;             // with them
+  std::vector<GridPoint> grid;
+};
+
+struct Method {
+  std::string name;                 // "SDTIC3"
+  std::string summary;              // one line
+  bool in_paper = false;            // compared there; these are run by default
+  Blocks blocks = Blocks::airy;     // what it needs assembled
+  std::vector<std::string> stages;  // in order, as StageTimes names them
+  Solve solve;
+  std::string general_name;  // "SYMMLQ:DTIC3" where the name is an alias; else empty
+  // An iterative method is run to a target error: the harness begins with this tolerance per
+  // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
+  double first_tolerance = 0;
+  // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
+  // then does both.
+  std::function<Tuning(const DualSystem&, const RunControl&)> tune;
+
+  const std::string& identity() const { return general_name.empty() ? name : general_name; }
+  bool is_iterative() const { return first_tolerance > 0; }
+};
+
+}  // namespace airybench

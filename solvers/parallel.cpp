@@ -1,0 +1,77 @@
+#include "solvers/parallel.hpp"
+
+#include <cblas.h>
+
+#include <algorithm>
+#include <exception>
+#include <thread>
+#include <vector>
+
+#include "solvers/solution.hpp"
+
+namespace airybench {
+namespace {
+
+// BLAS on one thread while threads of our own call it.
+class SingleThreadedBlas {
+ public:
+  SingleThreadedBlas() { openblas_set_num_threads(1); }
+  ~SingleThreadedBlas() { openblas_set_num_threads(before_); }
+  SingleThreadedBlas(const SingleThreadedBlas&) = delete;
+  SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
+
+ private:
+  int before_ = openblas_get_num_threads();
+};
+
+struct Range {
+  int begin, end;
+  std::exception_ptr failure;
+};
+
+void rethrow(const std::vector<Range>& ranges, int count) {
+  double done = 0, error = 0;
+  std::optional<TimeoutReached> timeout;
+  for (const Range& range : ranges) {
+    double share = 1;
+    if (range.failure) {
+      try {
+        std::rethrow_exception(range.failure);
+      } catch (const TimeoutReached& reached) {
+        timeout = reached;
+        share = reached.done_fraction.value_or(0);
+        error = std::max(error, reached.error_so_far.value_or(0));
+      }  // anything else goes on
+    }
+    done += share * (range.end - range.begin);
+  }
+  if (timeout) throw TimeoutReached(timeout->what(), done / count, error);
+}
+
+}  // namespace
+
+void in_parallel(int threads, int count, const std::function<void(int begin, int end)>& work) {
+  if (threads <= 1 || count <= 1) {
+    work(0, count);
+    return;
+  }
+  const SingleThreadedBlas single;
+  threads = std::min(threads, count);
+  std::vector<Range> ranges;
+  for (int t = 0; t < threads; ++t)
+    ranges.push_back({static_cast<int>(std::int64_t{count} * t / threads),
+                      static_cast<int>(std::int64_t{count} * (t + 1) / threads), nullptr});
+  std::vector<std::jthread> workers;
+  for (Range& range : ranges)
+    workers.emplace_back([&range, &work] {
+      try {
+        work(range.begin, range.end);
+      } catch (...) {
+        range.failure = std::current_exception();
+      }
+    });
+  workers.clear();  // joins
+  rethrow(ranges, count);
+}
+
+}  // namespace airybench

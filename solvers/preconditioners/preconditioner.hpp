@@ -1,0 +1,38 @@
+// A preconditioner M ≈ S, symmetric positive definite: the operator X ← M⁻¹ X on several right-hand
+// sides at once. The identity is one like any other.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/krylov/lanes.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+// X ← M⁻¹ X; allocates nothing.
+using Apply = std::function<void(LaneBlock& X)>;
+
+struct Preconditioner {
+  // Gives an operator with a workspace of its own for blocks of so many lanes: one for each thread.
+  std::function<Apply(int lanes)> applier;
+  std::size_t bytes = 0;  // of what it stores
+  double shift = 0;       // added to the diagonal of S so that the factorisation did not break down
+};
+
+// Builds one from the lower triangle of S, equilibrated. Throws Breakdown, TimeoutReached.
+using MakePreconditioner =
+    std::function<Preconditioner(const SparseColumns& lower, const Deadline& deadline)>;
+
+// "DTIC3" … "DTIC6", "FLIC1" … "FLIC5", "SSOR1.0" (any ω in ]0,2[), "SKY", "NONE". Throws
+// std::invalid_argument: one line with the name and the valid ones.
+MakePreconditioner preconditioner_named(std::string_view name);
+
+// Those of the paper's Fig. 3, ω in steps of 0.25.
+const std::vector<std::string>& preconditioner_names();
+
+}  // namespace airybench

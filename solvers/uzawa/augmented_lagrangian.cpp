@@ -1,0 +1,186 @@
+#include "solvers/uzawa/augmented_lagrangian.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+double mean_magnitude(const SparseRows& C) {
+  return C.nonZeros() > 0 ? C.coeffs().abs().sum() / static_cast<double>(C.nonZeros()) : 1;
+}
+
+double mean_magnitude_symmetric(const SparseColumns& lower) {
+  const double diagonal = lower.diagonal().cwiseAbs().sum();
+  const auto n = static_cast<double>(lower.rows());
+  return (2 * lower.coeffs().abs().sum() - diagonal) /
+         (2 * static_cast<double>(lower.nonZeros()) - n);
+}
+
+// S += weight · CᵀC, lower triangle, inside the pattern of S.
+void add_normal_product(const SparseRows& C, double weight, SparseColumns& lower) {
+  for (int i = 0; i < C.rows(); ++i)
+    for (SparseRows::InnerIterator a(C, i); a; ++a)
+      for (SparseRows::InnerIterator b(C, i); b && b.col() <= a.col(); ++b)
+        lower.coeffRef(a.col(), b.col()) += weight * a.value() * b.value();
+}
+
+void project(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F) {
+  for (int p = 0; p < contact.count; ++p) {
+    if (contact.components == 2)
+      F.segment<2>(2 * p) = project_on_coulomb(F.segment<2>(2 * p), contact.friction);
+    else
+      F(p) = std::min(F(p), 0.0);
+  }
+}
+
+// The iterates of all ρ as columns; those that have ended are moved behind the active ones.
+struct Iterates {
+  Eigen::MatrixXd x, lambda, lambda_c, F_C;            // n, n_f, n_c, n_c
+  Eigen::MatrixXd force, contact, on_force, on_contact;  // C_F φ − F, C_C φ + F0; workspace
+  std::vector<std::size_t> result;                     // whose column it is
+  std::vector<double> rho, force_scale, displacement_scale;
+  int active = 0;
+
+  Iterates(const DualSystem& system, const std::vector<double>& rhos)
+      : rho(rhos), force_scale(rhos.size(), 0), displacement_scale(rhos.size(), 0) {
+    const auto columns = static_cast<Eigen::Index>(rhos.size());
+    active = static_cast<int>(columns);
+    x.setZero(system.n(), columns);
+    for (Eigen::MatrixXd* m : {&lambda, &force, &on_force}) m->setZero(system.n_f(), columns);
+    for (Eigen::MatrixXd* m : {&lambda_c, &F_C, &contact, &on_contact})
+      m->setZero(system.n_c(), columns);
+    for (std::size_t k = 0; k < rhos.size(); ++k) result.push_back(k);
+  }
+  void retire(int k) {
+    --active;
+    for (Eigen::MatrixXd* m : {&x, &lambda, &lambda_c, &F_C, &force, &contact})
+      if (k != active) m->col(k).swap(m->col(active));
+    std::swap(result[k], result[active]);
+    std::swap(rho[k], rho[active]);
+    std::swap(force_scale[k], force_scale[active]);
+    std::swap(displacement_scale[k], displacement_scale[active]);
+  }
+};
+
+// S̃ φ = …, for all active columns.
+void solve_for_stress(const DualSystem& system, const AugmentedFactor& a, Iterates& it) {
+  auto x = it.x.leftCols(it.active);
+  if (system.q.size() > 0)
+    x.colwise() = system.q;
+  else
+    x.setZero();
+  auto on_force = it.on_force.leftCols(it.active), on_contact = it.on_contact.leftCols(it.active);
+  on_force = it.lambda.leftCols(it.active);
+  if (system.F.size() > 0) on_force.colwise() -= a.r_F * system.F;
+  on_contact = it.lambda_c.leftCols(it.active) - a.r_C * it.F_C.leftCols(it.active);
+  if (system.F0.size() > 0) on_contact.colwise() += a.r_C * system.F0;
+  for (int k = 0; k < it.active; ++k) {
+    for (int i = 0; i < system.n_f(); ++i)
+      for (SparseRows::InnerIterator entry(system.C_F, i); entry; ++entry)
+        x(entry.col(), k) -= entry.value() * on_force(i, k);
+    for (int i = 0; i < system.n_c(); ++i)
+      for (SparseRows::InnerIterator entry(system.C_C, i); entry; ++entry)
+        x(entry.col(), k) -= entry.value() * on_contact(i, k);
+  }
+  solve_in_place(a.factor, x);
+}
+
+// The projection and the multipliers of column k; residuals into `result`.
+void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates& it, int k,
+                   UzawaResult& result) {
+  auto force = it.force.col(k), contact = it.contact.col(k), F_C = it.F_C.col(k),
+       change = it.on_contact.col(k);
+  force = system.C_F * it.x.col(k);
+  contact = system.C_C * it.x.col(k);
+  if (system.F0.size() > 0) contact += system.F0;
+  it.force_scale[k] = std::max(
+      it.force_scale[k], std::hypot(force.norm(), contact.norm(), system.F.norm()));
+  if (system.F.size() > 0) force -= system.F;
+
+  double moved = 0;
+  if (system.n_c() > 0) {
+    change = F_C;
+    F_C = contact + it.lambda_c.col(k) / a.r_C;
+    if (system.contact.gap.size() > 0)
+      for (int p = 0; p < system.contact.count; ++p)
+        F_C(system.contact.components * p) += system.contact.gap(p) / a.r_C;
+    project(system.contact, F_C);
+    change -= F_C;
+    moved = a.r_C * change.norm();
+    contact -= F_C;
+    it.lambda_c.col(k) += it.rho[k] / a.r * a.r_C * contact;
+  }
+  it.lambda.col(k) += it.rho[k] / a.r * a.r_F * force;
+  it.displacement_scale[k] =
+      std::max(it.displacement_scale[k],
+               std::hypot(it.lambda.col(k).norm(), it.lambda_c.col(k).norm()));
+
+  const auto relative = [](double value, double scale) { return value > 0 ? value / scale : 0; };
+  result.primal_N = std::max(system.n_f() > 0 ? force.cwiseAbs().maxCoeff() : 0,
+                             system.n_c() > 0 ? contact.cwiseAbs().maxCoeff() : 0);
+  result.primal = relative(std::hypot(force.norm(), contact.norm()), it.force_scale[k]);
+  result.dual = relative(moved, it.displacement_scale[k]);
+}
+
+}  // namespace
+
+AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadline& deadline) {
+  const double mean_S = mean_magnitude_symmetric(system.S);
+  const double mean_F = mean_magnitude(system.C_F), mean_C = mean_magnitude(system.C_C);
+  AugmentedFactor result;
+  result.r = r;
+  result.r_F = r * mean_S / (mean_F * mean_F);
+  result.r_C = r * mean_S / (mean_C * mean_C);
+  SparseColumns lower = system.S;
+  add_normal_product(system.C_F, result.r_F, lower);
+  add_normal_product(system.C_C, result.r_C, lower);
+  result.factor = factor_ldlt(analyse_skyline(lower), lower, deadline);
+  return result;
+}
+
+std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
+                                       const std::vector<double>& rhos, const UzawaOptions& options,
+                                       bool keep, const Deadline& deadline) {
+  // A residual that has grown so much, or is not finite, does not come back.
+  constexpr double diverges = 1e6;
+  Iterates it(system, rhos);
+  std::vector<UzawaResult> results(rhos.size());
+  for (std::size_t k = 0; k < rhos.size(); ++k) results[k].rho = rhos[k];
+  std::vector<double> first(rhos.size(), 0);
+  while (it.active > 0) {
+    solve_for_stress(system, augmented, it);
+    for (int k = 0; k < it.active;) {
+      UzawaResult& result = results[it.result[k]];
+      update_column(system, augmented, it, k, result);
+      ++result.iterations;
+      const bool paper = options.stop == Stop::paper;
+      const double residual = paper ? result.primal_N : std::max(result.primal, result.dual);
+      if (keep) result.history.push_back(residual);
+      if (result.iterations == 1) first[it.result[k]] = result.primal_N;
+      const bool met = residual <= (paper ? options.paper_stop_N : options.tolerance);
+      // The first iteration has compared nothing yet: F_C and the multipliers were zero.
+      const bool met_truly = met && (paper || result.iterations > 1 || result.primal_N == 0);
+      const bool lost = !std::isfinite(result.primal_N) ||
+                        result.primal_N > diverges * std::max(first[it.result[k]], 1.0);
+      if (met_truly || lost || result.iterations >= options.most_iterations) {
+        result.outcome = met_truly ? UzawaOutcome::converged
+                         : lost    ? UzawaOutcome::diverged
+                                   : UzawaOutcome::too_many_iterations;
+        if (keep) {
+          result.F_C = it.F_C.col(k);
+          result.x = it.x.col(k);
+        }
+        it.retire(k);
+      } else {
+        ++k;
+      }
+    }
+    deadline.check("the Uzawa iteration");
+  }
+  return results;
+}
+
+}  // namespace airybench

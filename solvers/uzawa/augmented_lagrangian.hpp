@@ -1,0 +1,66 @@
+// Augmented Lagrangian with Uzawa's algorithm (the paper, section 3.4 and Fig. 1, corrected).
+//
+//   L(φ, F_C, λ, λ') = ½φᵀSφ − qᵀφ + λᵀ(C_F φ − F) + λ'ᵀ(C_C φ + F0 − F_C) − ḡᵀF_C
+//                      + r_F/2 ‖C_F φ − F‖² + r_C/2 ‖C_C φ + F0 − F_C‖²
+//
+// r_F = r p_F², r_C = r p_C², ρ alike, with p = √mean|S| / mean|C| over non-zero entries (eq. 13),
+// which is what multiplying C_F and C_C by p comes to. S̃ = S + r_F C_FᵀC_F + r_C C_CᵀC_C has the
+// pattern of S, since the unknowns of an edge's forces belong to one triangle. An iteration is
+//
+//   S̃ φ = q − C_Fᵀ(λ − r_F F) − C_Cᵀ(λ' − r_C (F_C − F0))
+//   F_C ← P(C_C φ + F0 + (λ' + ḡ)/r_C)         P clips F_n to ≤ 0 first, then F_t to ±μ|F_n|
+//   λ  += ρ_F (C_F φ − F),   λ' += ρ_C (C_C φ + F0 − F_C)
+//
+// (The paper prints "−λ'/2" in the second line, which is not the minimiser over F_C.) It converges
+// for ρ < (1+√5)/2 r (Glowinski); ρ above 2r diverges.
+//
+// Stops:
+//   paper   i_C = max(‖C_C φ + F0 − F_C‖_∞, ‖C_F φ − F‖_∞) ≤ 1e-3 N: feasibility only, which leaves
+//           errors of some per cent, and more the larger r is
+//   target  ‖C_C φ + F0 − F_C‖, ‖C_F φ − F‖ ≤ tolerance · force scale, and the other residual,
+//           r_C ‖F_C^{k+1} − F_C^k‖ ≤ tolerance · displacement scale
+// where the scales are the largest ‖(C_F φ, C_C φ + F0, F)‖ and ‖(λ, λ')‖ so far.
+#pragma once
+
+#include <vector>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+struct AugmentedFactor {
+  double r = 0, r_F = 0, r_C = 0;
+  SkylineFactor factor;  // of S̃
+};
+// Throws Breakdown, TimeoutReached.
+AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadline& deadline = {});
+
+struct UzawaOptions {
+  Stop stop = Stop::target;
+  double tolerance = 1e-8;
+  int most_iterations = 20000;
+  static constexpr double paper_stop_N = 1e-3;
+};
+
+enum class UzawaOutcome { converged, too_many_iterations, diverged };
+
+struct UzawaResult {
+  double rho = 0;
+  UzawaOutcome outcome = UzawaOutcome::too_many_iterations;
+  int iterations = 0;
+  double primal_N = 0;  // i_C at the end
+  double primal = 0, dual = 0;  // relative residuals of the stop `target`, at the end
+  Eigen::VectorXd F_C, x;       // the contact forces and the scaled Airy unknowns
+  std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
+};
+
+// One iteration for every ρ, side by side: they share the reading of the factor. Ends when all have,
+// or when the first converges if `first_only`. keep: solutions and histories in the results.
+// Nothing is allocated inside an iteration, but for histories. Throws TimeoutReached.
+std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
+                                       const std::vector<double>& rhos, const UzawaOptions& options,
+                                       bool keep, const Deadline& deadline = {});
+
+}  // namespace airybench
