@@ -149,7 +149,7 @@ std::map<double, ShownTime> ssor_times(Evidence& evidence, const std::string& me
     std::string why;             // an omega that gives no answer is not the best one
     const auto time = time_of(evidence.cases(), mesh, method, why);
     if (time) times[omega] = *time;
-    texts.push_back(time ? fmt::format("ω={} {}", omega, time->text) : why);
+    texts.push_back(fmt::format("ω={} {}", omega, time ? time->text : why));
   }
   if (!texts.empty()) evidence.figure(fmt::format("{}, {}: {}", mesh, family, joined(texts)));
   return times;
@@ -188,7 +188,7 @@ Claim ssor_is_best_near_1_and_slow(const CaseTable& cases) {
   for (const std::string& family : families_with(cases, mesh, "SSOR")) {
     const auto times = ssor_times(evidence, mesh, family);
     if (times.empty()) {
-      evidence.part(Verdict::undecided, fmt::format("{} {}: no time with SSOR", mesh, family));
+      evidence.missing(mesh, family + ":SSOR", "no time");
       continue;
     }
     const auto best =
@@ -253,7 +253,7 @@ Claim alm_is_slightly_faster_than_3stepd(const CaseTable& cases) {
     for (double& sample : alm->time.samples_s) sample += *record->tuning_s;
     return shown_ratio(*alm, *direct);
   };
-  evidence.over_meshes("(ALM + its tuning)/3STEPD, not part of the claim", meshes, with_tuning, {});
+  evidence.over_meshes("beside the claim: (ALM + its tuning)/3STEPD", meshes, with_tuning, {});
   return evidence.claim(7, fmt::format("ALM takes the same time as 3STEPD, slightly less (4.0.3); "
                                        "here: between 1/{} and 1 of it",
                                        same_time));
@@ -309,7 +309,7 @@ void add_contact_shares(ContactShares& shares, const CaseTable& cases, const std
   for (const std::string& method : cases.methods(mesh)) {
     if (!is_condensing(method)) continue;
     const CaseRecord& record = *cases.find(mesh, method);
-    if (!record.time_s || !record.stage_contact_s) {
+    if (!has_answer(record) || !record.time_s || !record.stage_contact_s) {
       ++shares.without_answer;
       continue;
     }

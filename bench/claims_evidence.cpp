@@ -4,14 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "bench/terminal.hpp"
 
 namespace airybench {
 namespace {
 
-bool has_answer(const CaseRecord& record) {
-  return record.status == Status::ok || record.status == Status::inaccurate;
+constexpr std::size_t most_named = 4;
+
+std::string some_of(std::vector<std::string> names) {
+  if (names.size() <= most_named) return joined(names);
+  const std::size_t rest = names.size() - most_named + 1;
+  names.resize(most_named - 1);
+  return fmt::format("{} and {} more", joined(names), rest);
 }
 
 std::string remark(const CaseRecord& record) {
@@ -20,11 +26,15 @@ std::string remark(const CaseRecord& record) {
 
 }  // namespace
 
+bool has_answer(const CaseRecord& record) {
+  return record.status == Status::ok || record.status == Status::inaccurate;
+}
+
 std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh,
                                  const std::string& method, std::string& why) {
   const CaseRecord* record = cases.find(mesh, method);
   const auto refuse = [&](const std::string& reason) -> std::optional<ShownTime> {
-    why = fmt::format("{} {}: {}", mesh, method, reason);
+    why = reason;
     return {};
   };
   if (record == nullptr) return refuse("no record");
@@ -55,7 +65,7 @@ ShownRatio shown_ratio(const ShownTime& numerator, const ShownTime& denominator)
 std::string show_ratio(const Ratio& ratio) {
   const auto& [low, high] = ratio.interval;
   const std::string figure = fmt::format("{}{:.3g}", ratio.estimated ? "~" : "", ratio.figure);
-  if (!std::isfinite(high) && low == 0) return figure + " (both ran out of time)";
+  if (!std::isfinite(high) && low == 0) return figure + " (no bound)";
   if (!std::isfinite(high)) return fmt::format("{} above {:.3g}", figure, low);
   if (low == 0) return fmt::format("{} below {:.3g}", figure, high);
   if (low == high) return figure;
@@ -65,7 +75,7 @@ std::string show_ratio(const Ratio& ratio) {
 std::optional<ShownTime> Evidence::time(const std::string& mesh, const std::string& method) {
   std::string why;
   std::optional<ShownTime> time = time_of(cases_, mesh, method, why);
-  if (!time) part(Verdict::undecided, why);
+  if (!time) missing(mesh, method, why);
   return time;
 }
 
@@ -74,7 +84,7 @@ std::optional<ShownBytes> Evidence::bytes(const std::string& mesh, const std::st
                                           const char* name) {
   const CaseRecord* record = cases_.find(mesh, method);
   const auto refuse = [&](std::string_view reason) -> std::optional<ShownBytes> {
-    part(Verdict::undecided, fmt::format("{} {}: {}", mesh, method, reason));
+    missing(mesh, method, std::string(reason));
     return {};
   };
   if (record == nullptr) return refuse("no record");
@@ -105,6 +115,17 @@ void Evidence::part(Verdict verdict, const std::string& if_undecided) {
 void Evidence::part(const std::string& label, const Ratio& ratio, Verdict verdict) {
   interval(label + " " + show_ratio(ratio));
   part(verdict, label + ": the interval straddles the threshold");
+}
+
+void Evidence::missing(const std::string& mesh, const std::string& method, const std::string& why) {
+  parts_.push_back(Verdict::undecided);
+  const auto same = std::find_if(missing_.begin(), missing_.end(), [&](const Missing& entry) {
+    return entry.why == why && entry.method == method;
+  });
+  if (same == missing_.end())
+    missing_.push_back({why, method, {mesh}});
+  else if (same->meshes.back() != mesh)
+    same->meshes.push_back(mesh);
 }
 
 void Evidence::over_meshes(const std::string& label, const std::vector<std::string>& meshes,
@@ -150,6 +171,10 @@ Claim Evidence::claim(int number, std::string sentence) const {
   claim.sentence = std::move(sentence);
   claim.verdict = parts_.empty() ? Verdict::undecided : all_of(parts_);
   if (parts_.empty()) claim.open.push_back("no records");
+  std::map<std::string, std::vector<std::string>> by_reason;
+  for (const auto& [why, method, meshes] : missing_)
+    by_reason[why].push_back(fmt::format("{} ({})", method, some_of(meshes)));
+  for (const auto& [why, which] : by_reason) claim.open.push_back(why + ": " + joined(which));
   return claim;
 }
 

@@ -23,13 +23,15 @@ struct ShownRatio {
   std::string text;  // "12.3 s/6 s = 2.05"
 };
 
-// Empty when the case cannot support anything; `why` then says so: "Mesh3 SSKY: no record".
+bool has_answer(const CaseRecord& record);  // ok or inaccurate
+
+// Empty when the case cannot support anything; `why` then says so: "no record".
 std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh,
                                  const std::string& method, std::string& why);
 ShownRatio shown_ratio(const ShownTime& numerator, const ShownTime& denominator);
 
 // "1.34 [1.3, 1.38]", "1.34" (no spread: single samples), "~5.2 above 3.1", "~0.2 below 0.4",
-// "~2.1 (both ran out of time)".
+// "~2.1 (no bound)": both ran out of time.
 std::string show_ratio(const Ratio& ratio);
 
 class Evidence {
@@ -47,6 +49,9 @@ class Evidence {
   void part(Verdict verdict, const std::string& if_undecided);
   // The verdict on a ratio, which is shown with its interval.
   void part(const std::string& label, const Ratio& ratio, Verdict verdict);
+
+  // A case that the claim needs and that is of no use.
+  void missing(const std::string& mesh, const std::string& method, const std::string& why);
 
   using RatioOn = std::function<std::optional<ShownRatio>(const std::string& mesh)>;
   using Test = std::function<Verdict(const Interval&)>;
@@ -67,6 +72,11 @@ class Evidence {
   const CaseTable& cases_;
   Claim claim_;
   std::vector<Verdict> parts_;
+  struct Missing {
+    std::string why, method;
+    std::vector<std::string> meshes;
+  };
+  std::vector<Missing> missing_;
 };
 
 // The meshes that have a record of any of these methods.
