@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <regex>
+#include <sstream>
 
 #include "bench/claims_cases.hpp"
 #include "bench/claims_statistics.hpp"
@@ -150,10 +150,16 @@ class Claims : public ::testing::Test {
     const Result result = claims(arguments);
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    const std::regex block("(^|\n) ?" + std::to_string(number) + "  ([^\n]*\n(    [^\n]*\n)*)");
-    std::smatch match;
-    EXPECT_TRUE(std::regex_search(result.out, match, block)) << result.out;
-    return match[2];
+    const std::string head = (number < 10 ? " " : "") + std::to_string(number) + "  ";
+    std::istringstream lines(result.out);
+    std::string text;
+    for (std::string line; std::getline(lines, line);)
+      if (text.empty() ? line.rfind(head, 0) == 0 : line.rfind("    ", 0) == 0)
+        text += text.empty() ? line.substr(head.size()) + "\n" : line + "\n";
+      else if (!text.empty())
+        break;
+    EXPECT_NE(text, "") << result.out;
+    return text;
   }
   std::string verdict(int number, const std::string& arguments = "") const {
     const std::string text = claim(number, arguments);
