@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "assembly/mesh_selection.hpp"
+#include "bench/claims_command.hpp"
 #include "bench/environment.hpp"
 #include "bench/mesh_files.hpp"
 #include "bench/options.hpp"
@@ -77,6 +78,10 @@ void print_plan(const std::vector<Case>& cases, bool explain) {
 }
 
 int bench(int argc, char** argv) {
+  if (argc > 1 && std::string_view(argv[1]) == "claims") {
+    claims_command(argc - 1, argv + 1);
+    return all_ok;
+  }
   Options options = parse_options(argc, argv);
   if (options.figure) {
     options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
