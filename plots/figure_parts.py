@@ -1,0 +1,276 @@
+"""What Figs 3, 4 and 5 share: a case's point with its error, the key, caption and footnotes.
+
+Fill colour: error_force. Crossed: status inaccurate. Open: no answer, time extrapolated; with an
+arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
+"""
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from matplotlib import colormaps, ticker
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import LogNorm
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.lines import Line2D
+from matplotlib.textpath import TextToPath
+
+from results_table import Row
+
+WIDTH = 6.3  # inches: 16 cm
+TYPE, SMALL, MATH = 8, 7, 10  # points; indices and exponents are set at 0.7 MATH
+STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes.titlesize": TYPE,
+         "xtick.labelsize": TYPE, "ytick.labelsize": TYPE, "legend.fontsize": TYPE,
+         "grid.color": "0.88", "grid.linewidth": 0.4, "axes.axisbelow": True,
+         "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5,
+         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench"}
+COLORMAP = "viridis"
+EDGE, UNKNOWN = "#222222", "#B8B8B8"
+MARKER = 6.5
+CROSS = dict(marker="x", markersize=1.5 * MARKER, markeredgecolor="#D00060", markeredgewidth=0.8,
+             linestyle="none")
+SHAFT = [(0, 0.35), (0, 1), (-0.2, 0.7), (0, 1), (0.2, 0.7)]  # upward from the symbol
+ARROW = dict(marker=SHAFT, markersize=28, markerfacecolor="none", markeredgecolor=EDGE,
+             markeredgewidth=1, linestyle="none")
+HEADROOM = 0.1  # of an axes' height, for arrows without a value
+EDGE_AT = 1 - 0.75 * HEADROOM
+LINE = 0.155  # between lines of a caption
+MARGIN = 0.08
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What a figure shows."""
+
+    name: str
+    axis: str
+    caption: str
+
+    def of(self, row: Row) -> tuple[float | None, str]:
+        """Value, and how it is marked: done, open, bound; none: there is nothing to mark."""
+        if self is HEAP:
+            if row.peak_heap_bytes is None:
+                return None, "none"
+            return row.peak_heap_bytes / 2**20, "done" if row.completed else "open"
+        if row.completed:
+            return row.time_s, "done"
+        if row.status != "timeout":
+            return None, "none"
+        sure = row.extrapolated_time_s and row.done_fraction
+        return row.extrapolated_time_s, "open" if sure else "bound"
+
+
+TIME = Quantity("time", "time of one solve, s",
+                "Time of one solve, from assembled blocks to contact forces and stresses")
+HEAP = Quantity("memory", "peak heap, MiB",
+                "Highest heap during one solve, its blocks and result included")
+
+
+@dataclass
+class Notes:
+    """Cases that a figure has no point for, or none with a value."""
+
+    absent: dict[str, list[str]] = field(default_factory=dict)  # what happened -> cases
+    arrows: dict[str, list[str]] = field(default_factory=dict)
+
+    def add(self, row: Row, case: str, mark: str, value: float | None) -> None:
+        if mark == "none":
+            happened = "heap not counted" if row.completed else row.outcome()
+            self.absent.setdefault(happened, []).append(case)
+        elif value is None:
+            self.arrows.setdefault(row.outcome(), []).append(case)
+
+    def lines(self) -> list[str]:
+        return [f"{title}: " + "; ".join(f"{merged(cases)} ({happened})"
+                                         for happened, cases in group.items())
+                for title, group in (("no point", self.absent), ("no estimate", self.arrows))
+                if group]
+
+
+def merged(cases: list[str]) -> str:
+    """'ALM on Mesh1', 'ALM on Mesh2' -> 'ALM on Mesh1, Mesh2'."""
+    meshes: dict[str, list[str]] = {}
+    for case in cases:
+        method, _, mesh = case.partition(" on ")
+        meshes.setdefault(method, []).append(mesh)
+    return ", ".join(f"{method} on {', '.join(on)}" if on[0] else method
+                     for method, on in meshes.items())
+
+
+def short(value: float) -> str:
+    """0.000012 -> 1e-5."""
+    mantissa, exponent = f"{value:.0e}".split("e")
+    return f"{mantissa}e{int(exponent)}" if value else "0"
+
+
+class ErrorScale:
+    """Colours of error_force, common to all figures of a results.csv."""
+
+    def __init__(self, rows: Iterable[Row]) -> None:
+        errors = [row.error_force for row in rows if row.completed and row.error_force]
+        low = math.floor(math.log10(min(errors, default=1e-12)))
+        high = math.ceil(math.log10(max(errors, default=1e-12)))
+        self.norm = LogNorm(10.0**low, 10.0**max(high, low + 1), clip=True)
+
+    def fill(self, row: Row, mark: str) -> object:
+        if mark != "done":
+            return "white"
+        if row.error_force is None:
+            return UNKNOWN
+        return colormaps[COLORMAP](self.norm(max(row.error_force, self.norm.vmin)))
+
+    def bar(self, figure: Figure, left: float, bottom: float, width: float) -> None:
+        size = figure.get_size_inches()
+        axes = figure.add_axes([left / size[0], bottom / size[1], width / size[0], 0.09 / size[1]])
+        bar = figure.colorbar(ScalarMappable(self.norm, COLORMAP), cax=axes,
+                              orientation="horizontal")
+        low, high = (round(math.log10(v)) for v in (self.norm.vmin, self.norm.vmax))
+        step = math.ceil((high - low) / 6)
+        bar.set_ticks([10.0**k for k in range(low, high + 1, step)], minor=False)
+        bar.ax.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: short(v)))
+        bar.ax.minorticks_off()
+        bar.ax.tick_params(pad=1.5, labelsize=SMALL)
+        bar.outline.set_linewidth(0.4)
+        bar.ax.set_title("error of the contact forces", pad=2)
+
+
+def draw_point(axes: Axes, x: float, y: float | None, row: Row, mark: str, scale: ErrorScale,
+               marker: str = "o") -> None:
+    """Without y, at the upper edge of the axes."""
+    where = dict(transform=axes.transData, clip_on=False)
+    if y is None:
+        y, where["transform"] = EDGE_AT, axes.get_xaxis_transform()
+    if mark == "bound":
+        axes.plot(x, y, **where, **ARROW, zorder=4)
+    axes.plot(x, y, **where, **marker_style(marker, scale.fill(row, mark)), zorder=5)
+    if mark == "done" and row.status == "inaccurate":
+        axes.plot(x, y, **where, **CROSS, zorder=6)
+
+
+def marker_style(marker: str, fill: object) -> dict[str, object]:
+    size = MARKER * {"*": 1.45, "P": 1.1, "D": 0.85}.get(marker, 1)
+    return dict(marker=marker, markersize=size, markerfacecolor=fill, markeredgecolor=EDGE,
+                markeredgewidth=0.6, linestyle="none")
+
+
+def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple, str]]:
+    """Handles and words for the marks that these rows have."""
+    rows = list(rows)
+    marks = {mark for row in rows for _, mark in [quantity.of(row)]}
+    done = [row for row in rows if quantity.of(row)[1] == "done"]
+
+    def sample(marker: str = "o", fill: object = "white") -> Line2D:
+        return Line2D([], [], **marker_style(marker, fill))
+
+    key = []
+    if any(row.status == "inaccurate" for row in done):
+        key.append(((sample(fill="0.8"), Line2D([], [], **CROSS)), "an error above the target"))
+    if any(row.error_force is None for row in done):
+        key.append((sample(fill=UNKNOWN), "grey: error not known"))
+    if "open" in marks:
+        key.append((sample(), "open: time limit reached, time extrapolated" if quantity is TIME
+                    else "open: no answer, heap up to there"))
+    if "bound" in marks:
+        arrow = {**ARROW, "marker": [(0, -1), *SHAFT[1:]], "markersize": 10}
+        key.append((Line2D([], [], **arrow), "arrow: at least so much; no estimate: upper edge"))
+    return key
+
+
+def wrapped(text: str, width: float) -> list[str]:
+    """Lines of at most so many inches in type of TYPE points; no break at no-break spaces."""
+    measure, font, lines = TextToPath(), FontProperties(size=TYPE), [""]
+    for word in text.split(" "):
+        longer = f"{lines[-1]} {word}".strip()
+        # At 72 dots an inch, a dot is a point.
+        if measure.get_text_width_height_descent(longer, font, False)[0] > 72 * width and lines[-1]:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
+
+
+class Footer:
+    """Key and colours, then caption and footnotes, along the figure's lower edge."""
+
+    def __init__(self, rows: list[Row], quantity: Quantity, texts: list[str],
+                 scale: ErrorScale) -> None:
+        self.lines = [line for text in texts for line in wrapped(text, WIDTH - 2 * MARGIN)]
+        self.key = key_of(rows, quantity)
+        self.scale = scale
+        self.key_height = max(0.44, LINE * len(self.key) + 0.06)
+        self.height = self.key_height + LINE * len(self.lines) + MARGIN
+
+    def draw(self, figure: Figure) -> None:
+        height = figure.get_size_inches()[1]
+        for k, line in enumerate(reversed(self.lines)):
+            figure.text(MARGIN / WIDTH, (MARGIN + k * LINE) / height, plain(line), va="bottom")
+        bottom = self.height - self.key_height
+        self.scale.bar(figure, 0.58 * WIDTH, bottom + 0.2, 0.42 * WIDTH - 0.2)
+        if self.key:
+            handles, words = zip(*self.key)
+            figure.legend(handles, words, loc="lower left", frameon=False, borderpad=0,
+                          labelspacing=0.25, handlelength=1.5, handletextpad=0.4,
+                          bbox_to_anchor=(MARGIN / WIDTH, (bottom + 0.05) / height))
+
+
+def plain(text: str) -> str:
+    """Text in which $ does not begin a formula."""
+    return text.replace("$", r"\$")
+
+
+def axes_at(figure: Figure, left: float, top: float, width: float, height: float,
+            **properties: object) -> Axes:
+    """top: inches below the figure's upper edge."""
+    size = figure.get_size_inches()
+    return figure.add_axes([left / size[0], 1 - (top + height) / size[1], width / size[0],
+                            height / size[1]], **properties)
+
+
+def log_axis(axis: object) -> None:
+    axis.set_major_formatter(ticker.FuncFormatter(
+        lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
+    axis.set_major_locator(ticker.LogLocator(numticks=99))
+    axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10), numticks=99))
+    axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, float]:
+    """With headroom where there is a case without a value."""
+    known = [value for value in values if value is not None] or [1]
+    low, high = min(known) / pad, max(known) * pad
+    return low, high if None not in values else high * (high / low) ** (HEADROOM / (1 - HEADROOM))
+
+
+def span(values: Iterable[int]) -> str:
+    low, high = min(values := set(values)), max(values)
+    return f"{low}" if low == high else f"{low} to {high}"
+
+
+def targets(rows: list[Row]) -> list[str]:
+    """The target errors of a run, as far as its rows tell."""
+    found = {row.target_error for row in rows} - {None}
+    for row in rows:
+        told = re.search(r"above the target ([0-9.e+-]+)$", row.status_reason)
+        found |= {float(told[1])} if told and not row.target_error else set()
+    return [short(error) for error in sorted(found)]
+
+
+def caption(rows: list[Row], quantity: Quantity, run: list[Row]) -> str:
+    """What was measured and how: scene, stop, target, repetitions, threads. run: all its rows."""
+    done = [row for row in rows if row.completed]
+    target = "target error " + (" or ".join(targets(run)) or "of the run")
+    stop = (f"Iterations run to the {target}." if rows[0].stop == "target" else
+            f"Iterations end by the paper's own stops; {target}.")
+    words = quantity.caption
+    if quantity is TIME and done:
+        words += f", median of {span(row.repetitions for row in done)} repetitions"
+        words = words.replace("of 1 repetitions", "of 1 repetition")
+    threads = span(row.threads for row in rows)
+    words += f"; {threads} thread{'s' if threads != '1' else ''}. Scene {rows[0].scene}. {stop}"
+    if quantity is TIME and any(row.tuning_s for row in rows):
+        words += " Finding tolerances and parameters is not in the time."
+    return words
