@@ -206,8 +206,8 @@ class Footer:
 
     def draw(self, figure: Figure) -> None:
         height = figure.get_size_inches()[1]
-        for k, line in enumerate(reversed(self.lines)):
-            figure.text(MARGIN / WIDTH, (MARGIN + k * LINE) / height, plain(line), va="bottom")
+        for below, line in enumerate(self.lines, 1 - len(self.lines)):
+            figure.text(MARGIN / WIDTH, (MARGIN - below * LINE) / height, plain(line), va="bottom")
         bottom = self.height - self.key_height
         self.scale.bar(figure, 0.58 * WIDTH, bottom + 0.2, 0.42 * WIDTH - 0.2)
         if self.key:
@@ -230,10 +230,10 @@ def axes_at(figure: Figure, left: float, top: float, width: float, height: float
                             height / size[1]], **properties)
 
 
-def log_axis(axis: object) -> None:
+def log_axis(axis: object, labelled: tuple[int, ...] = (1,)) -> None:
     axis.set_major_formatter(ticker.FuncFormatter(
         lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
-    axis.set_major_locator(ticker.LogLocator(numticks=99))
+    axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))
     axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10), numticks=99))
     axis.set_minor_formatter(ticker.NullFormatter())
 

@@ -22,8 +22,13 @@ STYLES = {
 }
 LEFT, RIGHT, TOP, HEIGHT, BOTTOM = 0.62, 1.7, 0.66, 3.9, 0.38
 LINE_COLOR = "0.35"
-LABEL_PT = 12  # between labels
+LABEL_PT = 14  # between labels
 BESIDE_PT = 7  # between points that would cover each other
+
+
+def n_of(row: Row) -> int:
+    """n_phi; that of Tab. 1 for a case that ended before it was counted."""
+    return row.n_phi or SIZES[row.mesh].n_phi
 
 
 def exponent(n_phi: list[int], values: list[float]) -> float | None:
@@ -54,7 +59,7 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
             known = lines.setdefault(method, {})
             if compared(row.method) == method and (row.mesh not in known or row.method == method):
                 known[row.mesh] = row
-    return {method: sorted(known.values(), key=lambda row: row.n_phi)
+    return {method: sorted(known.values(), key=n_of)
             for method, known in lines.items() if known}
 
 
@@ -99,10 +104,9 @@ def fit(line: list[Row], quantity: Quantity) -> float | None:
 
 def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
-    sizes = [row.n_phi for row in rows if row.n_phi]
-    axes.set(xscale="log", yscale="log", xlim=parts.log_limits(sizes, 1.25),
+    axes.set(xscale="log", yscale="log", xlim=parts.log_limits(list(map(n_of, rows)), 1.25),
              ylim=parts.log_limits(values))
-    parts.log_axis(axes.xaxis)
+    parts.log_axis(axes.xaxis, labelled=(1, 2, 5))
     parts.log_axis(axes.yaxis)
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / (parts.WIDTH - LEFT - RIGHT), 0.5)
@@ -113,7 +117,7 @@ def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
 
 def mark_meshes(axes: Axes, rows: list[Row]) -> None:
     """Names on the upper edge, and a gap between tooth and rack."""
-    sizes = {row.mesh: row.n_phi for row in sorted(rows, key=lambda row: row.n_phi)}
+    sizes = {row.mesh: n_of(row) for row in sorted(rows, key=n_of)}
     for mesh, n_phi in sizes.items():
         axes.axvline(n_phi, color="0.88", linewidth=0.4, zorder=0)
     top = axes.secondary_xaxis("top")
@@ -134,21 +138,20 @@ def mark_meshes(axes: Axes, rows: list[Row]) -> None:
 
 def side_by_side(axes: Axes, rows: list[Row], quantity: Quantity) -> dict[int, float]:
     """Row's line -> x of its point, moved off n_phi where points would cover each other."""
-    marked = [row for row in rows if quantity.of(row)[1] != "none"]
-    taken: list[tuple[int, float, int]] = []  # n_phi, height and shift of the points placed
+    size_pt = 72 * np.array([parts.WIDTH - LEFT - RIGHT, HEIGHT])
+    to_pt = axes.transData + axes.transAxes.inverted()
+    taken: list[np.ndarray] = []
     places = {}
-    for row in sorted(marked, key=lambda row: COMPARED.index(compared(row.method))):
-        value = quantity.of(row)[0]
-        at = EDGE_AT if value is None else \
-            axes.transAxes.inverted().transform(axes.transData.transform((row.n_phi, value)))[1]
-        height = at * HEIGHT * 72
-        shift = next(k for k in sorted(range(-9, 10), key=lambda k: (abs(k), -k))
-                     if not any(n == row.n_phi and k == other and abs(height - y) < BESIDE_PT
-                                for n, y, other in taken))
-        taken.append((row.n_phi, height, shift))
-        low, high = axes.get_xlim()
-        width_pt = 72 * (parts.WIDTH - LEFT - RIGHT)
-        places[row.line] = row.n_phi * (high / low) ** (shift * BESIDE_PT / width_pt)
+    for row in sorted(rows, key=lambda row: COMPARED.index(compared(row.method))):
+        value, mark = quantity.of(row)
+        if mark == "none":
+            continue
+        x, y = to_pt.transform((n_of(row), value or 1))
+        point = np.array([x, EDGE_AT if value is None else y]) * size_pt
+        tried = (point + [shift * BESIDE_PT, 0] for k in range(99) for shift in (k, -k))
+        point = next(p for p in tried if all(max(abs(p - q)) > 0.99 * BESIDE_PT for q in taken))
+        taken.append(point)
+        places[row.line] = to_pt.inverted().transform(point / size_pt)[0]
     return places
 
 
