@@ -1,4 +1,4 @@
-"""What Figs 3, 4 and 5 share: a case's point with its error, the key, caption and footnotes.
+"""What Figs 3, 4 and 5 share: a case's point with its error, the key, the place of the words.
 
 Fill colour: error_force. Crossed: status inaccurate. Open: no answer, time extrapolated; with an
 arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
@@ -6,19 +6,17 @@ arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 from matplotlib import colormaps, ticker
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties
 from matplotlib.lines import Line2D
-from matplotlib.textpath import TextToPath
 
+from figure_words import heap_caption, plain, short, time_caption, wrapped
 from results_table import Row
 
 WIDTH = 6.3  # inches: 16 cm
@@ -48,7 +46,7 @@ class Quantity:
 
     name: str
     axis: str
-    caption: str
+    caption: Callable[[list[Row], list[Row]], str]  # of its rows and all rows of their stop
 
     def of(self, row: Row) -> tuple[float | None, str]:
         """Value, and how it is marked: done, open, bound; none: there is nothing to mark."""
@@ -64,47 +62,8 @@ class Quantity:
         return row.extrapolated_time_s, "open" if sure else "bound"
 
 
-TIME = Quantity("time", "time of one solve, s",
-                "Time of one solve, from assembled blocks to contact forces and stresses")
-HEAP = Quantity("memory", "peak heap, MiB",
-                "Highest heap during one solve, its blocks and result included")
-
-
-@dataclass
-class Notes:
-    """Cases that a figure has no point for, or none with a value."""
-
-    absent: dict[str, list[str]] = field(default_factory=dict)  # what happened -> cases
-    arrows: dict[str, list[str]] = field(default_factory=dict)
-
-    def add(self, row: Row, case: str, mark: str, value: float | None) -> None:
-        if mark == "none":
-            happened = "heap not counted" if row.completed else row.outcome()
-            self.absent.setdefault(happened, []).append(case)
-        elif value is None:
-            self.arrows.setdefault(row.outcome(), []).append(case)
-
-    def lines(self) -> list[str]:
-        return [f"{title}: " + "; ".join(f"{merged(cases)} ({happened})"
-                                         for happened, cases in group.items())
-                for title, group in (("no point", self.absent), ("no estimate", self.arrows))
-                if group]
-
-
-def merged(cases: list[str]) -> str:
-    """'ALM on Mesh1', 'ALM on Mesh2' -> 'ALM on Mesh1, Mesh2'."""
-    meshes: dict[str, list[str]] = {}
-    for case in cases:
-        method, _, mesh = case.partition(" on ")
-        meshes.setdefault(method, []).append(mesh)
-    return ", ".join(f"{method} on {', '.join(on)}" if on[0] else method
-                     for method, on in meshes.items())
-
-
-def short(value: float) -> str:
-    """0.000012 -> 1e-5."""
-    mantissa, exponent = f"{value:.0e}".split("e")
-    return f"{mantissa}e{int(exponent)}" if value else "0"
+TIME = Quantity("time", "time of one solve, s", time_caption)
+HEAP = Quantity("memory", "peak heap, MiB", heap_caption)
 
 
 class ErrorScale:
@@ -112,8 +71,8 @@ class ErrorScale:
 
     def __init__(self, rows: Iterable[Row]) -> None:
         errors = [row.error_force for row in rows if row.completed and row.error_force]
-        low = math.floor(math.log10(min(errors, default=1e-12)))
-        high = math.ceil(math.log10(max(errors, default=1e-12)))
+        low = max(math.floor(math.log10(min(errors, default=1e-12))), -16)
+        high = min(math.ceil(math.log10(max(errors, default=1e-12))), 3)  # beyond: as there
         self.norm = LogNorm(10.0**low, 10.0**max(high, low + 1), clip=True)
 
     def fill(self, row: Row, mark: str) -> object:
@@ -131,7 +90,7 @@ class ErrorScale:
         low, high = (round(math.log10(v)) for v in (self.norm.vmin, self.norm.vmax))
         step = math.ceil((high - low) / 6)
         bar.set_ticks([10.0**k for k in range(low, high + 1, step)], minor=False)
-        bar.ax.xaxis.set_major_formatter(ticker.FuncFormatter(lambda v, _: short(v)))
+        bar.ax.xaxis.set_major_formatter(ticker.FuncFormatter(lambda value, _: short(value)))
         bar.ax.minorticks_off()
         bar.ax.tick_params(pad=1.5, labelsize=SMALL)
         bar.outline.set_linewidth(0.4)
@@ -168,7 +127,8 @@ def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple
 
     key = []
     if any(row.status == "inaccurate" for row in done):
-        key.append(((sample(fill="0.8"), Line2D([], [], **CROSS)), "an error above the target"))
+        key.append(((sample(fill="0.8"), Line2D([], [], **CROSS)),
+                    "inaccurate: an error above the target"))
     if any(row.error_force is None for row in done):
         key.append((sample(fill=UNKNOWN), "grey: error not known"))
     if "open" in marks:
@@ -180,25 +140,12 @@ def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple
     return key
 
 
-def wrapped(text: str, width: float) -> list[str]:
-    """Lines of at most so many inches in type of TYPE points; no break at no-break spaces."""
-    measure, font, lines = TextToPath(), FontProperties(size=TYPE), [""]
-    for word in text.split(" "):
-        longer = f"{lines[-1]} {word}".strip()
-        # At 72 dots an inch, a dot is a point.
-        if measure.get_text_width_height_descent(longer, font, False)[0] > 72 * width and lines[-1]:
-            lines.append(word)
-        else:
-            lines[-1] = longer
-    return lines
-
-
 class Footer:
     """Key and colours, then caption and footnotes, along the figure's lower edge."""
 
     def __init__(self, rows: list[Row], quantity: Quantity, texts: list[str],
                  scale: ErrorScale) -> None:
-        self.lines = [line for text in texts for line in wrapped(text, WIDTH - 2 * MARGIN)]
+        self.lines = [line for text in texts for line in wrapped(text, WIDTH - 2 * MARGIN, TYPE)]
         self.key = key_of(rows, quantity)
         self.scale = scale
         self.key_height = max(0.44, LINE * len(self.key) + 0.06)
@@ -215,11 +162,6 @@ class Footer:
             figure.legend(handles, words, loc="lower left", frameon=False, borderpad=0,
                           labelspacing=0.25, handlelength=1.5, handletextpad=0.4,
                           bbox_to_anchor=(MARGIN / WIDTH, (bottom + 0.05) / height))
-
-
-def plain(text: str) -> str:
-    """Text in which $ does not begin a formula."""
-    return text.replace("$", r"\$")
 
 
 def axes_at(figure: Figure, left: float, top: float, width: float, height: float,
@@ -243,34 +185,3 @@ def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, flo
     known = [value for value in values if value is not None] or [1]
     low, high = min(known) / pad, max(known) * pad
     return low, high if None not in values else high * (high / low) ** (HEADROOM / (1 - HEADROOM))
-
-
-def span(values: Iterable[int]) -> str:
-    low, high = min(values := set(values)), max(values)
-    return f"{low}" if low == high else f"{low} to {high}"
-
-
-def targets(rows: list[Row]) -> list[str]:
-    """The target errors of a run, as far as its rows tell."""
-    found = {row.target_error for row in rows} - {None}
-    for row in rows:
-        told = re.search(r"above the target ([0-9.e+-]+)$", row.status_reason)
-        found |= {float(told[1])} if told and not row.target_error else set()
-    return [short(error) for error in sorted(found)]
-
-
-def caption(rows: list[Row], quantity: Quantity, run: list[Row]) -> str:
-    """What was measured and how: scene, stop, target, repetitions, threads. run: all its rows."""
-    done = [row for row in rows if row.completed]
-    target = "target error " + (" or ".join(targets(run)) or "of the run")
-    stop = (f"Iterations run to the {target}." if rows[0].stop == "target" else
-            f"Iterations end by the paper's own stops; {target}.")
-    words = quantity.caption
-    if quantity is TIME and done:
-        words += f", median of {span(row.repetitions for row in done)} repetitions"
-        words = words.replace("of 1 repetitions", "of 1 repetition")
-    threads = span(row.threads for row in rows)
-    words += f"; {threads} thread{'s' if threads != '1' else ''}. Scene {rows[0].scene}. {stop}"
-    if quantity is TIME and any(row.tuning_s for row in rows):
-        words += " Finding tolerances and parameters is not in the time."
-    return words

@@ -27,7 +27,8 @@ from matplotlib.figure import Figure
 import preconditioner_figure
 import size_figure
 from figure_files import replace_all
-from figure_parts import HEAP, STYLE, TIME, ErrorScale, merged
+from figure_parts import HEAP, STYLE, TIME, ErrorScale
+from figure_words import merged
 from method_names import compared, general, preconditioned
 from paper_sizes import SIZES, table1
 from results_table import STOPS, ResultsError, Row, read_results

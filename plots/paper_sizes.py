@@ -26,10 +26,11 @@ NOTE = ("*n_C of Mesh0*: 40 instead of the printed 38, which is no multiple of 4
 
 
 def table1(rows: list[Row]) -> str:
-    """Markdown; rows of one scene. Bold: what differs from the paper. Empty: no rows of a mesh."""
+    """Markdown; rows of one scene. Bold: what differs from the paper."""
     lines = ["# The paper's Tab. 1 and the sizes of the records", "",
              f"Scene {rows[0].scene}. Bold: not as printed. –: no records.", "",
-             "| mesh | teeth | n_φ, paper | records | n_f, paper | records | n_C, paper | records |",
+             "| mesh | teeth | n_φ, paper | records | n_f, paper | records | n_C, paper "
+             "| records |",
              "|---|---|---|---|---|---|---|---|"]
     for mesh, printed in SIZES.items():
         cells = [mesh, str(printed.teeth)]

@@ -7,7 +7,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import figure_parts as parts
-from figure_parts import HEAP, TIME, ErrorScale, Footer, Notes, axes_at, draw_point
+from figure_parts import HEAP, TIME, ErrorScale, Footer, axes_at, draw_point
+from figure_words import Notes, short
 from method_names import KRYLOV, PAPER_NAMES, general, preconditioned
 from results_table import Row
 
@@ -66,7 +67,7 @@ def draw(rows: list[Row], scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
             notes[quantity].add(row, general(row.method), mark, value)
             if mark == "none":
                 break  # said once
-    texts = [f"{mesh}, {used[0].n_phi} degrees of freedom. " + parts.caption(used, TIME, rows)
+    texts = [f"{mesh}, {used[0].n_phi} degrees of freedom. " + TIME.caption(used, rows)
              + " Below: highest heap during one solve, its blocks and result included.",
              *notes[TIME].lines()]
     texts += [line.replace("no point", "no point below") for line in notes[HEAP].lines()]
@@ -139,7 +140,7 @@ def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict
     for slot in named:
         row = column.get(slot)
         known = row and row.completed and row.error_force is not None
-        upper.annotate(parts.short(row.error_force) if known else "–", (places[slot], 1),
+        upper.annotate(short(row.error_force) if known else "–", (places[slot], 1),
                        xycoords=upper.get_xaxis_transform(), xytext=(0, 4), ha="center",
                        textcoords="offset points", rotation=90, fontsize=parts.SMALL, va="bottom")
     for family in ("DTIC", "FLIC", "SSOR"):

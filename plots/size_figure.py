@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import figure_parts as parts
-from figure_parts import EDGE_AT, ErrorScale, Footer, Notes, Quantity, axes_at, draw_point
+from figure_parts import EDGE_AT, ErrorScale, Footer, Quantity, axes_at, draw_point
+from figure_words import Notes
 from method_names import COMPARED, compared
 from paper_sizes import SIZES
 from results_table import Row
@@ -20,7 +21,7 @@ STYLES = {
     "SSKY": (">", (0, (1, 1.2))), "3STEPD": ("o", "-"), "ALM": ("*", "-"),
     "BLIND": ("<", (0, (8, 2))), "HYBRID": ("P", "-"),
 }
-LEFT, RIGHT, TOP, HEIGHT, BOTTOM = 0.62, 1.7, 0.66, 3.9, 0.38
+LEFT, RIGHT, TOP, HEIGHT, BOTTOM = 0.62, 1.7, 0.66, 3.9, 0.42
 LINE_COLOR = "0.35"
 LABEL_PT = 14  # between labels
 BESIDE_PT = 7  # between points that would cover each other
@@ -77,7 +78,7 @@ def draw(rows: list[Row], quantity: Quantity, scale: ErrorScale) -> tuple[Figure
             value, mark = quantity.of(row)
             notes.add(row, f"{method} on {row.mesh}", mark, value)
     missing = [method for method in COMPARED if method not in lines]
-    texts = [parts.caption(used, quantity, rows) + " n^p: power law fitted over a method's "
+    texts = [quantity.caption(used, rows) + " n^p: power law fitted over a method's "
              "completed cases, three or more. Points that would cover each other stand side by "
              "side.", *notes.lines()]
     if missing:
@@ -110,7 +111,7 @@ def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     parts.log_axis(axes.yaxis)
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / (parts.WIDTH - LEFT - RIGHT), 0.5)
-    axes.set_xlabel(r"$n_\varphi$", fontsize=parts.MATH, labelpad=1)
+    axes.set_xlabel(r"$n_\varphi$", fontsize=parts.MATH, labelpad=2)
     axes.grid(axis="y")
     axes.spines[["right"]].set_visible(False)
 

@@ -22,6 +22,7 @@ sys.path.insert(0, str(PLOTS))
 
 import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
+import figure_words  # noqa: E402
 import method_names  # noqa: E402
 import paper_figures  # noqa: E402
 import results_table  # noqa: E402
@@ -302,7 +303,7 @@ class LayoutTest(unittest.TestCase):
 
     def test_wrapping_keeps_the_words_and_the_width(self) -> None:
         text = " ".join(["the quick brown fox, 12\u00a0% done,"] * 6)
-        lines = figure_parts.wrapped(text, 2)
+        lines = figure_words.wrapped(text, 2, figure_parts.TYPE)
         self.assertEqual(" ".join(lines), text)
         figure = Figure(figsize=(9, 9))
         renderer = FigureCanvasAgg(figure).get_renderer()
