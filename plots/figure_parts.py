@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from matplotlib import colormaps, ticker
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -172,7 +173,10 @@ def axes_at(figure: Figure, left: float, top: float, width: float, height: float
                             height / size[1]], **properties)
 
 
-def log_axis(axis: object, labelled: tuple[int, ...] = (1,)) -> None:
+def log_axis(axis: Axis) -> None:
+    """Of an axis with its limits set."""
+    low, high = axis.get_view_interval()
+    labelled = (1, 2, 5) if high / low < 200 else (1,)
     axis.set_major_formatter(ticker.FuncFormatter(
         lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
     axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))
@@ -181,7 +185,9 @@ def log_axis(axis: object, labelled: tuple[int, ...] = (1,)) -> None:
 
 
 def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, float]:
-    """With headroom where there is a case without a value."""
+    """At least a decade; with headroom where there is a case without a value."""
     known = [value for value in values if value is not None] or [1]
     low, high = min(known) / pad, max(known) * pad
+    wider = math.sqrt(max(10 * low / high, 1))
+    low, high = low / wider, high * wider
     return low, high if None not in values else high * (high / low) ** (HEADROOM / (1 - HEADROOM))

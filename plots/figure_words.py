@@ -77,7 +77,8 @@ def targets(rows: list[Row]) -> list[str]:
     for row in rows:
         told = re.search(r"above the target (\d+(?:\.\d+)?(?:e[+-]?\d+)?)", row.status_reason)
         found |= {float(told[1])} if told and not row.target_error else set()
-    return [f"{error:g}".replace("e-0", "e-") for error in sorted(found)]
+    return [short(error) if float(short(error)) == error else f"{error:g}"
+            for error in sorted(found)]
 
 
 def caption(rows: list[Row], measured: str, run: list[Row]) -> str:

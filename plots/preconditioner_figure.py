@@ -82,7 +82,7 @@ def draw(rows: list[Row], scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
         upper = axes_at(figure, left, TOP + ERRORS, width, TIME_HEIGHT, yscale="log", **limits,
                         ylim=limits_of(used, TIME))
         lower = axes_at(figure, left, TOP + ERRORS + TIME_HEIGHT + BETWEEN, width, HEAP_HEIGHT,
-                        **limits, ylim=(0, limits_of(used, HEAP)[1]))
+                        **limits, ylim=limits_of(used, HEAP))
         parts.log_axis(upper.yaxis)
         if k == 0:
             upper.annotate("error", (0, 1), xycoords="axes fraction", xytext=(-4, 6), ha="right",
@@ -104,7 +104,9 @@ def draw(rows: list[Row], scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
 
 def limits_of(rows: list[Row], quantity: parts.Quantity) -> tuple[float, float]:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
-    return parts.log_limits(values, 1.6 if quantity is TIME else 1.12)
+    if quantity is TIME:
+        return parts.log_limits(values, 1.6)
+    return 0, 1.12 * max(values, default=1)
 
 
 def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],

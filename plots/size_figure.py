@@ -107,7 +107,7 @@ def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
     axes.set(xscale="log", yscale="log", xlim=parts.log_limits(list(map(n_of, rows)), 1.25),
              ylim=parts.log_limits(values))
-    parts.log_axis(axes.xaxis, labelled=(1, 2, 5))
+    parts.log_axis(axes.xaxis)
     parts.log_axis(axes.yaxis)
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / (parts.WIDTH - LEFT - RIGHT), 0.5)
