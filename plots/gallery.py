@@ -10,9 +10,8 @@ nothing is written.
 from __future__ import annotations
 
 import argparse
-import os
 import sys
-import tempfile
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -24,6 +23,7 @@ from PIL import Image
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
 from fields import Fields, FieldsError, names_in, read_fields
+from figure_files import replace_all
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -73,15 +73,8 @@ def write(figure: Figure, path: Path) -> None:
 
 
 def save(figure: Figure, targets: list[Path]) -> None:
-    """All of the files or none: each is written beside its place and then moved there."""
-    folder = targets[0].parent
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".gallery-") as temporary:
-        for target in targets:
-            write(figure, Path(temporary) / target.name)
-        for target in targets:
-            os.replace(Path(temporary) / target.name, target)
-            print(target)
+    replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
+    print(*targets, sep="\n")
 
 
 def choose(names: list[str]) -> list[str] | None:

@@ -1,0 +1,357 @@
+"""plots/paper_figures.py on made-up results.  /usr/bin/python3 -m unittest FILE"""
+import contextlib
+import csv
+import io
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import matplotlib
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
+
+PLOTS = Path(__file__).resolve().parents[2] / "plots"
+sys.path.insert(0, str(PLOTS))
+
+import figure_files  # noqa: E402
+import figure_parts  # noqa: E402
+import figure_words  # noqa: E402
+import method_names  # noqa: E402
+import paper_figures  # noqa: E402
+import results_table  # noqa: E402
+import size_figure  # noqa: E402
+from paper_sizes import SIZES  # noqa: E402
+
+UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
+POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(method_names.COMPARED)}
+
+
+def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
+    size = SIZES.get(mesh, SIZES["Mesh0"])
+    row = dict.fromkeys(results_table.COLUMNS, "")
+    row |= dict(mesh=mesh, scene="default", method=method, stop="target", status="ok",
+                n_phi=size.n_phi, n_f=size.n_f, n_c=40 if mesh == "Mesh0" else size.n_c,
+                threads=1, repetitions=5, time_s=0.5, peak_heap_bytes=2.0**22, error_force=1e-9)
+    return row | cells
+
+
+def power_laws(**cells: object) -> list[dict[str, object]]:
+    """The nine compared methods on all meshes; n_phi^POWER."""
+    return [case(mesh, method, time_s=1e-7 * size.n_phi**POWER[method],
+                 peak_heap_bytes=50 * size.n_phi**1.25, **cells)
+            for mesh, size in SIZES.items() for method in method_names.COMPARED]
+
+
+def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
+    names = [*(f"DTIC{k}" for k in range(3, 7)), *(f"FLIC{k}" for k in range(1, 6)), "SSOR0.5",
+             "SSOR1.0", "SSOR1.5", "SKY", "NONE"]
+    return [case(mesh, f"{krylov}:{name}", time_s=1 + k) for krylov in method_names.KRYLOV
+            for k, name in enumerate(names)]
+
+
+class PaperFiguresTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.results = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.results)
+        self.csv = self.results / "results.csv"
+        self.figures = self.results / "figures"
+
+    def write(self, rows: list[dict[str, object]]) -> None:
+        with self.csv.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(rows)
+
+    def run_figures(self, *arguments: object) -> tuple[int, str, str]:
+        """Exit status, stdout, stderr."""
+        out, err, status = io.StringIO(), io.StringIO(), 0
+        words = ["paper_figures.py", *map(str, arguments or (self.results,))]
+        with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(out), \
+                contextlib.redirect_stderr(err):
+            try:
+                paper_figures.main()
+            except SystemExit as end:
+                status = end.code
+        return status, out.getvalue(), err.getvalue()
+
+    def draw(self, rows: list[dict[str, object]]) -> tuple[str, dict[str, str]]:
+        """stdout, and the words in each figure; nothing is rendered."""
+        self.write(rows)
+        words = {}
+
+        def keep(figure: Figure, path: Path) -> None:
+            texts = [t.get_text() for t in figure.findobj(lambda a: hasattr(a, "get_text"))]
+            words[path.stem] = " ".join(texts)
+            path.touch()
+        with mock.patch.object(paper_figures, "write", keep):
+            status, out, err = self.run_figures()
+        self.assertEqual((status, err), (0, ""))
+        return out, words
+
+    def assert_refused(self, *parts: str) -> None:
+        """Exit 2, one line that has all the parts, and nothing written."""
+        status, out, err = self.run_figures()
+        self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
+        for part in parts:
+            self.assertIn(part, err)
+        self.assertFalse(self.figures.exists())
+
+    def refuse_cell(self, column: str, cell: object, allowed: str) -> None:
+        self.write([case("Mesh0", "3STEPD"), case("Mesh1", "3STEPD") | {column: cell}])
+        self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
+
+    def test_all_figures_of_both_stops(self) -> None:
+        rows = power_laws() + [row for row in preconditioners() if "DTIC4" in row["method"]]
+        self.write(rows + [row | {"stop": "paper"} for row in rows])
+        status, out, err = self.run_figures()
+        self.assertEqual((status, err), (0, ""))
+        names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
+                 for kind in ("svg", "png")} | {"table1.md"}
+        self.assertEqual({path.name for path in self.figures.iterdir()}, names)
+        self.assertEqual(out.count("\n"), 7)
+        for name in names - {"table1.md"}:
+            start = (self.figures / name).read_bytes()[:8]
+            self.assertIn(start, (b"\x89PNG\r\n\x1a\n", b"<?xml ve"), name)
+
+    def test_the_same_input_gives_the_same_files(self) -> None:
+        self.write(power_laws()[:9])
+        for out in ("a", "b"):
+            self.assertEqual(self.run_figures(self.results, "--out", self.results / out)[0], 0)
+        for name in ("figure4.svg", "figure4.png", "table1.md"):
+            self.assertEqual((self.results / "a" / name).read_bytes(),
+                             (self.results / "b" / name).read_bytes(), name)
+
+    def test_without_rows_of_a_figure_it_is_left_out_and_said(self) -> None:
+        out, words = self.draw(power_laws())
+        self.assertEqual(set(words), {"figure4", "figure5"})
+        self.assertIn("figure3: left out: no rows of preconditioners beyond those", out)
+        self.assertIn("figure4_paper_stop: left out: no rows with stop=paper", out)
+        (self.figures / "figure3.svg").touch()
+        self.assertIn("an earlier figure3.svg stays", self.draw(power_laws())[0])
+
+    def test_exponents_of_power_laws(self) -> None:
+        words = self.draw(power_laws())[1]
+        for power in POWER.values():
+            self.assertIn(f"$n^{{{power:.2f}}}$", words["figure4"])
+        self.assertEqual(words["figure5"].count("$n^{1.25}$"), 9)
+
+    def test_exponents_need_three_completed_points(self) -> None:
+        self.assertIsNone(size_figure.exponent([10, 100], [1, 10]))
+        self.assertAlmostEqual(size_figure.exponent([10, 100, 1000], [1, 10, 100]), 1)
+        rows = [row for row in power_laws() if row["method"] == "3STEPD"]
+        for row in rows[2:]:
+            row |= UNFINISHED | dict(status="timeout", done_fraction=0.5, extrapolated_time_s=9e9)
+        self.assertNotIn("$n^{", self.draw(rows)[1]["figure4"])
+        rows[2] |= dict(status="inaccurate", time_s=1e-7 * SIZES["Mesh2"].n_phi**POWER["3STEPD"],
+                        error_force=1e-3)
+        self.assertIn(f"$n^{{{POWER['3STEPD']:.2f}}}$", self.draw(rows)[1]["figure4"])
+
+    def test_no_case_is_dropped_silently(self) -> None:
+        rows = power_laws()
+        outcomes = [dict(status="timeout", done_fraction=0.12, extrapolated_time_s=5e3),
+                    dict(status="timeout", done_fraction=0.001),
+                    dict(status="not_converged"), dict(status="breakdown"),
+                    dict(status="out_of_memory"), dict(status="crashed"), dict(status="skipped")]
+        for row, outcome in zip(rows[-9:], outcomes):
+            row |= UNFINISHED | outcome
+        out, words = self.draw([*rows, case("Mesh3", "3STEPD:CHOLMOD"), case("part", "3STEPD"),
+                                case("Mesh3", "3STEPD", scene="flat")])
+        time, heap = (words[name].replace("\u00a0", " ") for name in ("figure4", "figure5"))
+        self.assertIn("no estimate: 3STEPCG3 on Mesh7 (timeout, 0.1 % done)", time)
+        self.assertIn("no point: SDTIC6 on Mesh7 (not converged); 3STEPCG6 on Mesh7 (breakdown); "
+                      "SSKY on Mesh7 (out of memory); 3STEPD on Mesh7 (crashed); ALM on Mesh7 "
+                      "(skipped)", time)
+        self.assertNotIn("SDTIC3 on Mesh7", time)  # an open symbol
+        self.assertIn("no point: SDTIC3 on Mesh7 (timeout, 12 % done); 3STEPCG3 on Mesh7", heap)
+        self.assertIn("in no figure: 3STEPD:CHOLMOD on Mesh3 (not of the paper's figures); "
+                      "3STEPD on part (not of Mesh0..Mesh7); 3STEPD on Mesh3 (scene flat)", out)
+
+    def test_every_case_has_its_point(self) -> None:
+        rows = power_laws()
+        self.write(rows)
+        read = results_table.read_results(self.csv)
+        with mock.patch.object(size_figure, "draw_point") as point:
+            size_figure.draw(read, figure_parts.TIME, figure_parts.ErrorScale(read))
+        drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
+                 for call in point.call_args_list}
+        self.assertEqual(drawn, {(row["mesh"], row["method"]): row["time_s"] for row in rows})
+
+    def test_heap_that_was_not_counted(self) -> None:
+        rows = power_laws()
+        rows[0]["peak_heap_bytes"] = ""
+        self.assertIn("no point: SDTIC3 on Mesh0 (heap not counted)", self.draw(rows)[1]["figure5"])
+        for row in rows:
+            row["peak_heap_bytes"] = ""
+        out, words = self.draw(rows)
+        self.assertNotIn("figure5", words)
+        self.assertIn("figure5: left out: none of its 72 rows has a memory", out)
+
+    def test_preconditioners_under_either_name(self) -> None:
+        rows = preconditioners()
+        for row in rows:
+            row["method"] = method_names.PAPER_NAMES.get(row["method"], row["method"])
+        rows[-1] |= UNFINISHED | dict(status="timeout", done_fraction=0.03)
+        out, words = self.draw([*rows, case("Mesh1", "SYMMLQ:NONE"),
+                                case("Mesh3", "SYMMLQ:DTIC3,schur=sparse"),
+                                case("Mesh3", "SYMMLQ:DTIC3")])
+        self.assertIn("figure3.svg, .png: 28 cases", out)
+        self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
+        self.assertIn("no estimate: 3STEPCG:NONE (timeout, 3\u00a0% done)", words["figure3"])
+        self.assertIn("SYMMLQ:NONE on Mesh1 (only Figs 4, 5 have more than one mesh)", out)
+        self.assertIn("SYMMLQ:DTIC3,schur=sparse on Mesh3 (not of the paper's figures)", out)
+        self.assertNotIn("SDTIC3 on", out)  # in figure 4, and in figure 3 as SYMMLQ:DTIC3
+
+    def test_preconditioners_of_another_mesh_and_scene(self) -> None:
+        rows = [row | {"scene": "flat"} for row in preconditioners("part")]
+        self.assertIn("part, 761 degrees", self.draw(rows)[1]["figure3"])
+
+    def test_captions(self) -> None:
+        rows = power_laws(threads=2)
+        rows[0] |= dict(status="inaccurate", repetitions=1, tuning_s=3, error_force=1e-3,
+                        status_reason="error_force 1.00e-03 is above the target 1e-06")
+        words = self.draw(rows)[1]["figure4"]
+        for part in ("median of 1 to 5 repetitions", "2 threads. Scene default.",
+                     "target error 1e-6", "an error above the target", "one tooth",
+                     "Finding tolerances and parameters is not in the time"):
+            self.assertIn(part, words)
+        words = self.draw([row | {"stop": "paper", "target_error": 1e-4} for row in rows])[1]
+        self.assertIn("the paper's own stops; target error 1e-4", words["figure4_paper_stop"])
+
+    def test_table(self) -> None:
+        self.draw([case("Mesh0", "3STEPD"), case("Mesh1", "3STEPD", n_f=145)])
+        table = (self.figures / "table1.md").read_text(encoding="utf-8")
+        self.assertIn("| Mesh0 | 1 | 761 | 761 | 96 | 96 | 38 | **40** |", table)
+        self.assertIn("| Mesh1 | 1 | 1973 | 1973 | 144 | **145** | 80 | 80 |", table)
+        self.assertIn("| Mesh7 | 4 | 50483 | – | 920 | – | 640 | – |", table)
+        self.assertIn("*n_C of Mesh0*: 40 instead of the printed 38", table)
+
+    def test_cells_that_cannot_be(self) -> None:
+        self.refuse_cell("stop", "soon", "one of target, paper")
+        self.refuse_cell("status", "fine", "one of ok, inaccurate, not_converged")
+        self.refuse_cell("mesh", "", "a name")
+        self.refuse_cell("n_phi", "76.1", "a whole number, 0 or more")
+        for word in ("abc", "nan", "-1", "0"):
+            self.refuse_cell("time_s", word, "a number above 0, or empty")
+        self.refuse_cell("time_s", "", "a number above 0, since status is ok")
+        self.refuse_cell("error_force", "-1e-9", "a number, 0 or more, or empty")
+        self.refuse_cell("done_fraction", "1.2", "a number from 0 to 1, or empty")
+
+    def test_tables_that_cannot_be(self) -> None:
+        self.assert_refused(f"{self.csv}: cannot be read: No such file")
+        self.write([{"mesh": "Mesh0", "scene": "default"}])
+        self.assert_refused(f"{self.csv}:1: no columns method", "mesh, scene, method, stop")
+        row = case("Mesh0", "3STEPD")
+        self.write([row, row])
+        self.assert_refused(f"{self.csv}:3:", "'Mesh0, default, 3STEPD, target' as in line 2")
+        self.csv.write_text(self.csv.read_text().rsplit(",", 3)[0] + "\n")
+        self.assert_refused(f"{self.csv}:3: 14 values, expected 17 as in line 1")
+        self.csv.write_text(self.csv.read_text().splitlines()[0] + "\n")
+        self.assert_refused(f"{self.csv}: no rows")
+
+    def test_wrong_option_and_unusable_out(self) -> None:
+        self.write([case("Mesh0", "3STEPD")])
+        for arguments, part in ((("--nonsense",), "--nonsense"),
+                                (("--out", self.csv), "expected a folder to write to")):
+            with mock.patch.object(paper_figures, "write"):
+                status, _, err = self.run_figures(self.results, *arguments)
+            self.assertEqual((status, err.count("\n")), (2, 1), err)
+            self.assertIn(part, err)
+
+    def test_nothing_is_left_of_a_run_that_fails(self) -> None:
+        def fail(path: Path) -> None:
+            raise OSError(28, "No space left on device", str(path))
+        self.figures.mkdir()
+        (self.figures / "a").write_text("earlier")
+        with self.assertRaises(OSError):
+            figure_files.replace_all(self.figures, {"a": Path.touch, "b": fail})
+        self.assertEqual([path.name for path in self.figures.iterdir()], ["a"])
+        self.assertEqual((self.figures / "a").read_text(), "earlier")
+
+
+class MethodNamesTest(unittest.TestCase):
+    def test_aliases(self) -> None:
+        for name, general in (("SDTIC3", "SYMMLQ:DTIC3"), ("SSKY", "SYMMLQ:SKY"),
+                              ("3STEPCG6", "3STEPCG:DTIC6"), ("SYMMLQ:SSOR1", "SYMMLQ:SSOR1.0"),
+                              ("SYMMLQ:SSOR1.00", "SYMMLQ:SSOR1.0"), ("3STEPD", "3STEPD"),
+                              ("ALM:r=20,rho=40", "ALM:r=20,rho=40")):
+            self.assertEqual(method_names.general(name), general)
+
+    def test_which_figure(self) -> None:
+        self.assertEqual(method_names.compared("SYMMLQ:DTIC6"), "SDTIC6")
+        self.assertIsNone(method_names.compared("SYMMLQ:DTIC5"))
+        self.assertEqual(method_names.preconditioned("SSKY"), ("SYMMLQ", "SKY", 0))
+        self.assertEqual(method_names.preconditioned("3STEPCG:SSOR0.5"), ("3STEPCG", "SSOR", 0.5))
+        for name in ("3STEPD", "SYMMLQ:DTIC7", "SYMMLQ:SSOR2", "SYMMLQ:DTIC3,schur=sparse"):
+            self.assertIsNone(method_names.preconditioned(name), name)
+
+
+class LayoutTest(unittest.TestCase):
+    def test_labels_are_spread_and_stay_inside(self) -> None:
+        wanted = sorted(np.random.default_rng(1).uniform(0, 1, 9).tolist() + [0.5, 0.5])
+        places = size_figure.spread(wanted, 0.08, 0, 1)
+        self.assertGreaterEqual(min(np.diff(places)), 0.08 - 1e-12)
+        self.assertTrue(0 <= places[0] and places[-1] <= 1)
+        self.assertEqual(size_figure.spread([0.1, 0.9], 0.1, 0, 1), [0.1, 0.9])
+        np.testing.assert_allclose(size_figure.spread([0.5, 0.5], 0.1, 0, 1), [0.45, 0.55])
+
+    def test_wrapping_keeps_the_words_and_the_width(self) -> None:
+        text = " ".join(["the quick brown fox, 12\u00a0% done,"] * 6)
+        lines = figure_words.wrapped(text, 2, figure_parts.TYPE)
+        self.assertEqual(" ".join(lines), text)
+        figure = Figure(figsize=(9, 9))
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        for line in lines:
+            drawn = figure.text(0, 0, line, fontsize=figure_parts.TYPE)
+            self.assertLess(drawn.get_window_extent(renderer).width / figure.dpi, 2.1, line)
+        self.assertLess(len(lines), 7)
+
+    def test_type_is_legible_and_apart(self) -> None:
+        rows = power_laws() + preconditioners()
+        for k, row in enumerate(rows):
+            row["line"] = k + 2
+            row |= {key: None for key, value in row.items() if value == ""} | {"status_reason": ""}
+        read = [results_table.Row(**row, target_error=None) for row in rows]
+        scale = figure_parts.ErrorScale(read)
+        drawn: list[Text] = []
+        paint = Text.draw
+
+        def keep(words: Text, renderer: object) -> None:
+            drawn.append(words)
+            paint(words, renderer)
+        for draw in paper_figures.FIGURES.values():
+            drawn.clear()
+            with matplotlib.rc_context(figure_parts.STYLE), mock.patch.object(Text, "draw", keep):
+                figure, _ = draw(read, scale=scale)
+                renderer = FigureCanvasAgg(figure).get_renderer()
+                figure.draw(renderer)
+            boxes: list[tuple[Text, Bbox]] = []
+            for words in drawn:
+                if not (words.get_visible() and words.get_text()) or words.get_rotation() == 45:
+                    continue
+                self.assertGreaterEqual(words.get_fontsize(), 7, words)
+                box = words.get_window_extent(renderer)
+                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
+                for other, other_box in boxes:
+                    self.assertFalse(box.padded(-0.5).overlaps(other_box), f"{words} {other}")
+                boxes.append((words, box))
+
+
+
+class RunTest(unittest.TestCase):
+    def test_a_folder_with_nothing_to_draw(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            done = subprocess.run([PLOTS.parent / "run", "figures", folder], capture_output=True,
+                                  text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertIn(f"{folder} has neither results.csv nor fields/", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
