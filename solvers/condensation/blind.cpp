@@ -130,9 +130,10 @@ CondensedSystem condense_blindly(const Eigen::MatrixXd& schur,
 
 Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,
                                       const Eigen::VectorXd& F_C) {
-  Eigen::VectorXd b = blind.load.size() > 0 ? blind.load
-                                            : Eigen::VectorXd(Eigen::VectorXd::Zero(
-                                                  static_cast<Eigen::Index>(blind.lower.rows())));
+  Eigen::VectorXd b =
+      blind.load.size() > 0
+          ? blind.load
+          : Eigen::VectorXd(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(blind.lower.rows())));
   const std::vector<int> contact = contact_positions(system, blind);
   for (int i = 0; i < F_C.size(); ++i) b(contact[i]) += F_C(i);
   return b;

@@ -28,6 +28,12 @@ bool wants_more_workspace(int info) {
 
 bool is_out_of_memory(int info) { return info == -5 || info == -7 || info == -13; }
 
+// MUMPS 5.5 reads outside its arrays when it is given what is not finite.
+void require_finite(const Eigen::SparseMatrix<double>& matrix) {
+  if (!Eigen::Map<const Eigen::ArrayXd>(matrix.valuePtr(), matrix.nonZeros()).allFinite())
+    throw Breakdown("MUMPS: the matrix is not finite");
+}
+
 // INFOG's large numbers: in millions where negative.
 std::size_t large(int value) {
   return value < 0 ? static_cast<std::size_t>(-std::int64_t{value}) * 1000000
@@ -48,6 +54,9 @@ MumpsFactor::MumpsFactor() {
   mumps_.icntl[no(7)] = 2;
   // By default: scaling (8) and 2×2 pivots prepared in the analysis (6, 12) as MUMPS sees fit,
   // pivots from 0.01 of their column on (CNTL(1)), no iterative refinement (10).
+  // A row that elimination leaves below CNTL(3) of the matrix's norm is counted as a null pivot.
+  mumps_.icntl[no(24)] = 1;
+  mumps_.cntl[no(3)] = 1e-15;
   mumps_.icntl[no(27)] = columns_at_once;
 }
 
@@ -75,6 +84,7 @@ void MumpsFactor::call(int job, const char* doing) {
 void MumpsFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing) {
   const int n = static_cast<int>(lower.rows());
   if (n == 0) return;  // nothing to solve
+  require_finite(lower);
   const auto entries = static_cast<std::size_t>(lower.nonZeros());
   rows_.reserve(entries);
   columns_.reserve(entries);
@@ -104,12 +114,14 @@ void MumpsFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing
 
 void MumpsFactor::factor(const Eigen::SparseMatrix<double>& lower) {
   if (mumps_.n == 0) return;
+  require_finite(lower);
   mumps_.a = const_cast<double*>(lower.valuePtr());
-  if (!Eigen::Map<const Eigen::ArrayXd>(lower.valuePtr(), lower.nonZeros()).allFinite())
-    throw Breakdown("MUMPS: the matrix is not finite");
   mumps_.schur = schur_.data();
   mumps_.schur_lld = static_cast<int>(schur_.rows());
   call(factorisation, "the factorisation");
+  if (const int null_pivots = mumps_.infog[no(28)]; null_pivots > 0)
+    throw Breakdown("MUMPS: the matrix is singular to rounding, with " +
+                    std::to_string(null_pivots) + " null pivots");
   schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 

@@ -28,8 +28,8 @@ class MumpsFactor {
   MumpsFactor& operator=(const MumpsFactor&) = delete;
 
   // Ordering and symbolic factorisation of a lower triangle in compressed columns, which is also
-  // looked at for its values (scaling, 2×2 pivots); it has to live until it is factorised. The last
-  // `trailing` unknowns are those of the Schur complement. Throws std::bad_alloc.
+  // looked at for its values (scaling, 2×2 pivots). The last `trailing` unknowns are those of the
+  // Schur complement. Throws Breakdown when it is not finite, std::bad_alloc.
   void analyse(const Eigen::SparseMatrix<double>& lower, int trailing = 0);
   // Of the matrix that was analysed. Throws Breakdown when it is singular or not finite,
   // std::bad_alloc.
@@ -40,8 +40,8 @@ class MumpsFactor {
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
 
   const Eigen::MatrixXd& schur() const { return schur_; }  // symmetric
-  // The right-hand side that belongs to schur(); then, of the same b, the whole solution from its
-  // trailing part x_C.
+  // The right-hand side that belongs to schur(); then, once and of the same b, the whole solution
+  // from its trailing part x_C.
   Eigen::VectorXd reduce(const Eigen::VectorXd& b);
   Eigen::VectorXd expand(const Eigen::VectorXd& x_C);
 
