@@ -62,8 +62,7 @@ TEST(Blind, IsTheWholeSystemInEitherNumbering) {
 TEST(Blind, EveryMultiplierComesAfterItsUnknownsInThePanelsToo) {
   for (const double friction : {0.2, 0.0}) {
     const DualSystem system = system_of(friction);
-    const BlindSystem blind =
-        make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    const BlindSystem blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     EXPECT_TRUE(std::is_sorted(blind.position.begin(), blind.position.begin() + system.n()));
     for (const int panel_rows : {1, 3, 48, 64}) {
       const SkylineProfile profile = analyse_skyline(blind.lower, panel_rows);

@@ -40,7 +40,8 @@ TEST(Mumps, SolvesIndefiniteSystemsForManyColumnsAndCountsNegativePivots) {
     EXPECT_EQ(factor.negative_pivots(), constraints);
     EXPECT_GT(factor.bytes(), 0u);
     EXPECT_EQ(factor.schur().size(), 0);
-    for (const int columns : {1, MumpsFactor::columns_at_once, 2 * MumpsFactor::columns_at_once + 3}) {
+    for (const int columns :
+         {1, MumpsFactor::columns_at_once, 2 * MumpsFactor::columns_at_once + 3}) {
       const Eigen::MatrixXd b = Eigen::MatrixXd::Random(M.rows(), columns);
       Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(M.rows() + 5, columns);  // with an outer stride
       wide.topRows(M.rows()) = b;
