@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <cblas.h>
 #include <cholmod.h>
+#include <dmumps_c.h>
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <omp.h>
@@ -56,6 +57,7 @@ std::map<std::string, std::string> describe_environment(int threads) {
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"cholmod",
        fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
+      {"mumps", MUMPS_VERSION},
       {"blas", openblas_get_config()},
       {"blas_core", openblas_get_corename()},
       {"blas_threads", std::to_string(openblas_get_num_threads())},

@@ -22,6 +22,13 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
 enum class SchurBlock { dense, sparse };
 Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
                                    const MakePreconditioner& make, SchurBlock schur, int lanes);
+// BLIND: blind condensation, the whole system factorised by MUMPS, a solve per contact force.
+Solution solve_blind_mumps(const DualSystem& system, const RunControl& control);
+// BLIND:SCHUR: the same, D from the Schur complement that MUMPS leaves.
+Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control);
+// BLIND:SKY: blind condensation with the skyline LDLᵀ factorisation, multipliers numbered so that
+// it needs no pivoting.
+Solution solve_blind_skyline(const DualSystem& system, const RunControl& control);
 // HYBRID: hybridized equilibrium elements, K_II factorised by CHOLMOD.
 Solution solve_hybridized(const DualSystem& system, const RunControl& control);
 

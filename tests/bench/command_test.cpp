@@ -120,7 +120,8 @@ TEST_F(Command, WritesFieldsOnRequest) {
 TEST_F(Command, TakesAUsersMeshAndScene) {
   fs::copy_file(fs::path(MESH_DIR) / "Mesh0.msh", folder_ / "mine.msh");
   file("flat.json", R"({"crown_radius_mm": null, "friction": 0})");
-  const Result result = bench("--mesh=mine.msh --scene=flat.json --repetitions=1 --out=o");
+  const Result result =
+      bench("--mesh=mine.msh --scene=flat.json --method=3STEPD --repetitions=1 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
   const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["mesh"], "mine");

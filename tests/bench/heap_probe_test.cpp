@@ -134,7 +134,8 @@ TEST(Allocations, NoneInsideAContactSweep) {
 
 class MemoryRun : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
-                         ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "HYBRID"),
+                         ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "BLIND", "BLIND:SCHUR",
+                                           "BLIND:SKY", "HYBRID"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
@@ -149,7 +150,9 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
   const auto least =
       static_cast<std::int64_t>(record.storage_bytes) + record.blocks_heap_bytes.value();
   EXPECT_GE(record.peak_heap_bytes.value(), least);
-  EXPECT_LT(record.peak_heap_bytes.value(), 6 * least);
+  // MUMPS's solves have a buffer of up to 18 MB whatever the system's size is.
+  const std::int64_t buffer = method.name == "BLIND" ? 18'000'000 : 0;
+  EXPECT_LT(record.peak_heap_bytes.value(), 6 * least + buffer);
   EXPECT_LE(record.assembly_peak_heap_bytes.value(), 3 * record.blocks_heap_bytes.value());
 }
 

@@ -8,8 +8,10 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/scene.hpp"
+#include "solvers/condensation/blind.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/mumps.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -327,6 +329,37 @@ TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
     const CondensedSystem other = condense(hybrid, factor);
     EXPECT_LT((airy.D - other.D).norm(), 1e-11 * other.D.norm()) << name;
     EXPECT_LE((airy.G - other.G).norm(), 1e-11 * other.G.norm()) << name;
+  }
+}
+
+TEST(Condensation, BlindAndThreeStepGiveTheSameNumbers) {
+  for (const auto& [name, scene] : scene_variants()) {
+    const DualSystem system = assemble(posed(scene));
+    const CondensedSystem reference = three_step_condensed(system);
+    const auto expect_equal = [&, &label = name](const CondensedSystem& other, const char* how) {
+      EXPECT_LT((other.D - reference.D).norm(), 1e-10 * reference.D.norm()) << label << how;
+      EXPECT_LE((other.G - reference.G).norm(), 1e-10 * reference.G.norm()) << label << how;
+    };
+    const BlindSystem last = make_blind_system(system, BlindNumbering::multipliers_last);
+    MumpsFactor whole, partial;
+    whole.analyse(last.lower);
+    whole.factor(last.lower);
+    for (const int columns : {1, 7, 1000})
+      expect_equal(condense_blindly(
+                       system, last,
+                       [&](Eigen::Ref<Eigen::MatrixXd> X) { whole.solve_in_place(X); }, columns),
+                   ", solves");
+    partial.analyse(last.lower, system.n_c());
+    partial.factor(last.lower);
+    expect_equal(
+        condense_blindly(partial.schur(), partial.reduce(blind_right_hand_side(system, last, {}))),
+        ", Schur");
+    const BlindSystem mixed = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    const SkylineFactor factor = factor_ldlt(analyse_skyline(mixed.lower), mixed.lower);
+    expect_equal(
+        condense_blindly(
+            system, mixed, [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); }, 192),
+        ", skyline");
   }
 }
 

@@ -1,0 +1,58 @@
+// Blind condensation (the paper, section 3.2.1, eq. (6)–(8)): the contact forces are condensed out
+// of the whole system at once, whatever its blocks are.
+//
+//        ⎡ S   C_Fᵀ C_Cᵀ ⎤ ⎡ φ  ⎤   ⎡ q        ⎤
+//   M₁₁  ⎢ C_F  0    0   ⎥ ⎢ λ  ⎥ = ⎢ F        ⎥ =  b + [0 0 I]ᵀ F_C,    λ' = −ū_C = G − D F_C
+//        ⎣ C_C  0    0   ⎦ ⎣ λ' ⎦   ⎣ F_C − F0 ⎦
+//
+//   G = (M₁₁⁻¹ b)_λ',   D e_j = −(M₁₁⁻¹ e_j)_λ' with the unit vector of λ'_j:  1 + n_c solves
+//
+// S is positive definite and C has full rank: M₁₁ has n positive and n_f + n_c negative
+// eigenvalues.
+//
+// A numbering in which every multiplier comes after all its unknowns makes the leading blocks of
+// M₁₁ ones of the same kind, [S_k C_kᵀ; C_k 0] with whole rows of C. So M₁₁ = L D Lᵀ exists without
+// pivoting, D positive at unknowns and negative at multipliers.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <functional>
+#include <vector>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/condensation/condensed.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+struct BlindSystem {
+  Eigen::SparseMatrix<double> lower;  // M₁₁, lower triangle
+  Eigen::VectorXd load;               // b; empty: zero
+  std::vector<int> position;          // of φ, λ, λ' in them
+};
+
+// Positions of φ, λ, λ': in this order, or every multiplier right after the last of its unknowns,
+// which keep their order.
+enum class BlindNumbering { multipliers_last, multipliers_after_unknowns };
+BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering);
+
+// X ← M₁₁⁻¹ X for a block of right-hand sides.
+using BlindSolve = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
+
+// D and G, right-hand sides made a block of columns at a time. Throws Breakdown when D is not
+// positive definite to rounding.
+CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& blind,
+                                 const BlindSolve& solve, int columns_at_once);
+// From the Schur complement −W of λ' and the reduced load: D = W⁻¹. Throws the same.
+CondensedSystem condense_blindly(const Eigen::MatrixXd& schur, const Eigen::VectorXd& reduced_load);
+
+// The right-hand side that belongs to contact forces, and φ out of the solution.
+Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,
+                                      const Eigen::VectorXd& F_C);
+Eigen::VectorXd airy_unknowns(const DualSystem& system, const BlindSystem& blind,
+                              const Eigen::VectorXd& solution);
+
+// Throws Breakdown when the factor of M₁₁ has another number of negative pivots than expected.
+void check_inertia(int negative_pivots, int expected);
+
+}  // namespace airybench

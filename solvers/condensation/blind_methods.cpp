@@ -1,0 +1,113 @@
+#include "solvers/condensation/blind.hpp"
+#include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/direct/mumps.hpp"
+#include "solvers/direct/skyline.hpp"
+
+namespace airybench {
+namespace {
+
+void recover(const DualSystem& system, const BlindSystem& blind, const Eigen::VectorXd& x,
+             Solution& solution) {
+  solution.phi = airy_function(system, airy_unknowns(system, blind, x));
+  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+}
+
+// Everything after the factorisation of M₁₁, by solves.
+void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
+                        const RunControl& control, const BlindSolve& solve, int columns_at_once,
+                        Solution& solution) {
+  CondensedSystem condensed;
+  {
+    const StageTimer timer(solution.times.condense_s);
+    condensed = condense_blindly(system, blind, solve, columns_at_once);
+  }
+  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solve_condensed_contact(condensed, system.contact, control, solution);
+  const StageTimer timer(solution.times.recover_s);
+  Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
+  solve(x);
+  recover(system, blind, x, solution);
+}
+
+// M₁₁ and its factor; the last `trailing` unknowns are left to the Schur complement.
+BlindSystem factorise(const DualSystem& system, const RunControl& control, int trailing,
+                      MumpsFactor& factor, Solution& solution) {
+  BlindSystem blind;
+  {
+    const StageTimer timer(solution.times.order_s);
+    blind = make_blind_system(system, BlindNumbering::multipliers_last);
+    factor.analyse(blind.lower, trailing);
+  }
+  control.deadline.check("MUMPS's analysis");
+  {
+    const StageTimer timer(solution.times.factor_s);
+    factor.factor(blind.lower);
+  }
+  control.deadline.check("MUMPS's factorisation");
+  check_inertia(factor.negative_pivots(), system.n_f() + system.n_c() - trailing);
+  solution.storage_bytes = factor.bytes();
+  return blind;
+}
+
+}  // namespace
+
+Solution solve_blind_mumps(const DualSystem& system, const RunControl& control) {
+  Solution solution;
+  MumpsFactor factor;
+  const BlindSystem blind = factorise(system, control, 0, factor, solution);
+  condense_and_solve(
+      system, blind, control,
+      [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); },
+      MumpsFactor::columns_at_once, solution);
+  return solution;
+}
+
+Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control) {
+  const int n_c = system.n_c();
+  Solution solution;
+  MumpsFactor factor;
+  const BlindSystem blind = factorise(system, control, n_c, factor, solution);
+  const Eigen::VectorXd load = blind_right_hand_side(system, blind, {});
+  CondensedSystem condensed;
+  if (n_c > 0) {
+    const StageTimer timer(solution.times.condense_s);
+    condensed = condense_blindly(factor.schur(), factor.reduce(load));
+  }
+  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solve_condensed_contact(condensed, system.contact, control, solution);
+  const StageTimer timer(solution.times.recover_s);
+  Eigen::VectorXd x = load;
+  if (n_c > 0)
+    x = factor.expand(condensed.G - condensed.D * solution.F_C);
+  else
+    factor.solve_in_place(x, control.deadline);
+  recover(system, blind, x, solution);
+  return solution;
+}
+
+Solution solve_blind_skyline(const DualSystem& system, const RunControl& control) {
+  Solution solution;
+  BlindSystem blind;
+  SkylineProfile profile;
+  {
+    const StageTimer timer(solution.times.order_s);
+    blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    profile = analyse_skyline(blind.lower);
+  }
+  SkylineFactor factor;
+  {
+    const StageTimer timer(solution.times.factor_s);
+    factor = factor_ldlt(std::move(profile), blind.lower, control.deadline);
+  }
+  check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),
+                system.n_f() + system.n_c());
+  solution.storage_bytes = factor.bytes();
+  constexpr int columns_at_once = 192;  // as many as the skyline solves together
+  condense_and_solve(
+      system, blind, control,
+      [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X, control.deadline); },
+      columns_at_once, solution);
+  return solution;
+}
+
+}  // namespace airybench

@@ -1,0 +1,59 @@
+// Multifrontal LDLᵀ factorisation by sequential MUMPS (Amestoy, Duff, L'Excellent & Koster 2001,
+// doi:10.1137/S0895479899358194), symmetric indefinite.
+//
+//   P A Pᵀ = L D Lᵀ, D of 1×1 and 2×2 blocks, with threshold pivoting inside the fronts. On request
+// the last unknowns C are not eliminated, and what is left of them is their Schur complement:
+//
+//   A = ⎡ A_II A_CIᵀ ⎤       schur() = A_CC − A_CI A_II⁻¹ A_CIᵀ
+//       ⎣ A_CI A_CC  ⎦       reduce(b) = b_C − A_CI A_II⁻¹ b_I
+#pragma once
+
+#include <dmumps_c.h>
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+class MumpsFactor {
+ public:
+  // Columns solved together: enough for matrix products, few enough for little workspace.
+  static constexpr int columns_at_once = 64;
+
+  MumpsFactor();
+  ~MumpsFactor();
+  MumpsFactor(const MumpsFactor&) = delete;
+  MumpsFactor& operator=(const MumpsFactor&) = delete;
+
+  // Ordering and symbolic factorisation of a lower triangle in compressed columns, which is also
+  // looked at for its values (scaling, 2×2 pivots). The last `trailing` unknowns are those of the
+  // Schur complement. Throws Breakdown when it is not finite, std::bad_alloc.
+  void analyse(const Eigen::SparseMatrix<double>& lower, int trailing = 0);
+  // Of the matrix that was analysed. Throws Breakdown when it is singular or not finite,
+  // std::bad_alloc.
+  void factor(const Eigen::SparseMatrix<double>& lower);
+
+  // X ← A⁻¹ X, a few columns at a time; without trailing unknowns. Throws TimeoutReached between
+  // them, std::bad_alloc.
+  void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
+
+  const Eigen::MatrixXd& schur() const { return schur_; }  // symmetric
+  // The right-hand side that belongs to schur(); then, once and of the same b, the whole solution
+  // from its trailing part x_C.
+  Eigen::VectorXd reduce(const Eigen::VectorXd& b);
+  Eigen::VectorXd expand(const Eigen::VectorXd& x_C);
+
+  int negative_pivots() const;  // of D: negative eigenvalues of A, or of A_II
+  std::size_t bytes() const;    // of L and D as they are stored, indices included
+
+ private:
+  void call(int job, const char* doing);
+  void solve(int kind, Eigen::Ref<Eigen::MatrixXd> X);
+  DMUMPS_STRUC_C mumps_{};
+  std::vector<int> rows_, columns_;  // of the entries, from 1
+  Eigen::MatrixXd schur_;
+};
+
+}  // namespace airybench
