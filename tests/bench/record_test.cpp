@@ -46,6 +46,18 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "linear_iterations",
                                             "contact_iterations",
                                             "uzawa_iterations",
+                                            "stop",
+                                            "target_error",
+                                            "tolerance",
+                                            "parameters",
+                                            "tuning_s",
+                                            "grid_best",
+                                            "grid_median",
+                                            "grid_worst",
+                                            "grid_failures",
+                                            "done_fraction",
+                                            "extrapolated_time_s",
+                                            "error_so_far",
                                             "error_stress",
                                             "error_force",
                                             "equilibrium_residual",
@@ -92,7 +104,7 @@ Record filled() {
 }
 
 TEST(Record, CsvIsUnroundedQuotedAndEmptyWhereNothingApplies) {
-  const std::string text = csv_text({filled()});
+  const std::string text = csv_text({to_json(filled())});
   const auto newline = text.find('\n');
   EXPECT_EQ(text.substr(0, 18), "mesh,scene,method,");
   const std::string row = text.substr(newline + 1);

@@ -272,7 +272,11 @@ TEST(Methods, SelectionByNamesAndGlobs) {
 }
 
 Method made_up(std::function<Solution(const DualSystem&, const RunControl&)> solve) {
-  return {"MADE_UP", "for a test", false, Blocks::contact_points, {}, std::move(solve)};
+  Method method;
+  method.name = "MADE_UP";
+  method.blocks = Blocks::contact_points;
+  method.solve = std::move(solve);
+  return method;
 }
 
 TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
