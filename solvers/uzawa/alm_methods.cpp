@@ -50,7 +50,9 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
   solution.storage_bytes = augmented.factor.bytes();
   const UzawaOptions options = options_of(control);
   UzawaResult result = [&] {
-    const StageTimer timer(solution.times.contact_s);
+    // Without contact the iteration is only about the prescribed forces.
+    StageTimes& times = solution.times;
+    const StageTimer timer(system.n_c() > 0 ? times.contact_s : times.recover_s);
     return iterate_uzawa(system, augmented, {rho}, options, true, control.deadline).front();
   }();
   const StageTimer timer(solution.times.recover_s);

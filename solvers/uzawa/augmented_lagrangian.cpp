@@ -118,7 +118,7 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
       std::max(it.displacement_scale[k],
                std::hypot(it.lambda.col(k).norm(), it.lambda_c.col(k).norm()));
 
-  const auto relative = [](double value, double scale) { return value > 0 ? value / scale : 0; };
+  const auto relative = [](double value, double scale) { return value == 0 ? 0 : value / scale; };
   result.primal_N = std::max(system.n_f() > 0 ? force.cwiseAbs().maxCoeff() : 0,
                              system.n_c() > 0 ? contact.cwiseAbs().maxCoeff() : 0);
   result.primal = relative(std::hypot(force.norm(), contact.norm()), it.force_scale[k]);
@@ -162,9 +162,10 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
       if (result.iterations == 1) first[it.result[k]] = result.primal_N;
       const bool met = residual <= (paper ? options.paper_stop_N : options.tolerance);
       // The first iteration has compared nothing yet: F_C and the multipliers were zero.
-      const bool met_truly = met && (paper || result.iterations > 1 || result.primal_N == 0);
       const bool lost = !std::isfinite(result.primal_N) ||
                         result.primal_N > diverges * std::max(first[it.result[k]], 1.0);
+      const bool met_truly =
+          met && !lost && (paper || result.iterations > 1 || result.primal_N == 0);
       if (met_truly || lost || result.iterations >= options.most_iterations) {
         result.outcome = met_truly ? UzawaOutcome::converged
                          : lost    ? UzawaOutcome::diverged

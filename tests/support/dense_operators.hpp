@@ -1,0 +1,73 @@
+// Random symmetric matrices with known spectra, as the Krylov solvers take them.
+#pragma once
+
+#include <Eigen/Dense>
+#include <random>
+
+#include "solvers/krylov/symmlq.hpp"
+
+namespace airybench::testing {
+
+inline Eigen::MatrixXd random_matrix(Eigen::Index rows, Eigen::Index columns,
+                                     std::mt19937& generator) {
+  std::uniform_real_distribution<double> uniform(-1, 1);
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(generator); });
+}
+
+// Q diag(eigenvalues) Qᵀ with a random orthogonal Q, and its pseudoinverse.
+struct Spectral {
+  Eigen::MatrixXd Q;
+  Eigen::VectorXd eigenvalues;
+
+  Spectral(Eigen::VectorXd of, std::mt19937& generator) : eigenvalues(std::move(of)) {
+    const Eigen::Index n = eigenvalues.size();
+    Q = Eigen::HouseholderQR<Eigen::MatrixXd>(random_matrix(n, n, generator)).householderQ();
+  }
+  Eigen::MatrixXd matrix() const { return of([](double value) { return value; }); }
+  Eigen::MatrixXd inverse() const {
+    return of([](double value) { return value == 0 ? 0 : 1 / value; });
+  }
+  Eigen::MatrixXd absolute_inverse() const {
+    return of([](double value) { return 1 / std::abs(value); });
+  }
+
+ private:
+  template <typename F>
+  Eigen::MatrixXd of(F f) const {
+    const Eigen::MatrixXd A = Q * eigenvalues.unaryExpr(f).asDiagonal() * Q.transpose();
+    return (A + A.transpose()) / 2;
+  }
+};
+
+// n values between 0.5 and 2, the first `negative` of them with a minus.
+inline Eigen::VectorXd random_spectrum(int n, int negative, std::mt19937& generator) {
+  std::uniform_real_distribution<double> uniform(0.5, 2);
+  Eigen::VectorXd values = Eigen::VectorXd::NullaryExpr(n, [&] { return uniform(generator); });
+  values.head(negative) *= -1;
+  return values;
+}
+
+inline SymmetricOperator operator_of(const Eigen::MatrixXd& A) {
+  return {A.rows(), [A](const LaneBlock& X, LaneBlock& Y) { Y.noalias() = A * X; }};
+}
+
+inline SparseColumns lower_of(const Eigen::MatrixXd& A) {
+  return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
+}
+
+// M⁻¹ as a dense matrix.
+inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
+  return {[inverse](int) -> Apply { return [inverse](LaneBlock& X) { X = (inverse * X).eval(); }; },
+          0, 0};
+}
+
+inline Preconditioner no_preconditioner() {
+  return {[](int) -> Apply { return [](LaneBlock&) {}; }, 0, 0};
+}
+
+// ‖R‖_M⁻¹ of every column.
+inline Eigen::VectorXd norms(const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& R) {
+  return (R.transpose() * inverse * R).diagonal().cwiseMax(0).cwiseSqrt();
+}
+
+}  // namespace airybench::testing
