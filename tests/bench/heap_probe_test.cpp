@@ -14,7 +14,11 @@
 #include "assembly/scene.hpp"
 #include "bench/rss_probe.hpp"
 #include "bench/workbench.hpp"
+#include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "solvers/krylov/conjugate_gradients.hpp"
+#include "solvers/uzawa/augmented_lagrangian.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench {
@@ -130,6 +134,105 @@ TEST(Allocations, NoneInsideAContactSweep) {
     };
     EXPECT_EQ(allocations(3), allocations(30)) << components;
   }
+}
+
+const DualSystem& tooth() {
+  static const DualSystem system =
+      assemble(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(16, 12))));
+  return system;
+}
+
+class PreconditionerAllocations : public ::testing::TestWithParam<std::string> {
+ protected:
+  // The two operators and what they are preconditioned by.
+  struct Kernel {
+    const char* name;
+    Eigen::Index n;
+    Preconditioner preconditioner;
+    std::function<KrylovSummary(const RightHandSides&, const KrylovOptions&)> solve;
+  };
+  static std::vector<Kernel> kernels() {
+    const DualSystem& system = tooth();
+    const Preconditioner S_star = preconditioner_named(GetParam())(system.S, {});
+    std::vector<Kernel> all;
+    all.push_back({"CG", system.n(), S_star, [&, S_star](const auto& sides, const auto& options) {
+                     return solve_by_conjugate_gradients(system.S, S_star, sides, options);
+                   }});
+    for (const SchurBlock schur : {SchurBlock::dense, SchurBlock::sparse}) {
+      const SymmetricOperator A = saddle_operator(system);
+      const Preconditioner M = saddle_preconditioner(system, S_star, schur, most_lanes, 1);
+      all.push_back({schur == SchurBlock::dense ? "SYMMLQ" : "SYMMLQ, sparse", A.n, M,
+                     [A, M](const auto& sides, const auto& options) {
+                       return solve_by_symmlq(A, M, sides, options);
+                     }});
+    }
+    return all;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Names, PreconditionerAllocations,
+                         ::testing::ValuesIn(preconditioner_names()), [](const auto& name) {
+                           std::string readable = name.param;
+                           for (char& letter : readable)
+                             if (letter == '.') letter = '_';
+                           return readable;
+                         });
+
+TEST_P(PreconditionerAllocations, NoneInsideAnApplication) {
+  for (const Kernel& kernel : kernels())
+    for (const int lanes : {1, most_lanes}) {
+      const Apply apply = kernel.preconditioner.applier(lanes);
+      LaneBlock X = LaneBlock::Ones(kernel.n, lanes);
+      apply(X);  // BLAS may make its buffers
+      const std::int64_t before = heap::allocations();
+      for (int k = 0; k < 5; ++k) apply(X);
+      EXPECT_EQ(heap::allocations() - before, 0) << kernel.name << ", " << lanes << " lanes";
+    }
+}
+
+TEST_P(PreconditionerAllocations, NoneInsideAnIteration) {
+  for (const Kernel& kernel : kernels())
+    for (const int lanes : {1, most_lanes}) {
+      const auto allocations = [&](int iterations) {
+        Eigen::MatrixXd X = Eigen::MatrixXd::Identity(kernel.n, 20);
+        KrylovOptions options;
+        options.tolerance = 1e-200;  // never met: all iterations are made
+        options.most_iterations = iterations;
+        options.lanes = lanes;
+        const RightHandSides sides = columns_of(X);
+        const std::int64_t before = heap::allocations();
+        EXPECT_EQ(kernel.solve(sides, options).iterations, 20 * iterations);
+        return heap::allocations() - before;
+      };
+      allocations(1);
+      EXPECT_EQ(allocations(2), allocations(12)) << kernel.name << ", " << lanes << " lanes";
+    }
+}
+
+TEST(Allocations, NoneInsideAnUzawaIteration) {
+  const AugmentedFactor augmented = factor_augmented(tooth(), 20);
+  const auto allocations = [&](int iterations) {
+    UzawaOptions options;
+    options.tolerance = 0;
+    options.most_iterations = iterations;
+    const std::int64_t before = heap::allocations();
+    for (const UzawaResult& result :
+         iterate_uzawa(tooth(), augmented, {5, 20, 30}, options, false))
+      EXPECT_EQ(result.iterations, iterations);
+    return heap::allocations() - before;
+  };
+  EXPECT_EQ(allocations(3), allocations(30));
+}
+
+TEST(Allocations, ASkylineSolveAllocatesItsWorkspaceOnce) {
+  const SkylineFactor factor = factor_ldlt(analyse_skyline(tooth().S), tooth().S);
+  const auto allocations = [&](Eigen::Index columns) {
+    Eigen::MatrixXd X = Eigen::MatrixXd::Ones(tooth().n(), columns);
+    const std::int64_t before = heap::allocations();
+    solve_in_place(factor, X);
+    return heap::allocations() - before;
+  };
+  allocations(1);  // BLAS may make its buffers
+  EXPECT_EQ(allocations(2), allocations(skyline_columns_at_once));
 }
 
 class MemoryRun : public ::testing::TestWithParam<const char*> {};
