@@ -83,7 +83,6 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.stop = options_.stop;
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
-  malloc_trim(0);  // what earlier runs freed shall not count
   const bool rss_is_reset = rss::reset_peak();
   heap::reset_peak();
   const std::int64_t before = heap::live_bytes();
@@ -150,6 +149,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
   constexpr int most_attempts = 6;
   constexpr double tightest = 1e-15;
   for (int attempt = 1;; ++attempt) {
+    malloc_trim(0);  // what earlier runs freed shall not count
     Run run = solve(choice, blocks, true);
     const Solution& solution = run.solution;
     if (!method.is_iterative() || options_.stop == Stop::paper || solution.stress.empty() ||
@@ -220,6 +220,8 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;
     record.error_so_far = solution.error_so_far;
+    record.peak_heap_bytes = run.peak_heap_bytes;  // at least so much
+    record.peak_rss_bytes = run.peak_rss_bytes;
     if (solution.done_fraction.value_or(0) > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
@@ -241,6 +243,7 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
 }
 
 void Workbench::measure_memory(const Method& method, Record& record) {
+  malloc_trim(0);
   const Run run = solve(choices_.at(method.name), blocks(method.blocks), false);
   record.peak_heap_bytes = run.peak_heap_bytes;
   record.peak_rss_bytes = run.peak_rss_bytes;

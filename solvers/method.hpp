@@ -16,7 +16,8 @@ using Solve = std::function<Solution(const DualSystem&, const RunControl&)>;
 struct GridPoint {
   double r, rho;
   int iterations;
-  std::string outcome;  // "converged", "diverged", "given up": slower than the best so far
+  std::string outcome;  // "converged", "diverged", "given up": slower than the best so far, "not
+                        // tried": no time
 };
 
 // Parameters chosen for one problem.

@@ -188,8 +188,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
                                  [&](int, const LaneColumn& x) { unknowns = x.head(n); }};
     KrylovOptions one = options;
     one.lanes = 1;
-    const KrylovSummary summary =
-        solve_by_symmlq(A, preconditioner, last, one, control.deadline);
+    const KrylovSummary summary = solve_by_symmlq(A, preconditioner, last, one, control.deadline);
     all.add({summary.converged, summary.iterations, summary.most_iterations, summary.residual, {}});
     solution.phi = airy_function(system, unknowns);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);

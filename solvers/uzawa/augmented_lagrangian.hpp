@@ -50,17 +50,17 @@ struct UzawaResult {
   double rho = 0;
   UzawaOutcome outcome = UzawaOutcome::too_many_iterations;
   int iterations = 0;
-  double primal_N = 0;  // i_C at the end
+  double primal_N = 0;          // i_C at the end
   double primal = 0, dual = 0;  // relative residuals of the stop `target`, at the end
   Eigen::VectorXd F_C, x;       // the contact forces and the scaled Airy unknowns
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
-// One iteration for every ρ, side by side: they share the reading of the factor. Ends when all have,
-// or when the first converges if `first_only`. keep: solutions and histories in the results.
-// Nothing is allocated inside an iteration, but for histories. Throws TimeoutReached.
+// One iteration for every ρ, side by side: they share the reading of the factor. race: the others
+// are given up when the first converges, and no solutions and histories are kept. Nothing is
+// allocated inside an iteration, but for histories. Throws TimeoutReached.
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
-                                       bool keep, const Deadline& deadline = {});
+                                       bool race = false, const Deadline& deadline = {});
 
 }  // namespace airybench
