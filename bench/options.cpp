@@ -10,6 +10,7 @@ namespace airybench {
 namespace {
 
 constexpr const char* footer = R"(
+"bench claims DIR" checks the paper's sentences against a results folder (bench claims --help).
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
