@@ -66,8 +66,9 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--timeout", options.timeout_s, "seconds that one solve may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--long-case", options.long_case_s,
-                 "seconds above which a solve is measured once and not repeated")
+  app.add_option(
+         "--long-case", options.long_case_s,
+         "seconds: a longer solve is measured once, and repetitions end when they add up to this")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   auto* limit = app.add_option("--memory-limit", limit_MiB,

@@ -111,12 +111,10 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
 
 Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
                                     Record& record) {
-  // The paper does not print its tolerance for CG and SYMMLQ; 1e-6 is a usual one.
-  constexpr double paper_tolerance = 1e-6;
   Choice choice{method.solve, 0};
   if (method.is_iterative()) {
     choice.tolerance = options_.stop == Stop::paper
-                           ? paper_tolerance
+                           ? method.paper_tolerance
                            : method.first_tolerance * options_.target_error;
   }
   if (!method.tune) return choice;
@@ -215,7 +213,7 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   record.contact_iterations = solution.contact_iterations;
   record.uzawa_iterations = solution.uzawa_iterations;
   record.parameters = solution.parameters;
-  if (method.is_iterative()) record.tolerance = choice.tolerance;
+  if (choice.tolerance > 0) record.tolerance = choice.tolerance;
   if (options_.histories) record.histories = std::move(solution.histories);
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;

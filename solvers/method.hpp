@@ -38,6 +38,7 @@ struct Method {
   // An iterative method is run to a target error: the harness begins with this tolerance per
   // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
+  double paper_tolerance = 0;  // RunControl::tolerance with the paper's stop; zero: it has its own
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
   // then does both.
   std::function<Tuning(const DualSystem&, const RunControl&)> tune;

@@ -80,8 +80,12 @@ SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star,
   }
   C.finalize();
   const SparseColumns product = C * SparseRows(C.transpose());
-  factor.sparse =
-      drop_tolerance_factor(SparseColumns(product.triangularView<Eigen::Lower>()), 0, deadline);
+  try {
+    const SparseColumns lower = product.triangularView<Eigen::Lower>();
+    factor.sparse = drop_tolerance_factor(lower, 0, deadline);
+  } catch (const Breakdown&) {
+    throw Breakdown("SYMMLQ: the Schur block C Cᵀ is not positive definite");
+  }
   return factor;
 }
 

@@ -25,7 +25,7 @@ void with_lanes(Eigen::Index lanes, F f) {
   }
 }
 
-// y_l += a_l x_l, then what lanes share is done in one pass by the callers that can.
+// y_l += a_l x_l.
 template <int lanes>
 void axpy(Eigen::Index n, const LaneScalars& a, const double* x, double* y) {
   for (Eigen::Index i = 0; i < n; ++i)

@@ -11,12 +11,13 @@
 //   F_C ← P(C_C φ + F0 + (λ' + ḡ)/r_C)         P clips F_n to ≤ 0 first, then F_t to ±μ|F_n|
 //   λ  += ρ_F (C_F φ − F),   λ' += ρ_C (C_C φ + F0 − F_C)
 //
-// (The paper prints "−λ'/2" in the second line, which is not the minimiser over F_C.) It converges
-// for ρ < (1+√5)/2 r (Glowinski); ρ above 2r diverges.
+// (The paper prints "−λ'/2" in the second line, which is not the minimiser over F_C.) For a fixed
+// convex set it converges for ρ < (1+√5)/2 r (Glowinski); with Coulomb's law there is no proof. ρ
+// above 2r diverges.
 //
 // Stops:
-//   paper   i_C = max(‖C_C φ + F0 − F_C‖_∞, ‖C_F φ − F‖_∞) ≤ 1e-3 N: feasibility only, which leaves
-//           errors of some per cent, and more the larger r is
+//   paper   i_C = max(‖C_C φ + F0 − F_C‖_∞, ‖C_F φ − F‖_∞) ≤ 1e-3 N: feasibility only; the error
+//           that it leaves grows with r (Mesh0, ρ = r: 6e-6 at r = 1, 5e-3 at r = 100)
 //   target  ‖C_C φ + F0 − F_C‖, ‖C_F φ − F‖ ≤ tolerance · force scale, and the other residual,
 //           r_C ‖F_C^{k+1} − F_C^k‖ ≤ tolerance · displacement scale
 // where the scales are the largest ‖(C_F φ, C_C φ + F0, F)‖ and ‖(λ, λ')‖ so far.
