@@ -146,10 +146,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   }();
   note_shift(preconditioner, solution);
   solution.storage_bytes = preconditioner.bytes;
-  KrylovOptions options;
-  options.tolerance = control.tolerance;
-  options.lanes = lanes;
-  options.threads = control.threads;
+  const KrylovOptions options = krylov_options(control, lanes);
   const SymmetricOperator A = saddle_operator(system);
   const auto load = [&](LaneColumn b) {
     if (system.q.size() > 0) b.head(n) = system.q;

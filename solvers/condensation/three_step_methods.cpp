@@ -76,10 +76,7 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
   }();
   note_shift(preconditioner, solution);
   solution.storage_bytes = preconditioner.bytes;
-  KrylovOptions options;
-  options.tolerance = control.tolerance;
-  options.lanes = lanes;
-  options.threads = control.threads;
+  const KrylovOptions options = krylov_options(control, lanes);
   KrylovSummary all;
   const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) {
     try {
