@@ -10,6 +10,7 @@ namespace airybench {
 namespace {
 
 constexpr const char* footer = R"(
+"bench claims DIR" checks the paper's sentences against a results folder (bench claims --help).
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
@@ -65,8 +66,9 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--timeout", options.timeout_s, "seconds that one solve may take")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_option("--long-case", options.long_case_s,
-                 "seconds above which a solve is measured once and not repeated")
+  app.add_option(
+         "--long-case", options.long_case_s,
+         "seconds: a longer solve is measured once, and repetitions end when they add up to this")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   auto* limit = app.add_option("--memory-limit", limit_MiB,

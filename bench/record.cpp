@@ -59,7 +59,7 @@ GridSummary summary_of(const std::vector<GridPoint>& grid) {
   for (const GridPoint& point : grid) {
     if (point.outcome == "diverged")
       ++*summary.failures;
-    else
+    else if (point.iterations > 0)
       iterations.push_back(point.iterations);
     if (point.outcome == "converged")
       summary.best = std::min(summary.best.value_or(point.iterations), point.iterations);

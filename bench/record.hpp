@@ -57,7 +57,8 @@ inline constexpr std::array<std::pair<const char*, std::optional<double> StageTi
                       {"stage_contact_s", &StageTimes::contact_s},
                       {"stage_recover_s", &StageTimes::recover_s}}};
 
-// Iterations of the grid's combinations that converged or were given up, and how many failed.
+// Of the grid's combinations: iterations of the best; median and largest of those that converged or
+// were given up, with what they had made by then; how many diverged.
 struct GridSummary {
   std::optional<int> best, median, worst, failures;
 };

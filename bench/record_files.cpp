@@ -52,6 +52,11 @@ std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& pa
   return records;
 }
 
+// What is not UTF-8, in a file's name say, is replaced.
+std::string line_of(const nlohmann::ordered_json& record) {
+  return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
 bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
   for (const char* key : {"mesh", "scene", "method", "stop"})
     if (a.value(key, "") != b.value(key, "")) return false;
@@ -82,18 +87,21 @@ void RecordFiles::append(const Record& record) {
     for (const char* stale : {"results.csv", "results.json"})
       std::filesystem::remove(folder_ / stale, ignored);
     std::string text;
-    for (const auto& other : records_) text += other.dump() + "\n";
+    for (const auto& other : records_) text += line_of(other);
     lines_.close();
     write_file_atomically(path, text);
     lines_.open(path, std::ios::binary | std::ios::app);
   }
-  lines_ << json.dump() << "\n" << std::flush;
+  lines_ << line_of(json) << std::flush;
   if (!lines_) throw OutputError(path.string() + ": cannot be written");
   records_.push_back(std::move(json));
 }
 
 void RecordFiles::finish() const {
   write_file_atomically(folder_ / "results.csv", csv_text(records_));
+  std::ifstream part(benchmark_json_part(folder_));
+  if (!nlohmann::json::accept(part))  // Google Benchmark does not say when the disk is full
+    throw OutputError((folder_ / "results.json").string() + ": could not be written whole");
   std::error_code error;
   std::filesystem::rename(benchmark_json_part(folder_), folder_ / "results.json", error);
   if (error)

@@ -12,7 +12,7 @@ namespace airybench {
 namespace {
 
 constexpr double first_bracket_ratio = 1.5;
-constexpr double largest_factor = 100;  // the bracket stays within [1/this, this]
+constexpr double largest_factor = 100;  // no step of the bracket is by more
 constexpr double narrowest_bracket = 1e-5;
 constexpr int trials_around_a_jump = 12;
 

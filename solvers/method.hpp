@@ -16,7 +16,8 @@ using Solve = std::function<Solution(const DualSystem&, const RunControl&)>;
 struct GridPoint {
   double r, rho;
   int iterations;
-  std::string outcome;  // "converged", "diverged", "given up": slower than the best so far
+  std::string outcome;  // "converged", "diverged", "given up": slower than the best so far, "not
+                        // tried": no time
 };
 
 // Parameters chosen for one problem.
@@ -37,6 +38,7 @@ struct Method {
   // An iterative method is run to a target error: the harness begins with this tolerance per
   // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
+  double paper_tolerance = 0;  // RunControl::tolerance with the paper's stop; zero: it has its own
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
   // then does both.
   std::function<Tuning(const DualSystem&, const RunControl&)> tune;

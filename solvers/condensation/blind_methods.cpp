@@ -102,11 +102,12 @@ Solution solve_blind_skyline(const DualSystem& system, const RunControl& control
   check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),
                 system.n_f() + system.n_c());
   solution.storage_bytes = factor.bytes();
-  constexpr int columns_at_once = 192;  // as many as the skyline solves together
   condense_and_solve(
       system, blind, control,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X, control.deadline); },
-      columns_at_once, solution);
+      [&](Eigen::Ref<Eigen::MatrixXd> X) {
+        solve_in_place(factor, X, control.deadline, control.threads);
+      },
+      skyline_columns_at_once * control.threads, solution);
   return solution;
 }
 

@@ -36,6 +36,7 @@ Solution solve_hybridized(const DualSystem& system, const RunControl& control);
 // history. Without contact points there is nothing to do and the status is ok.
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                              const RunControl& control, Solution& solution);
+KrylovOptions krylov_options(const RunControl& control, int lanes);
 // Iterations, history and, when the tolerance was not met, status and message of a Krylov solver.
 void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
                  const RunControl& control, Solution& solution);

@@ -26,6 +26,14 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   }
 }
 
+KrylovOptions krylov_options(const RunControl& control, int lanes) {
+  KrylovOptions options;
+  options.tolerance = control.tolerance;
+  options.lanes = lanes;
+  options.threads = control.threads;
+  return options;
+}
+
 void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
                  const RunControl& control, Solution& solution) {
   solution.linear_iterations = summary.iterations;

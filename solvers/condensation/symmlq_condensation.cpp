@@ -80,8 +80,12 @@ SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star,
   }
   C.finalize();
   const SparseColumns product = C * SparseRows(C.transpose());
-  factor.sparse =
-      drop_tolerance_factor(SparseColumns(product.triangularView<Eigen::Lower>()), 0, deadline);
+  try {
+    const SparseColumns lower = product.triangularView<Eigen::Lower>();
+    factor.sparse = drop_tolerance_factor(lower, 0, deadline);
+  } catch (const Breakdown&) {
+    throw Breakdown("SYMMLQ: the Schur block C Cᵀ is not positive definite");
+  }
   return factor;
 }
 
@@ -142,10 +146,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   }();
   note_shift(preconditioner, solution);
   solution.storage_bytes = preconditioner.bytes;
-  KrylovOptions options;
-  options.tolerance = control.tolerance;
-  options.lanes = lanes;
-  options.threads = control.threads;
+  const KrylovOptions options = krylov_options(control, lanes);
   const SymmetricOperator A = saddle_operator(system);
   const auto load = [&](LaneColumn b) {
     if (system.q.size() > 0) b.head(n) = system.q;
@@ -188,8 +189,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
                                  [&](int, const LaneColumn& x) { unknowns = x.head(n); }};
     KrylovOptions one = options;
     one.lanes = 1;
-    const KrylovSummary summary =
-        solve_by_symmlq(A, preconditioner, last, one, control.deadline);
+    const KrylovSummary summary = solve_by_symmlq(A, preconditioner, last, one, control.deadline);
     all.add({summary.converged, summary.iterations, summary.most_iterations, summary.residual, {}});
     solution.phi = airy_function(system, unknowns);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);

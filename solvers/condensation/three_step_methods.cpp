@@ -76,18 +76,21 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
   }();
   note_shift(preconditioner, solution);
   solution.storage_bytes = preconditioner.bytes;
-  KrylovOptions options;
-  options.tolerance = control.tolerance;
-  options.lanes = lanes;
-  options.threads = control.threads;
+  const KrylovOptions options = krylov_options(control, lanes);
   KrylovSummary all;
-  condense_and_solve(
-      system, control, {},
-      [&](Eigen::Ref<Eigen::MatrixXd> X) {
-        all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), options,
-                                             control.deadline));
-      },
-      solution);
+  const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) {
+    try {
+      all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), options,
+                                           control.deadline));
+    } catch (TimeoutReached& timeout) {
+      // S⁻¹ q is the last of them.
+      const int columns = system.n_f() + system.n_c();
+      if (X.cols() == 1 && columns > 1)
+        timeout.done_fraction = (columns + timeout.done_fraction.value_or(0)) / (columns + 1);
+      throw;
+    }
+  };
+  condense_and_solve(system, control, {}, solve, solution);
   note_krylov("conjugate gradients", all, options, control, solution);
   return solution;
 }

@@ -23,7 +23,7 @@ using LaneColumn = Eigen::Ref<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
 
 struct RightHandSides {
   int count = 0;
-  std::function<void(int k, LaneColumn b)> load;         // b is zero on entry
+  std::function<void(int k, LaneColumn b)> load;          // b is zero on entry
   std::function<void(int k, const LaneColumn& x)> store;  // distinct k from several threads at once
 };
 

@@ -25,7 +25,7 @@ void with_lanes(Eigen::Index lanes, F f) {
   }
 }
 
-// y_l += a_l x_l, then what lanes share is done in one pass by the callers that can.
+// y_l += a_l x_l.
 template <int lanes>
 void axpy(Eigen::Index n, const LaneScalars& a, const double* x, double* y) {
   for (Eigen::Index i = 0; i < n; ++i)
@@ -36,8 +36,7 @@ void axpy(Eigen::Index n, const LaneScalars& a, const double* x, double* y) {
 template <int lanes>
 void xpay(Eigen::Index n, const double* x, const LaneScalars& a, double* y) {
   for (Eigen::Index i = 0; i < n; ++i)
-    for (int l = 0; l < lanes; ++l)
-      y[i * lanes + l] = x[i * lanes + l] + a[l] * y[i * lanes + l];
+    for (int l = 0; l < lanes; ++l) y[i * lanes + l] = x[i * lanes + l] + a[l] * y[i * lanes + l];
 }
 
 template <int lanes>

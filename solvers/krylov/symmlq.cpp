@@ -10,15 +10,15 @@ namespace {
 
 // One lane's tridiagonal factorisation; names as in Paige & Saunders' section 5.
 struct Tridiagonal {
-  int step = 0;                     // Lanczos vectors so far
-  double beta_1 = 0;                // ‖b‖_M⁻¹
-  double beta_old = 0, beta = 0;    // β_k, β_{k+1}
-  double alpha = 0;                 // α_k
+  int step = 0;                         // Lanczos vectors so far
+  double beta_1 = 0;                    // ‖b‖_M⁻¹
+  double beta_old = 0, beta = 0;        // β_k, β_{k+1}
+  double alpha = 0;                     // α_k
   double gamma_bar = 0, delta_bar = 0;  // what the next rotation acts on
-  double rhs_1 = 0, rhs_2 = 0;      // of L z = β_1 e_1
-  double sines = 1;                 // product of all sines
-  double residual = 1;              // relative, of the better point
-  double to_galerkin = 0;           // coefficient of w̄ that leads there; 0: stay
+  double rhs_1 = 0, rhs_2 = 0;          // of L z = β_1 e_1
+  double sines = 1;                     // product of all sines
+  double residual = 1;                  // relative, of the better point
+  double to_galerkin = 0;               // coefficient of w̄ that leads there; 0: stay
 };
 
 // How the vectors of a lane change: x += on_w w + on_v v, then w ← w_on_w w + w_on_v v.
@@ -50,9 +50,8 @@ Update advance(Tridiagonal& t) {
     update = {z * c, z * s, s, -c};
   }
   const double at_lq = std::hypot(t.rhs_1, t.rhs_2);
-  const double at_galerkin = t.gamma_bar != 0
-                                 ? t.beta_1 * std::abs(t.sines * t.beta / t.gamma_bar)
-                                 : std::numeric_limits<double>::infinity();
+  const double at_galerkin = t.gamma_bar != 0 ? t.beta_1 * std::abs(t.sines * t.beta / t.gamma_bar)
+                                              : std::numeric_limits<double>::infinity();
   t.to_galerkin = at_galerkin < at_lq ? t.rhs_1 / t.gamma_bar : 0;
   t.residual = std::min(at_lq, at_galerkin) / t.beta_1;
   return update;
@@ -136,8 +135,7 @@ KrylovSummary solve_range(const SymmetricOperator& A, const Preconditioner& prec
       if (t[l].step > 0) on_older[l] = -t[l].beta / t[l].beta_old;
     }
     for (Eigen::Index i = 0; i < n; ++i)
-      for (int l = 0; l < lanes; ++l)
-        v.data()[i * lanes + l] = scale[l] * y.data()[i * lanes + l];
+      for (int l = 0; l < lanes; ++l) v.data()[i * lanes + l] = scale[l] * y.data()[i * lanes + l];
     A.multiply(v, y);  // y is free now
     xpay<lanes>(n, y.data(), on_older, older.data());
     const LaneScalars alpha = dot<lanes>(n, v.data(), older.data());

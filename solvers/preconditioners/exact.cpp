@@ -7,8 +7,8 @@
 namespace airybench {
 
 Preconditioner exact_preconditioner(const SparseColumns& lower, const Deadline& deadline) {
-  const auto factor = std::make_shared<const SkylineFactor>(
-      factor_ldlt(analyse_skyline(lower), lower, deadline));
+  const auto factor =
+      std::make_shared<const SkylineFactor>(factor_ldlt(analyse_skyline(lower), lower, deadline));
   if (!(factor->diagonal.array() > 0).all())
     throw Breakdown("skyline Cholesky: the matrix is not positive definite");
   const auto applier = [factor](int lanes) -> Apply {

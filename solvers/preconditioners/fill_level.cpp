@@ -77,8 +77,7 @@ bool numeric(const SparseRows& lower, double shift, IncompleteFactor& factor,
 
 }  // namespace
 
-FillLevelFactor fill_level_factor(const SparseColumns& lower, int level,
-                                  const Deadline& deadline) {
+FillLevelFactor fill_level_factor(const SparseColumns& lower, int level, const Deadline& deadline) {
   constexpr double first_shift = 1e-4;
   const SparseRows rows = lower;
   const auto n = static_cast<std::size_t>(lower.rows());

@@ -32,7 +32,7 @@ using MakePreconditioner =
 // std::invalid_argument: one line with the name and the valid ones.
 MakePreconditioner preconditioner_named(std::string_view name);
 
-// Those of the paper's Fig. 3, ω in steps of 0.25.
+// Those of the paper's Fig. 3, ω in steps of 0.25, and NONE.
 const std::vector<std::string>& preconditioner_names();
 
 }  // namespace airybench

@@ -2,7 +2,8 @@
 //
 //   M = (D + ωL) D⁻¹ (D + ωLᵀ) / (ω(2 − ω)),   0 < ω < 2
 //
-// symmetric positive definite when D is. Nothing is stored but D. (Axelsson 1972.)
+// symmetric positive definite when D is. Nothing is stored: it works on the triangle of S.
+// (Axelsson 1972.)
 #pragma once
 
 #include "solvers/preconditioners/preconditioner.hpp"

@@ -50,10 +50,9 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
   solution.storage_bytes = augmented.factor.bytes();
   const UzawaOptions options = options_of(control);
   UzawaResult result = [&] {
-    // Without contact the iteration is only about the prescribed forces.
-    StageTimes& times = solution.times;
-    const StageTimer timer(system.n_c() > 0 ? times.contact_s : times.recover_s);
-    return iterate_uzawa(system, augmented, {rho}, options, true, control.deadline).front();
+    // Without contact the iteration only finds the multipliers of the prescribed forces.
+    const StageTimer timer(system.n_c() > 0 ? solution.times.contact_s : solution.times.recover_s);
+    return iterate_uzawa(system, augmented, {rho}, options, false, control.deadline).front();
   }();
   const StageTimer timer(solution.times.recover_s);
   solution.parameters = describe(r, rho);
@@ -86,11 +85,22 @@ Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& con
   Tuning tuning;
   const GridPoint* best = nullptr;
   tuning.grid.reserve(grid.size() * grid.size());
+  const std::vector<double> rhos(grid.begin(), grid.end());
   for (const double r : order) {
+    if (best != nullptr && control.deadline.passed()) {  // what there is will do
+      for (const double rho : rhos) tuning.grid.push_back({r, rho, 0, "not tried"});
+      continue;
+    }
     const AugmentedFactor augmented = factor_augmented(system, r, control.deadline);
-    const std::vector<double> rhos(grid.begin(), grid.end());
-    for (const UzawaResult& result :
-         iterate_uzawa(system, augmented, rhos, options, false, control.deadline)) {
+    std::vector<UzawaResult> results;
+    try {
+      results = iterate_uzawa(system, augmented, rhos, options, true, control.deadline);
+    } catch (const TimeoutReached&) {
+      if (best == nullptr) throw;
+      for (const double rho : rhos) tuning.grid.push_back({r, rho, 0, "not tried"});
+      continue;
+    }
+    for (const UzawaResult& result : results) {
       tuning.grid.push_back({r, result.rho, result.iterations, name_of(result.outcome)});
       if (result.outcome == UzawaOutcome::converged &&
           (best == nullptr || result.iterations < best->iterations))

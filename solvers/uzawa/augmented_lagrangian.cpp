@@ -38,9 +38,9 @@ void project(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F) {
 
 // The iterates of all ρ as columns; those that have ended are moved behind the active ones.
 struct Iterates {
-  Eigen::MatrixXd x, lambda, lambda_c, F_C;            // n, n_f, n_c, n_c
+  Eigen::MatrixXd x, lambda, lambda_c, F_C;              // n, n_f, n_c, n_c
   Eigen::MatrixXd force, contact, on_force, on_contact;  // C_F φ − F, C_C φ + F0; workspace
-  std::vector<std::size_t> result;                     // whose column it is
+  std::vector<std::size_t> result;                       // whose column it is
   std::vector<double> rho, force_scale, displacement_scale;
   int active = 0;
 
@@ -96,8 +96,8 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
   force = system.C_F * it.x.col(k);
   contact = system.C_C * it.x.col(k);
   if (system.F0.size() > 0) contact += system.F0;
-  it.force_scale[k] = std::max(
-      it.force_scale[k], std::hypot(force.norm(), contact.norm(), system.F.norm()));
+  it.force_scale[k] =
+      std::max(it.force_scale[k], std::hypot(force.norm(), contact.norm(), system.F.norm()));
   if (system.F.size() > 0) force -= system.F;
 
   double moved = 0;
@@ -114,9 +114,8 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
     it.lambda_c.col(k) += it.rho[k] / a.r * a.r_C * contact;
   }
   it.lambda.col(k) += it.rho[k] / a.r * a.r_F * force;
-  it.displacement_scale[k] =
-      std::max(it.displacement_scale[k],
-               std::hypot(it.lambda.col(k).norm(), it.lambda_c.col(k).norm()));
+  it.displacement_scale[k] = std::max(
+      it.displacement_scale[k], std::hypot(it.lambda.col(k).norm(), it.lambda_c.col(k).norm()));
 
   const auto relative = [](double value, double scale) { return value == 0 ? 0 : value / scale; };
   result.primal_N = std::max(system.n_f() > 0 ? force.cwiseAbs().maxCoeff() : 0,
@@ -143,13 +142,14 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
 
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
-                                       bool keep, const Deadline& deadline) {
+                                       bool race, const Deadline& deadline) {
   // A residual that has grown so much, or is not finite, does not come back.
   constexpr double diverges = 1e6;
   Iterates it(system, rhos);
   std::vector<UzawaResult> results(rhos.size());
   for (std::size_t k = 0; k < rhos.size(); ++k) results[k].rho = rhos[k];
   std::vector<double> first(rhos.size(), 0);
+  int most_iterations = options.most_iterations;
   while (it.active > 0) {
     solve_for_stress(system, augmented, it);
     for (int k = 0; k < it.active;) {
@@ -158,7 +158,7 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
       ++result.iterations;
       const bool paper = options.stop == Stop::paper;
       const double residual = paper ? result.primal_N : std::max(result.primal, result.dual);
-      if (keep) result.history.push_back(residual);
+      if (!race) result.history.push_back(residual);
       if (result.iterations == 1) first[it.result[k]] = result.primal_N;
       const bool met = residual <= (paper ? options.paper_stop_N : options.tolerance);
       // The first iteration has compared nothing yet: F_C and the multipliers were zero.
@@ -166,20 +166,21 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
                         result.primal_N > diverges * std::max(first[it.result[k]], 1.0);
       const bool met_truly =
           met && !lost && (paper || result.iterations > 1 || result.primal_N == 0);
-      if (met_truly || lost || result.iterations >= options.most_iterations) {
+      if (met_truly || lost || result.iterations >= most_iterations) {
         result.outcome = met_truly ? UzawaOutcome::converged
                          : lost    ? UzawaOutcome::diverged
                                    : UzawaOutcome::too_many_iterations;
-        if (keep) {
+        if (!race) {
           result.F_C = it.F_C.col(k);
           result.x = it.x.col(k);
         }
+        if (race && met_truly) most_iterations = result.iterations;
         it.retire(k);
       } else {
         ++k;
       }
     }
-    deadline.check("the Uzawa iteration");
+    if (it.active > 0) deadline.check("the Uzawa iteration");
   }
   return results;
 }

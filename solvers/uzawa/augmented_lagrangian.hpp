@@ -11,12 +11,13 @@
 //   F_C ← P(C_C φ + F0 + (λ' + ḡ)/r_C)         P clips F_n to ≤ 0 first, then F_t to ±μ|F_n|
 //   λ  += ρ_F (C_F φ − F),   λ' += ρ_C (C_C φ + F0 − F_C)
 //
-// (The paper prints "−λ'/2" in the second line, which is not the minimiser over F_C.) It converges
-// for ρ < (1+√5)/2 r (Glowinski); ρ above 2r diverges.
+// (The paper prints "−λ'/2" in the second line, which is not the minimiser over F_C.) For a fixed
+// convex set it converges for ρ < (1+√5)/2 r (Glowinski); with Coulomb's law there is no proof. ρ
+// above 2r diverges.
 //
 // Stops:
-//   paper   i_C = max(‖C_C φ + F0 − F_C‖_∞, ‖C_F φ − F‖_∞) ≤ 1e-3 N: feasibility only, which leaves
-//           errors of some per cent, and more the larger r is
+//   paper   i_C = max(‖C_C φ + F0 − F_C‖_∞, ‖C_F φ − F‖_∞) ≤ 1e-3 N: feasibility only; the error
+//           that it leaves grows with r (Mesh0, ρ = r: 6e-6 at r = 1, 5e-3 at r = 100)
 //   target  ‖C_C φ + F0 − F_C‖, ‖C_F φ − F‖ ≤ tolerance · force scale, and the other residual,
 //           r_C ‖F_C^{k+1} − F_C^k‖ ≤ tolerance · displacement scale
 // where the scales are the largest ‖(C_F φ, C_C φ + F0, F)‖ and ‖(λ, λ')‖ so far.
@@ -50,17 +51,17 @@ struct UzawaResult {
   double rho = 0;
   UzawaOutcome outcome = UzawaOutcome::too_many_iterations;
   int iterations = 0;
-  double primal_N = 0;  // i_C at the end
+  double primal_N = 0;          // i_C at the end
   double primal = 0, dual = 0;  // relative residuals of the stop `target`, at the end
   Eigen::VectorXd F_C, x;       // the contact forces and the scaled Airy unknowns
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
-// One iteration for every ρ, side by side: they share the reading of the factor. Ends when all have,
-// or when the first converges if `first_only`. keep: solutions and histories in the results.
-// Nothing is allocated inside an iteration, but for histories. Throws TimeoutReached.
+// One iteration for every ρ, side by side: they share the reading of the factor. race: the others
+// are given up when the first converges, and no solutions and histories are kept. Nothing is
+// allocated inside an iteration, but for histories. Throws TimeoutReached.
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
-                                       bool keep, const Deadline& deadline = {});
+                                       bool race = false, const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -216,7 +216,7 @@ TEST(Allocations, NoneInsideAnUzawaIteration) {
     options.most_iterations = iterations;
     const std::int64_t before = heap::allocations();
     for (const UzawaResult& result :
-         iterate_uzawa(tooth(), augmented, {5, 20, 30}, options, false))
+         iterate_uzawa(tooth(), augmented, {5, 20, 30}, options, true))
       EXPECT_EQ(result.iterations, iterations);
     return heap::allocations() - before;
   };
