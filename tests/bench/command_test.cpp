@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 #include "solvers/methods.hpp"
@@ -224,6 +225,193 @@ TEST_F(Command, ArgumentsThatCannotBeUsedLeaveEarlierResultsAlone) {
     EXPECT_EQ(all(), before) << arguments;
     EXPECT_FALSE(fs::exists(folder_ / "o/results.json.part")) << arguments;
   }
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+// "Mesh0/default/3STEPD" of every line "[1/8] Mesh0/default/3STEPD  n_phi …".
+std::vector<std::string> planned(const std::string& text) {
+  std::vector<std::string> cases;
+  for (const std::string& line : lines_of(text)) {
+    const std::size_t begin = line.find("] ") + 2;
+    cases.push_back(line.substr(begin, line.find("  n_phi") - begin));
+  }
+  return cases;
+}
+
+TEST_F(Command, AFigureIsExactlyItsMeshesAndMethods) {
+  std::vector<std::string> fourth, third;
+  for (const char* mesh :
+       {"Mesh0", "Mesh1", "Mesh2", "Mesh3", "Mesh4", "Mesh5", "Mesh6", "Mesh7"})
+    for (const char* method : {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6", "SSKY", "3STEPD", "ALM",
+                               "BLIND"})
+      fourth.push_back(std::string(mesh) + "/default/" + method);
+  EXPECT_EQ(planned(bench("--figure=4 --dry-run").out), fourth);
+  EXPECT_EQ(planned(bench("--figure=5 --dry-run").out), fourth);
+  third = planned(bench("--figure=3 --dry-run").out);
+  EXPECT_EQ(third.size(), 36u);
+  EXPECT_EQ(std::set<std::string>(third.begin(), third.end()).size(), 36u);
+  for (const std::string& name : third)
+    EXPECT_TRUE(name.starts_with("Mesh3/default/SYMMLQ:") ||
+                name.starts_with("Mesh3/default/3STEPCG:"))
+        << name;
+}
+
+TEST_F(Command, WrongMethodsFiguresAndStopsAreOneLine) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--figure=4 --mesh=Mesh0", "--mesh excludes --figure"},
+      {"--figure=4 --method=3STEPD", "--method excludes --figure"},
+      {"--figure=2", "--figure: "},
+      {"--stop=wrong", "--stop: wrong"},
+      {"--method=SYMMLQ:DTIC9", "'DTIC9' is no preconditioner (valid: DTIC3..DTIC6"},
+      {"--method=SYMMLQ:", "'' is no preconditioner"},
+      {"--method=ALM:r=0,rho=1", "r='0' (allowed: a number above 0)"},
+      {"--method=ALM:r=1", "rho='' (allowed: a number above 0)"},
+      {"--method=ALM:r=1,rho=inf", "rho='inf'"},
+      {"--method=ALM:r=1,rho=1,r=2", "'r' is there twice"},
+      {"--method=ALM:r=1,rho=1,s=2", "unknown option 's' (valid: r, rho)"},
+      {"--method=3STEPCG:DTIC3,lanes=3", "lanes=3 (allowed: 1, 16)"},
+      {"--method=3STEPCG:DTIC3,schur=sparse", "unknown option 'schur' (valid: lanes)"},
+      {"--method=SYMMLQ:DTIC3,schur=x", "schur=x (allowed: dense, sparse)"},
+      {"--method=BLIND:DTIC3", "no method matches 'BLIND:DTIC3'"},
+      {"--method=3STEPD,,HYBRID", "no method matches ''"},
+  };
+  for (const auto& [arguments, line] : wrong) {
+    const Result result = bench(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.err.rfind("bench: ", 0), 0u) << result.err;
+    EXPECT_NE(result.err.find(line), std::string::npos) << arguments << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_FALSE(fs::exists(folder_ / "results")) << arguments;
+  }
+}
+
+TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
+  const Result result = bench(
+      "--mesh=Mesh0 --method=ALM:r=20,rho=32,SYMMLQ:SSOR0.7,schur=sparse,3STEPCG:FLIC2,lanes=1 "
+      "--repetitions=1 --out=o");
+  ASSERT_EQ(result.code, 0) << result.err << result.out;
+  const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
+  ASSERT_EQ(lines.size(), 3u);
+  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SSOR0.7,schur=sparse",
+                                          "3STEPCG:FLIC2,lanes=1"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto record = nlohmann::json::parse(lines[k]);
+    EXPECT_EQ(record["method"], names[k]);
+    EXPECT_EQ(record["stop"], "target");
+    EXPECT_GT(record["tolerance"], 0);
+    EXPECT_LT(record["error_force"], 1e-6);
+    EXPECT_LT(record["error_stress"], 1e-6);
+    EXPECT_EQ(record["uzawa_iterations"].is_null(), k > 0);
+    EXPECT_EQ(record["linear_iterations"].is_null(), k == 0);
+  }
+  EXPECT_EQ(nlohmann::json::parse(lines[0])["parameters"], "r=20, rho=32");
+}
+
+TEST_F(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
+  const Result result =
+      bench("--mesh=Mesh0 --method=SDTIC3,ALM --stop=paper --repetitions=1 --out=o");
+  EXPECT_EQ(result.code, 1) << "its error is above the target";
+  const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
+  ASSERT_EQ(lines.size(), 2u);
+  for (const std::string& line : lines) {
+    const auto record = nlohmann::json::parse(line);
+    EXPECT_EQ(record["stop"], "paper");
+    EXPECT_EQ(record["status"], "inaccurate");
+    EXPECT_GT(record["error_force"], 1e-7);
+    EXPECT_GT(record["time_s"], 0);
+  }
+  const auto alm = nlohmann::json::parse(lines[1]);
+  EXPECT_EQ(alm["grid"].size(), 64u);
+  EXPECT_EQ(alm["grid_best"], alm["uzawa_iterations"]);
+  EXPECT_LE(alm["grid_best"], alm["grid_median"]);
+  EXPECT_LE(alm["grid_median"], alm["grid_worst"]);
+  EXPECT_GT(alm["tuning_s"], 0);
+}
+
+TEST_F(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=1 --out=o").code, 0);
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --repetitions=2 --out=o --append").code, 0);
+  ASSERT_EQ(bench("--mesh=Mesh1 --method=3STEPD --repetitions=1 --out=o --append").code, 0);
+  // Another stop is another case.
+  ASSERT_EQ(
+      bench("--mesh=Mesh1 --method=3STEPD --stop=paper --repetitions=1 --out=o --append").code, 0);
+  std::vector<std::string> found;
+  for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
+    const auto record = nlohmann::json::parse(line);
+    found.push_back(record["mesh"].get<std::string>() + " " + record["method"].get<std::string>() +
+                    " " + record["stop"].get<std::string>() + " " +
+                    std::to_string(record["samples_s"].size()));
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"Mesh0 HYBRID target 1", "Mesh0 3STEPD target 2",
+                                             "Mesh1 3STEPD target 1", "Mesh1 3STEPD paper 1"}));
+  EXPECT_EQ(lines_of(content(folder_ / "o/results.csv")).size(), 5u);
+  // Without --append the folder holds what was run last.
+  ASSERT_EQ(bench("--mesh=Mesh1 --method=HYBRID --repetitions=1 --out=o").code, 0);
+  EXPECT_EQ(lines_of(content(folder_ / "o/records.jsonl")).size(), 1u);
+}
+
+TEST_F(Command, AppendToAMalformedFileIsRefusedBeforeAnythingIsRun) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
+  std::ofstream(folder_ / "o/records.jsonl", std::ios::app) << "{\"mesh\": \n";
+  const std::string before = content(folder_ / "o/records.jsonl");
+  const Result result = bench("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --append");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err.rfind("bench: o/records.jsonl:2: ", 0), 0u) << result.err;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  EXPECT_EQ(content(folder_ / "o/records.jsonl"), before);
+  EXPECT_EQ(lines_of(content(folder_ / "o/results.csv")).size(), 2u);
+  EXPECT_FALSE(fs::exists(folder_ / "o/results.json.part"));
+}
+
+TEST_F(Command, ATimeoutTellsWhatWasDone) {
+  const Result result = bench(
+      "--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
+  EXPECT_EQ(result.code, 1);
+  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  EXPECT_EQ(record["status"], "timeout");
+  EXPECT_TRUE(record["time_s"].is_null());
+  EXPECT_GT(record["done_fraction"], 0);
+  EXPECT_LT(record["done_fraction"], 0.9);
+  EXPECT_GT(record["extrapolated_time_s"], 0.2);
+  EXPECT_GT(record["error_so_far"], record["tolerance"].get<double>());
+}
+
+TEST_F(Command, ALongCaseIsMeasuredOnce) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code,
+            0);
+  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  EXPECT_EQ(record["measured_once"], true);
+  EXPECT_EQ(record["repetitions"], 1);
+  EXPECT_EQ(record["samples_s"].size(), 1u);
+  EXPECT_GT(record["time_s"], 0);
+  EXPECT_GT(record["peak_heap_bytes"], 0);
+}
+
+TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
+  const std::string methods = "3STEPCG3,SDTIC6,SYMMLQ:FLIC3,ALM,BLIND:SKY,HYBRID";
+  const auto counts = [&](const std::string& arguments, std::vector<const char*> keys) {
+    EXPECT_EQ(bench("--mesh=Mesh1 --repetitions=1 --out=o --method=" + methods + arguments).code,
+              0);
+    std::vector<std::string> all;
+    for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
+      const auto record = nlohmann::json::parse(line);
+      for (const char* key : keys) all.push_back(record["method"].dump() + record[key].dump());
+    }
+    return all;
+  };
+  const std::vector<const char*> every = {"linear_iterations", "contact_iterations",
+                                          "uzawa_iterations", "tolerance", "error_force"};
+  const auto first = counts("", every);
+  EXPECT_EQ(first.size(), 30u);
+  EXPECT_EQ(counts("", every), first);
+  const std::vector<const char*> linear = {"linear_iterations"};
+  EXPECT_EQ(counts(" --threads=2", linear), counts("", linear));
 }
 
 }  // namespace

@@ -237,8 +237,10 @@ TEST(Allocations, ASkylineSolveAllocatesItsWorkspaceOnce) {
 
 class MemoryRun : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
-                         ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "BLIND", "BLIND:SCHUR",
-                                           "BLIND:SKY", "HYBRID"),
+                         ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "3STEPD:LEAN", "BLIND",
+                                           "BLIND:SCHUR", "BLIND:SKY", "HYBRID", "3STEPCG:DTIC3",
+                                           "3STEPCG:FLIC2", "SYMMLQ:SKY",
+                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
@@ -279,6 +281,21 @@ TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
   }
   options.memory_limit_bytes = peak + MiB;
   EXPECT_EQ(Workbench(problem, options).examine(method, {}).status, Status::ok);
+}
+
+TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
+  const DualSystem rack = assemble(std::make_shared<const Problem>(
+      pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh"))));
+  const auto peak = [&](const char* name) {
+    heap::reset_peak();
+    const std::int64_t before = heap::live_bytes();
+    EXPECT_EQ(run(select_methods(name).front(), rack, {}).status, Status::ok);
+    return heap::peak_bytes() - before;
+  };
+  const std::int64_t columns = rack.n_f() + rack.n_c(), column = 8 * std::int64_t{rack.n()};
+  const std::int64_t whole = peak("3STEPD");
+  EXPECT_LT(peak("3STEPD:FILE"), whole - columns * column * 95 / 100);
+  EXPECT_LT(peak("3STEPD:LEAN"), whole - (columns - skyline_columns_at_once) * column * 95 / 100);
 }
 
 TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {

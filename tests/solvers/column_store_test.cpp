@@ -1,0 +1,169 @@
+#include "solvers/condensation/column_store.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstdlib>
+
+#include "assembly/scene.hpp"
+#include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/small_meshes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+
+// $TMPDIR for the scope of the object.
+class TemporaryDirectoryVariable {
+ public:
+  explicit TemporaryDirectoryVariable(const fs::path& folder) {
+    if (const char* value = std::getenv("TMPDIR")) before_ = value;
+    setenv("TMPDIR", folder.c_str(), 1);
+  }
+  ~TemporaryDirectoryVariable() {
+    if (before_)
+      setenv("TMPDIR", before_->c_str(), 1);
+    else
+      unsetenv("TMPDIR");
+  }
+  TemporaryDirectoryVariable(const TemporaryDirectoryVariable&) = delete;
+  TemporaryDirectoryVariable& operator=(const TemporaryDirectoryVariable&) = delete;
+
+ private:
+  std::optional<std::string> before_;
+};
+
+// No file may be larger, as on a full disk, for the scope of the object.
+class FileSizeLimit {
+ public:
+  explicit FileSizeLimit(rlim_t bytes) {
+    signal_ = std::signal(SIGXFSZ, SIG_IGN);
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limit = {bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, signal_);
+  }
+  FileSizeLimit(const FileSizeLimit&) = delete;
+  FileSizeLimit& operator=(const FileSizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*signal_)(int) = SIG_DFL;
+};
+
+DualSystem system_of(const Scene& scene = {}) {
+  return assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5))));
+}
+
+Solution solve(const char* method, const DualSystem& system) {
+  return run(select_methods(method).front(), system, {});
+}
+
+TEST(ColumnStore, IsAZeroMatrixInEitherPlaceThatKeepsWhatIsWritten) {
+  for (const auto place : {ColumnStore::Place::memory, ColumnStore::Place::file}) {
+    ColumnStore store(1000, 77, place);
+    EXPECT_EQ(store.bytes(), 1000u * 77 * 8);
+    EXPECT_TRUE(store.matrix().isZero(0));
+    std::srand(3);
+    const Eigen::MatrixXd written = Eigen::MatrixXd::Random(1000, 77);
+    store.matrix() = written;
+    const ColumnStore moved = std::move(store);
+    EXPECT_EQ(moved.matrix(), written);
+  }
+  EXPECT_EQ(ColumnStore().bytes(), 0u);
+  EXPECT_EQ(ColumnStore(10, 0, ColumnStore::Place::file).bytes(), 0u);
+}
+
+TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
+  const testing::TemporaryFolder folder;
+  const TemporaryDirectoryVariable variable(folder.path());
+  const auto room = [&] { return fs::space(folder.path()).available; };
+  const auto before = room();
+  constexpr std::size_t bytes = 64 << 20;
+  {
+    const MappedFile file(bytes);
+    static_cast<char*>(file.data())[bytes - 1] = 1;
+    EXPECT_TRUE(fs::is_empty(folder.path()));
+    EXPECT_LT(room(), before - bytes / 2) << "the room on the disk is not reserved";
+  }
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
+  const testing::TemporaryFolder folder;
+  const auto refusal = [](const fs::path& temporary) -> std::string {
+    const TemporaryDirectoryVariable variable(temporary);
+    try {
+      const MappedFile file(std::size_t{1} << 24);
+    } catch (const Breakdown& breakdown) {
+      return breakdown.what();
+    }
+    return "no refusal";
+  };
+  const fs::path nowhere = folder / "nowhere", file = testing::write_text(folder / "file", "x");
+  const std::string begin = "no room for 16777216 bytes in a temporary file in ",
+                    end = " (TMPDIR names another folder)";
+  EXPECT_EQ(refusal(nowhere), begin + nowhere.string() + ": No such file or directory" + end);
+  EXPECT_EQ(refusal(file), begin + file.string() + ": Not a directory" + end);
+  fs::remove(file);
+  std::string full;
+  {
+    const FileSizeLimit limit(1 << 20);
+    full = refusal(folder.path());
+  }
+  EXPECT_EQ(full, begin + folder.path().string() + ": File too large" + end);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(ColumnStore, AMethodWithoutRoomForItsFileBreaksDown) {
+  const testing::TemporaryFolder folder;
+  const TemporaryDirectoryVariable variable(folder / "nowhere");
+  const DualSystem system = system_of();
+  const Solution solution = solve("3STEPD:FILE", system);
+  EXPECT_EQ(solution.status, Status::breakdown);
+  EXPECT_NE(solution.message.find((folder / "nowhere").string()), std::string::npos);
+  EXPECT_EQ(solve("3STEPD", system).status, Status::ok);
+}
+
+TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
+  Scene body_force, frictionless;
+  body_force.body_force_N_per_mm3 = {3, -1};
+  frictionless.friction = 0;
+  for (const Scene& scene : {Scene{}, body_force, frictionless}) {
+    const DualSystem system = system_of(scene);
+    const Solution memory = solve("3STEPD", system);
+    ASSERT_EQ(memory.status, Status::ok);
+    const Solution file = solve("3STEPD:FILE", system), lean = solve("3STEPD:LEAN", system);
+    EXPECT_EQ(file.F_C, memory.F_C);  // the same operations on other pages
+    EXPECT_EQ(file.phi, memory.phi);
+    EXPECT_LT((lean.F_C - memory.F_C).norm(), 1e-12 * memory.F_C.norm());
+    EXPECT_LT((lean.phi - memory.phi).norm(), 1e-9 * memory.phi.norm());
+    EXPECT_LT(lean.storage_bytes, memory.storage_bytes);
+  }
+}
+
+TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
+  const DualSystem system = system_of();
+  const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
+  const SolveInPlace solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); };
+  const ThreeStep whole = condense_in_three_steps(system, solve_S);
+  for (const int batch : {1, 7, system.n_f() + system.n_c(), 10000}) {
+    const ThreeStep part =
+        condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
+    EXPECT_LT((part.condensed.D - whole.condensed.D).norm(), 1e-12 * whole.condensed.D.norm())
+        << batch;
+    EXPECT_LT((part.condensed.G - whole.condensed.G).norm(), 1e-12 * whole.condensed.G.norm());
+    EXPECT_EQ(part.X.bytes(), 0u);
+  }
+}
+
+}  // namespace
+}  // namespace airybench
