@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -330,12 +331,13 @@ void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,
     solve_columns(factor, Eigen::Ref<Eigen::VectorXd>(X.col(0)), deadline);
     return;
   }
-  in_parallel(threads, static_cast<int>(X.cols()), [&](int begin, int end) {
+  const auto solve_range = [&](int begin, int end) {
     for (int j = begin; j < end; j += skyline_columns_at_once) {
       const int columns = std::min(skyline_columns_at_once, end - j);
       solve_columns(factor, Eigen::Ref<Eigen::MatrixXd>(X.middleCols(j, columns)), deadline);
     }
-  });
+  };
+  in_parallel(threads, static_cast<int>(X.cols()), std::cref(solve_range));  // allocates nothing
 }
 
 }  // namespace airybench

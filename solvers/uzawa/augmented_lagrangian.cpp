@@ -93,8 +93,8 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
                    UzawaResult& result) {
   auto force = it.force.col(k), contact = it.contact.col(k), F_C = it.F_C.col(k),
        change = it.on_contact.col(k);
-  force = system.C_F * it.x.col(k);
-  contact = system.C_C * it.x.col(k);
+  force.noalias() = system.C_F * it.x.col(k);
+  contact.noalias() = system.C_C * it.x.col(k);
   if (system.F0.size() > 0) contact += system.F0;
   it.force_scale[k] =
       std::max(it.force_scale[k], std::hypot(force.norm(), contact.norm(), system.F.norm()));
