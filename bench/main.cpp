@@ -19,7 +19,7 @@ namespace {
 
 enum ExitCode { all_ok = 0, some_case_failed = 1, wrong_usage = 2 };
 
-// The methods of figure 3: both iterative condensations with every preconditioner.
+// The paper shows SYMMLQ and says that the other is alike; both are run.
 constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
 
 std::string paper_methods() {

@@ -41,8 +41,10 @@ Options parse_options(int argc, const char* const* argv) {
                  "names or globs, separated by commas; default: all the paper's methods");
   app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
       ->delimiter(',');
-  app.add_option("--figure", options.figure,
-                 "exactly the cases of the paper's figure 3, 4 or 5 (4 and 5 are the same)")
+  app.add_option(
+         "--figure", options.figure,
+         "the cases of the paper's figure 3, 4 or 5, and those that we set beside them (4 and 5 "
+         "are the same)")
       ->check(CLI::IsMember({3, 4, 5}))
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
@@ -107,6 +109,9 @@ Options parse_options(int argc, const char* const* argv) {
   }
   if (!(options.timeout_s > 0 && options.timeout_s <= 1e9))
     throw UsageError(fmt::format("--timeout: {} (allowed: above 0, up to 1e9)", options.timeout_s));
+  if (!(options.long_case_s > 0 && options.long_case_s <= 1e9))
+    throw UsageError(
+        fmt::format("--long-case: {} (allowed: above 0, up to 1e9)", options.long_case_s));
   if (!(options.target_error > 0 && options.target_error <= 1e9))
     throw UsageError(
         fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));

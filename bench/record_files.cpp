@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 #include "assembly/atomic_file.hpp"
 
 namespace airybench {
@@ -36,10 +39,19 @@ std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
 
 namespace {
 
+// What makes a case.
+constexpr std::array<const char*, 4> case_keys = {"mesh", "scene", "method", "stop"};
+
 // The records of a folder, line by line; none if there is no file.
 std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& path) {
   std::vector<nlohmann::ordered_json> records;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return records;
   std::ifstream file(path);
+  if (!file.is_open() || file.peek() == std::ifstream::traits_type::eof())
+    if (error || !std::filesystem::is_regular_file(path) || !file.is_open())
+      throw OutputError(path.string() + ": cannot be read");
+  file.clear();
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
@@ -47,6 +59,9 @@ std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& pa
     if (!record.is_object())
       throw OutputError(fmt::format("{}:{}: not a record (allowed: a JSON object on a line)",
                                     path.string(), number));
+    for (const char* key : case_keys)
+      if (record.contains(key) ? !record[key].is_string() : key != std::string_view("stop"))
+        throw OutputError(fmt::format("{}:{}: {}: not a text", path.string(), number, key));
     records.push_back(record);
   }
   return records;
@@ -58,9 +73,9 @@ std::string line_of(const nlohmann::ordered_json& record) {
 }
 
 bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
-  for (const char* key : {"mesh", "scene", "method", "stop"})
-    if (a.value(key, "") != b.value(key, "")) return false;
-  return true;
+  return std::all_of(case_keys.begin(), case_keys.end(), [&](const char* key) {
+    return a.value(key, "target") == b.value(key, "target");  // older records have no stop
+  });
 }
 
 }  // namespace
@@ -83,13 +98,13 @@ void RecordFiles::append(const Record& record) {
       records_, [&](const nlohmann::ordered_json& other) { return same_case(other, json); });
   const std::filesystem::path path = folder_ / "records.jsonl";
   if (!lines_.is_open() || replaced > 0) {
-    std::error_code ignored;
-    for (const char* stale : {"results.csv", "results.json"})
-      std::filesystem::remove(folder_ / stale, ignored);
     std::string text;
     for (const auto& other : records_) text += line_of(other);
     lines_.close();
     write_file_atomically(path, text);
+    std::error_code ignored;
+    for (const char* stale : {"results.csv", "results.json"})
+      std::filesystem::remove(folder_ / stale, ignored);
     lines_.open(path, std::ios::binary | std::ios::app);
   }
   lines_ << line_of(json) << std::flush;

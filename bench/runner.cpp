@@ -65,7 +65,8 @@ class CaseRunner {
  private:
   // The time of one repetition. A long case has its only one from its detail run.
   double next_sample(std::size_t k, Record& record, benchmark::State& state) {
-    if (!record.measured_once && sum(record.samples_s) < options_.long_case_s)
+    if (record.samples_s.empty() ||
+        (!record.measured_once && sum(record.samples_s) < options_.long_case_s))
       return bench_of(k).measure_time(cases_[k].method, record);
     const bool first = record.measured_once && shown_once_.insert(k).second;
     if (!first) state.SkipWithError("not repeated: a long case");
@@ -186,7 +187,12 @@ std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& opt
         ->Repetitions(options.repetitions)
         ->Unit(benchmark::kMillisecond);
   Reporter reporter(run);
-  benchmark::RunSpecifiedBenchmarks(&reporter);
+  try {
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+  } catch (...) {
+    files.abandon();
+    throw;
+  }
   benchmark::ClearRegisteredBenchmarks();
   std::vector<Record> records = run.finished_records();
   if (records.empty()) {

@@ -15,6 +15,8 @@
 namespace airybench {
 namespace {
 
+constexpr double tightest = 1e-15;  // tolerance of an iteration
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -115,7 +117,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   if (method.is_iterative()) {
     choice.tolerance = options_.stop == Stop::paper
                            ? method.paper_tolerance
-                           : method.first_tolerance * options_.target_error;
+                           : std::max(tightest, method.first_tolerance * options_.target_error);
   }
   if (!method.tune) return choice;
   Tuning tuning;
@@ -145,7 +147,6 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
 Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& blocks,
                                   Choice& choice, Record& record) {
   constexpr int most_attempts = 6;
-  constexpr double tightest = 1e-15;
   std::optional<Run> finished;  // not accurate enough, with the tolerance before
   double finished_with = 0;
   for (int attempt = 1;; ++attempt) {
@@ -167,6 +168,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
     // Errors follow the tolerance about linearly; a factor of 3 to be sure.
     const double factor = options_.target_error / worst / 3;
     choice.tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
+    choice.tolerance = std::max(tightest, choice.tolerance);
     finished = std::move(run);
   }
 }
@@ -227,8 +229,6 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;
     record.error_so_far = solution.error_so_far;
-    record.peak_heap_bytes = run.peak_heap_bytes;  // at least so much
-    record.peak_rss_bytes = run.peak_rss_bytes;
     if (solution.done_fraction.value_or(0) > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
@@ -262,6 +262,10 @@ double Workbench::measure_time(const Method& method, Record& record) {
   if (run.solution.status != Status::ok) {
     record.status = run.solution.status;
     record.status_reason = "in a timed run: " + run.solution.message;
+    record.samples_s.clear();
+    record.stage_samples.clear();
+    record.peak_heap_bytes.reset();
+    record.peak_rss_bytes.reset();
     return run.time_s;  // the time of a failure is no sample
   }
   record.samples_s.push_back(run.time_s);

@@ -30,7 +30,7 @@ struct Tuning {
 struct Method {
   std::string name;                 // "SDTIC3"
   std::string summary;              // one line
-  bool in_paper = false;            // compared there; these are run by default
+  bool in_paper = false;            // named there; these are run by default
   Blocks blocks = Blocks::airy;     // what it needs assembled
   std::vector<std::string> stages;  // in order, as StageTimes names them
   Solve solve;

@@ -30,22 +30,26 @@ struct Range {
 };
 
 void rethrow(const std::vector<Range>& ranges, int count) {
-  double done = 0, error = 0;
+  double done = 0;
   std::optional<TimeoutReached> timeout;
+  bool all_told = true;  // every range that ran out of time says how far it came
   for (const Range& range : ranges) {
     double share = 1;
     if (range.failure) {
       try {
         std::rethrow_exception(range.failure);
       } catch (const TimeoutReached& reached) {
-        timeout = reached;
+        all_told = all_told && reached.done_fraction;
         share = reached.done_fraction.value_or(0);
-        error = std::max(error, reached.error_so_far.value_or(0));
+        if (!timeout || reached.error_so_far > timeout->error_so_far) timeout = reached;
       }  // anything else goes on
     }
     done += share * (range.end - range.begin);
   }
-  if (timeout) throw TimeoutReached(timeout->what(), done / count, error);
+  if (!timeout) return;
+  timeout->done_fraction.reset();
+  if (all_told) timeout->done_fraction = done / count;
+  throw *timeout;
 }
 
 }  // namespace

@@ -65,6 +65,10 @@ struct TimeoutReached : std::runtime_error {
   explicit TimeoutReached(const std::string& message, std::optional<double> done = {},
                           std::optional<double> error = {})
       : std::runtime_error(message), done_fraction(done), error_so_far(error) {}
+  // Makes the fraction of one right-hand side one of all, so many being done before it.
+  void count_before(int others) {
+    if (done_fraction) done_fraction = (others + *done_fraction) / (others + 1);
+  }
   std::optional<double> done_fraction;  // of the work, 0 … 1, where it can be told
   std::optional<double> error_so_far;   // the relative residual that was reached
 };

@@ -189,8 +189,12 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
                                  [&](int, const LaneColumn& x) { unknowns = x.head(n); }};
     KrylovOptions one = options;
     one.lanes = 1;
-    const KrylovSummary summary = solve_by_symmlq(A, preconditioner, last, one, control.deadline);
-    all.add({summary.converged, summary.iterations, summary.most_iterations, summary.residual, {}});
+    try {
+      all.add(solve_by_symmlq(A, preconditioner, last, one, control.deadline));
+    } catch (TimeoutReached& timeout) {
+      timeout.count_before(n_c > 0 ? n_c + 1 : 0);
+      throw;
+    }
     solution.phi = airy_function(system, unknowns);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

@@ -83,10 +83,7 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
       all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), options,
                                            control.deadline));
     } catch (TimeoutReached& timeout) {
-      // S⁻¹ q is the last of them.
-      const int columns = system.n_f() + system.n_c();
-      if (X.cols() == 1 && columns > 1)
-        timeout.done_fraction = (columns + timeout.done_fraction.value_or(0)) / (columns + 1);
+      if (X.cols() == 1) timeout.count_before(system.n_f() + system.n_c());  // S⁻¹ q is the last
       throw;
     }
   };

@@ -16,7 +16,7 @@ void KrylovSummary::add(const KrylovSummary& other) {
   iterations += other.iterations;
   most_iterations = std::max(most_iterations, other.most_iterations);
   residual = std::max(residual, other.residual);
-  if (!other.history.empty()) history = other.history;
+  if (history.empty()) history = other.history;
 }
 
 bool Lanes::any() const {
@@ -36,8 +36,8 @@ void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneS
   }
   std::ostringstream message;
   message << "time limit reached during " << solver << ": " << finished << " of " << end_ - begin_
-          << " right-hand sides done, the current ones at relative residuals up to " << largest
-          << " (tolerance " << tolerance << ")";
+          << " right-hand sides of this thread done, the current ones at relative residuals up to "
+          << largest << " (tolerance " << tolerance << ")";
   throw TimeoutReached(message.str(), (finished + digits) / (end_ - begin_), largest);
 }
 

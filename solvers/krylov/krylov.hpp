@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/krylov/lanes.hpp"
+#include "solvers/lanes.hpp"
 #include "solvers/parallel.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
 #include "solvers/solution.hpp"

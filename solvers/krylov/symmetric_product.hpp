@@ -2,7 +2,7 @@
 #pragma once
 
 #include "assembly/dual_system.hpp"
-#include "solvers/krylov/lanes.hpp"
+#include "solvers/lanes.hpp"
 
 namespace airybench {
 

@@ -29,7 +29,7 @@ IncompleteFactor drop_tolerance_factor(const SparseColumns& lower, double tolera
                           std::to_string(d[i - j]));
         for (int k = j; k < i; ++k) {
           const double value = l[k - j] * std::sqrt(d[k - j]);
-          if (std::abs(value) < tolerance) continue;
+          if (std::abs(value) < tolerance || value == 0) continue;
           growing.column.push_back(k);
           growing.value.push_back(value);
         }

@@ -50,10 +50,11 @@ FactorRows symbolic(const SparseRows& lower, int most, const Deadline& deadline)
 
 // The values of L for S + shift · diag(S); false at a pivot that is too small.
 bool numeric(const SparseRows& lower, double shift, IncompleteFactor& factor,
-             std::vector<double>& row) {
+             std::vector<double>& row, const Deadline& deadline) {
   constexpr double smallest_pivot = 1e-10;  // of an equilibrated matrix
   FactorRows& L = factor.parts.front();
   for (int i = 0; i < static_cast<int>(lower.rows()); ++i) {
+    if (i % 1024 == 0) deadline.check("the factorisation by level of fill");
     double pivot = 0;
     for (SparseRows::InnerIterator entry(lower, i); entry; ++entry) {
       if (entry.col() < i)
@@ -87,12 +88,11 @@ FillLevelFactor fill_level_factor(const SparseColumns& lower, int level, const D
   factor.parts.front().value.resize(factor.parts.front().column.size());
   factor.inverse_diagonal.resize(n);
   std::vector<double> row(n, 0.0);
-  while (!numeric(rows, result.shift, factor, row)) {
+  while (!numeric(rows, result.shift, factor, row, deadline)) {
     result.shift = result.shift == 0 ? first_shift : 2 * result.shift;
     if (result.shift > 1)
       throw Breakdown("FLIC" + std::to_string(level) +
                       ": a pivot is not positive, with any shift of the diagonal up to 1");
-    deadline.check("the factorisation by level of fill");
   }
   return result;
 }

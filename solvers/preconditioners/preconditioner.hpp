@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/krylov/lanes.hpp"
+#include "solvers/lanes.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/krylov/lanes.hpp"
+#include "solvers/lanes.hpp"
 
 namespace airybench {
 

@@ -91,9 +91,9 @@ Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& con
       for (const double rho : rhos) tuning.grid.push_back({r, rho, 0, "not tried"});
       continue;
     }
-    const AugmentedFactor augmented = factor_augmented(system, r, control.deadline);
     std::vector<UzawaResult> results;
     try {
+      const AugmentedFactor augmented = factor_augmented(system, r, control.deadline);
       results = iterate_uzawa(system, augmented, rhos, options, true, control.deadline);
     } catch (const TimeoutReached&) {
       if (best == nullptr) throw;

@@ -1,6 +1,7 @@
 #include "solvers/uzawa/augmented_lagrangian.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "solvers/contact/coulomb_law.hpp"
@@ -25,6 +26,7 @@ void add_normal_product(const SparseRows& C, double weight, SparseColumns& lower
     for (SparseRows::InnerIterator a(C, i); a; ++a)
       for (SparseRows::InnerIterator b(C, i); b && b.col() <= a.col(); ++b)
         lower.coeffRef(a.col(), b.col()) += weight * a.value() * b.value();
+  assert(lower.isCompressed());  // nothing new was inserted
 }
 
 void project(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F) {
@@ -149,8 +151,8 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
   std::vector<UzawaResult> results(rhos.size());
   for (std::size_t k = 0; k < rhos.size(); ++k) results[k].rho = rhos[k];
   std::vector<double> first(rhos.size(), 0);
-  int most_iterations = options.most_iterations;
-  while (it.active > 0) {
+  bool won = false;
+  while (it.active > 0 && !won) {
     solve_for_stress(system, augmented, it);
     for (int k = 0; k < it.active;) {
       UzawaResult& result = results[it.result[k]];
@@ -166,7 +168,7 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
                         result.primal_N > diverges * std::max(first[it.result[k]], 1.0);
       const bool met_truly =
           met && !lost && (paper || result.iterations > 1 || result.primal_N == 0);
-      if (met_truly || lost || result.iterations >= most_iterations) {
+      if (met_truly || lost || result.iterations >= options.most_iterations) {
         result.outcome = met_truly ? UzawaOutcome::converged
                          : lost    ? UzawaOutcome::diverged
                                    : UzawaOutcome::too_many_iterations;
@@ -174,13 +176,13 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
           result.F_C = it.F_C.col(k);
           result.x = it.x.col(k);
         }
-        if (race && met_truly) most_iterations = result.iterations;
+        won = won || (race && met_truly);
         it.retire(k);
       } else {
         ++k;
       }
     }
-    if (it.active > 0) deadline.check("the Uzawa iteration");
+    if (it.active > 0 && !won) deadline.check("the Uzawa iteration");
   }
   return results;
 }

@@ -246,10 +246,9 @@ std::vector<std::string> planned(const std::string& text) {
 
 TEST_F(Command, AFigureIsExactlyItsMeshesAndMethods) {
   std::vector<std::string> fourth, third;
-  for (const char* mesh :
-       {"Mesh0", "Mesh1", "Mesh2", "Mesh3", "Mesh4", "Mesh5", "Mesh6", "Mesh7"})
-    for (const char* method : {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6", "SSKY", "3STEPD", "ALM",
-                               "BLIND"})
+  for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2", "Mesh3", "Mesh4", "Mesh5", "Mesh6", "Mesh7"})
+    for (const char* method :
+         {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6", "SSKY", "3STEPD", "ALM", "BLIND"})
       fourth.push_back(std::string(mesh) + "/default/" + method);
   EXPECT_EQ(planned(bench("--figure=4 --dry-run").out), fourth);
   EXPECT_EQ(planned(bench("--figure=5 --dry-run").out), fourth);
@@ -370,8 +369,8 @@ TEST_F(Command, AppendToAMalformedFileIsRefusedBeforeAnythingIsRun) {
 }
 
 TEST_F(Command, ATimeoutTellsWhatWasDone) {
-  const Result result = bench(
-      "--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
+  const Result result =
+      bench("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 1);
   const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["status"], "timeout");

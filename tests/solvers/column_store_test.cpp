@@ -156,8 +156,7 @@ TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
   const SolveInPlace solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); };
   const ThreeStep whole = condense_in_three_steps(system, solve_S);
   for (const int batch : {1, 7, system.n_f() + system.n_c(), 10000}) {
-    const ThreeStep part =
-        condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
+    const ThreeStep part = condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
     EXPECT_LT((part.condensed.D - whole.condensed.D).norm(), 1e-12 * whole.condensed.D.norm())
         << batch;
     EXPECT_LT((part.condensed.G - whole.condensed.G).norm(), 1e-12 * whole.condensed.G.norm());

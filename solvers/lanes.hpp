@@ -4,7 +4,9 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <utility>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
 
 namespace airybench {
 
@@ -13,16 +15,17 @@ using LaneBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 inline constexpr int most_lanes = 16;
 using LaneScalars = std::array<double, most_lanes>;  // one per lane; those beyond are not used
 
-// Calls f with the number of lanes as a compile-time constant: 1 or most_lanes; any other number
-// is not used by the library.
+// Calls f with the number of lanes as a compile-time constant: 1 or most_lanes; throws
+// std::invalid_argument for any other.
 template <typename F>
 void with_lanes(Eigen::Index lanes, F f) {
   if (lanes == 1)
     f(std::integral_constant<int, 1>());
-  else {
-    eigen_assert(lanes == most_lanes);
+  else if (lanes == most_lanes)
     f(std::integral_constant<int, most_lanes>());
-  }
+  else
+    throw std::invalid_argument("a block of " + std::to_string(lanes) + " lanes (allowed: 1, " +
+                                std::to_string(most_lanes) + ")");
 }
 
 // y_l += a_l x_l.
