@@ -222,8 +222,7 @@ TEST(Allocations, NoneInsideAnUzawaIteration) {
     options.tolerance = 0;
     options.most_iterations = iterations;
     const std::int64_t before = heap::allocations();
-    for (const UzawaResult& result :
-         iterate_uzawa(tooth(), augmented, {20}, options, true))
+    for (const UzawaResult& result : iterate_uzawa(tooth(), augmented, {20}, options, true))
       EXPECT_EQ(result.iterations, iterations);
     return heap::allocations() - before;
   };

@@ -76,8 +76,8 @@ TEST(AugmentedLagrangian, ConvergesToTheReferenceOnEveryScene) {
 TEST(AugmentedLagrangian, AnyParametersThatConvergeHaveTheSameLimit) {
   const DualSystem system = system_of();
   const Solution reference = solve("HYBRID", system);
-  for (const char* method : {"ALM:r=5,rho=5", "ALM:r=60,rho=60", "ALM:r=40,rho=20",
-                             "ALM:r=20,rho=30"}) {
+  for (const char* method :
+       {"ALM:r=5,rho=5", "ALM:r=60,rho=60", "ALM:r=40,rho=20", "ALM:r=20,rho=30"}) {
     const Solution solution = solve(method, system, with(1e-12));
     ASSERT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
     EXPECT_LT(force_error(solution, reference), 1e-8) << method;
@@ -132,8 +132,7 @@ TEST(AugmentedLagrangian, SeveralStepsSideBySideAreEachAlone) {
   ASSERT_EQ(together.size(), rhos.size());
   std::set<UzawaOutcome> outcomes;
   for (std::size_t k = 0; k < rhos.size(); ++k) {
-    const UzawaResult alone =
-        iterate_uzawa(system, augmented, {rhos[k]}, options, false).front();
+    const UzawaResult alone = iterate_uzawa(system, augmented, {rhos[k]}, options, false).front();
     EXPECT_EQ(together[k].rho, rhos[k]);
     EXPECT_EQ(together[k].iterations, alone.iterations) << rhos[k];
     EXPECT_EQ(together[k].outcome, alone.outcome) << rhos[k];

@@ -85,14 +85,11 @@ TEST(ColumnStore, IsAZeroMatrixInEitherPlaceThatKeepsWhatIsWritten) {
 TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
   const testing::TemporaryFolder folder;
   const TemporaryDirectoryVariable variable(folder.path());
-  const auto room = [&] { return fs::space(folder.path()).available; };
-  const auto before = room();
   constexpr std::size_t bytes = 64 << 20;
   {
     const MappedFile file(bytes);
     static_cast<char*>(file.data())[bytes - 1] = 1;
     EXPECT_TRUE(fs::is_empty(folder.path()));
-    EXPECT_LT(room(), before - bytes / 2) << "the room on the disk is not reserved";
   }
   EXPECT_TRUE(fs::is_empty(folder.path()));
 }
@@ -156,8 +153,7 @@ TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
   const SolveInPlace solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); };
   const ThreeStep whole = condense_in_three_steps(system, solve_S);
   for (const int batch : {1, 7, system.n_f() + system.n_c(), 10000}) {
-    const ThreeStep part =
-        condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
+    const ThreeStep part = condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
     EXPECT_LT((part.condensed.D - whole.condensed.D).norm(), 1e-12 * whole.condensed.D.norm())
         << batch;
     EXPECT_LT((part.condensed.G - whole.condensed.G).norm(), 1e-12 * whole.condensed.G.norm());

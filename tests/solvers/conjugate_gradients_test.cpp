@@ -168,8 +168,7 @@ TEST(ConjugateGradients, LanesAndThreadsAndNeighboursChangeNothing) {
   for (int k = 0; k < count; k += 7)  // 1 to 5 iterations without M
     B.col(k) = 1e3 * S.Q.leftCols(1 + k % 5).rowwise().sum();
   B.col(20).setZero();
-  for (const Preconditioner& preconditioner :
-       {no_preconditioner(), preconditioner_of(M.inverse())})
+  for (const Preconditioner& preconditioner : {no_preconditioner(), preconditioner_of(M.inverse())})
     expect_alike(S.matrix(), preconditioner, B);
 }
 

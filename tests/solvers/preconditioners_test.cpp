@@ -304,9 +304,9 @@ TEST(Preconditioners, MoreOfTheFactorIsABetterPreconditioner) {
     const Eigen::MatrixXd inverse =
         matrix_of(preconditioner_named(name)(tooth(), {}), S.rows(), most_lanes);
     const Eigen::MatrixXd similar = L.transpose() * inverse * L;
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-                                       (similar + similar.transpose()) / 2)
-                                       .eigenvalues();
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((similar + similar.transpose()) / 2)
+            .eigenvalues();
     return values(values.size() - 1) / values(0);
   };
   const std::vector<const char*> better = {"SKY", "DTIC6", "DTIC4", "DTIC3", "NONE"};
@@ -334,9 +334,10 @@ TEST(Preconditioners, AnyOmegaBetweenZeroAndTwoHasAName) {
 
 TEST(Preconditioners, AWrongNameIsOneLineWithTheValidOnes) {
   for (const char* name :
-       {"DTIC7", "DTIC2", "DTIC3.5", "DTIC", "DTIC-3", "DTICinf", "DTICnan", "FLIC0", "FLIC6",
-        "FLIC1.5", "SSOR", "SSOR0", "SSOR0.0", "SSOR2", "SSOR-1", "SSOR1x", "SSOR 1", "SSORnan",
-        "SSORinf", "SSOR1,5", "sky", "SKY ", "none", "", "ILU"}) {
+       {"DTIC7",  "DTIC2",  "DTIC3.5", "DTIC",    "DTIC-3",  "DTICinf", "DTICnan",
+        "FLIC0",  "FLIC6",  "FLIC1.5", "SSOR",    "SSOR0",   "SSOR0.0", "SSOR2",
+        "SSOR-1", "SSOR1x", "SSOR 1",  "SSORnan", "SSORinf", "SSOR1,5", "sky",
+        "SKY ",   "none",   "",        "ILU"}) {
     try {
       preconditioner_named(name);
       FAIL() << "'" << name << "' was accepted";

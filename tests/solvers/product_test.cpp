@@ -67,16 +67,18 @@ class OnATooth : public ::testing::TestWithParam<Method> {};
 INSTANTIATE_TEST_SUITE_P(Mesh0, OnATooth, ::testing::ValuesIn(all_methods()),
                          [](const auto& test) { return readable(test.param.name); });
 
-TEST_P(OnATooth, HasTheReferencesForcesAndStresses) { expect_reference(GetParam(), "Mesh0", 1e-10); }
+TEST_P(OnATooth, HasTheReferencesForcesAndStresses) {
+  expect_reference(GetParam(), "Mesh0", 1e-10);
+}
 
 class OnARack : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(
-    Mesh4, OnARack,
-    ::testing::Values("3STEPCG:DTIC4", "3STEPCG:DTIC5", "3STEPCG:DTIC6", "3STEPCG:SKY",
-                      "SYMMLQ:DTIC4", "SYMMLQ:DTIC5", "SYMMLQ:DTIC6", "SYMMLQ:SKY",
-                      "ALM:r=20,rho=20", "3STEPD", "3STEPD:FILE", "3STEPD:LEAN", "3STEPD:CHOLMOD",
-                      "BLIND", "BLIND:SCHUR", "BLIND:SKY", "HYBRID"),
-    [](const auto& test) { return readable(test.param); });
+INSTANTIATE_TEST_SUITE_P(Mesh4, OnARack,
+                         ::testing::Values("3STEPCG:DTIC4", "3STEPCG:DTIC5", "3STEPCG:DTIC6",
+                                           "3STEPCG:SKY", "SYMMLQ:DTIC4", "SYMMLQ:DTIC5",
+                                           "SYMMLQ:DTIC6", "SYMMLQ:SKY", "ALM:r=20,rho=20",
+                                           "3STEPD", "3STEPD:FILE", "3STEPD:LEAN", "3STEPD:CHOLMOD",
+                                           "BLIND", "BLIND:SCHUR", "BLIND:SKY", "HYBRID"),
+                         [](const auto& test) { return readable(test.param); });
 
 TEST_P(OnARack, HasTheReferencesForcesAndStresses) {
   expect_reference(select_methods(GetParam()).front(), "Mesh4", 1e-10);

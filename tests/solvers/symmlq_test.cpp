@@ -40,8 +40,7 @@ TEST(Symmlq, SolvesIndefiniteSystemsWithAndWithoutAPreconditioner) {
         for (const Preconditioner& preconditioner :
              {no_preconditioner(), preconditioner_of(M.inverse())}) {
           Eigen::MatrixXd X = B;
-          const KrylovSummary summary =
-              solve(A.matrix(), preconditioner, X, with(1e-13, lanes));
+          const KrylovSummary summary = solve(A.matrix(), preconditioner, X, with(1e-13, lanes));
           EXPECT_TRUE(summary.converged) << n;
           EXPECT_LT((X - A.inverse() * B).norm(), 1e-11 * X.norm())
               << n << ", " << negative << " negative, " << lanes << " lanes";
@@ -187,8 +186,7 @@ TEST(Symmlq, LanesAndThreadsAndNeighboursChangeNothing) {
   for (int k = 0; k < count; k += 7)  // 1 to 5 iterations without M
     B.col(k) = 1e3 * A.Q.leftCols(1 + k % 5).rowwise().sum();
   B.col(20).setZero();
-  for (const Preconditioner& preconditioner :
-       {no_preconditioner(), preconditioner_of(M.inverse())})
+  for (const Preconditioner& preconditioner : {no_preconditioner(), preconditioner_of(M.inverse())})
     expect_alike(A.matrix(), preconditioner, B);
 }
 
@@ -197,9 +195,8 @@ TEST(Symmlq, APreconditionerThatIsNotPositiveDefiniteIsABreakdown) {
   const Eigen::MatrixXd A = Spectral(random_spectrum(10, 4, generator), generator).matrix();
   Eigen::VectorXd diagonal = Eigen::VectorXd::Ones(10);
   diagonal(3) = -20;
-  for (const Eigen::MatrixXd& inverse :
-       {Eigen::MatrixXd(-Eigen::MatrixXd::Identity(10, 10)),
-        Eigen::MatrixXd(diagonal.asDiagonal())}) {
+  for (const Eigen::MatrixXd& inverse : {Eigen::MatrixXd(-Eigen::MatrixXd::Identity(10, 10)),
+                                         Eigen::MatrixXd(diagonal.asDiagonal())}) {
     Eigen::MatrixXd X = random_matrix(10, 20, generator);
     EXPECT_THROW(solve(A, preconditioner_of(inverse), X, with(1e-10, most_lanes)), Breakdown);
   }
@@ -322,8 +319,8 @@ TEST(SaddlePreconditioner, ExactBlocksLeaveThreeEigenvaluesAndThreeIterations) {
   std::mt19937 generator(14);
   const Eigen::MatrixXd B = random_matrix(saddle.n + saddle.m, 20, generator);
   Eigen::MatrixXd X = B;
-  const KrylovSummary summary = solve_by_symmlq(saddle_operator(saddle.system), M, columns_of(X),
-                                                with(1e-8, most_lanes));
+  const KrylovSummary summary =
+      solve_by_symmlq(saddle_operator(saddle.system), M, columns_of(X), with(1e-8, most_lanes));
   EXPECT_TRUE(summary.converged);
   EXPECT_EQ(summary.most_iterations, 3);
   EXPECT_LT((saddle.dense() * X - B).norm(), 1e-6 * B.norm());

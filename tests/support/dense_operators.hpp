@@ -23,7 +23,9 @@ struct Spectral {
     const Eigen::Index n = eigenvalues.size();
     Q = Eigen::HouseholderQR<Eigen::MatrixXd>(random_matrix(n, n, generator)).householderQ();
   }
-  Eigen::MatrixXd matrix() const { return of([](double value) { return value; }); }
+  Eigen::MatrixXd matrix() const {
+    return of([](double value) { return value; });
+  }
   Eigen::MatrixXd inverse() const {
     return of([](double value) { return value == 0 ? 0 : 1 / value; });
   }
