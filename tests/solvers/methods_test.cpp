@@ -105,6 +105,20 @@ TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
   }
 }
 
+TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithNoConstraintAtAll) {
+  Mesh mesh = small_tooth(5, 4);
+  for (BoundaryEdge& edge : mesh.boundary) edge.role = BoundaryRole::displacement;
+  constexpr double young = 2000, poisson = 0.3;
+  for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
+    const auto problem = std::make_shared<const Problem>(make_problem(
+        mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0.2));
+    const Solution solution = solve(problem);
+    ASSERT_EQ(solution.status, Status::ok) << exact.name << ": " << solution.message;
+    EXPECT_EQ(system_.n_f() + system_.n_c(), 0);
+    EXPECT_LT(deviation(*problem, solution.stress, exact.stress), 1e-10) << exact.name;
+  }
+}
+
 TEST_P(EveryKindOfMethod, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
   // A flat wall at x = 10: u_n = 0 there. σ = (−100, σyy, τ) with εyy = 0 sticks for |τ| < 100 μ;
   // for τ = 100 μ it slips by any amount against the friction.

@@ -103,6 +103,10 @@ class KernelsOnARack : public ::testing::TestWithParam<std::string> {
         B(entry.col(), l) = entry.value();
     return B;
   }
+  // Measured at 24 to 35 s with one solver or the other, on a busy machine.
+  static bool is_slow() {
+    return std::set<std::string>{"SSOR0.25", "SSOR1.5", "SSOR1.75", "NONE"}.contains(GetParam());
+  }
   static KrylovOptions options(double tolerance) {
     KrylovOptions with;
     with.tolerance = tolerance;
@@ -113,8 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Mesh4, KernelsOnARack, ::testing::ValuesIn(precondition
                          [](const auto& test) { return readable(test.param); });
 
 TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
-  for (const char* slow : {"SSOR1.5", "SSOR1.75", "NONE"})
-    if (GetParam() == slow) GTEST_SKIP() << "takes more than 20 s";
+  if (is_slow()) GTEST_SKIP() << "slow with one solver or both; it is tested on Mesh0";
   const Preconditioner preconditioner = preconditioner_named(GetParam())(system().S, {});
   const Eigen::MatrixXd B = loads();
   Eigen::MatrixXd X = B, exact = B;
@@ -132,6 +135,7 @@ TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
 }
 
 TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
+  if (is_slow()) GTEST_SKIP() << "slow with one solver or both; it is tested on Mesh0";
   const Preconditioner S_star = preconditioner_named(GetParam())(system().S, {});
   const Preconditioner preconditioner =
       saddle_preconditioner(system(), S_star, SchurBlock::dense, most_lanes, 1);
