@@ -88,9 +88,8 @@ std::optional<ShownBytes> Evidence::bytes(const std::string& mesh, const std::st
     return {};
   };
   if (record == nullptr) return refuse("no record");
-  // A method that ran out of time may have known its storage by then.
-  const bool counts = has_answer(*record) || (record->status == Status::timeout && record->*value);
-  if (!counts) return refuse(name_of(record->status));
+  // What stands there after a timeout is only what there was until then.
+  if (!has_answer(*record)) return refuse(name_of(record->status));
   if (!(record->*value)) return refuse(fmt::format("no {}", name));
   return ShownBytes{static_cast<double>(*(record->*value)),
                     show_bytes(record->*value) + remark(*record)};

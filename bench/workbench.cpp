@@ -229,6 +229,10 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;
     record.error_so_far = solution.error_so_far;
+    if (solution.done_fraction) {  // the solve itself was at work: at least so much memory
+      record.peak_heap_bytes = run.peak_heap_bytes;
+      record.peak_rss_bytes = run.peak_rss_bytes;
+    }
     if (solution.done_fraction.value_or(0) > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
