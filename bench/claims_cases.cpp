@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <set>
 
+#include "solvers/methods.hpp"
+
 namespace airybench {
 namespace {
 
@@ -28,11 +30,8 @@ std::string scene_of(const std::vector<CaseRecord>& records, const std::string& 
 }  // namespace
 
 std::string general_name(const std::string& method) {
-  static const std::map<std::string, std::string> aliases = {
-      {"SDTIC3", "SYMMLQ:DTIC3"},    {"SDTIC6", "SYMMLQ:DTIC6"},    {"SSKY", "SYMMLQ:SKY"},
-      {"3STEPCG3", "3STEPCG:DTIC3"}, {"3STEPCG6", "3STEPCG:DTIC6"},
-  };
-  if (const auto alias = aliases.find(method); alias != aliases.end()) return alias->second;
+  for (const Method& known : airybench::methods())
+    if (known.name == method && !known.general_name.empty()) return known.general_name;
   const std::size_t omega = method.find(":SSOR");
   if (omega == method.npos) return method;
   const char* const start = method.c_str() + omega + 5;

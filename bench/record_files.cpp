@@ -48,10 +48,8 @@ std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& pa
   std::error_code error;
   if (!std::filesystem::exists(path, error) && !error) return records;
   std::ifstream file(path);
-  if (!file.is_open() || file.peek() == std::ifstream::traits_type::eof())
-    if (error || !std::filesystem::is_regular_file(path) || !file.is_open())
-      throw OutputError(path.string() + ": cannot be read");
-  file.clear();
+  if (error || !file.is_open() || std::filesystem::is_directory(path))
+    throw OutputError(path.string() + ": cannot be read");
   int number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;

@@ -161,7 +161,8 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
     if (!method.is_iterative() || options_.stop == Stop::paper || solution.stress.empty() ||
         solution.status != Status::ok || attempt == most_attempts)
       return run;
-    const double worst = worst_measure(verify(*blocks.system, solution, reference())).value;
+    verify_run(blocks, run);
+    const double worst = worst_measure(*run.verification).value;
     if (worst <= options_.target_error || choice.tolerance <= tightest) return run;
     record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
     finished_with = choice.tolerance;
@@ -173,8 +174,12 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
   }
 }
 
-void Workbench::judge(const AssembledBlocks& blocks, const Solution& solution, Record& record) {
-  record.verification = verify(*blocks.system, solution, reference());
+void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
+  if (!run.verification) run.verification = verify(*blocks.system, run.solution, reference());
+}
+
+void Workbench::judge(const Verification& verification, Record& record) {
+  record.verification = verification;
   if (record.status != Status::ok) return;
   const WorstMeasure worst = worst_measure(*record.verification);
   if (!(worst.value <= options_.target_error)) {
@@ -237,7 +242,8 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
   if (!solution.stress.empty()) {
-    judge(assembled, solution, record);
+    verify_run(assembled, run);
+    judge(*run.verification, record);
     if (!fields.empty())
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
   }

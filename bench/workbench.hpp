@@ -49,6 +49,7 @@ class Workbench {
     Solution solution;
     double time_s = 0;
     std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes;
+    std::optional<Verification> verification;  // where it has been asked for
   };
   const AssembledBlocks& blocks(Blocks which);
   const Reference* reference();  // null when there is none; no_reference_ says why
@@ -56,7 +57,8 @@ class Workbench {
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
   Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
-  void judge(const AssembledBlocks& blocks, const Solution& solution, Record& record);
+  void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
+  void judge(const Verification& verification, Record& record);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;

@@ -55,14 +55,6 @@ std::vector<int> contact_positions(const DualSystem& system, const BlindSystem& 
   return {blind.position.end() - system.n_c(), blind.position.end()};
 }
 
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const char* name) {
-  Eigen::LLT<Eigen::MatrixXd> llt(matrix);
-  if (llt.info() != Eigen::Success || !matrix.allFinite())
-    throw Breakdown(std::string("blind condensation: ") + name +
-                    " is not positive definite to rounding");
-  return llt;
-}
-
 }  // namespace
 
 BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering) {
@@ -113,7 +105,7 @@ CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& bl
     for (int k = 0; k < block.cols(); ++k) D.col(order[first + k]) = -contact_part(block.col(k));
   }
   condensed.D = (D + D.transpose()) / 2;
-  cholesky(condensed.D, "D");
+  cholesky(condensed.D, "blind condensation: D");
   return condensed;
 }
 
@@ -121,7 +113,7 @@ CondensedSystem condense_blindly(const Eigen::MatrixXd& schur,
                                  const Eigen::VectorXd& reduced_load) {
   CondensedSystem condensed;
   if (schur.size() == 0) return condensed;
-  const auto llt = cholesky(-schur, "W");
+  const auto llt = cholesky(-schur, "blind condensation: W");
   const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(schur.rows(), schur.cols()));
   condensed.D = (inverse + inverse.transpose()) / 2;
   condensed.G = llt.solve(-reduced_load);

@@ -5,6 +5,13 @@
 
 namespace airybench {
 
+Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name) {
+  Eigen::LLT<Eigen::MatrixXd> llt(matrix);
+  if (llt.info() != Eigen::Success || !matrix.allFinite())
+    throw Breakdown(name + " is not positive definite to rounding");
+  return llt;
+}
+
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                              const RunControl& control, Solution& solution) {
   solution.status = Status::ok;

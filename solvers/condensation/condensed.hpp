@@ -6,7 +6,8 @@
 // Rows in the order of ContactPoints: per point normal, tangential (μ = 0: normal only).
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Cholesky>
+#include <string>
 
 namespace airybench {
 
@@ -14,5 +15,8 @@ struct CondensedSystem {
   Eigen::MatrixXd D;
   Eigen::VectorXd G;
 };
+
+// Of a dense block. Throws Breakdown naming it when it is not positive definite to rounding.
+Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name);
 
 }  // namespace airybench

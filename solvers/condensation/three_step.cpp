@@ -53,14 +53,6 @@ Eigen::MatrixXd solve_for_multipliers(const DualSystem& system, const SolveInPla
   return K;
 }
 
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const char* name) {
-  Eigen::LLT<Eigen::MatrixXd> llt(matrix);
-  if (llt.info() != Eigen::Success || !matrix.allFinite())
-    throw Breakdown(std::string("three-step condensation: ") + name +
-                    " is not positive definite to rounding");
-  return llt;
-}
-
 // C v, or zero where v is empty.
 Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
   return v.size() > 0 ? Eigen::VectorXd(C * v) : Eigen::VectorXd::Zero(C.rows());
@@ -90,7 +82,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
   // Step 2.
   if (n_f > 0) {
     const auto K_FF = K.topLeftCorner(n_f, n_f);
-    const auto llt = cholesky((K_FF + K_FF.transpose()) / 2, "K_FF");
+    const auto llt = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
     if (n_c > 0) steps.K_FF_inverse_K_FC = llt.solve(K.topRightCorner(n_f, n_c));
     if (system.q.size() > 0 || system.F.size() > 0) {
       steps.lambda_0 = times_or_zero(system.C_F, steps.x);
@@ -107,7 +99,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
     if (system.F0.size() > 0) g += system.F0;
     if (n_f > 0) W.noalias() -= K_CF * steps.K_FF_inverse_K_FC;
     if (steps.lambda_0.size() > 0) g.noalias() -= K_CF * steps.lambda_0;
-    const auto llt = cholesky((W + W.transpose()) / 2, "W");
+    const auto llt = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
     const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(n_c, n_c));
     steps.condensed.D = (inverse + inverse.transpose()) / 2;
     steps.condensed.G = llt.solve(g);

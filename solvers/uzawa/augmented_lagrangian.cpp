@@ -163,9 +163,9 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
       if (!race) result.history.push_back(residual);
       if (result.iterations == 1) first[it.result[k]] = result.primal_N;
       const bool met = residual <= (paper ? options.paper_stop_N : options.tolerance);
-      // The first iteration has compared nothing yet: F_C and the multipliers were zero.
       const bool lost = !std::isfinite(result.primal_N) ||
                         result.primal_N > diverges * std::max(first[it.result[k]], 1.0);
+      // The first iteration has compared nothing yet: F_C and the multipliers were zero.
       const bool met_truly =
           met && !lost && (paper || result.iterations > 1 || result.primal_N == 0);
       if (met_truly || lost || result.iterations >= options.most_iterations) {

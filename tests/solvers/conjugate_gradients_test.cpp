@@ -4,21 +4,12 @@
 
 #include <limits>
 
-#include "tests/support/dense_operators.hpp"
+#include "tests/support/krylov_checks.hpp"
 
 namespace airybench {
 namespace {
 
 using namespace testing;
-
-KrylovOptions with(double tolerance, int lanes = 1, int threads = 1) {
-  KrylovOptions options;
-  options.tolerance = tolerance;
-  options.lanes = lanes;
-  options.threads = threads;
-  options.most_iterations = 500;
-  return options;
-}
 
 // X ← S⁻¹ X.
 KrylovSummary solve(const Eigen::MatrixXd& S, const Preconditioner& M, Eigen::MatrixXd& X,
@@ -132,44 +123,11 @@ TEST(ConjugateGradients, AZeroRightHandSideTakesNoIterations) {
   EXPECT_TRUE(X.isZero(0));
 }
 
-// The same for every right-hand side alone, for any number of lanes and threads.
-void expect_alike(const Eigen::MatrixXd& S, const Preconditioner& preconditioner,
-                  const Eigen::MatrixXd& B) {
-  Eigen::MatrixXd alone = B;
-  KrylovSummary sum;
-  for (Eigen::Index k = 0; k < B.cols(); ++k) {
-    Eigen::MatrixXd X = B.col(k);
-    const KrylovSummary one = solve(S, preconditioner, X, with(1e-7));
-    alone.col(k) = X;
-    sum.iterations += one.iterations;
-    sum.most_iterations = std::max(sum.most_iterations, one.most_iterations);
-    if (k == 0) sum.history = one.history;
-  }
-  EXPECT_LT(sum.most_iterations, S.rows());
-  for (const int lanes : {1, most_lanes})
-    for (const int threads : {1, 2, 5}) {
-      Eigen::MatrixXd X = B;
-      const KrylovSummary summary = solve(S, preconditioner, X, with(1e-7, lanes, threads));
-      EXPECT_TRUE(summary.converged);
-      EXPECT_EQ(summary.iterations, sum.iterations) << lanes << " lanes, " << threads << " threads";
-      EXPECT_EQ(summary.most_iterations, sum.most_iterations);
-      EXPECT_EQ(summary.history.size(), sum.history.size());
-      EXPECT_LT((X - alone).norm(), 1e-11 * alone.norm());
-    }
-}
-
 TEST(ConjugateGradients, LanesAndThreadsAndNeighboursChangeNothing) {
-  std::mt19937 generator(7);
-  // Large enough to converge long before rounding decides when.
-  const int n = 150, count = 53;
-  const Spectral S(random_spectrum(n, 0, generator), generator);
-  const Spectral M(random_spectrum(n, 0, generator).cwiseSqrt().cwiseSqrt(), generator);
-  Eigen::MatrixXd B = random_matrix(n, count, generator);
-  for (int k = 0; k < count; k += 7)  // 1 to 5 iterations without M
-    B.col(k) = 1e3 * S.Q.leftCols(1 + k % 5).rowwise().sum();
-  B.col(20).setZero();
-  for (const Preconditioner& preconditioner : {no_preconditioner(), preconditioner_of(M.inverse())})
-    expect_alike(S.matrix(), preconditioner, B);
+  expect_neighbours_change_nothing(
+      [](const Eigen::MatrixXd& matrix, const Preconditioner& M, Eigen::MatrixXd& X,
+         const KrylovOptions& options) { return solve(matrix, M, X, options); },
+      0);
 }
 
 TEST(ConjugateGradients, AnIndefiniteMatrixOrPreconditionerIsABreakdown) {
