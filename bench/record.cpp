@@ -33,7 +33,21 @@ Json verified(const Record& record, double Verification::*value) {
   return record.verification ? number_or_null(*record.verification.*value) : Json();
 }
 
+// Algebraic and discretisation error together, relative, in the energy norm. A displacement method
+// has no algebraic error against the reference.
+Json total_error(const Record& record) {
+  if (!record.error_discretisation || !record.verification) return {};
+  return number_or_null(*record.error_discretisation +
+                        record.verification->error_stress.value_or(0));
+}
+
 }  // namespace
+
+std::string outcome_of(const Record& record) {
+  if (record.status == Status::inaccurate && record.claimed_status == Status::ok)
+    return "wrong_success";
+  return std::string(name_of(record.status));
+}
 
 double median(std::vector<double> values) {
   if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -122,6 +136,16 @@ Columns columns(const Record& r) {
       {"n_open", verified(r, &Verification::n_open)},
       {"n_stick", verified(r, &Verification::n_stick)},
       {"n_slip", verified(r, &Verification::n_slip)},
+      {"outcome", outcome_of(r)},
+      {"claimed_status", r.claimed_status ? Json(std::string(name_of(*r.claimed_status))) : Json()},
+      {"error_estimate", or_null(r.error_estimate)},
+      {"condition_estimate", or_null(r.condition_estimate)},
+      {"error_discretisation", or_null(r.error_discretisation)},
+      {"error_total", total_error(r)},
+      {"study", r.study.empty() ? Json() : Json(r.study)},
+      {"knob", r.knob.empty() ? Json() : Json(r.knob)},
+      {"knob_value", or_null(r.knob_value)},
+      {"scene_group", r.scene_group.empty() ? Json() : Json(r.scene_group)},
   };
   result.insert(result.end(), measures.begin(), measures.end());
   return result;

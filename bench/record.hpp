@@ -41,21 +41,33 @@ struct Record {
   std::optional<double> done_fraction, extrapolated_time_s, error_so_far;  // on timeout
   bool measured_once = false;  // detail, memory and time are of one and the same run
   std::optional<Verification> verification;
+  std::optional<Status> claimed_status;                      // what the method said itself
+  std::optional<double> error_estimate, condition_estimate;  // see Solution
+  std::optional<double> error_discretisation;  // of the mesh, see discretisation_error.hpp
+  std::string study;                           // "error", "stability"; empty: an ordinary run
+  std::string knob;                            // what a study turns: "tolerance"; empty: nothing
+  std::optional<double> knob_value;
+  std::string scene_group;  // of the stability atlas: "nearly incompressible"
   std::vector<StageDecision> stages;
   std::vector<IterationHistory> histories;
 };
+
+// One word for what became of a case: its status, or `wrong_success` where the method said ok and
+// the verifier disagrees.
+std::string outcome_of(const Record& record);
 
 double median(std::vector<double> values);  // NaN when empty
 double median_absolute_deviation(const std::vector<double>& values);
 
 // The columns of the stages.
-inline constexpr std::array<std::pair<const char*, std::optional<double> StageTimes::*>, 6>
+inline constexpr std::array<std::pair<const char*, std::optional<double> StageTimes::*>, 7>
     stage_columns = {{{"stage_order_s", &StageTimes::order_s},
                       {"stage_precondition_s", &StageTimes::precondition_s},
                       {"stage_factor_s", &StageTimes::factor_s},
                       {"stage_condense_s", &StageTimes::condense_s},
                       {"stage_contact_s", &StageTimes::contact_s},
-                      {"stage_recover_s", &StageTimes::recover_s}}};
+                      {"stage_recover_s", &StageTimes::recover_s},
+                      {"stage_check_s", &StageTimes::check_s}}};
 
 // Of the grid's combinations: iterations of the best; median and largest of those that converged or
 // were given up, with what they had made by then; how many diverged.

@@ -83,6 +83,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
+  control.target_error = options_.target_error;
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
@@ -224,6 +225,9 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   Solution& solution = run.solution;
   record.status = solution.status;
   record.status_reason = solution.message;
+  record.claimed_status = solution.status;
+  record.error_estimate = solution.error_estimate;
+  record.condition_estimate = solution.condition_estimate;
   record.storage_bytes = solution.storage_bytes;
   record.linear_iterations = solution.linear_iterations;
   record.contact_iterations = solution.contact_iterations;

@@ -32,6 +32,9 @@ struct Method {
   std::string summary;              // one line
   bool in_paper = false;            // named there; these are run by default
   Blocks blocks = Blocks::airy;     // what it needs assembled
+  // Another discrete problem, in displacements: its stresses do not balance and are not those of
+  // the reference; it is judged by the discretisation error alone.
+  bool in_displacements = false;
   std::vector<std::string> stages;  // in order, as StageTimes names them
   Solve solve;
   std::string general_name;  // "SYMMLQ:DTIC3" where the name is an alias; else empty

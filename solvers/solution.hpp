@@ -18,7 +18,8 @@ namespace airybench {
 
 enum class Status {
   ok,
-  inaccurate,     // finished, but the verifier finds an error above the target
+  inaccurate,     // finished, with an error above the target by the method's own estimate, or the
+                  // verifier's finding
   not_converged,  // an iteration ended before its tolerance was met
   breakdown,      // a pivot, a scalar or a result that the method cannot go on with
   timeout,
@@ -36,6 +37,7 @@ struct StageTimes {
   std::optional<double> condense_s;      // from the factor to D and G
   std::optional<double> contact_s;       // the contact law
   std::optional<double> recover_s;       // F_C to φ and stresses
+  std::optional<double> check_s;         // the method's own estimate of its error, refinement
 };
 
 struct IterationHistory {
@@ -50,6 +52,8 @@ struct Solution {
   Eigen::VectorXd F_C;  // contact forces, N; per point normal, tangential (μ = 0: normal)
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
+  // Displacement methods only: Bernstein coefficients, mm; columns: every vertex, then every edge.
+  Eigen::Matrix2Xd displacement;
   StageTimes times;
   std::size_t storage_bytes = 0;  // the method's matrices by its own count, without the blocks
   std::optional<std::int64_t> linear_iterations;  // of all right-hand sides
@@ -58,6 +62,10 @@ struct Solution {
   std::vector<IterationHistory> histories;
   std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
   std::optional<double> done_fraction, error_so_far;  // on timeout, where known
+  // The method's own, of what the verifier measures: the largest of its relative errors. Above
+  // RunControl::target_error the method says `inaccurate`.
+  std::optional<double> error_estimate;
+  std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm
 };
 
 // Thrown when time is up; the runner of methods turns it into Status::timeout.
@@ -107,6 +115,7 @@ struct RunControl {
   bool histories = false;  // keep iteration histories
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;
+  double target_error = 1e-6;         // a method that knows that it misses this must say so
   double tolerance = 1e-10;           // of linear and Uzawa iterations, relative; see each method
   double contact_tolerance = 1e-12;   // natural map residual ≤ tolerance · ‖F_C‖
   double contact_acceptable = 1e-12;  // the same, when the sweeps get no further

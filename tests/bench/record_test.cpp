@@ -40,6 +40,7 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "stage_condense_s",
                                             "stage_contact_s",
                                             "stage_recover_s",
+                                            "stage_check_s",
                                             "peak_heap_bytes",
                                             "peak_rss_bytes",
                                             "storage_bytes",
@@ -70,7 +71,17 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "complementary_energy_Nmm",
                                             "n_open",
                                             "n_stick",
-                                            "n_slip"};
+                                            "n_slip",
+                                            "outcome",
+                                            "claimed_status",
+                                            "error_estimate",
+                                            "condition_estimate",
+                                            "error_discretisation",
+                                            "error_total",
+                                            "study",
+                                            "knob",
+                                            "knob_value",
+                                            "scene_group"};
   std::set<std::string> names;
   for (const auto& [name, value] : columns(Record{}))
     EXPECT_TRUE(names.insert(name).second) << name;
