@@ -22,13 +22,6 @@ enum ExitCode { all_ok = 0, some_case_failed = 1, wrong_usage = 2 };
 // The paper shows SYMMLQ and says that the other is alike; both are run.
 constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
 
-std::string paper_methods() {
-  std::string names;
-  for (const Method& method : methods())
-    if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
-  return names;
-}
-
 void print_list() {
   fmt::print("meshes ({}):\n", mesh_directory().string());
   for (const std::string_view name : catalogue_mesh_names) fmt::print("  {}\n", name);
@@ -48,7 +41,8 @@ void print_list() {
 
 std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<Scene> scenes;
-  for (const auto& file : options.scenes) {
+  const bool atlas = options.study == Study::stability && options.scenes.empty();
+  for (const auto& file : atlas ? stability_scenes() : options.scenes) {
     scenes.push_back(read_scene(file));
     for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
       if (scenes[i].name == scenes.back().name)
@@ -60,7 +54,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
   for (const MeshFile& file : read_meshes(options.meshes))
     for (const Scene& scene : scenes)
       posed.push_back(
-          {scene.name, file.sha256, std::make_shared<const Problem>(pose(scene, file.mesh))});
+          {scene.name, "", file.sha256, std::make_shared<const Problem>(pose(scene, file.mesh))});
   return posed;
 }
 
@@ -85,15 +79,15 @@ int bench(int argc, char** argv) {
   Options options = parse_options(argc, argv);
   if (options.figure) {
     options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
-    options.methods = *options.figure == 3 ? figure_3_methods : paper_methods();
+    options.methods = *options.figure == 3 ? figure_3_methods : default_methods(Study::none);
   }
   if (options.list) {
     print_list();
     return all_ok;
   }
   const std::vector<Method> selected =
-      select_methods(options.methods.empty() ? paper_methods() : options.methods);
-  const std::vector<Case> cases = plan_cases(pose_all(options), selected);
+      select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
+  const std::vector<Case> cases = plan_cases(pose_all(options), selected, options.study);
   if (options.dry_run || options.explain) {
     print_plan(cases, options.explain);
     return all_ok;

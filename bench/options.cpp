@@ -20,6 +20,8 @@ Exit status  0  every case is ok, or skipped with a reason
 Examples
   bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
   bench --figure=3 --out=results/figure3
+  bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
+  bench --study=stability --out=results/stability
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
@@ -48,6 +50,12 @@ Options parse_options(int argc, const char* const* argv) {
       ->check(CLI::IsMember({3, 4, 5}))
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
+  std::string study;
+  app.add_option("--study", study,
+                 "error (every method over its accuracy knob: what each digit costs) or stability "
+                 "(every method on the extreme scenes of bench/scenes/stability)")
+      ->check(CLI::IsMember({"error", "stability"}))
+      ->excludes(app.get_option("--figure"));
   app.add_option("--target-error", options.target_error,
                  "every iterative method is tightened until its errors and residuals are below "
                  "this; a case that stays above is `inaccurate`")
@@ -116,6 +124,15 @@ Options parse_options(int argc, const char* const* argv) {
     throw UsageError(
         fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
   if (stop == "paper") options.stop = Stop::paper;
+  if (study == "error") options.study = Study::error;
+  if (study == "stability") options.study = Study::stability;
+  if (options.study == Study::error && options.stop == Stop::paper)
+    throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
+  if (options.study == Study::stability) {
+    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0";
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
+    options.repetitions = 1;
+  }
   if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
   return options;
 }

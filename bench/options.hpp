@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/study.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -18,6 +19,7 @@ struct Options {
   std::vector<std::filesystem::path> scenes;  // empty: the default scene
   std::filesystem::path out = "results/latest";
   std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods
+  Study study = Study::none;
   double target_error = 1e-6;
   Stop stop = Stop::target;
   bool append = false;  // keep the records that are in the folder

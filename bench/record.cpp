@@ -43,6 +43,11 @@ Json total_error(const Record& record) {
 
 }  // namespace
 
+bool is_measured(const Record& record) {
+  return record.status == Status::ok || record.status == Status::inaccurate ||
+         (record.study == "error" && record.status == Status::not_converged && record.verification);
+}
+
 std::string outcome_of(const Record& record) {
   if (record.status == Status::inaccurate && record.claimed_status == Status::ok)
     return "wrong_success";

@@ -52,6 +52,9 @@ struct Record {
   std::vector<IterationHistory> histories;
 };
 
+// Has it an answer whose time and memory are worth taking? Also one that was cut short on purpose.
+bool is_measured(const Record& record);
+
 // One word for what became of a case: its status, or `wrong_success` where the method said ok and
 // the verifier disagrees.
 std::string outcome_of(const Record& record);

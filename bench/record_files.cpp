@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <array>
+#include <regex>
+#include <sstream>
 
 #include "assembly/atomic_file.hpp"
 
@@ -41,6 +43,7 @@ namespace {
 
 // What makes a case.
 constexpr std::array<const char*, 4> case_keys = {"mesh", "scene", "method", "stop"};
+constexpr std::array<const char*, 3> study_keys = {"study", "knob", "knob_value"};
 
 // The records of a folder, line by line; none if there is no file.
 std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& path) {
@@ -71,9 +74,17 @@ std::string line_of(const nlohmann::ordered_json& record) {
 }
 
 bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
-  return std::all_of(case_keys.begin(), case_keys.end(), [&](const char* key) {
-    return a.value(key, "target") == b.value(key, "target");  // older records have no stop
-  });
+  const auto value = [](const nlohmann::ordered_json& record, const char* key) {
+    const auto found = record.find(key);
+    return found == record.end() ? nlohmann::ordered_json() : *found;
+  };
+  return std::all_of(case_keys.begin(), case_keys.end(),
+                     [&](const char* key) {
+                       return a.value(key, "target") ==
+                              b.value(key, "target");  // older records have no stop
+                     }) &&
+         std::all_of(study_keys.begin(), study_keys.end(),
+                     [&](const char* key) { return value(a, key) == value(b, key); });
 }
 
 }  // namespace
@@ -112,13 +123,15 @@ void RecordFiles::append(const Record& record) {
 
 void RecordFiles::finish() const {
   write_file_atomically(folder_ / "results.csv", csv_text(records_));
-  std::ifstream part(benchmark_json_part(folder_));
-  if (!nlohmann::json::accept(part))  // Google Benchmark does not say when the disk is full
-    throw OutputError((folder_ / "results.json").string() + ": could not be written whole");
-  std::error_code error;
-  std::filesystem::rename(benchmark_json_part(folder_), folder_ / "results.json", error);
-  if (error)
-    throw OutputError(fmt::format("{}: {}", (folder_ / "results.json").string(), error.message()));
+  const std::filesystem::path part = benchmark_json_part(folder_), whole = folder_ / "results.json";
+  std::ostringstream written;
+  written << std::ifstream(part).rdbuf();
+  // The coefficient of variation of a counter that is zero: "NaN" is not JSON.
+  const std::string text = std::regex_replace(written.str(), std::regex(": -?(NaN|nan)"), ": null");
+  if (!nlohmann::json::accept(text))  // Google Benchmark does not say when the disk is full
+    throw OutputError(whole.string() + ": could not be written whole");
+  write_file_atomically(whole, text);
+  abandon();
 }
 
 void RecordFiles::abandon() const {

@@ -20,15 +20,15 @@ struct OutputError : std::runtime_error {
 class RecordFiles {
  public:
   // Makes the folder. What an earlier run left there stays until the first record of this one, and
-  // with keep_others beyond: then only records of the same cases (mesh, scene, method, stop) go.
-  // Throws OutputError, also for records to keep that cannot be read.
+  // with keep_others beyond: then only records of the same cases (mesh, scene, method, stop, study,
+  // knob) go. Throws OutputError, also for records to keep that cannot be read.
   RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
               bool keep_others);
 
   void append(const Record& record);  // one line, flushed; throws OutputError
   // results.csv of all records, and Google Benchmark's file, which is of this run, under its name.
   void finish() const;
-  void abandon() const;  // nothing was recorded: removes Google Benchmark's file
+  void abandon() const;  // removes the file that Google Benchmark writes while the run goes on
 
   // Where Google Benchmark writes while the run goes on.
   static std::filesystem::path benchmark_json_part(const std::filesystem::path& folder);

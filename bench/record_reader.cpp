@@ -45,6 +45,7 @@ class Line {
     if (value != "target" && value != "paper") fail("stop", value, "target, paper, null");
     return value.get<std::string>();
   }
+  bool is_of_a_study() const { return !value("study").is_null(); }
   // Null and a missing key are the same: does not apply.
   std::optional<double> number(const char* key, double most) const {
     const Json& value = this->value(key);
@@ -118,8 +119,10 @@ std::vector<CaseRecord> read_records(const std::filesystem::path& file) {
     throw RecordError(file.string() + ": cannot be opened as a file of records");
   std::vector<CaseRecord> records;
   int number = 0;
-  for (std::string text; std::getline(in, text);)
-    records.push_back(from(Line(file.string(), ++number, text)));
+  for (std::string text; std::getline(in, text);) {
+    const Line line(file.string(), ++number, text);
+    if (!line.is_of_a_study()) records.push_back(from(line));
+  }
   if (in.bad()) throw RecordError(file.string() + ": cannot be read");
   return records;
 }

@@ -33,13 +33,14 @@ class CaseRunner {
   CaseRunner(const std::vector<Case>& cases, const Options& options, RecordFiles& files)
       : cases_(cases), options_(options), files_(files), progress_(sizes(cases)) {
     records_.resize(cases.size());
+    choices_.resize(cases.size());
   }
 
   void measure(std::size_t k, benchmark::State& state) {
     if (!records_[k]) begin(k);
     Record& record = *records_[k];
     for (auto _ : state) {
-      if (record.status != Status::ok && record.status != Status::inaccurate) {
+      if (!is_measured(record)) {
         state.SkipWithError(
             fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
         break;
@@ -67,7 +68,7 @@ class CaseRunner {
   double next_sample(std::size_t k, Record& record, benchmark::State& state) {
     if (record.samples_s.empty() ||
         (!record.measured_once && sum(record.samples_s) < options_.long_case_s))
-      return bench_of(k).measure_time(cases_[k].method, record);
+      return bench_of(k).measure_time(cases_[k].method, *choices_[k], record);
     const bool first = record.measured_once && shown_once_.insert(k).second;
     if (!first) state.SkipWithError("not repeated: a long case");
     return record.samples_s.back();
@@ -105,13 +106,17 @@ class CaseRunner {
         if (letter == '/' || letter == ':') letter = '-';
       fields = options_.out / "fields" / name;
     }
-    Record record = bench_of(k).examine(c.method, fields);
+    auto [record, choice] = bench_of(k).examine(c.method, fields);
     record.scene = c.posed.scene_name;
+    record.scene_group = c.posed.scene_group;
     record.mesh_sha256 = c.posed.mesh_sha256;
-    if ((record.status == Status::ok || record.status == Status::inaccurate) &&
-        !record.measured_once)
-      bench_of(k).measure_memory(c.method, record);
+    record.knob = c.knob.name;
+    record.knob_value = c.knob.value;
+    record.stop = c.knob.stop.value_or(options_.stop);
+    if (is_measured(record) && !record.measured_once)
+      bench_of(k).measure_memory(c.method, choice, record);
     records_[k] = std::move(record);
+    choices_[k] = std::move(choice);
   }
 
   const std::vector<Case>& cases_;
@@ -120,6 +125,7 @@ class CaseRunner {
   Progress progress_;
   std::map<const Problem*, std::unique_ptr<Workbench>> benches_;
   std::vector<std::optional<Record>> records_;
+  std::vector<std::optional<Workbench::Choice>> choices_;
   std::vector<std::size_t> finished_;
   std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
 };
@@ -167,10 +173,15 @@ void initialize_benchmark(const Options& options,
 }  // namespace
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods) {
+                             const std::vector<Method>& methods, Study study) {
   std::vector<Case> cases;
   for (const PosedScene& scene : scenes)
-    for (const Method& method : methods) cases.push_back({scene, method});
+    for (const Method& method : methods)
+      if (study == Study::error)
+        for (TurnedMethod& point : error_points(method))
+          cases.push_back({scene, std::move(point.method), std::move(point.knob)});
+      else
+        cases.push_back({scene, method});
   return cases;
 }
 

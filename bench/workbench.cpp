@@ -195,13 +195,16 @@ void Workbench::judge(const Verification& verification, Record& record) {
   }
 }
 
-Record Workbench::examine(const Method& method, const std::filesystem::path& fields) {
+Workbench::Examination Workbench::examine(const Method& method,
+                                          const std::filesystem::path& fields) {
   const MeshSizes sizes = solved_sizes(*problem_);
-  Record record;
+  Examination examination;
+  Record& record = examination.record;
   record.mesh = problem_->mesh.name;
   record.method = method.name;
   record.threads = options_.threads;
   record.stop = options_.stop;
+  record.study = name_of(options_.study);
   record.target_error = options_.target_error;
   record.n_phi = sizes.n_phi;
   record.n_f = sizes.n_f;
@@ -212,16 +215,16 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
   } catch (const std::exception& error) {
     record.status = Status::breakdown;
     record.status_reason = fmt::format("assembly: {}", error.what());
-    return record;
+    return examination;
   }
   const AssembledBlocks& assembled = blocks(method.blocks);
   record.assembly_samples_s = assembled.samples_s;
   record.blocks_heap_bytes = assembled.heap_bytes;
   record.assembly_peak_heap_bytes = assembled.peak_heap_bytes;
 
-  Choice choice = choose(method, assembled, record);
+  Choice& choice = examination.choice;
+  choice = choose(method, assembled, record);
   Run run = tighten(method, assembled, choice, record);
-  choices_.insert_or_assign(method.name, choice);
   Solution& solution = run.solution;
   record.status = solution.status;
   record.status_reason = solution.message;
@@ -251,8 +254,8 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
     if (!fields.empty())
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
   }
-  if (run.time_s > options_.long_case_s &&
-      (record.status == Status::ok || record.status == Status::inaccurate)) {
+  const bool once = run.time_s > options_.long_case_s || options_.study == Study::stability;
+  if (once && is_measured(record)) {
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(solution.times);
@@ -260,20 +263,20 @@ Record Workbench::examine(const Method& method, const std::filesystem::path& fie
     record.peak_rss_bytes = run.peak_rss_bytes;
     record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
   }
-  return record;
+  return examination;
 }
 
-void Workbench::measure_memory(const Method& method, Record& record) {
+void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
   malloc_trim(0);
-  const Run run = solve(choices_.at(method.name), blocks(method.blocks), false);
+  const Run run = solve(choice, blocks(method.blocks), false);
   record.peak_heap_bytes = run.peak_heap_bytes;
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
 }
 
-double Workbench::measure_time(const Method& method, Record& record) {
-  const Run run = solve(choices_.at(method.name), blocks(method.blocks), false);
-  if (run.solution.status != Status::ok) {
+double Workbench::measure_time(const Method& method, const Choice& choice, Record& record) {
+  const Run run = solve(choice, blocks(method.blocks), false);
+  if (run.solution.status != record.claimed_status) {
     record.status = run.solution.status;
     record.status_reason = "in a timed run: " + run.solution.message;
     record.samples_s.clear();

@@ -28,22 +28,26 @@ class Workbench {
 
   const Problem& problem() const { return *problem_; }
 
-  // A record with the sizes, assembly figures and the detail run's verdict: status, errors, counts.
-  // An iterative method is run again with a tighter tolerance until its errors are below the
-  // target. fields: where to write the solution's fields, or empty.
-  Record examine(const Method& method, const std::filesystem::path& fields);
-  // The memory run: heap and resident set at their peak during one solve.
-  void measure_memory(const Method& method, Record& record);
-  // One timed run, added to the record's samples; its seconds. A run that ends otherwise than the
-  // detail run did sets the record's status.
-  double measure_time(const Method& method, Record& record);
-
- private:
   // How a method is run on this problem, found in its detail run.
   struct Choice {
     Solve solve;
     double tolerance = 0;
   };
+  struct Examination {
+    Record record;
+    Choice choice;
+  };
+  // A record with the sizes, assembly figures and the detail run's verdict: status, errors, counts.
+  // An iterative method is run again with a tighter tolerance until its errors are below the
+  // target. fields: where to write the solution's fields, or empty.
+  Examination examine(const Method& method, const std::filesystem::path& fields);
+  // The memory run: heap and resident set at their peak during one solve.
+  void measure_memory(const Method& method, const Choice& choice, Record& record);
+  // One timed run, added to the record's samples; its seconds. A run that ends otherwise than the
+  // detail run did sets the record's status.
+  double measure_time(const Method& method, const Choice& choice, Record& record);
+
+ private:
   // A solve and what it took.
   struct Run {
     Solution solution;
@@ -63,7 +67,6 @@ class Workbench {
   std::shared_ptr<const Problem> problem_;
   const Options& options_;
   std::map<Blocks, AssembledBlocks> blocks_;
-  std::map<std::string, Choice> choices_;  // by the method's name
   std::optional<Reference> reference_;
   std::string no_reference_;
 };

@@ -81,6 +81,7 @@ Method krylov_method(std::string summary) {
   Method method;
   method.summary = std::move(summary);
   method.stages = {"precondition", "condense", "contact", "recover"};
+  method.knob = AccuracyKnob::krylov_tolerance;
   // Tight from the start: where the preconditioner is poor the residual stays long and then falls
   // fast, so that two digits more cost some per cent, and a second run all of it.
   method.first_tolerance = 1e-4;
@@ -119,6 +120,7 @@ Method augmented_lagrangian(const std::string& name, Parts parts) {
   method.summary = "augmented Lagrangian, Uzawa's algorithm with given parameters";
   method.stages = {"factor", "contact", "recover"};
   method.first_tolerance = 2e-2;
+  method.knob = AccuracyKnob::uzawa_iterations;
   if (!parts.first.empty()) refuse(name, "'" + parts.first + "' is no parameter (valid: r, rho)");
   const double r = positive(name, parts, "r"), rho = positive(name, parts, "rho");
   refuse_rest(name, parts, "r, rho");

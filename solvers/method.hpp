@@ -27,11 +27,20 @@ struct Tuning {
   std::vector<GridPoint> grid;
 };
 
+// What decides how accurate the answer is, for studies that turn it.
+enum class AccuracyKnob {
+  none,              // a direct method: it has one accuracy
+  krylov_tolerance,  // RunControl::tolerance
+  uzawa_iterations,  // RunControl::uzawa_iterations
+  contact_sweeps,    // RunControl::contact_sweeps
+  stop               // RunControl::stop; parameters are chosen for it
+};
+
 struct Method {
-  std::string name;                 // "SDTIC3"
-  std::string summary;              // one line
-  bool in_paper = false;            // named there; these are run by default
-  Blocks blocks = Blocks::airy;     // what it needs assembled
+  std::string name;              // "SDTIC3"
+  std::string summary;           // one line
+  bool in_paper = false;         // named there; these are run by default
+  Blocks blocks = Blocks::airy;  // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
@@ -42,6 +51,7 @@ struct Method {
   // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
   double paper_tolerance = 0;  // RunControl::tolerance with the paper's stop; zero: it has its own
+  AccuracyKnob knob = AccuracyKnob::none;
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
   // then does both.
   std::function<Tuning(const DualSystem&, const RunControl&)> tune;

@@ -40,10 +40,16 @@ Method tuned_augmented_lagrangian() {
   method.name = "ALM";
   method.summary = "augmented Lagrangian, Uzawa's algorithm with the best of the paper's grid";
   method.in_paper = true;
+  method.knob = AccuracyKnob::stop;
   method.tune = tune_augmented_lagrangian;
   method.solve = [](const DualSystem& system, const RunControl& control) {
     return tune_augmented_lagrangian(system, control).solve(system, control);
   };
+  return method;
+}
+
+Method with_knob(Method method, AccuracyKnob knob) {
+  method.knob = knob;
   return method;
 }
 
@@ -60,8 +66,9 @@ std::vector<Method> table() {
       alias("SDTIC6", "SYMMLQ:DTIC6"),
       alias("3STEPCG6", "3STEPCG:DTIC6"),
       alias("SSKY", "SYMMLQ:SKY"),
-      direct("3STEPD", "three-step condensation, skyline LDLT", true, Blocks::airy,
-             three_step(KeepX::Where::memory)),
+      with_knob(direct("3STEPD", "three-step condensation, skyline LDLT", true, Blocks::airy,
+                       three_step(KeepX::Where::memory)),
+                AccuracyKnob::contact_sweeps),
       tuned_augmented_lagrangian(),
       direct("BLIND", "blind condensation, MUMPS indefinite LDLT", true, Blocks::airy,
              solve_blind_mumps),
@@ -75,8 +82,10 @@ std::vector<Method> table() {
              Blocks::airy, three_step(KeepX::Where::nowhere)),
       direct("3STEPD:CHOLMOD", "three-step condensation, CHOLMOD supernodal Cholesky", false,
              Blocks::airy, solve_three_step_cholmod),
-      direct("HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
-             false, Blocks::contact_points, solve_hybridized),
+      with_knob(
+          direct("HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
+                 false, Blocks::contact_points, solve_hybridized),
+          AccuracyKnob::contact_sweeps),
   };
   for (const char* family : {"SYMMLQ:", "3STEPCG:"})
     for (const std::string& preconditioner : preconditioner_names())

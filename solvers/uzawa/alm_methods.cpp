@@ -11,6 +11,7 @@ UzawaOptions options_of(const RunControl& control) {
   UzawaOptions options;
   options.stop = control.stop;
   options.tolerance = control.tolerance;
+  options.most_iterations = control.uzawa_iterations;
   return options;
 }
 

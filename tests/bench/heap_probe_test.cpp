@@ -257,8 +257,8 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
   Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(16, 12))),
                   options);
   const Method method = select_methods(GetParam()).front();
-  Record record = bench.examine(method, {});
-  bench.measure_memory(method, record);
+  auto [record, choice] = bench.examine(method, {});
+  bench.measure_memory(method, choice, record);
   ASSERT_EQ(record.status, Status::ok) << record.status_reason;
   const auto least =
       static_cast<std::int64_t>(record.storage_bytes) + record.blocks_heap_bytes.value();
@@ -278,17 +278,18 @@ TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
   Record free;
   {
     Workbench bench(problem, options);
-    free = bench.examine(method, {});
-    bench.measure_memory(method, free);
+    auto [record, choice] = bench.examine(method, {});
+    bench.measure_memory(method, choice, record);
+    free = std::move(record);
   }
   const std::int64_t peak = free.peak_heap_bytes.value();
   for (int part = 0; part < 60; ++part) {
     options.memory_limit_bytes = peak * part / 60;
-    const Record record = Workbench(problem, options).examine(method, {});
+    const Record record = Workbench(problem, options).examine(method, {}).record;
     EXPECT_EQ(record.status, Status::out_of_memory) << part << "/60 of " << peak;
   }
   options.memory_limit_bytes = peak + MiB;
-  EXPECT_EQ(Workbench(problem, options).examine(method, {}).status, Status::ok);
+  EXPECT_EQ(Workbench(problem, options).examine(method, {}).record.status, Status::ok);
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {

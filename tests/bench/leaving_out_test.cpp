@@ -14,9 +14,9 @@ Record measured(const Scene& scene, Mesh mesh, const char* method) {
   options.repetitions = 1;
   Workbench bench(std::make_shared<const Problem>(pose(scene, std::move(mesh))), options);
   const Method chosen = select_methods(method).front();
-  Record record = bench.examine(chosen, {});
-  bench.measure_memory(chosen, record);
-  bench.measure_time(chosen, record);
+  auto [record, choice] = bench.examine(chosen, {});
+  bench.measure_memory(chosen, choice, record);
+  bench.measure_time(chosen, choice, record);
   EXPECT_EQ(record.status, Status::ok) << record.status_reason;
   return record;
 }
