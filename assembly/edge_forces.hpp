@@ -9,26 +9,38 @@
 // With g_a, g_b the end gradients and g_m the middle one — tangential part from the cubic Hermite
 // of φ, normal part the edge's own degree of freedom — and R = [0 1; −1 0]:
 //   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
+//
+// Templates are instantiated for double, long double and Quad (quad.hpp). Coordinates are doubles
+// and exact; their differences are taken in the scalar.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace airybench {
 
-struct EdgeFrame {
-  double length_mm;
-  Eigen::Vector2d tangent, normal;  // unit vectors; normal is outward
+template <typename Scalar>
+struct EdgeFrameIn {
+  Scalar length_mm;
+  Eigen::Vector2<Scalar> tangent, normal;  // unit vectors; normal is outward
 };
-inline EdgeFrame edge_frame(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const double length = (b - a).norm();
-  const Eigen::Vector2d s = (b - a) / length;
+using EdgeFrame = EdgeFrameIn<double>;
+
+template <typename Scalar = double>
+EdgeFrameIn<Scalar> edge_frame(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2<Scalar> edge = b.cast<Scalar>() - a.cast<Scalar>();
+  const Scalar length = edge.norm();
+  const Eigen::Vector2<Scalar> s = edge / length;
   return {length, s, {s.y(), -s.x()}};
 }
 
 // Rows: F^a_x, F^a_y, F^b_x, F^b_y. Columns: φ, φ,x, φ,y at a, the same at b, ∂φ/∂n at the middle.
 // outward: +1 when the edge's global normal (see hct.hpp) is n, −1 when it is −n.
-using EdgeForces = Eigen::Matrix<double, 4, 7>;
-EdgeForces edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double outward);
+template <typename Scalar>
+using EdgeForcesIn = Eigen::Matrix<Scalar, 4, 7>;
+using EdgeForces = EdgeForcesIn<double>;
+template <typename Scalar = double>
+EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                 double outward);
 
 // ū_a, ū_b (rows) of a field sampled at the edge's start, middle and end (columns): Simpson's rule,
 // exact for quadratic fields.

@@ -14,10 +14,15 @@
 //
 // Clough & Tocher 1965; Bernadou & Hassan, Int. J. Numer. Methods Eng. 17 (1981), 784–789,
 // doi:10.1002/nme.1620170510; Lai & Schumaker, Spline Functions on Triangulations, ch. 6 (2007).
+//
+// The functions are templates over the scalar they compute in, instantiated for double, long double
+// and Quad (quad.hpp); without an argument it is double. Coordinates are doubles and exact: the
+// first thing formed are their differences, in the scalar.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
+#include <type_traits>
 
 namespace airybench {
 
@@ -29,8 +34,11 @@ using EdgeSigns =
 //   0..2    at V_i                           12..14  inside third t
 //   3..8    at (2V_t+V_{t+1})/3, (V_t+2V_{t+1})/3   15..17  at (V_i+2V4)/3
 //   9..11   at (2V_i+V4)/3                   18      at V4
-using HctCoefficients = Eigen::Matrix<double, 19, 12>;
-HctCoefficients hct_coefficients(const TriangleVertices& v, const EdgeSigns& outward);
+template <typename Scalar>
+using HctCoefficientsIn = Eigen::Matrix<Scalar, 19, 12>;
+using HctCoefficients = HctCoefficientsIn<double>;
+template <typename Scalar = double>
+HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& v, const EdgeSigns& outward);
 
 // Rows of HctCoefficients that belong to third t, in the order
 // 300 030 003 210 120 201 021 111 102 012 of the barycentric exponents on V_t, V_{t+1}, V4.
@@ -38,15 +46,22 @@ std::array<int, 10> hct_third(int t);
 
 // Rows (3 corner + component) with corner = 3 t + (0: V_t, 1: V_{t+1}, 2: V4) and component xx, yy,
 // xy; columns: degrees of freedom. Product with them: stress in MPa when φ is in N.
-using HctStress = Eigen::Matrix<double, 27, 12>;
-HctStress hct_stress(const TriangleVertices& v, const EdgeSigns& outward);
+template <typename Scalar>
+using HctStressIn = Eigen::Matrix<Scalar, 27, 12>;
+using HctStress = HctStressIn<double>;
+template <typename Scalar = double>
+HctStressIn<Scalar> hct_stress(const TriangleVertices& v, const EdgeSigns& outward);
 
 // ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick: the element's flexibility.
 // compliance: 3×3 in (xx, yy, xy), see elasticity.hpp. Exact: on a third of area a with corner
 // values σ_m, ∫ = a/12 (Σσ_m : Σσ_m + Σ σ_m : σ_m). Symmetric, positive semidefinite; kernel:
 // affine φ.
-using HctFlexibility = Eigen::Matrix<double, 12, 12>;
-HctFlexibility hct_flexibility(const HctStress& stress, double area_mm2,
-                               const Eigen::Matrix3d& compliance);
+template <typename Scalar>
+using HctFlexibilityIn = Eigen::Matrix<Scalar, 12, 12>;
+using HctFlexibility = HctFlexibilityIn<double>;
+template <typename Scalar>
+HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& stress,
+                                         std::type_identity_t<Scalar> area_mm2,
+                                         const Eigen::Matrix3d& compliance);
 
 }  // namespace airybench

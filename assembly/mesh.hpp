@@ -40,10 +40,12 @@ struct MeshError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Twice the signed area of triangle abc, mm²; positive when counter-clockwise.
-inline double cross_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                         const Eigen::Vector2d& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x());
+// Twice the signed area of triangle abc, mm²; positive when counter-clockwise. Computed in Scalar.
+template <typename Scalar = double>
+Scalar cross_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const auto x = [&](const Eigen::Vector2d& p) { return Scalar(p.x()) - Scalar(a.x()); };
+  const auto y = [&](const Eigen::Vector2d& p) { return Scalar(p.y()) - Scalar(a.y()); };
+  return x(b) * y(c) - y(b) * x(c);
 }
 
 // Twice a triangle's area, relative to its longest edge squared, below which it counts as flat.

@@ -12,20 +12,9 @@ TriangleVertices Problem::vertices_of(int triangle) const {
   return v;
 }
 
-double Problem::area_mm2(int triangle) const {
-  const auto& [a, b, c] = mesh.triangles[triangle];
-  return cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
-}
-
 EdgeSigns Problem::edge_signs(int triangle) const {
   const auto& [a, b, c] = mesh.triangles[triangle];
   return {a < b ? 1. : -1., b < c ? 1. : -1., c < a ? 1. : -1.};
-}
-
-Eigen::Vector3d Problem::particular_stress(const Eigen::Vector2d& x) const {
-  const Eigen::Vector2d d = x - mesh.vertices[central_vertex];
-  const Eigen::Vector2d& b = loads.body_force_N_per_mm3;
-  return {-b.x() * d.x(), -b.y() * d.y(), 0};
 }
 
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,

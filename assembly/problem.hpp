@@ -5,9 +5,13 @@
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
 //
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
+//
+// Coordinates, compliances and the values of the loads are doubles and exact: they are the data of
+// the discrete problem. What is a template over Scalar computes from them in Scalar.
 #pragma once
 
 #include <functional>
+#include <type_traits>
 #include <vector>
 
 #include "assembly/elasticity.hpp"
@@ -40,11 +44,21 @@ struct Problem {
     return compliance[mesh.triangle_body[triangle]];
   }
   TriangleVertices vertices_of(int triangle) const;
-  double area_mm2(int triangle) const;
+  template <typename Scalar = double>
+  Scalar area_mm2(int triangle) const {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    return cross_area<Scalar>(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
+  }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
 
   // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
-  Eigen::Vector3d particular_stress(const Eigen::Vector2d& x) const;
+  template <typename Scalar = double>
+  Eigen::Vector3<Scalar> particular_stress(
+      const std::type_identity_t<Eigen::Vector2<Scalar>>& x) const {
+    const Eigen::Vector2<Scalar> d = x - mesh.vertices[central_vertex].cast<Scalar>();
+    const Eigen::Vector2<Scalar> b = loads.body_force_N_per_mm3.cast<Scalar>();
+    return {-b.x() * d.x(), -b.y() * d.y(), Scalar(0)};
+  }
 };
 
 // Takes a valid mesh (see validate()) and one compliance per body.
@@ -52,7 +66,9 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
                      double friction);
 
 // Traction σn of a stress (xx, yy, xy).
-inline Eigen::Vector2d traction(const Eigen::Vector3d& stress, const Eigen::Vector2d& normal) {
+template <typename Scalar = double>
+Eigen::Vector2<Scalar> traction(const std::type_identity_t<Eigen::Vector3<Scalar>>& stress,
+                                const std::type_identity_t<Eigen::Vector2<Scalar>>& normal) {
   return {stress(0) * normal.x() + stress(2) * normal.y(),
           stress(2) * normal.x() + stress(1) * normal.y()};
 }

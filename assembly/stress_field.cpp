@@ -3,16 +3,19 @@
 #include <cmath>
 
 #include "assembly/edge_forces.hpp"
+#include "assembly/quad.hpp"
 
 namespace airybench {
 
-ElementStress particular_element_stress(const Problem& problem, int triangle) {
-  const TriangleVertices v = problem.vertices_of(triangle);
-  const Eigen::Vector3d centre = problem.particular_stress(v.rowwise().mean());
-  ElementStress stress;
+template <typename Scalar>
+ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int triangle) {
+  const Eigen::Matrix<Scalar, 2, 3> v = problem.vertices_of(triangle).cast<Scalar>();
+  const Eigen::Vector3<Scalar> centre =
+      problem.particular_stress<Scalar>((v.col(0) + v.col(1) + v.col(2)) / Scalar(3));
+  ElementStressIn<Scalar> stress;
   for (int t = 0; t < 3; ++t)
-    stress.middleCols<3>(3 * t) << problem.particular_stress(v.col(t)),
-        problem.particular_stress(v.col((t + 1) % 3)), centre;
+    stress.template middleCols<3>(3 * t) << problem.particular_stress<Scalar>(v.col(t)),
+        problem.particular_stress<Scalar>(v.col((t + 1) % 3)), centre;
   return stress;
 }
 
@@ -45,14 +48,16 @@ StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorX
   return field;
 }
 
-ElementStress stress_dual(const ElementStress& stress, double area_mm2,
-                          const Eigen::Matrix3d& compliance) {
+template <typename Scalar>
+ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
+                                    std::type_identity_t<Scalar> area_mm2,
+                                    const Eigen::Matrix3d& compliance) {
   // On a third of area a: ∫ λ_m λ_n = a (1 + δ_mn) / 12.
-  ElementStress dual;
+  const Eigen::Matrix3<Scalar> weight = area_mm2 / Scalar(36) * compliance.cast<Scalar>();
+  ElementStressIn<Scalar> dual;
   for (int t = 0; t < 3; ++t) {
-    const auto corners = stress.middleCols<3>(3 * t);
-    dual.middleCols<3>(3 * t) =
-        area_mm2 / 36 * compliance * (corners.colwise() + corners.rowwise().sum());
+    const Eigen::Matrix3<Scalar> corners = stress.template middleCols<3>(3 * t);
+    dual.template middleCols<3>(3 * t) = weight * (corners.colwise() + corners.rowwise().sum());
   }
   return dual;
 }
@@ -73,12 +78,30 @@ double stress_distance(const Problem& problem, const StressField& stress,
   return std::sqrt(stress_norm_squared(problem, difference));
 }
 
-Eigen::Matrix2d element_edge_forces(const TriangleVertices& v, const ElementStress& stress, int k) {
-  const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
-  Eigen::Matrix2d forces;
-  forces << traction(stress.col(3 * k), frame.normal),
-      traction(stress.col(3 * k + 1), frame.normal);
-  return frame.length_mm / 2 * forces;
+template <typename Scalar>
+Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVertices& v,
+                                           const Eigen::Matrix<Scalar, 3, 9>& stress, int k) {
+  const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(v.col(k), v.col((k + 1) % 3));
+  Eigen::Matrix2<Scalar> forces;
+  forces << traction<Scalar>(stress.col(3 * k), frame.normal),
+      traction<Scalar>(stress.col(3 * k + 1), frame.normal);
+  return frame.length_mm / Scalar(2) * forces;
 }
+
+template ElementStressIn<double> particular_element_stress(const Problem&, int);
+template ElementStressIn<double> stress_dual(const ElementStressIn<double>&, double,
+                                             const Eigen::Matrix3d&);
+template Eigen::Matrix2<double> element_edge_forces(const TriangleVertices&,
+                                                    const ElementStressIn<double>&, int);
+template ElementStressIn<long double> particular_element_stress(const Problem&, int);
+template ElementStressIn<long double> stress_dual(const ElementStressIn<long double>&, long double,
+                                                  const Eigen::Matrix3d&);
+template Eigen::Matrix2<long double> element_edge_forces(const TriangleVertices&,
+                                                         const ElementStressIn<long double>&, int);
+template ElementStressIn<Quad> particular_element_stress(const Problem&, int);
+template ElementStressIn<Quad> stress_dual(const ElementStressIn<Quad>&, Quad,
+                                           const Eigen::Matrix3d&);
+template Eigen::Matrix2<Quad> element_edge_forces(const TriangleVertices&,
+                                                  const ElementStressIn<Quad>&, int);
 
 }  // namespace airybench

@@ -2,6 +2,8 @@
 //
 // The energies of φ are computed from here and not as ½φᵀSφ: φ is large where the stress is not,
 // and its affine part cancels (measured on a rack: 4e-8 relative lost for a constant stress).
+//
+// Templates over the scalar are instantiated for double, long double and Quad (quad.hpp).
 #pragma once
 
 #include <vector>
@@ -11,7 +13,9 @@
 namespace airybench {
 
 // Columns: the nine corners of the three thirds as in HctStress; rows: xx, yy, xy in MPa.
-using ElementStress = Eigen::Matrix<double, 3, 9>;
+template <typename Scalar>
+using ElementStressIn = Eigen::Matrix<Scalar, 3, 9>;
+using ElementStress = ElementStressIn<double>;
 using StressField = std::vector<ElementStress>;  // per triangle
 
 // The stress of an Airy function given as airy_function() returns it, plus the particular stress of
@@ -19,11 +23,14 @@ using StressField = std::vector<ElementStress>;  // per triangle
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi);
 
 // The particular stress of the body force on one triangle.
-ElementStress particular_element_stress(const Problem& problem, int triangle);
+template <typename Scalar = double>
+ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int triangle);
 
 // The field w with Σ w·τ = ∫ σ : compliance : τ for every τ that is linear on each third.
-ElementStress stress_dual(const ElementStress& stress, double area_mm2,
-                          const Eigen::Matrix3d& compliance);
+template <typename Scalar>
+ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
+                                    std::type_identity_t<Scalar> area_mm2,
+                                    const Eigen::Matrix3d& compliance);
 
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm. Twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
@@ -33,6 +40,8 @@ double stress_distance(const Problem& problem, const StressField& stress, const 
 
 // Generalised forces (edge_forces.hpp) of an element's stress on its edge k, with the outward
 // normal: columns at the edge's start and end as the element walks it; rows x, y; N.
-Eigen::Matrix2d element_edge_forces(const TriangleVertices& v, const ElementStress& stress, int k);
+template <typename Scalar>
+Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVertices& v,
+                                           const Eigen::Matrix<Scalar, 3, 9>& stress, int k);
 
 }  // namespace airybench
