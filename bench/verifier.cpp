@@ -62,9 +62,6 @@ double denominator(double quantity, double scale) {
   constexpr double resolvable = 1e-9;
   return quantity > resolvable * scale ? quantity : scale;
 }
-double ratio(double error, double quantity, double scale) {
-  return error == 0 ? 0 : error / denominator(quantity, scale);
-}
 
 double equilibrium_residual(const DualSystem& system, const Solution& solution,
                             const EdgeBalance& balance, const LoadScale& scale) {
@@ -98,7 +95,7 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
   for (std::size_t edge = 0; edge < balance.sum.size(); ++edge)
     if (!on_boundary[edge])
       unbalanced = std::max(unbalanced, balance.sum[edge].cwiseAbs().maxCoeff());
-  return ratio(unbalanced, balance.largest, scale.force_N);
+  return relative_error(unbalanced, balance.largest, scale.force_N);
 }
 
 // ∫_{Γ_D} u0·σn.
@@ -140,7 +137,7 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   const CondensedSystem& condensed = reference->condensed;
   const Eigen::VectorXd residual =
       natural_map(contact, condensed.D.diagonal(), F, condensed.D * F - condensed.G);
-  result.natural_map_residual = ratio(residual.norm(), F.norm(), scale.force_N);
+  result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
   double signorini = 0, coulomb = 0;
   for (int p = 0; p < contact.count; ++p) {
     signorini = std::max(signorini, std::abs(residual(m * p)));
@@ -152,7 +149,8 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   const auto D_norm = [&](const Eigen::VectorXd& f) {
     return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
   };
-  result.error_force = ratio(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
+  result.error_force =
+      relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
 }
 
 }  // namespace
@@ -191,8 +189,9 @@ Verification verify(const DualSystem& system, const Solution& solution,
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     result.relative_to_loads =
         scale.energy_norm > 0 && denominator(reference_norm, scale.energy_norm) != reference_norm;
-    result.error_stress = ratio(stress_distance(problem, solution.stress, reference->stress),
-                                reference_norm, scale.energy_norm);
+    result.error_stress =
+        relative_error(stress_distance(problem, solution.stress, reference->stress), reference_norm,
+                       scale.energy_norm);
   }
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   return result;
@@ -224,6 +223,10 @@ LoadScale load_scale(const Problem& problem) {
   }
   scale.energy_norm = std::sqrt(energy);
   return scale;
+}
+
+double relative_error(double error, double quantity, double scale) {
+  return error == 0 ? 0 : error / denominator(quantity, scale);
 }
 
 WorstMeasure worst_measure(const Verification& v) {

@@ -44,6 +44,9 @@ struct LoadScale {
   double force_N = 0;
 };
 LoadScale load_scale(const Problem& problem);
+// error / quantity, or error / scale where the quantity is only rounding: ≤ 1e-9 · scale. A zero
+// error is zero.
+double relative_error(double error, double quantity, double scale);
 
 // The largest of the relative measures that decide between ok and inaccurate.
 struct WorstMeasure {

@@ -63,9 +63,13 @@ const Reference* Workbench::reference() {
       as_solution.F_C = reference_->F_C;
       as_solution.stress = reference_->stress;
       const double residual = verify(system, as_solution, nullptr).equilibrium_residual;
-      if (!(residual <= options_.target_error / 10)) {
+      const double at_most = options_.target_error / 10;
+      if (!(residual <= at_most && reference_->error_estimate <= at_most)) {
+        no_reference_ = fmt::format(
+            "no reference: by its own estimate its error is {:.1e}, its equilibrium residual "
+            "{:.1e}",
+            reference_->error_estimate, residual);
         reference_.reset();
-        no_reference_ = fmt::format("no reference: its equilibrium residual is {:.1e}", residual);
       }
     } catch (const Breakdown& breakdown) {
       no_reference_ = breakdown.what();

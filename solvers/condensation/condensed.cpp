@@ -1,7 +1,7 @@
 #include <sstream>
 
 #include "solvers/condensation/condensation_methods.hpp"
-#include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/active_set.hpp"
 
 namespace airybench {
 
@@ -19,6 +19,7 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   if (contact.size() == 0) return;
   const StageTimer timer(solution.times.contact_s);
   ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+  if (!result.converged) finish_by_active_set(condensed, contact, control, result);
   solution.F_C = std::move(result.F_C);
   solution.contact_iterations = result.sweeps;
   if (control.histories)
@@ -26,8 +27,9 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
         {"relative change of F_C per Gauss-Seidel sweep", std::move(result.history)});
   if (!result.converged) {
     std::ostringstream message;
-    message << "Gauss-Seidel: natural map residual " << result.natural_map_residual << " after "
-            << result.sweeps << " sweeps (tolerance " << control.contact_tolerance << ")";
+    message << "contact law: natural map residual " << result.natural_map_residual << " after "
+            << result.sweeps << " Gauss-Seidel sweeps and " << result.active_set_steps
+            << " active sets (tolerance " << control.contact_tolerance << ")";
     solution.status = Status::not_converged;
     solution.message = message.str();
   }

@@ -20,6 +20,10 @@
 //
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
+//
+// Templates over the scalar are instantiated for double, long double and Quad (quad.hpp): HYBRID
+// works in double, the reference refines in long double (refinement.hpp), tests check both against
+// Quad. The data are doubles in all of them: coordinates, compliances, ū0, forces on Γ_F.
 #pragma once
 
 #include <array>
@@ -32,22 +36,26 @@
 
 namespace airybench {
 
-struct HybridizedSystem {
+template <typename Scalar>
+struct HybridizedSystemIn {
   static constexpr int prescribed = -1;
   // Per edge: the numbers of its four unknowns, x and y at its low vertex, x and y at its high one;
   // on Γ_C normal and tangential at its start and end. Inner unknowns first, then the contact rows
   // in the order of ContactPoints (without friction the tangential ones are inner unknowns).
   std::vector<std::array<int, 4>> unknown;
   std::vector<Eigen::Vector4d> displacement;  // ū0 of displacement edges, else 0; empty: all zero
-  SparseColumns K;                            // lower triangle, N/mm
-  Eigen::VectorXd b;                          // N, without the contact forces
+  Eigen::SparseMatrix<Scalar> K;              // lower triangle, N/mm
+  Eigen::VectorX<Scalar> b;                   // N, without the contact forces
   int n_c = 0;                                // the last unknowns
   std::size_t bytes() const;                  // of K and b
 };
+using HybridizedSystem = HybridizedSystemIn<double>;
 
 // `contact` is that of the Airy system: it says which contact unknowns there are. Throws Breakdown
 // naming the triangle whose flexibility is not positive definite to rounding.
-HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints& contact);
+template <typename Scalar = double>
+HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
+                                               const ContactPoints& contact);
 
 // K's factor and y = L⁻¹ b.
 struct HybridizedFactor {
@@ -56,11 +64,15 @@ struct HybridizedFactor {
 };
 
 // D and G; empty without contact.
-CondensedSystem condense(const HybridizedSystem& system, HybridizedFactor& factor);
+CondensedSystem condense(HybridizedFactor& factor);
 
-// The stresses that belong to contact displacements ū_C (size n_c).
-StressField hybridized_stress(const Problem& problem, const HybridizedSystem& system,
-                              HybridizedFactor& factor,
-                              const Eigen::VectorXd& contact_displacement);
+// All unknowns u, from contact displacements ū_C (size n_c).
+Eigen::VectorXd hybridized_displacements(HybridizedFactor& factor,
+                                         const Eigen::VectorXd& contact_displacement);
+
+// The stresses that belong to u: computed in Scalar, rounded at the end.
+template <typename Scalar>
+StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
+                              const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u);
 
 }  // namespace airybench

@@ -25,7 +25,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   {
     const StageTimer timer(solution.times.condense_s);
     factor.y = factor.cholesky.forward(system.b);
-    condensed = condense(system, factor);
+    condensed = condense(factor);
   }
   solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
                            static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
@@ -33,7 +33,8 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   const StageTimer timer(solution.times.recover_s);
   Eigen::VectorXd displacement(airy.contact.size());
   if (airy.contact.size() > 0) displacement = condensed.D * solution.F_C - condensed.G;
-  solution.stress = hybridized_stress(problem, system, factor, displacement);
+  solution.stress =
+      hybridized_stress(problem, system, hybridized_displacements(factor, displacement));
   return solution;
 }
 

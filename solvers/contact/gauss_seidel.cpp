@@ -36,14 +36,17 @@ double sweep(const CondensedSystem& condensed, const Eigen::VectorXd& offset, do
 }  // namespace
 
 ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
-                                            const ContactPoints& contact,
-                                            const RunControl& control) {
+                                            const ContactPoints& contact, const RunControl& control,
+                                            const Eigen::VectorXd& start) {
   ContactResult result;
   Eigen::VectorXd offset = condensed.G;  // G + ḡ
   if (contact.gap.size() > 0)
     for (int p = 0; p < contact.count; ++p) offset(contact.components * p) += contact.gap(p);
   Eigen::VectorXd& F = result.F_C;
-  F.setZero(contact.size());
+  if (start.size() > 0)
+    F = start;
+  else
+    F.setZero(contact.size());
 
   const auto meets_the_law = [&](double norm) {
     const Eigen::VectorXd u = condensed.D * F - condensed.G;

@@ -16,14 +16,15 @@ struct ContactResult {
   Eigen::VectorXd F_C;  // N
   bool converged = false;  // ‖natural map‖ ≤ tolerance · ‖F_C‖, or acceptable at the last sweep
   int sweeps = 0;
+  int active_set_steps = 0;  // after the sweeps (active_set.hpp)
   double natural_map_residual = std::numeric_limits<double>::infinity();  // relative to ‖F_C‖
   std::vector<double> history;  // ‖change of a sweep‖/‖F_C‖; kept if the control says so
 };
 
-// Starts from F_C = 0. Not converged after control.contact_sweeps, or when a force is not finite.
-// Nothing is allocated inside a sweep, but for the history.
+// Starts from `start`; empty: F_C = 0. Not converged after control.contact_sweeps, or when a force
+// is not finite. Nothing is allocated inside a sweep, but for the history.
 ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
-                                            const ContactPoints& contact,
-                                            const RunControl& control);
+                                            const ContactPoints& contact, const RunControl& control,
+                                            const Eigen::VectorXd& start = {});
 
 }  // namespace airybench

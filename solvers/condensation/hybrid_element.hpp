@@ -1,0 +1,41 @@
+// One triangle of the hybridized system (hybridized.hpp), in double, long double or Quad.
+//
+//   S_e φ_e = T_eᵀ ū_e − p_e,   F_e = T_e φ_e + F_p   ⇒   F_e = K_e ū_e + f_e
+//   K_e = T_e S_e⁻¹ T_eᵀ,       f_e = F_p − T_e S_e⁻¹ p_e
+//
+// over the nine unknowns φ_e that are left when vertex 1's three are dropped. Edge components are
+// those of HybridizedSystemIn::unknown. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
+// semidefinite to rounding.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <vector>
+
+#include "assembly/problem.hpp"
+#include "assembly/stress_field.hpp"
+
+namespace airybench {
+
+template <typename Scalar>
+struct HybridElement {
+  HctStressIn<Scalar> stress;                           // of all twelve unknowns
+  Eigen::LLT<Eigen::Matrix<Scalar, 9, 9>> flexibility;  // S_e, factorised
+  Eigen::Matrix<Scalar, 9, 12> forces;                  // T_eᵀ
+  bool loaded = false;                                  // by a body force; else the rest is zero
+  ElementStressIn<Scalar> particular;                   // σ_p
+  Eigen::Matrix<Scalar, 9, 1> particular_load;          // p_e
+  Eigen::Matrix<Scalar, 12, 1> particular_forces;       // F_p
+
+  Eigen::Matrix<Scalar, 12, 12> stiffness() const;  // K_e
+  Eigen::Matrix<Scalar, 12, 1> load() const;        // f_e
+  ElementStressIn<Scalar> stress_at(
+      const Eigen::Matrix<Scalar, 12, 1>& displacement) const;  // the total stress that ū_e makes
+};
+
+// is_contact_edge: per edge. Throws Breakdown naming the triangle whose flexibility is not positive
+// definite to rounding.
+template <typename Scalar>
+HybridElement<Scalar> make_hybrid_element(const Problem& problem,
+                                          const std::vector<bool>& is_contact_edge, int triangle);
+
+}  // namespace airybench

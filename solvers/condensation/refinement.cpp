@@ -1,0 +1,30 @@
+#include "solvers/condensation/refinement.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace airybench {
+
+void refine(const HybridizedSystemIn<long double>& system, CholmodFactor& factor,
+            const Eigen::VectorXd& F_C, Refined& refined) {
+  constexpr int most_corrections = 30;
+  if (refined.u.size() == 0) refined.u.setZero(system.b.size());
+  LongVector load = system.b;
+  load.tail(system.n_c) += F_C.cast<long double>();
+  double before = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_corrections; ++step) {
+    const LongVector residual = load - system.K.selfadjointView<Eigen::Lower>() * refined.u;
+    const Eigen::VectorXd r = residual.cast<double>();
+    Eigen::VectorXd correction = r;
+    factor.solve_in_place(correction);
+    refined.last_correction = std::sqrt(std::max(0.0, r.dot(correction)));
+    if (!(refined.last_correction < before / 2)) break;
+    refined.u += correction.cast<long double>();
+    ++refined.corrections;
+    if (refined.last_correction == 0) break;
+    before = refined.last_correction;
+  }
+}
+
+}  // namespace airybench

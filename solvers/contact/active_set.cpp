@@ -1,0 +1,76 @@
+#include "solvers/contact/active_set.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+
+Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
+                                const Eigen::VectorXd& F, const Eigen::VectorXd& r) {
+  const int m = contact.components;
+  // F = Σ_k z_k (e_row + ratio_k e_{row+1}) over the closed components: a sticking point has two, a
+  // slipping one the normal one, which takes F_t = ratio F_n along. Row by row r = 0 is asked for.
+  std::vector<int> row;
+  std::vector<double> ratio;
+  const Eigen::VectorXd predicted = F - r.cwiseQuotient(D.diagonal());
+  Eigen::VectorXd next = Eigen::VectorXd::Zero(F.size());  // F with the statuses' forces in it
+  for (int p = 0; p < contact.count; ++p) {
+    const int n = m * p, t = n + 1;
+    if (!(predicted(n) < 0)) continue;
+    row.push_back(n);
+    ratio.push_back(0);
+    next(n) = F(n);
+    if (m == 1) continue;
+    const double bound = -contact.friction * predicted(n);
+    if (std::abs(predicted(t)) <= bound) {
+      row.push_back(t);
+      ratio.push_back(0);
+      next(t) = F(t);
+    } else {
+      ratio.back() = predicted(t) > 0 ? -contact.friction : contact.friction;
+      next(t) = ratio.back() * F(n);
+    }
+  }
+  const auto closed = static_cast<Eigen::Index>(row.size());
+  if (closed == 0) return next;
+  Eigen::MatrixXd matrix = D(row, row);
+  for (Eigen::Index k = 0; k < closed; ++k)
+    if (ratio[k] != 0) matrix.col(k) += ratio[k] * D(row, row[k] + 1);
+  const Eigen::VectorXd violation = r + D * (next - F);
+  const Eigen::VectorXd change = matrix.partialPivLu().solve(violation(row));
+  for (Eigen::Index k = 0; k < closed; ++k) {
+    next(row[k]) -= change(k);
+    if (ratio[k] != 0) next(row[k] + 1) -= ratio[k] * change(k);
+  }
+  return next;
+}
+
+void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints& contact,
+                          const RunControl& control, ContactResult& result) {
+  constexpr int most_steps = 100, patience = 15;  // steps without a smaller natural map
+  Eigen::VectorXd F = result.F_C;
+  int since_best = 0;
+  for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
+    const double norm = F.norm();
+    if (!std::isfinite(norm)) break;
+    Eigen::VectorXd r = condensed.D * F - condensed.G;
+    const double residual = natural_map(contact, condensed.D.diagonal(), F, r).norm();
+    const double relative = norm > 0 ? residual / norm : residual;
+    if (step == 0 || relative < result.natural_map_residual) {
+      result.F_C = F;
+      result.natural_map_residual = relative;
+      since_best = 0;
+    }
+    if (relative <= control.contact_tolerance) break;
+    for (int p = 0; p < contact.gap.size(); ++p) r(contact.components * p) -= contact.gap(p);
+    F = active_set_step(condensed.D, contact, F, r);
+    ++result.active_set_steps;
+    control.deadline.check("the active sets of the contact law");
+  }
+  result.converged = result.natural_map_residual <=
+                     std::max(control.contact_tolerance, control.contact_acceptable);
+}
+
+}  // namespace airybench

@@ -1,0 +1,30 @@
+// Active sets for the condensed contact problem: Newton's method on the natural map, which is
+// piecewise smooth (Alart & Curnier 1991, doi:10.1016/0045-7825(91)90022-X; Hüeber & Wohlmuth 2005,
+// doi:10.1016/j.cma.2004.08.006).
+//
+// F − ρ r says for every point which law it is taken to follow, with ρ_n = 1/D_nn, ρ_t = 1/D_tt:
+//
+//   (F − ρ r)_n ≥ 0           open    F_n = 0,  F_t = 0
+//   |(F − ρ r)_t| ≤ −μ (…)_n  stick   r_n = 0,  r_t = 0
+//   else, τ = ±1              slip    r_n = 0,  F_t = −τ μ F_n    τ the sign of (F − ρ r)_t
+//
+// With these held the law is a linear system for the change of F, whose right-hand side is r: as
+// accurate as r is. Where the statuses repeat themselves the step is the last one. There is no
+// proof that they do; what comes out counts by its natural map only. A step costs a dense LU of the
+// closed components.
+#pragma once
+
+#include "solvers/contact/gauss_seidel.hpp"
+
+namespace airybench {
+
+// The F after one step from F, where r = ū_C − ḡ belongs to F.
+Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
+                                const Eigen::VectorXd& F, const Eigen::VectorXd& r);
+
+// Goes on from a result that has not converged, and replaces it by a better one, if it finds one:
+// converged when the natural map meets control.contact_tolerance, or else contact_acceptable.
+void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints& contact,
+                          const RunControl& control, ContactResult& result);
+
+}  // namespace airybench
