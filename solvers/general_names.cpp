@@ -59,6 +59,12 @@ int lanes_of(const std::string& name, Parts& parts) {
   return lanes == "1" ? 1 : most_lanes;
 }
 
+Refine refine_of(const std::string& name, Parts& parts) {
+  const std::string refine = take(parts, "refine", "no");
+  if (refine != "yes" && refine != "no") refuse(name, "refine=" + refine + " (allowed: yes, no)");
+  return refine == "yes" ? Refine::yes : Refine::no;
+}
+
 double positive(const std::string& name, Parts& parts, const std::string& key) {
   const std::string text = take(parts, key, "");
   double value = 0;
@@ -93,9 +99,10 @@ Method three_step_cg(const std::string& name, Parts parts) {
   Method method = krylov_method("three-step condensation, conjugate gradients with " + parts.first);
   const auto make = preconditioner_of(name, parts);
   const int lanes = lanes_of(name, parts);
-  refuse_rest(name, parts, "lanes");
-  method.solve = [make, lanes](const DualSystem& s, const RunControl& c) {
-    return solve_three_step_cg(s, c, make, lanes);
+  const Refine refine = refine_of(name, parts);
+  refuse_rest(name, parts, "lanes, refine");
+  method.solve = [make, lanes, refine](const DualSystem& s, const RunControl& c) {
+    return solve_three_step_cg(s, c, make, lanes, refine);
   };
   return method;
 }
@@ -107,10 +114,11 @@ Method symmlq(const std::string& name, Parts parts) {
   if (schur != "dense" && schur != "sparse")
     refuse(name, "schur=" + schur + " (allowed: dense, sparse)");
   const int lanes = lanes_of(name, parts);
-  refuse_rest(name, parts, "schur, lanes");
+  const Refine refine = refine_of(name, parts);
+  refuse_rest(name, parts, "schur, lanes, refine");
   const SchurBlock block = schur == "dense" ? SchurBlock::dense : SchurBlock::sparse;
-  method.solve = [make, block, lanes](const DualSystem& s, const RunControl& c) {
-    return solve_symmlq_condensation(s, c, make, block, lanes);
+  method.solve = [make, block, lanes, refine](const DualSystem& s, const RunControl& c) {
+    return solve_symmlq_condensation(s, c, make, block, lanes, refine);
   };
   return method;
 }

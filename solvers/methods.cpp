@@ -53,9 +53,15 @@ Method with_knob(Method method, AccuracyKnob knob) {
   return method;
 }
 
-Solve three_step(KeepX::Where where) {
-  return [where](const DualSystem& system, const RunControl& control) {
-    return solve_three_step_skyline(system, control, where);
+Solve three_step(KeepX::Where where, Refine refine = Refine::no) {
+  return [where, refine](const DualSystem& system, const RunControl& control) {
+    return solve_three_step_skyline(system, control, where, refine);
+  };
+}
+
+Solve blind_schur(Refine refine) {
+  return [refine](const DualSystem& system, const RunControl& control) {
+    return solve_blind_mumps_schur(system, control, refine);
   };
 }
 
@@ -73,7 +79,11 @@ std::vector<Method> table() {
       direct("BLIND", "blind condensation, MUMPS indefinite LDLT", true, Blocks::airy,
              solve_blind_mumps),
       direct("BLIND:SCHUR", "blind condensation, D from MUMPS's Schur complement", false,
-             Blocks::airy, solve_blind_mumps_schur),
+             Blocks::airy, blind_schur(Refine::no)),
+      direct("BLIND:SCHUR:REFINED", "BLIND:SCHUR refined with residuals in long double", false,
+             Blocks::airy, blind_schur(Refine::yes)),
+      direct("3STEPD:REFINED", "3STEPD refined with residuals in long double", false, Blocks::airy,
+             three_step(KeepX::Where::memory, Refine::yes)),
       direct("BLIND:SKY", "blind condensation, skyline LDLT, multipliers after their unknowns",
              false, Blocks::airy, solve_blind_skyline),
       direct("3STEPD:FILE", "3STEPD with the intermediate matrices in a file", false, Blocks::airy,

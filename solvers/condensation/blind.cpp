@@ -131,11 +131,22 @@ Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSyste
   return b;
 }
 
-Eigen::VectorXd airy_unknowns(const DualSystem& system, const BlindSystem& blind,
-                              const Eigen::VectorXd& solution) {
-  Eigen::VectorXd x(system.n());
-  for (int i = 0; i < x.size(); ++i) x(i) = solution(blind.position[i]);
-  return x;
+SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
+                       const Eigen::VectorXd& solution) {
+  const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
+  SaddleVector v{Eigen::VectorXd(n), Eigen::VectorXd(n_f), Eigen::VectorXd(n_c)};
+  const int* position = blind.position.data();
+  for (Eigen::VectorXd* part : {&v.x, &v.lambda_F, &v.lambda_C})
+    for (double& value : *part) value = solution(*position++);
+  return v;
+}
+
+Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v) {
+  Eigen::VectorXd all(system.n() + system.n_f() + system.n_c());
+  const int* position = blind.position.data();
+  for (const Eigen::VectorXd* part : {&v.x, &v.lambda_F, &v.lambda_C})
+    for (const double value : *part) all(*position++) = value;
+  return all;
 }
 
 void check_inertia(int negative_pivots, int expected) {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/condensation/condensed.hpp"
 #include "solvers/solution.hpp"
 
@@ -46,11 +47,12 @@ CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& bl
 // From the Schur complement −W of λ' and the reduced load: D = W⁻¹. Throws the same.
 CondensedSystem condense_blindly(const Eigen::MatrixXd& schur, const Eigen::VectorXd& reduced_load);
 
-// The right-hand side that belongs to contact forces, and φ out of the solution.
+// The right-hand side that belongs to contact forces; vectors from and to φ, λ, λ'.
 Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,
                                       const Eigen::VectorXd& F_C);
-Eigen::VectorXd airy_unknowns(const DualSystem& system, const BlindSystem& blind,
-                              const Eigen::VectorXd& solution);
+SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
+                       const Eigen::VectorXd& solution);
+Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v);
 
 // Throws Breakdown when the factor of M₁₁ has another number of negative pivots than expected.
 void check_inertia(int negative_pivots, int expected);

@@ -6,10 +6,12 @@
 namespace airybench {
 namespace {
 
-void recover(const DualSystem& system, const BlindSystem& blind, const Eigen::VectorXd& x,
-             Solution& solution) {
-  solution.phi = airy_function(system, airy_unknowns(system, blind, x));
+SaddleVector recover(const DualSystem& system, const BlindSystem& blind, const Eigen::VectorXd& x,
+                     Solution& solution) {
+  SaddleVector answer = by_blocks(system, blind, x);
+  solution.phi = airy_function(system, answer.x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  return answer;
 }
 
 // Everything after the factorisation of M₁₁, by solves.
@@ -23,10 +25,19 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   }
   solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, system.contact, control, solution);
-  const StageTimer timer(solution.times.recover_s);
-  Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
-  solve(x);
-  recover(system, blind, x, solution);
+  SaddleVector answer;
+  {
+    const StageTimer timer(solution.times.recover_s);
+    Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
+    solve(x);
+    answer = recover(system, blind, x, solution);
+  }
+  const auto solve_saddle = [&](SaddleVector& v) {
+    Eigen::VectorXd x = in_one(system, blind, v);
+    solve(x);
+    v = by_blocks(system, blind, x);
+  };
+  check_airy_answer(system, condensed.D.diagonal(), solve_saddle, answer, control, solution);
 }
 
 // M₁₁ and its factor; the last `trailing` unknowns are left to the Schur complement.
@@ -62,7 +73,8 @@ Solution solve_blind_mumps(const DualSystem& system, const RunControl& control) 
   return solution;
 }
 
-Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control) {
+Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control,
+                                 Refine refine) {
   const int n_c = system.n_c();
   Solution solution;
   MumpsFactor factor;
@@ -75,13 +87,25 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   }
   solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, system.contact, control, solution);
-  const StageTimer timer(solution.times.recover_s);
-  Eigen::VectorXd x = load;
-  if (n_c > 0)
-    x = factor.expand(condensed.G - condensed.D * solution.F_C);
-  else
-    factor.solve_in_place(x, control.deadline);
-  recover(system, blind, x, solution);
+  SaddleVector answer;
+  {
+    const StageTimer timer(solution.times.recover_s);
+    Eigen::VectorXd x = load;
+    if (n_c > 0)
+      x = factor.expand(condensed.G - condensed.D * solution.F_C);
+    else
+      factor.solve_in_place(x, control.deadline);
+    answer = recover(system, blind, x, solution);
+  }
+  const auto solve_saddle = [&](SaddleVector& v) {
+    Eigen::VectorXd x = in_one(system, blind, v);
+    if (n_c > 0)
+      x = factor.expand(-condensed.D * factor.reduce(x));
+    else
+      factor.solve_in_place(x, control.deadline);
+    v = by_blocks(system, blind, x);
+  };
+  finish_airy_answer(refine, system, condensed.D, solve_saddle, answer, control, solution);
   return solution;
 }
 

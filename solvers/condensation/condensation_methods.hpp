@@ -12,20 +12,22 @@ namespace airybench {
 // 3STEPD, 3STEPD:FILE, 3STEPD:LEAN: three-step condensation with the skyline LDLᵀ factorisation;
 // right-hand sides in parallel.
 Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control,
-                                  KeepX::Where where);
+                                  KeepX::Where where, Refine refine = Refine::no);
 // 3STEPD:CHOLMOD: the same with CHOLMOD's supernodal Cholesky factorisation.
 Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& control);
 // 3STEPCG: the same with conjugate gradients, preconditioned.
 Solution solve_three_step_cg(const DualSystem& system, const RunControl& control,
-                             const MakePreconditioner& make, int lanes);
+                             const MakePreconditioner& make, int lanes, Refine refine);
 // SYMMLQ: condensation of the whole indefinite system, preconditioned by blocks.
 enum class SchurBlock { dense, sparse };
 Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
-                                   const MakePreconditioner& make, SchurBlock schur, int lanes);
+                                   const MakePreconditioner& make, SchurBlock schur, int lanes,
+                                   Refine refine);
 // BLIND: blind condensation, the whole system factorised by MUMPS, a solve per contact force.
 Solution solve_blind_mumps(const DualSystem& system, const RunControl& control);
 // BLIND:SCHUR: the same, D from the Schur complement that MUMPS leaves.
-Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control);
+Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& control,
+                                 Refine refine = Refine::no);
 // BLIND:SKY: blind condensation with the skyline LDLᵀ factorisation, multipliers numbered so that
 // it needs no pivoting.
 Solution solve_blind_skyline(const DualSystem& system, const RunControl& control);

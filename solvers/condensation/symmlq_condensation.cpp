@@ -136,7 +136,8 @@ Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditio
 }
 
 Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
-                                   const MakePreconditioner& make, SchurBlock schur, int lanes) {
+                                   const MakePreconditioner& make, SchurBlock schur, int lanes,
+                                   Refine refine) {
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   Solution solution;
   const Preconditioner preconditioner = [&] {
@@ -178,26 +179,40 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
     solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   }
   solve_condensed_contact(condensed, system.contact, control, solution);
-  {
-    const StageTimer timer(solution.times.recover_s);
-    Eigen::VectorXd unknowns;
-    const RightHandSides last = {1,
-                                 [&](int, LaneColumn b) {
-                                   load(b);
-                                   if (n_c > 0) b.tail(n_c) += solution.F_C;
-                                 },
-                                 [&](int, const LaneColumn& x) { unknowns = x.head(n); }};
+  const auto solve_one = [&](const std::function<void(LaneColumn)>& make_load) {
+    SaddleVector v;
+    const RightHandSides side = {1, [&](int, LaneColumn b) { make_load(b); },
+                                 [&](int, const LaneColumn& x) {
+                                   v = {x.head(n), x.segment(n, n_f), x.tail(n_c)};
+                                 }};
     KrylovOptions one = options;
     one.lanes = 1;
     try {
-      all.add(solve_by_symmlq(A, preconditioner, last, one, control.deadline));
+      all.add(solve_by_symmlq(A, preconditioner, side, one, control.deadline));
     } catch (TimeoutReached& timeout) {
       timeout.count_before(n_c > 0 ? n_c + 1 : 0);
       throw;
     }
-    solution.phi = airy_function(system, unknowns);
+    return v;
+  };
+  SaddleVector answer;
+  {
+    const StageTimer timer(solution.times.recover_s);
+    answer = solve_one([&](LaneColumn b) {
+      load(b);
+      if (n_c > 0) b.tail(n_c) += solution.F_C;
+    });
+    solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }
+  const auto solve_saddle = [&](SaddleVector& v) {
+    v = solve_one([&](LaneColumn b) {
+      b.head(n) = v.x;
+      b.segment(n, n_f) = v.lambda_F;
+      b.tail(n_c) = v.lambda_C;
+    });
+  };
+  finish_airy_answer(refine, system, condensed.D, solve_saddle, answer, control, solution);
   note_krylov("SYMMLQ", all, options, control, solution);
   return solution;
 }

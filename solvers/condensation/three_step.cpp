@@ -61,9 +61,9 @@ Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
 }  // namespace
 
 std::size_t ThreeStep::bytes() const {
-  return X.bytes() +
-         static_cast<std::size_t>(x.size() + K_FF_inverse_K_FC.size() + condensed.D.size()) *
-             sizeof(double);
+  return X.bytes() + static_cast<std::size_t>(x.size() + K_FF.matrixLLT().size() +
+                                              K_FF_inverse_K_FC.size() + condensed.D.size()) *
+                         sizeof(double);
 }
 
 ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
@@ -82,12 +82,12 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
   // Step 2.
   if (n_f > 0) {
     const auto K_FF = K.topLeftCorner(n_f, n_f);
-    const auto llt = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
-    if (n_c > 0) steps.K_FF_inverse_K_FC = llt.solve(K.topRightCorner(n_f, n_c));
+    steps.K_FF = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
+    if (n_c > 0) steps.K_FF_inverse_K_FC = steps.K_FF.solve(K.topRightCorner(n_f, n_c));
     if (system.q.size() > 0 || system.F.size() > 0) {
       steps.lambda_0 = times_or_zero(system.C_F, steps.x);
       if (system.F.size() > 0) steps.lambda_0 -= system.F;
-      steps.lambda_0 = llt.solve(steps.lambda_0);
+      steps.lambda_0 = steps.K_FF.solve(steps.lambda_0);
     }
   }
 
@@ -107,30 +107,57 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
   return steps;
 }
 
-Eigen::VectorXd recover_airy_unknowns(const ThreeStep& steps, const DualSystem& system,
-                                      const Eigen::VectorXd& F_C, const SolveInPlace& solve) {
-  const int n_f = system.n_f(), n_c = system.n_c();
-  Eigen::VectorXd multipliers = Eigen::VectorXd::Zero(n_f + n_c);  // λ, λ'
-  if (n_c > 0) multipliers.tail(n_c) = steps.condensed.G - steps.condensed.D * F_C;
-  if (n_f > 0) {
-    if (steps.lambda_0.size() > 0) multipliers.head(n_f) = steps.lambda_0;
-    if (n_c > 0) multipliers.head(n_f).noalias() -= steps.K_FF_inverse_K_FC * multipliers.tail(n_c);
-  }
+namespace {
+
+// x −= S⁻¹ Cᵀ λ, where x = S⁻¹ load.
+void subtract_multipliers(const ThreeStep& steps, const DualSystem& system,
+                          const SolveInPlace& solve, SaddleVector& v) {
+  const int n_f = system.n_f();
   if (steps.X.bytes() > 0) {
-    Eigen::VectorXd by_column(multipliers.size());
-    for (Eigen::Index k = 0; k < by_column.size(); ++k)
-      by_column(k) = multipliers(steps.row_of_column[static_cast<std::size_t>(k)]);
-    Eigen::VectorXd unknowns =
-        steps.x.size() > 0 ? steps.x : Eigen::VectorXd(Eigen::VectorXd::Zero(system.n()));
-    unknowns.noalias() -= steps.X.matrix() * by_column;
-    return unknowns;
+    Eigen::VectorXd by_column(n_f + system.n_c());
+    for (Eigen::Index k = 0; k < by_column.size(); ++k) {
+      const int row = steps.row_of_column[static_cast<std::size_t>(k)];
+      by_column(k) = row < n_f ? v.lambda_F(row) : v.lambda_C(row - n_f);
+    }
+    v.x.noalias() -= steps.X.matrix() * by_column;
+    return;
   }
-  Eigen::VectorXd load =
-      system.q.size() > 0 ? system.q : Eigen::VectorXd(Eigen::VectorXd::Zero(system.n()));
-  load.noalias() -= system.C_F.transpose() * multipliers.head(n_f);
-  load.noalias() -= system.C_C.transpose() * multipliers.tail(n_c);
-  solve(load);
-  return load;
+  Eigen::VectorXd forces = system.C_F.transpose() * v.lambda_F;
+  forces.noalias() += system.C_C.transpose() * v.lambda_C;
+  solve(forces);
+  v.x -= forces;
+}
+
+}  // namespace
+
+SaddleVector recover_airy_unknowns(const ThreeStep& steps, const DualSystem& system,
+                                   const Eigen::VectorXd& F_C, const SolveInPlace& solve) {
+  const int n_f = system.n_f(), n_c = system.n_c();
+  SaddleVector v{Eigen::VectorXd::Zero(system.n()), Eigen::VectorXd::Zero(n_f),
+                 Eigen::VectorXd::Zero(n_c)};
+  if (steps.x.size() > 0) v.x = steps.x;
+  if (steps.lambda_0.size() > 0) v.lambda_F = steps.lambda_0;
+  if (n_c > 0) v.lambda_C = steps.condensed.G - steps.condensed.D * F_C;
+  if (n_c > 0 && n_f > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
+  subtract_multipliers(steps, system, solve, v);
+  return v;
+}
+
+void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveInPlace& solve,
+                  SaddleVector& v) {
+  solve(v.x);
+  // K (λ, λ') = C S⁻¹ r − (r_F, r_C)
+  v.lambda_F = system.C_F * v.x - v.lambda_F;
+  v.lambda_C = system.C_C * v.x - v.lambda_C;
+  if (system.n_c() > 0) {
+    if (system.n_f() > 0) v.lambda_C.noalias() -= steps.K_FF_inverse_K_FC.transpose() * v.lambda_F;
+    v.lambda_C = (steps.condensed.D * v.lambda_C).eval();
+  }
+  if (system.n_f() > 0) {
+    v.lambda_F = steps.K_FF.solve(v.lambda_F);
+    if (system.n_c() > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
+  }
+  subtract_multipliers(steps, system, solve, v);
 }
 
 }  // namespace airybench

@@ -15,6 +15,7 @@
 #include <functional>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/condensation/column_store.hpp"
 #include "solvers/condensation/condensed.hpp"
 #include "solvers/solution.hpp"
@@ -36,6 +37,7 @@ struct ThreeStep {
   ColumnStore X;                      // n × (n_f + n_c), or empty if it is kept nowhere
   Eigen::VectorXd x;                  // S⁻¹ q; empty: zero
   Eigen::MatrixXd K_FF_inverse_K_FC;  // n_f × n_c
+  Eigen::LLT<Eigen::MatrixXd> K_FF;   // factorised
   Eigen::VectorXd lambda_0;           // K_FF⁻¹ (C_F x − F); empty: zero
 
   std::size_t bytes() const;
@@ -45,10 +47,15 @@ struct ThreeStep {
 ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
                                   const KeepX& keep = {});
 
-// The scaled Airy unknowns that belong to contact forces F_C (see DualSystem). `solve` is called
-// once if X was kept nowhere.
-Eigen::VectorXd recover_airy_unknowns(const ThreeStep& three_step, const DualSystem& system,
-                                      const Eigen::VectorXd& F_C, const SolveInPlace& solve);
+// The scaled Airy unknowns and multipliers that belong to contact forces F_C (see DualSystem).
+// `solve` is called once if X was kept nowhere.
+SaddleVector recover_airy_unknowns(const ThreeStep& three_step, const DualSystem& system,
+                                   const Eigen::VectorXd& F_C, const SolveInPlace& solve);
+
+// Solves [S Cᵀ; C 0] for any right-hand side, in place: the three steps again. `solve` is called
+// once, or twice if X was kept nowhere.
+void solve_saddle(const ThreeStep& three_step, const DualSystem& system, const SolveInPlace& solve,
+                  SaddleVector& v);
 
 // Row k of [C_F; C_C].
 SparseRows::InnerIterator constraint_row(const DualSystem& system, int k);

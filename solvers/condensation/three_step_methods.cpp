@@ -11,7 +11,7 @@ namespace {
 
 // Everything after the factorisation of S, or after its preconditioner.
 void condense_and_solve(const DualSystem& system, const RunControl& control, const KeepX& keep,
-                        const SolveInPlace& solve_S, Solution& solution) {
+                        Refine refine, const SolveInPlace& solve_S, Solution& solution) {
   ThreeStep steps;
   {
     const StageTimer timer(solution.times.condense_s);
@@ -19,15 +19,22 @@ void condense_and_solve(const DualSystem& system, const RunControl& control, con
   }
   solution.storage_bytes += steps.bytes();
   solve_condensed_contact(steps.condensed, system.contact, control, solution);
-  const StageTimer timer(solution.times.recover_s);
-  solution.phi = airy_function(system, recover_airy_unknowns(steps, system, solution.F_C, solve_S));
-  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  SaddleVector answer;
+  {
+    const StageTimer timer(solution.times.recover_s);
+    answer = recover_airy_unknowns(steps, system, solution.F_C, solve_S);
+    solution.phi = airy_function(system, answer.x);
+    solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  }
+  finish_airy_answer(
+      refine, system, steps.condensed.D,
+      [&](SaddleVector& v) { solve_saddle(steps, system, solve_S, v); }, answer, control, solution);
 }
 
 }  // namespace
 
 Solution solve_three_step_skyline(const DualSystem& system, const RunControl& control,
-                                  KeepX::Where where) {
+                                  KeepX::Where where, Refine refine) {
   Solution solution;
   SkylineProfile profile;
   {
@@ -41,7 +48,7 @@ Solution solve_three_step_skyline(const DualSystem& system, const RunControl& co
   }
   solution.storage_bytes = factor.bytes();
   condense_and_solve(
-      system, control, {where, skyline_columns_at_once * control.threads},
+      system, control, {where, skyline_columns_at_once * control.threads}, refine,
       [&](Eigen::Ref<Eigen::MatrixXd> X) {
         solve_in_place(factor, X, control.deadline, control.threads);
       },
@@ -62,13 +69,13 @@ Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& co
   }
   solution.storage_bytes = factor.bytes();
   condense_and_solve(
-      system, control, {},
+      system, control, {}, Refine::no,
       [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); }, solution);
   return solution;
 }
 
 Solution solve_three_step_cg(const DualSystem& system, const RunControl& control,
-                             const MakePreconditioner& make, int lanes) {
+                             const MakePreconditioner& make, int lanes, Refine refine) {
   Solution solution;
   const Preconditioner preconditioner = [&] {
     const StageTimer timer(solution.times.precondition_s);
@@ -87,7 +94,7 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
       throw;
     }
   };
-  condense_and_solve(system, control, {}, solve, solution);
+  condense_and_solve(system, control, {}, refine, solve, solution);
   note_krylov("conjugate gradients", all, options, control, solution);
   return solution;
 }

@@ -1,0 +1,62 @@
+// How wrong an answer in the Airy function is, as the method itself can tell; and how to mend it.
+//
+// With the contact forces held, everything else is linear (dual_system.hpp). Its residuals
+//
+//   r   = q − S x − C_Fᵀ λ − C_Cᵀ λ'    compatibility, mm
+//   r_F = F − C_F x                     forces on Γ_F, N
+//   r_C = F_C − F0 − C_C x              forces on Γ_C, N
+//
+// are formed element by element in long double, from the mesh and not from the blocks, so that the
+// blocks' own rounding is seen too. One more solve with the method's own factors or iterations,
+//
+//   ⎡ S  Cᵀ ⎤ ⎡ δx ⎤   ⎡ r        ⎤
+//   ⎣ C  0  ⎦ ⎣ δλ ⎦ = ⎣ r_F, r_C ⎦,
+//
+// is the error of a solve to its leading digits (Higham, Accuracy and Stability of Numerical
+// Algorithms, ch. 12). The estimate is the largest of
+//
+//   ‖δx‖_S / ‖x‖_S                      stress, in the energy norm
+//   ‖F − P(F − ρ r)‖ / ‖F‖              contact law, with the corrected displacements
+//   ‖(r_F, r_C)‖_∞ / ‖(F, F_C)‖_∞       equilibrium on the boundary
+//
+// Refinement applies the correction, takes a Newton step of the contact law (active_set.hpp) with
+// the corrected displacements, and repeats while the estimate falls.
+#pragma once
+
+#include <functional>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+// x and the multipliers; as a right-hand side r, r_F and r_C.
+struct SaddleVector {
+  Eigen::VectorXd x, lambda_F, lambda_C;
+};
+// Replaces a right-hand side by the solution of [S Cᵀ; C 0].
+using SaddleSolve = std::function<void(SaddleVector&)>;
+
+// What belongs to the solution's F_C: sets its error estimate, and says `inaccurate` where it is ok
+// so far and the estimate is above the target. D_diagonal: of D, or of its order of magnitude. Its
+// time is the stage `check`.
+void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
+                       const SaddleSolve& solve, const SaddleVector& answer,
+                       const RunControl& control, Solution& solution);
+
+// The same after refinement of F_C, φ and stresses.
+void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
+                        const SaddleSolve& solve, const SaddleVector& answer,
+                        const RunControl& control, Solution& solution);
+
+enum class Refine { no, yes };
+inline void finish_airy_answer(Refine refine, const DualSystem& system, const Eigen::MatrixXd& D,
+                               const SaddleSolve& solve, const SaddleVector& answer,
+                               const RunControl& control, Solution& solution) {
+  if (refine == Refine::yes)
+    refine_airy_answer(system, D, solve, answer, control, solution);
+  else
+    check_airy_answer(system, D.diagonal(), solve, answer, control, solution);
+}
+
+}  // namespace airybench

@@ -1,0 +1,161 @@
+#include "solvers/condensation/airy_residual.hpp"
+
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+namespace {
+
+using Long = long double;
+template <int rows>
+using LongColumn = Eigen::Matrix<Long, rows, 1>;
+
+// φ of some unknowns; the gauge is zero.
+template <std::size_t count>
+LongColumn<static_cast<int>(count)> gather(const DualSystem& system, const LongVector& x,
+                                           const std::array<int, count>& dofs) {
+  LongColumn<static_cast<int>(count)> phi;
+  for (std::size_t k = 0; k < count; ++k)
+    phi(static_cast<int>(k)) =
+        dofs[k] == DofNumbering::gauge ? 0 : Long(system.scale(dofs[k])) * x(dofs[k]);
+  return phi;
+}
+
+template <std::size_t count>
+void scatter(const DualSystem& system, const std::array<int, count>& dofs,
+             const LongColumn<static_cast<int>(count)>& values, LongVector& r) {
+  for (std::size_t k = 0; k < count; ++k)
+    if (dofs[k] != DofNumbering::gauge)
+      r(dofs[k]) += system.scale(dofs[k]) * values(static_cast<int>(k));
+}
+
+// Takes out the affine part, which carries no stress, so that less cancels.
+void subtract_affine(const TriangleVertices& v, const EdgeSigns& outward, LongColumn<12>& phi) {
+  const Eigen::Vector2<Long> slope =
+      (phi.segment<2>(1) + phi.segment<2>(4) + phi.segment<2>(7)) / 3;
+  const Long value = (phi(0) + phi(3) + phi(6)) / 3;
+  const Eigen::Matrix<Long, 2, 3> corners = v.cast<Long>();
+  const Eigen::Vector2<Long> centroid = corners.rowwise().mean();
+  for (int k = 0; k < 3; ++k) {
+    phi(3 * k) -= value + slope.dot(corners.col(k) - centroid);
+    phi.segment<2>(3 * k + 1) -= slope;
+    phi(9 + k) -= outward[k] * slope.dot(edge_frame<Long>(v.col(k), v.col((k + 1) % 3)).normal);
+  }
+}
+
+struct TriangleStress {
+  HctStressIn<Long> from_dofs;
+  ElementStressIn<Long> stress;  // with the particular stress
+  std::array<int, 12> dofs;
+};
+
+TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, int t) {
+  const Problem& problem = *system.problem;
+  const TriangleVertices v = problem.vertices_of(t);
+  const EdgeSigns outward = problem.edge_signs(t);
+  TriangleStress result;
+  result.dofs = system.dofs.of_triangle(problem, t);
+  LongColumn<12> phi = gather(system, x, result.dofs);
+  subtract_affine(v, outward, phi);
+  result.from_dofs = hct_stress<Long>(v, outward);
+  result.stress.reshaped() = result.from_dofs * phi;
+  if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);
+  return result;
+}
+
+// The rows of one boundary edge: forces at its ends as functionals of φ.
+struct EdgeRows {
+  EdgeForcesIn<Long> forces;
+  EdgeFrameIn<Long> frame;
+  std::array<int, 7> dofs;
+};
+
+EdgeRows edge_rows(const DualSystem& system, int row) {
+  const Problem& problem = *system.problem;
+  const auto [a, b] = problem.mesh.boundary[row].vertices;
+  const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
+  return {edge_forces<Long>(xa, xb, a < b ? 1 : -1), edge_frame<Long>(xa, xb),
+          system.dofs.of_edge_walk(a, b, problem.edges.of_boundary[row])};
+}
+
+// Adds what an edge's displacements ū, x and y at its two ends, do to r.
+void add_displacements(const DualSystem& system, const EdgeRows& edge, const LongColumn<4>& u,
+                       LongVector& r) {
+  scatter<7>(system, edge.dofs, edge.forces.transpose() * u, r);
+}
+
+void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
+  const Problem& problem = *system.problem;
+  const auto& u0 = problem.loads.displacement_mm;
+  if (!u0) return;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
+    const auto [va, vb] = problem.mesh.boundary[row].vertices;
+    const auto &a = problem.mesh.vertices[va], &b = problem.mesh.vertices[vb];
+    const auto [start, end] = edge_moments(u0(a), u0((a + b) / 2), u0(b));
+    LongColumn<4> u;
+    u << start.cast<Long>(), end.cast<Long>();
+    add_displacements(system, edge_rows(system, row), u, r);
+  }
+}
+
+// Γ_F and Γ_C in the order of the rows of C_F and C_C: their residuals, and their multipliers in r.
+void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answer,
+                         const Eigen::VectorXd& F_C, LongSaddleVector& residual) {
+  const auto& boundary = system.problem->mesh.boundary;
+  int row_F = 0, row_C = 0;
+  const auto visit = [&](int row, bool contact) {
+    const EdgeRows edge = edge_rows(system, row);
+    const LongColumn<4> forces = edge.forces * gather(system, answer.x, edge.dofs);
+    LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
+    for (int end = 0; end < 2; ++end)
+      for (int k = 0; k < 2; ++k) {
+        const Eigen::Vector2<Long> axis = contact
+                                              ? (k == 0 ? edge.frame.normal : edge.frame.tangent)
+                                              : Eigen::Vector2<Long>(k == 0, k == 1);
+        const Long force = axis.dot(forces.segment<2>(2 * end));
+        const bool condensed = contact && (k == 0 || system.contact.components == 2);
+        const Long lambda = condensed ? answer.lambda_C(row_C) : answer.lambda_F(row_F);
+        u.segment<2>(2 * end) -= lambda * axis;
+        if (condensed) {
+          const Long F0 = system.F0.size() > 0 ? system.F0(row_C) : 0;
+          residual.lambda_C(row_C) = F_C(row_C) - F0 - force;
+          ++row_C;
+        } else {
+          residual.lambda_F(row_F) = (system.F.size() > 0 ? system.F(row_F) : 0) - force;
+          ++row_F;
+        }
+      }
+    add_displacements(system, edge, u, residual.x);
+  };
+  for (const BoundaryRole role : {BoundaryRole::force, BoundaryRole::contact})
+    for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
+      if (boundary[row].role == role) visit(row, role == BoundaryRole::contact);
+}
+
+}  // namespace
+
+LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector& answer,
+                               const Eigen::VectorXd& F_C) {
+  const Problem& problem = *system.problem;
+  LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
+                            LongVector::Zero(system.n_c())};
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const TriangleStress at = triangle_stress(system, answer.x, t);
+    const ElementStressIn<Long> dual =
+        stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
+    const LongColumn<12> work = at.from_dofs.transpose() * dual.reshaped();
+    scatter<12>(system, at.dofs, -work, residual.x);
+  }
+  add_prescribed_displacements(system, residual.x);
+  add_boundary_forces(system, answer, F_C, residual);
+  return residual;
+}
+
+StressField airy_stress(const DualSystem& system, const LongVector& x) {
+  StressField field(system.problem->mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(field.size()); ++t)
+    field[t] = triangle_stress(system, x, t).stress.cast<double>();
+  return field;
+}
+
+}  // namespace airybench
