@@ -15,15 +15,12 @@ from functools import partial
 from pathlib import Path
 
 import matplotlib
-import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
 from fields import Fields, FieldsError, names_in, read_fields
-from figure_files import replace_all
+from figure_files import replace_all, write_small_png
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -60,16 +57,11 @@ def compose(rows: list[list[Fields]]) -> Figure:
 
 
 def write(figure: Figure, path: Path) -> None:
-    """A PNG in steps of 6/255 of colour, which halves it; an SVG with the triangles as images."""
+    """A small PNG, or an SVG with the triangles as images."""
     if path.suffix == ".svg":
         figure.savefig(path, dpi=120, metadata={"Date": None})
-        return
-    figure.set_dpi(DPI)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
-    rounded = 255 - (255 - pixels + 2) // 6 * 6
-    Image.fromarray(rounded.astype(np.uint8)).save(path, optimize=True, dpi=(DPI, DPI))
+    else:
+        write_small_png(figure, DPI, path)
 
 
 def save(figure: Figure, targets: list[Path]) -> None:

@@ -10,7 +10,8 @@ table1   sizes, ours beside the paper's
 
 Figures as .svg and .png, from the rows with stop=target, and again as figureN_paper_stop from
 those with stop=paper; table1 as .md. Of several scenes `default` is drawn. A line on stdout says
-of each what was written or why not, a last one which rows are in none. Exit 2: wrong input; one
+of each what was written or why not, a last one which rows are in none. Rows of studies are for
+study_figures.py. Exit 2: wrong input; one
 line says which, and nothing is written.
 """
 from __future__ import annotations
@@ -75,6 +76,10 @@ def listed(rows: list[Row], scene: str, drawn: list[Row]) -> str:
 
 
 def draw_all(rows: list[Row], out: Path) -> None:
+    rows = [row for row in rows if not row.study]
+    if not rows:
+        print("paper_figures.py: nothing to draw: all rows are of studies")
+        return
     scene = scene_of(rows)
     shown = [row for row in rows if row.scene == scene]
     scale = ErrorScale(shown)
