@@ -68,6 +68,12 @@ class Row:
             f"{text}, {percent:.1g}\u00a0% done"
 
 
+def scene_of(rows: list[Row]) -> str:
+    """The scene to draw where there is room for one."""
+    scenes = sorted({row.scene for row in rows})
+    return "default" if "default" in scenes else scenes[0]
+
+
 def text(cell: str) -> str:
     return cell
 
