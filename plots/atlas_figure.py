@@ -5,7 +5,9 @@ import math
 from collections import Counter
 from itertools import groupby
 
+import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
@@ -15,7 +17,7 @@ from results_table import OUTCOMES, Row
 
 # Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
 MARKS = {
-    "ok": ("", "#DCEBF7", "#123A5A"),
+    "ok": ("", "#EAF3FA", "#123A5A"),
     "inaccurate": ("i", "#F5D76E", "black"),
     "not_converged": ("n", "#E8A33D", "black"),
     "breakdown": ("b", "#B07A4A", "white"),
@@ -30,6 +32,7 @@ WORDS = {"ok": "ok, with the digits of its largest error",
 CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches
 LETTER = 0.078  # inches: of a name's letter, about
 SIZE = 7.5
+DEEPEST = "#A9CDE8"  # of an ok case with 15 digits; with 6 it has the fill above
 
 
 def digits(row: Row) -> str:
@@ -38,6 +41,13 @@ def digits(row: Row) -> str:
     if not errors:
         return "+"
     return str(min(max(math.floor(-math.log10(max(*errors, 1e-17))), 0), 16))
+
+
+def shade(number: str) -> str:
+    """Fill of an ok case by its digits."""
+    depth = (min(max(int(number), 6), 15) - 6) / 9 if number.isdigit() else 0
+    light, deep = (np.array(to_rgb(colour)) for colour in (MARKS["ok"][1], DEEPEST))
+    return to_hex(light + depth * (deep - light))
 
 
 def columns_of(rows: list[Row]) -> list[tuple[str, str]]:
@@ -57,7 +67,7 @@ def draw(rows: list[Row]) -> Figure | str:
     methods = sorted({row.method for row in rows}, key=parts.order)
     groups = [(name, len(list(g))) for name, g in groupby(columns, key=lambda c: c[0])]
     left = 0.25 + LETTER * max(map(len, methods))
-    above = 0.3 + 0.75 * LETTER * max(len(name) for name, _ in groups)
+    above = 0.3 + 0.62 * LETTER * max(len(name) for name, _ in groups)
     below = 0.15 + LETTER * max(len(scene) for _, scene in columns)
     width = max(left + CELL * len(columns) + max(RIGHT, above), 9)
     top = TITLE + above
@@ -83,14 +93,15 @@ def draw_cells(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
                methods: list[str]) -> None:
     for row in rows:
         letter, fill, ink = MARKS[row.outcome]
+        if row.outcome == "ok":
+            letter, fill = digits(row), shade(digits(row))
         x, y = columns.index((row.scene_group, row.scene)), methods.index(row.method)
         wrong = row.outcome == "wrong_success"
         axes.add_patch(Rectangle((x, y), 1, 1, facecolor=fill, zorder=2 + wrong, clip_on=False,
                                  edgecolor="black" if wrong else "white",
                                  linewidth=1.6 if wrong else 0.6))
-        axes.text(x + 0.5, y + 0.53, digits(row) if row.outcome == "ok" else letter, color=ink,
-                  ha="center", va="center", fontsize=SIZE, zorder=4,
-                  weight="normal" if row.outcome == "ok" else "bold")
+        axes.text(x + 0.5, y + 0.53, letter, color=ink, ha="center", va="center",
+                  fontsize=SIZE, zorder=4, weight="normal" if row.outcome == "ok" else "bold")
 
 
 def draw_names(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],

@@ -22,11 +22,14 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
             os.replace(Path(temporary) / name, folder / name)
 
 
-def write_small_png(figure: Figure, dpi: int, path: Path) -> None:
-    """In steps of 6/255 of colour, which halves a PNG with shades."""
+def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
+    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours."""
     figure.set_dpi(dpi)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
     rounded = 255 - (255 - pixels + 2) // 6 * 6
-    Image.fromarray(rounded.astype(np.uint8)).save(path, optimize=True, dpi=(dpi, dpi))
+    image = Image.fromarray(rounded.astype(np.uint8))
+    if colours:
+        image = image.quantize(colours, dither=Image.Dither.NONE)
+    image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))

@@ -4,7 +4,8 @@
     gallery.py RESULTS_DIR [--out DIR] [--each]
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
-with --each, fields_NAME.png for every solution. Exit 2: wrong input; one line says which, and
+with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
+element map of its discretisation error (NAME.error.csv). Exit 2: wrong input; one line says which, and
 nothing is written.
 """
 from __future__ import annotations
@@ -17,9 +18,11 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
+import error_map
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
-from fields import Fields, FieldsError, names_in, read_fields
+from fields import (Fields, FieldsError, error_names_in, names_in, read_error_share,
+                    read_fields)
 from figure_files import replace_all, write_small_png
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
@@ -100,12 +103,20 @@ def main() -> None:
         chosen = choose(names)
         wanted = names if args.each or not chosen else chosen
         solutions = {name: read_fields(args.results, name) for name in wanted}
+        mapped = {name: solutions.get(name) or read_fields(args.results, name)
+                  for name in error_names_in(args.results)}
+        maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
         if chosen:
             *teeth, rack = (solutions[name] for name in chosen)
             save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
         if args.each or not chosen:
             for name, s in solutions.items():
                 save(compose([[s]]), [out / f"fields_{name}.png"])
+        for name, (s, share) in maps.items():
+            path = out / f"error_map_{name}.png"
+            replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
+                                                 error_map.DPI, colours=64)})
+            print(path)
     except FieldsError as error:
         fail(error)
     except OSError as error:

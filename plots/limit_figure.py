@@ -8,13 +8,13 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from figure_parts import MATH, axes_at, log_axis, log_limits
-from figure_words import merged
+from figure_words import merged, plain
 from paper_sizes import SIZES, body_of
 from results_table import Row
 from size_figure import exponent, spread
 from work_precision_figure import value_of
 
-LEFT, TOP, PANEL, NAMES, HEIGHT, BOTTOM = 0.68, 0.85, 2.75, 1.62, 4.6, 0.5
+LEFT, TOP, PANEL, NAMES, HEIGHT, BOTTOM = 0.72, 1.3, 2.8, 1.5, 4.6, 0.5
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
           "error_force": "relative error of the contact forces, 1"}
 WIDTH = len(PANELS) * (LEFT + PANEL + NAMES)
@@ -64,14 +64,15 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
     known = {method: line for method, line in known.items() if line}
     rows = [row for line in known.values() for row in line]
     floor = parts.error_floor(row.error_force for row in rows) if column == "error_force" else 0
+
     def shown(row: Row) -> float:
         return max(value_of(row, column), floor)
+
     sizes = [row.n_phi for line in lines.values() for row in line]
-    axes.set(xscale="log", yscale="log", ylim=log_limits([shown(row) for row in rows]),
+    axes.set(xscale="log", yscale="log", ylim=log_limits([shown(row) for row in rows]), ylabel=PANELS[column],
              xlim=(min(sizes) / 1.3, max(1e6, 1.3 * max(sizes))))
     log_axis(axes.xaxis)
     log_axis(axes.yaxis)
-    axes.set_title(PANELS[column], loc="left", pad=45 if column == "time_s" else 45)
     axes.set_xlabel(r"degrees of freedom $n_\varphi$, 1")
     axes.grid(which="major")
     axes.spines[["right"]].set_visible(False)
@@ -89,12 +90,15 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
 
 
 def mark_meshes(axes: Axes, sizes: dict[str, int]) -> None:
-    """Names on the upper edge."""
-    top = axes.secondary_xaxis("top")
-    top.set_ticks(list(sizes.values()), list(sizes), rotation=45, ha="left",
-                  rotation_mode="anchor", minor=False, fontsize=7)
-    top.minorticks_off()
-    top.tick_params(length=2.5, pad=1)
+    """Names on the upper edge, apart."""
+    names = sorted(sizes, key=sizes.get)
+    at = [axes.transAxes.inverted().transform(axes.transData.transform((sizes[name], 1)))[0]
+          for name in names]
+    for name, x, place in zip(names, at, spread(at, LABEL_PT / (72 * PANEL), 0, 1.05)):
+        axes.plot([x, x, place], [1, 1.01, 1.03], transform=axes.transAxes, clip_on=False,
+                  color="0.3", linewidth=0.6)
+        axes.text(place, 1.035, plain(name), transform=axes.transAxes, rotation=55, ha="left",
+                  va="bottom", rotation_mode="anchor", fontsize=7)
 
 
 def draw_names(axes: Axes, ends: dict[str, tuple[float, float]],

@@ -156,8 +156,7 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
                       xycoords=axes.get_yaxis_transform(), textcoords="offset points",
                       fontsize=7.5, color="0.35", zorder=9,
                       bbox=dict(facecolor="white", edgecolor="none", alpha=0.75, pad=0.3))
-        right = axes.get_xlim()[1]
-        labels.avoid([right / 10 ** 0.02, right / 10 ** 0.25], [floor * 1.02] * 2)
+        labels.reserve(f"{mesh}: {parts.percent(floor)}", axes.get_xlim()[1], floor, 7.5)
 
 
 def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:

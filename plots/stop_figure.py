@@ -58,9 +58,9 @@ def draw(rows: list[Row]) -> Figure | str:
     stops = [stop for curve in curves.values() for stop in curve]
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
     figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"Scene {rows[0].scene}. ALM with given r and ρ, ended by the paper's stop (forces change "
-        "by less than 1e-3 N in an iteration). Left: the error of its contact forces, which the "
-        f"stop does not see; dashed: the target error {short(target)} of all other figures. "
+        f"Scene {rows[0].scene}. ALM with given r and ρ, ended by the paper's stop: no force is out "
+        "of balance by more than 1e-3 N. Left: the error of its contact forces then, which the "
+        f"stop does not see; dashed: the target error {short(target)} of the other figures. "
         "Right: the iterations it took."])
     figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
                 s=f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
@@ -83,7 +83,7 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                included: list[float]) -> None:
     stops = [stop for curve in curves.values() for stop in curve if getattr(stop.row, column)]
     values = [getattr(stop.row, column) for stop in stops]
-    axes.set(xscale="log", yscale="log", xlabel="penalty r, N/mm",
+    axes.set(xscale="log", yscale="log", xlabel="penalty r, relative to the stiffness, 1",
              xlim=log_limits([stop.r for stop in stops], 1.5),
              ylim=log_limits([*values, *included], 1.8))
     log_axis(axes.xaxis)
