@@ -115,7 +115,7 @@ def main() -> None:
         for name, (s, share) in maps.items():
             path = out / f"error_map_{name}.png"
             replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
-                                                 error_map.DPI, colours=64)})
+                                                 error_map.DPI, colours=200)})
             print(path)
     except FieldsError as error:
         fail(error)

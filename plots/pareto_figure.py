@@ -121,7 +121,7 @@ def draw_panel(axes: Axes, rows: list[Row], column: str) -> None:
     draw_floors(axes, rows, labels)
     stress = [row for row in rows if row.method != parts.DISPLACEMENTS]
     for mesh in dict.fromkeys(row.mesh for row in stress):
-        for method, curve in curves_of([row for row in stress if row.mesh == mesh]).items():
+        for (method, _), curve in curves_of([row for row in stress if row.mesh == mesh]).items():
             colour, marker = parts.style(method)
             axes.plot([value_of(row, column) for row in curve], [row.error_total for row in curve],
                       color=colour, marker=marker, markersize=3, linewidth=0.7, alpha=0.3,

@@ -20,21 +20,13 @@ def is_paper_stop(row: Row) -> bool:
     return row.stop == "paper" and parts.family(row.method) == "ALM"
 
 
-def stops_shown(rows: list[Row]) -> list[Row]:
-    """ALM with the paper's stop: as the grid chose r and rho; else what was given, the worst
-    first."""
-    stops = [row for row in rows if is_paper_stop(row) and row.error_force and row.time_s]
-    own = [row for row in stops if row.method == "ALM"]
-    return own or sorted(stops, key=lambda row: -row.error_force)
-
-
-def curves_of(rows: list[Row]) -> dict[str, list[Row]]:
-    """Method -> its points in the order of the knob, by family."""
-    curves: dict[str, list[Row]] = {}
+def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
+    """Method and knob -> points in the order of the knob, by family; without the paper's stop."""
+    curves: dict[tuple[str, str], list[Row]] = {}
     for row in sorted(rows, key=lambda row: (parts.order(row.method), row.knob,
                                              row.knob_value or 0)):
         if not is_paper_stop(row) and row.method != parts.DISPLACEMENTS:
-            curves.setdefault(row.method, []).append(row)
+            curves.setdefault((row.method, row.knob), []).append(row)
     return curves
 
 
@@ -44,26 +36,26 @@ def draw(rows: list[Row]) -> Figure | str:
              and row.method != parts.DISPLACEMENTS]
     if not known:
         return "no row has time_s and error_force"
-    curves, stops = curves_of(known), stops_shown(known)
+    curves = curves_of(known)
+    stops = [row for row in known if is_paper_stop(row)]
     heap = any(row.peak_heap_bytes for row in known)
+    floor = parts.error_floor(row.error_force for row in known)
     absent = [f"{row.method} ({row.status_words()})" for row in rows
               if row not in known and row.method != parts.DISPLACEMENTS]
     target = next((row.target_error for row in known if row.target_error), 1e-6)
     knobs = sorted({row.knob for row in known if row.knob})
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
-        f"{parts.threads(known)}. Error of the contact forces against the "
-        "reference, a point per solve. Joined: one iterative method with its knob turned"
-        + (f" ({', '.join(knobs)})" if knobs else "") + "; single points: direct methods. "
-        f"Dashed line: the target error {short(target)}."
-        + (" Pink ring: the method said it had succeeded, but an error is above the target."
-           if any(row.outcome == "wrong_success" for row in known) else "")
-        + (f" Errors of 0 and below {short(1e-18)} are drawn at the lower edge."
-           if any(row.error_force < 1e-18 for row in known) else ""),
-        f"No point: {'; '.join(dict.fromkeys(absent))}." if absent else ""])
+    words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
+             f"{parts.threads(known)}. Error of the contact forces against the reference, a point "
+             f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
+             f"single points: methods run to their end. Dashed: the target error {short(target)}.")
+    if stops:
+        words += " Stars: ALM ended by the paper's stop, small ones with given r and ρ."
+    if any(row.error_force < floor for row in known):
+        words += " Errors of 0 are drawn at the lower edge."
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+                         [words, f"No point: {'; '.join(dict.fromkeys(absent))}." if absent else ""])
     figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
                 s=f"{known[0].mesh}: what each digit costs", fontsize=11, weight="bold")
-    floor = parts.error_floor(row.error_force for row in known)
     left = LEFT
     for column, width in zip(AXES if heap else ["time_s"], PANELS):
         axes = axes_at(figure, left, TOP, width if heap else sum(PANELS), HEIGHT)
@@ -77,10 +69,10 @@ def value_of(row: Row, column: str) -> float | None:
     return value / 2**20 if value and column == "peak_heap_bytes" else value
 
 
-def draw_panel(axes: Axes, column: str, curves: dict[str, list[Row]], stops: list[Row],
+def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]], stops: list[Row],
                floor: float, target: float) -> None:
-    shown = {method: [row for row in curve if value_of(row, column)]
-             for method, curve in curves.items()}
+    shown = {key: known for key, curve in curves.items()
+             if (known := [row for row in curve if value_of(row, column)])}
     rows = [row for curve in [*shown.values(), stops] for row in curve if value_of(row, column)]
     highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
     axes.set(xscale="log", yscale="log", xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
@@ -97,20 +89,16 @@ def draw_panel(axes: Axes, column: str, curves: dict[str, list[Row]], stops: lis
         axes.set_ylabel("relative error of the contact forces, 1")
     else:
         axes.tick_params(labelleft=False)
-    ends = {}
-    for method, curve in shown.items():
-        if not curve:
-            continue
+    ends: dict[str, list[tuple[float, float]]] = {}
+    for (method, knob), curve in shown.items():
         colour, marker = parts.style(method)
         x = [value_of(row, column) for row in curve]
         y = [min(max(row.error_force, floor), HIGHEST) for row in curve]
-        axes.plot(x, y, color=colour, marker=marker, markersize=SIZE if len(curve) > 1 else 7,
-                  linewidth=1.1, linestyle=parts.dashes(method), markeredgecolor="white", markeredgewidth=0.4, zorder=4)
-        wrong = [k for k, row in enumerate(curve) if row.outcome == "wrong_success"]
-        axes.plot([x[k] for k in wrong], [y[k] for k in wrong], "o", markersize=11,
-                  markerfacecolor="none", markeredgecolor=parts.ALARM, markeredgewidth=1.4)
+        axes.plot(x, y, color=colour, marker=marker, markersize=SIZE if knob else 7,
+                  linewidth=1.1, linestyle=parts.dashes(method), markeredgecolor="white",
+                  markeredgewidth=0.4, zorder=4 if knob else 5)
         labels.avoid(x, y)
-        ends[method] = sorted(zip(y, x))
+        ends.setdefault(method, sorted(zip(y, x)))  # without knob first
     draw_stops(axes, labels, stops, column)
     for method, points in ends.items():
         y, x = zip(*points)
@@ -118,18 +106,21 @@ def draw_panel(axes: Axes, column: str, curves: dict[str, list[Row]], stops: lis
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
-    """Big marks, the first with the words of what the stop costs."""
+    """A big mark where the grid chose r and rho, with the words of what the stop costs; small
+    ones where they were given."""
     stops = [row for row in stops if value_of(row, column)]
     for row in stops:
         at = value_of(row, column), min(row.error_force, HIGHEST)
-        axes.plot(*at, markerfacecolor=parts.style("ALM")[0], **parts.STOP)
-        for dx in (-6, 0, 6):
-            labels.obstacles.append(labels.points(*at) + [dx, 0])
-    if stops and column == "time_s":
-        errors = [row.error_force for row in stops]
-        words = f"error {parts.percent(max(errors))}" if len(stops) == 1 else \
-            f"error {parts.percent(min(errors))} to {parts.percent(max(errors))}"
-        labels.add(f"ALM with the paper's stop:\n{words}", value_of(stops[0], column),
-                   min(errors[0], HIGHEST), weight="bold", fontsize=9,
+        size = parts.STOP["markersize"] * (1 if row.method == "ALM" else 0.6)
+        axes.plot(*at, markerfacecolor=parts.style("ALM")[0], **parts.STOP | {"markersize": size})
+        labels.obstacles.append(labels.points(*at) + [[-4, 0], [0, 0], [4, 0]])
+    shown = [row for row in stops if row.method == "ALM"] or stops
+    if shown and column == "time_s":
+        errors = [row.error_force for row in shown]
+        words = parts.percent(max(errors))
+        if len(shown) > 1:
+            words = f"{parts.percent(min(errors))} to {words}"
+        labels.add(f"ALM with the paper's stop:\nerror {words}",
+                   [value_of(row, column) for row in shown],
+                   [min(error, HIGHEST) for error in errors], weight="bold", fontsize=9,
                    color=parts.style("ALM")[0])
-
