@@ -71,8 +71,8 @@ class Labels:
             self.axes.plot(*ends.T, color=text.get("color", "0.4"), linewidth=0.4, alpha=0.7,
                            zorder=3)
             self.avoid(*ends.T)
-        self.axes.text(*inverse(centre * scale), words if formula else plain(words), ha="center", va="center",
-                       fontsize=size, zorder=8, path_effects=[HALO], **text)
+        self.axes.text(*inverse(centre * scale), words if formula else plain(words), ha="center",
+                       va="center", fontsize=size, zorder=8, path_effects=[HALO], **text)
 
     def best(self, anchors: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Anchor and centre of the box that hides least and is nearest."""

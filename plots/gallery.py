@@ -1,12 +1,12 @@
 #!/usr/bin/python3
-"""Draws the stress field and the contact points of solutions from `bench --fields`.
+"""Draws the stress field, the contact points and the error of solutions from `bench --fields`.
 
     gallery.py RESULTS_DIR [--out DIR] [--each]
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
-element map of its discretisation error (NAME.error.csv). Exit 2: wrong input; one line says which, and
-nothing is written.
+element map of its discretisation error (NAME.error.csv). Exit 2: wrong input; one line says
+which, and nothing is written.
 """
 from __future__ import annotations
 

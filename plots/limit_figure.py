@@ -69,7 +69,8 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
         return max(value_of(row, column), floor)
 
     sizes = [row.n_phi for line in lines.values() for row in line]
-    axes.set(xscale="log", yscale="log", ylim=log_limits([shown(row) for row in rows]), ylabel=PANELS[column],
+    axes.set(xscale="log", yscale="log", ylabel=PANELS[column],
+             ylim=log_limits([shown(row) for row in rows]),
              xlim=(min(sizes) / 1.3, max(1e6, 1.3 * max(sizes))))
     log_axis(axes.xaxis)
     log_axis(axes.yaxis)

@@ -87,7 +87,7 @@ def name(cell: str) -> str:
 def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
     def parse(cell: str) -> str:
         if cell not in words:
-            raise ValueError("one of " + ", ".join(words))
+            raise ValueError("one of " + ", ".join(word or "(empty)" for word in words))
         return cell
     return parse
 
@@ -183,8 +183,8 @@ def read_row(place: str, line: int, header: list[str], cells: list[str]) -> Row:
             raise ResultsError(f"{place.rpartition(':')[0]}:1: no column {column}; the "
                                f"{row.study} study of line {line} needs it")
         if column in NEVER_EMPTY and not values[column]:
-            raise ResultsError(f"{place}: {column} is '', expected a value in a "
-                               f"{row.study} study")
+            raise ResultsError(f"{place}: {column} is '', expected a value in the "
+                               f"study '{row.study}'")
     for column in ("time_s", "n_phi", "repetitions"):
         if row.completed and not values[column]:
             raise ResultsError(f"{place}: {column} is '{cells[header.index(column)]}', expected a "

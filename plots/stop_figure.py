@@ -58,8 +58,8 @@ def draw(rows: list[Row]) -> Figure | str:
     stops = [stop for curve in curves.values() for stop in curve]
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
     figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"Scene {rows[0].scene}. ALM with given r and ρ, ended by the paper's stop: no force is out "
-        "of balance by more than 1e-3 N. Left: the error of its contact forces then, which the "
+        f"Scene {rows[0].scene}. ALM with given r and ρ, ended by the paper's stop: no force is "
+        "out of balance by more than 1e-3 N. Left: the error of its contact forces then, which the "
         f"stop does not see; dashed: the target error {short(target)} of the other figures. "
         "Right: the iterations it took."])
     figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",

@@ -52,8 +52,8 @@ def draw(rows: list[Row]) -> Figure | str:
         words += " Stars: ALM ended by the paper's stop, small ones with given r and ρ."
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
-                         [words, f"No point: {'; '.join(dict.fromkeys(absent))}." if absent else ""])
+    notes = [f"No point: {'; '.join(dict.fromkeys(absent))}."] if absent else []
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [words, *notes])
     figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
                 s=f"{known[0].mesh}: what each digit costs", fontsize=11, weight="bold")
     left = LEFT
@@ -101,6 +101,8 @@ def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]]
         ends.setdefault(method, sorted(zip(y, x)))  # without knob first
     draw_stops(axes, labels, stops, column)
     for method, points in ends.items():
+        if not first and method.startswith("ALM:") and "ALM" in ends:
+            continue  # its memory is that of ALM
         y, x = zip(*points)
         labels.add(method, x, y, color=parts.style(method)[0] if len(points) > 1 else "0.1")
 
