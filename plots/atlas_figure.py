@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from itertools import groupby
 
@@ -32,6 +33,7 @@ WORDS = {"ok": "ok, with the digits of its largest error",
 CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches
 LETTER = 0.078  # inches: of a name's letter, about
 SIZE = 7.5
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 DEEPEST = "#A9CDE8"  # of an ok case with 15 digits; with 6 it has the fill above
 
 
@@ -51,12 +53,11 @@ def shade(number: str) -> str:
 
 
 def columns_of(rows: list[Row]) -> list[tuple[str, str]]:
-    """Group and scene, in the order of their names; numbers in them by size."""
-    def key(words: str) -> list[tuple[int, float, str]]:
-        return [(0, float(piece), "") if digit else (1, 0, piece) for digit, piece in
-                ((k, "".join(g)) for k, g in groupby(words, str.isdigit))]
-    return sorted({(row.scene_group, row.scene) for row in rows},
-                  key=lambda column: (column[0], key(column[1])))
+    """Group and scene, in the order of their names; numbers in a scene's name by size."""
+    def key(column: tuple[str, str]) -> tuple[str, list[str], list[float]]:
+        group, scene = column
+        return group, NUMBER.split(scene), [float(number) for number in NUMBER.findall(scene)]
+    return sorted({(row.scene_group, row.scene) for row in rows}, key=key)
 
 
 def draw(rows: list[Row]) -> Figure | str:

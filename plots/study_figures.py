@@ -64,7 +64,7 @@ def drawings_of(rows: list[Row]) -> list[Drawing]:
                      for mesh, own in by_mesh(error).items()]
         drawings += [("stop_and_error", stop_figure.draw, error),
                      ("pareto", pareto_figure.draw, error),
-                     ("convergence", convergence_figure.draw, error)]
+                     ("convergence", convergence_figure.draw, studies["error"])]
     drawings += [(file_name("stability", mesh), atlas_figure.draw, own)
                  for mesh, own in by_mesh(studies["stability"]).items()]
     sizes = [row for row in studies[""] if row.stop == "target"]

@@ -229,6 +229,14 @@ class ConvergenceTest(StudiesTest):
         self.assertIn("one tooth: $h^{0.90}$", words)
         self.assertIn("bounds of the energy, rack", words)
 
+    def test_bounds_of_another_scene(self) -> None:
+        rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
+        smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
+        rows += [row | dict(scene="frictionless") for row in smooth]
+        words = words_of(convergence_figure.draw(self.read(rows)))
+        self.assertIn("Right: scene frictionless", words)
+        self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
+
     def test_without_bounds(self) -> None:
         rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
         words = words_of(convergence_figure.draw(self.read(rows)))
@@ -262,10 +270,11 @@ class AtlasTest(StudiesTest):
 
     def test_columns_go_by_group_then_by_number(self) -> None:
         row = made_up.stability_study()[0]
-        names = (("b", "nu-10"), ("b", "nu-9"), ("a", "z"))
+        names = [("b", f"friction_{mu}") for mu in ("10", "1e-8", "1", "10_sheared", "0")]
+        names.append(("a", "z"))
         rows = self.read([row | dict(scene_group=g, scene=s) for g, s in names])
         self.assertEqual(atlas_figure.columns_of(rows),
-                         [("a", "z"), ("b", "nu-9"), ("b", "nu-10")])
+                         [names[5], names[4], names[1], names[2], names[0], names[3]])
 
     def test_names_do_not_leave_the_sheet(self) -> None:
         figure = atlas_figure.draw(self.read(made_up.stability_study()))
