@@ -135,18 +135,17 @@ def error_names_in(results: Path) -> list[str]:
 
 
 def read_error_share(results: Path, s: Fields) -> np.ndarray:
-    """(T,) share of each triangle in the squared discretisation error; throws FieldsError.
-
-    Some may be below 0: a contact term, where a displacement is not quite admissible.
-    """
+    """(T,) share of each triangle in the squared discretisation error, all 0 where there is none;
+    throws FieldsError."""
     path = results / "fields" / f"{s.name}.error.csv"
     rows, _ = read_table(path, ERROR)
     if not np.array_equal(rows[:, 0], np.arange(len(s.corners)) + 1):
         raise FieldsError(f"{path}: {len(rows)} rows; expected one for each of the "
                           f"{len(s.corners)} triangles of {s.name}.stress.csv, from 1")
-    if rows[:, 1].sum() <= 0:
-        raise FieldsError(f"{path}: the sum of error_share is {rows[:, 1].sum():g}, expected "
-                          "shares whose sum is above 0")
+    wrong = np.flatnonzero((rows[:, 1] < 0) | (rows[:, 1] > 1))
+    if wrong.size:
+        raise FieldsError(f"{path}:{wrong[0] + 2}: error_share is '{rows[wrong[0], 1]:g}', "
+                          "expected a number from 0 to 1")
     return rows[:, 1]
 
 

@@ -113,6 +113,9 @@ def main() -> None:
             for name, s in solutions.items():
                 save(compose([[s]]), [out / f"fields_{name}.png"])
         for name, (s, share) in maps.items():
+            if not share.any():
+                print(f"error_map_{name}: left out: the solution has no discretisation error")
+                continue
             path = out / f"error_map_{name}.png"
             replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
                                                  error_map.DPI, colours=200)})

@@ -127,10 +127,17 @@ class GalleryTest(unittest.TestCase):
         picture = self.results / "figures" / f"error_map_{NAMES[1]}.png"
         self.assert_png(picture, 686, most_bytes=300_000)
 
+    def test_no_error_no_map(self) -> None:
+        write_solution(self.fields, NAMES[1])
+        write_shares(self.fields, NAMES[1], [0, 0])
+        done = self.run_gallery(self.results)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", done.stdout)
+
     def test_element_map_that_cannot_be(self) -> None:
         write_solution(self.fields, NAMES[1])
         for shares, words in (([1], ": 1 rows; expected one for each of the 2 triangles"),
-                              ([0.1, -0.1], ": the sum of error_share is 0, expected shares"),
+                              ([0.1, -0.1], ":3: error_share is '-0.1', expected a number from"),
                               ([0.5, "much"], ":3: error_share is 'much', expected a finite")):
             path = write_shares(self.fields, NAMES[1], shares)
             self.assert_refused(f"{path}{words}")
