@@ -98,7 +98,7 @@ class StudyFiguresTest(StudiesTest):
             self.figures.mkdir()
             (self.figures / "pareto.png").touch()
             out = self.run_script()[1]
-        self.assertIn("pareto: left out: no row has time_s and an error_total below 2; an earlier "
+        self.assertIn("pareto: left out: no row has time_s and an error_total up to 1; an earlier "
                       "pareto.png stays", out)
         self.assertIn("convergence: left out: fewer than two meshes", out)
         self.assertIn("stop_and_error: left out: no two rows ALM:r=..,rho=..", out)
