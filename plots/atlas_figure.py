@@ -76,7 +76,8 @@ def draw(rows: list[Row]) -> Figure | str:
     figure = parts.sheet(width, body, [
         "A row is a method, a column an extreme scene; scenes by group. ok: all errors and "
         "residuals at most the target; its number n says that the errors of stresses and contact "
-        "forces are at most 1e-n; +: no such error is known. Empty: not in the study. Right: how many of its cases are ok."])
+        "forces are at most 1e-n; +: no such error is known. Empty: not in the study. "
+        "Right: how many of its cases are ok."])
     height = figure.get_size_inches()[1]
     axes = figure.add_axes([left / width, (height - top - ROW * len(methods)) / height,
                             CELL * len(columns) / width, ROW * len(methods) / height],
