@@ -15,6 +15,7 @@ import numpy as np
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
 BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,role"
+ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
 
@@ -125,6 +126,27 @@ def read_n_phi(results: Path, name: str) -> int | None:
     except (OSError, UnicodeDecodeError, csv.Error, KeyError, ValueError, TypeError) as error:
         raise FieldsError(f"{results}: {error!r}; expected columns mesh, scene, method, n_phi")
     return None
+
+
+def error_names_in(results: Path) -> list[str]:
+    """Names of the solutions with an element map of the error, sorted."""
+    return sorted(path.name[: -len(".error.csv")]
+                  for path in (results / "fields").glob("*.error.csv"))
+
+
+def read_error_share(results: Path, s: Fields) -> np.ndarray:
+    """(T,) share of each triangle in the squared discretisation error, all 0 where there is none;
+    throws FieldsError."""
+    path = results / "fields" / f"{s.name}.error.csv"
+    rows, _ = read_table(path, ERROR)
+    if not np.array_equal(rows[:, 0], np.arange(len(s.corners)) + 1):
+        raise FieldsError(f"{path}: {len(rows)} rows; expected one for each of the "
+                          f"{len(s.corners)} triangles of {s.name}.stress.csv, from 1")
+    wrong = np.flatnonzero((rows[:, 1] < 0) | (rows[:, 1] > 1))
+    if wrong.size:
+        raise FieldsError(f"{path}:{wrong[0] + 2}: error_share is '{rows[wrong[0], 1]:g}', "
+                          "expected a number from 0 to 1")
+    return rows[:, 1]
 
 
 def names_in(results: Path) -> list[str]:

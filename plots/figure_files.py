@@ -1,10 +1,15 @@
-"""Writes files all together or not at all."""
+"""Writes files all together or not at all, and pictures small."""
 from __future__ import annotations
 
 import os
 import tempfile
 from collections.abc import Callable
 from pathlib import Path
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from PIL import Image
 
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
@@ -15,3 +20,16 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
             write(Path(temporary) / name)
         for name in writers:
             os.replace(Path(temporary) / name, folder / name)
+
+
+def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
+    """In steps of 6/255 of colour, which halves a PNG with shades, or with so many colours."""
+    figure.set_dpi(dpi)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
+    rounded = 255 - (255 - pixels + 2) // 6 * 6
+    image = Image.fromarray(rounded.astype(np.uint8))
+    if colours:
+        image = image.quantize(colours, dither=Image.Dither.NONE)
+    image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))

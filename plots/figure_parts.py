@@ -176,7 +176,7 @@ def axes_at(figure: Figure, left: float, top: float, width: float, height: float
 def log_axis(axis: Axis) -> None:
     """Of an axis with its limits set."""
     low, high = axis.get_view_interval()
-    labelled = (1, 2, 5) if high / low < 200 else (1,)
+    labelled = (1, 1.5, 2, 3, 5, 7) if high / low < 10 else (1, 2, 5) if high / low < 200 else (1,)
     axis.set_major_formatter(ticker.FuncFormatter(
         lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
     axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))

@@ -44,10 +44,10 @@ class Notes:
 
     def add(self, row: Row, case: str, mark: str, value: float | None) -> None:
         if mark == "none":
-            happened = "heap not counted" if row.completed else row.outcome()
+            happened = "heap not counted" if row.completed else row.status_words()
             self.absent.setdefault(happened, []).append(case)
         elif value is None:
-            self.arrows.setdefault(row.outcome(), []).append(case)
+            self.arrows.setdefault(row.status_words(), []).append(case)
 
     def lines(self) -> list[str]:
         return [f"{title}: " + "; ".join(f"{merged(cases)} ({happened})"

@@ -1,11 +1,12 @@
 #!/usr/bin/python3
-"""Draws the stress field and the contact points of solutions from `bench --fields`.
+"""Draws the stress field, the contact points and the error of solutions from `bench --fields`.
 
     gallery.py RESULTS_DIR [--out DIR] [--each]
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
-with --each, fields_NAME.png for every solution. Exit 2: wrong input; one line says which, and
-nothing is written.
+with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
+element map of its discretisation error (NAME.error.csv). Exit 2: wrong input; one line says
+which, and nothing is written.
 """
 from __future__ import annotations
 
@@ -15,15 +16,14 @@ from functools import partial
 from pathlib import Path
 
 import matplotlib
-import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from PIL import Image
 
+import error_map
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
-from fields import Fields, FieldsError, names_in, read_fields
-from figure_files import replace_all
+from fields import (Fields, FieldsError, error_names_in, names_in, read_error_share,
+                    read_fields)
+from figure_files import replace_all, write_small_png
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -60,16 +60,11 @@ def compose(rows: list[list[Fields]]) -> Figure:
 
 
 def write(figure: Figure, path: Path) -> None:
-    """A PNG in steps of 6/255 of colour, which halves it; an SVG with the triangles as images."""
+    """A small PNG, or an SVG with the triangles as images."""
     if path.suffix == ".svg":
         figure.savefig(path, dpi=120, metadata={"Date": None})
-        return
-    figure.set_dpi(DPI)
-    canvas = FigureCanvasAgg(figure)
-    canvas.draw()
-    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
-    rounded = 255 - (255 - pixels + 2) // 6 * 6
-    Image.fromarray(rounded.astype(np.uint8)).save(path, optimize=True, dpi=(DPI, DPI))
+    else:
+        write_small_png(figure, DPI, path)
 
 
 def save(figure: Figure, targets: list[Path]) -> None:
@@ -108,12 +103,23 @@ def main() -> None:
         chosen = choose(names)
         wanted = names if args.each or not chosen else chosen
         solutions = {name: read_fields(args.results, name) for name in wanted}
+        mapped = {name: solutions.get(name) or read_fields(args.results, name)
+                  for name in error_names_in(args.results)}
+        maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
         if chosen:
             *teeth, rack = (solutions[name] for name in chosen)
             save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
         if args.each or not chosen:
             for name, s in solutions.items():
                 save(compose([[s]]), [out / f"fields_{name}.png"])
+        for name, (s, share) in maps.items():
+            if not share.any():
+                print(f"error_map_{name}: left out: the solution has no discretisation error")
+                continue
+            path = out / f"error_map_{name}.png"
+            replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
+                                                 error_map.DPI, colours=200)})
+            print(path)
     except FieldsError as error:
         fail(error)
     except OSError as error:

@@ -10,8 +10,8 @@ table1   sizes, ours beside the paper's
 
 Figures as .svg and .png, from the rows with stop=target, and again as figureN_paper_stop from
 those with stop=paper; table1 as .md. Of several scenes `default` is drawn. A line on stdout says
-of each what was written or why not, a last one which rows are in none. Exit 2: wrong input; one
-line says which, and nothing is written.
+of each what was written or why not, a last one which rows are in none. Rows of studies are for
+study_figures.py. Exit 2: wrong input; one line says which, and nothing is written.
 """
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from figure_parts import HEAP, STYLE, TIME, ErrorScale
 from figure_words import merged
 from method_names import compared, general, preconditioned
 from paper_sizes import SIZES, table1
-from results_table import STOPS, ResultsError, Row, read_results
+from results_table import STOPS, ResultsError, Row, read_results, scene_of
 
 DPI = 200
 FIGURES = {"figure3": preconditioner_figure.draw,
@@ -42,11 +42,6 @@ FIGURES = {"figure3": preconditioner_figure.draw,
 def write(figure: Figure, path: Path) -> None:
     metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
     figure.savefig(path, dpi=DPI, metadata=metadata)
-
-
-def scene_of(rows: list[Row]) -> str:
-    scenes = sorted({row.scene for row in rows})
-    return "default" if "default" in scenes else scenes[0]
 
 
 def why_undrawn(row: Row, scene: str, drawn: list[Row]) -> str:
@@ -75,6 +70,10 @@ def listed(rows: list[Row], scene: str, drawn: list[Row]) -> str:
 
 
 def draw_all(rows: list[Row], out: Path) -> None:
+    rows = [row for row in rows if not row.study]
+    if not rows:
+        print("paper_figures.py: nothing to draw: all rows are of studies")
+        return
     scene = scene_of(rows)
     shown = [row for row in rows if row.scene == scene]
     scale = ErrorScale(shown)

@@ -25,6 +25,15 @@ NOTE = ("*n_C of Mesh0*: 40 instead of the printed 38, which is no multiple of 4
         "edge has 4 rows.")
 
 
+BODIES = {1: "one tooth", 4: "rack of four teeth"}
+
+
+def body_of(mesh: str) -> str:
+    """The body that a mesh of the paper, or one refined from it, divides; else 'other meshes'."""
+    sizes = SIZES.get(mesh[:5]) if not mesh[5:6].isdigit() else None
+    return BODIES[sizes.teeth] if sizes else "other meshes"
+
+
 def table1(rows: list[Row]) -> str:
     """Markdown; rows of one scene. Bold: what differs from the paper."""
     lines = ["# The paper's Tab. 1 and the sizes of the records", "",

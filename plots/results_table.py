@@ -10,6 +10,8 @@ from pathlib import Path
 STOPS = ("target", "paper")
 STATUSES = ("ok", "inaccurate", "not_converged", "breakdown", "timeout", "out_of_memory", "crashed",
             "skipped")
+OUTCOMES = (*STATUSES[:4], "wrong_success", *STATUSES[4:])
+STUDIES = ("", "error", "stability")
 
 
 class ResultsError(Exception):
@@ -38,13 +40,25 @@ class Row:
     tuning_s: float | None
     done_fraction: float | None        # timeout only
     extrapolated_time_s: float | None  # timeout only
-    target_error: float | None         # None also where there is no such column
+    # What follows is empty also where there is no such column.
+    target_error: float | None
+    study: str = ""    # of STUDIES
+    outcome: str = ""  # of OUTCOMES
+    scene_group: str = ""
+    knob: str = ""     # what an error study turned; empty: nothing, this is the method's one point
+    knob_value: float | None = None
+    error_stress: float | None = None
+    error_discretisation: float | None = None  # relative, of mesh and scene
+    error_total: float | None = None
+    uzawa_iterations: float | None = None
+    lower_bound_Nmm: float | None = None
+    upper_bound_Nmm: float | None = None
 
     @property
     def completed(self) -> bool:
         return self.status in ("ok", "inaccurate")
 
-    def outcome(self) -> str:
+    def status_words(self) -> str:
         """'timeout, 12 % done'."""
         text = self.status.replace("_", " ")
         if self.done_fraction is None:
@@ -52,6 +66,12 @@ class Row:
         percent = 100 * self.done_fraction
         return f"{text}, {percent:.0f}\u00a0% done" if percent >= 1 else \
             f"{text}, {percent:.1g}\u00a0% done"
+
+
+def scene_of(rows: list[Row]) -> str:
+    """The scene to draw where there is room for one."""
+    scenes = sorted({row.scene for row in rows})
+    return "default" if "default" in scenes else scenes[0]
 
 
 def text(cell: str) -> str:
@@ -67,7 +87,7 @@ def name(cell: str) -> str:
 def one_of(words: tuple[str, ...]) -> Callable[[str], str]:
     def parse(cell: str) -> str:
         if cell not in words:
-            raise ValueError("one of " + ", ".join(words))
+            raise ValueError("one of " + ", ".join(word or "(empty)" for word in words))
         return cell
     return parse
 
@@ -94,6 +114,7 @@ def number(allowed: str, accept: Callable[[float], bool]) -> Callable[[str], flo
 
 positive = number("a number above 0", lambda x: x > 0)
 not_negative = number("a number, 0 or more", lambda x: x >= 0)
+finite = number("a number", lambda x: True)
 COLUMNS: dict[str, Callable] = {
     "mesh": name, "scene": name, "method": name, "stop": one_of(STOPS), "status": one_of(STATUSES),
     "status_reason": text, "n_phi": count, "n_f": count, "n_c": count, "threads": count,
@@ -102,7 +123,17 @@ COLUMNS: dict[str, Callable] = {
     "done_fraction": number("a number from 0 to 1", lambda x: 0 <= x <= 1),
     "extrapolated_time_s": positive,
 }
-OPTIONAL = {"target_error": positive}
+STUDY_COLUMNS = {  # what the rows of a study need beside COLUMNS
+    "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
+              "error_total"),
+    "stability": ("outcome", "scene_group", "error_stress"),
+}
+NEVER_EMPTY = {"outcome", "scene_group"}  # in the rows of a study that needs them
+OPTIONAL = {"target_error": positive, "study": one_of(STUDIES), "outcome": one_of(("", *OUTCOMES)),
+            "scene_group": text, "knob": text, "knob_value": not_negative,
+            "error_stress": not_negative, "error_discretisation": positive,
+            "error_total": positive, "uzawa_iterations": not_negative,
+            "lower_bound_Nmm": finite, "upper_bound_Nmm": finite}
 
 
 def read_results(path: Path) -> list[Row]:
@@ -124,10 +155,13 @@ def read_results(path: Path) -> list[Row]:
     rows, line_of = [], {}
     for line, cells in lines[1:]:
         row = read_row(f"{path}:{line}", line, header, cells)
-        key = (row.mesh, row.scene, row.method, row.stop)
+        case = (row.mesh, row.scene, row.method, row.stop)
+        key = (*case, row.study, row.knob, row.knob_value)
         if key in line_of:
-            raise ResultsError(f"{path}:{line}: mesh, scene, method, stop are '{', '.join(key)}' "
-                               f"as in line {line_of[key]}; expected a row per case")
+            raise ResultsError(f"{path}:{line}: mesh, scene, method, stop"
+                               f"{', knob_value' if row.study else ''} are '{', '.join(case)}"
+                               f"{f', {row.knob_value}' if row.study else ''}' as in line "
+                               f"{line_of[key]}; expected a row per case")
         line_of[key] = line
         rows.append(row)
     return rows
@@ -144,6 +178,13 @@ def read_row(place: str, line: int, header: list[str], cells: list[str]) -> Row:
         except ValueError as allowed:
             raise ResultsError(f"{place}: {column} is '{cell}', expected {allowed}")
     row = Row(line=line, **values)
+    for column in STUDY_COLUMNS.get(row.study, ()):
+        if column not in header:
+            raise ResultsError(f"{place.rpartition(':')[0]}:1: no column {column}; the "
+                               f"{row.study} study of line {line} needs it")
+        if column in NEVER_EMPTY and not values[column]:
+            raise ResultsError(f"{place}: {column} is '', expected a value in the "
+                               f"study '{row.study}'")
     for column in ("time_s", "n_phi", "repetitions"):
         if row.completed and not values[column]:
             raise ResultsError(f"{place}: {column} is '{cells[header.index(column)]}', expected a "

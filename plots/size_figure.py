@@ -11,7 +11,7 @@ import figure_parts as parts
 from figure_parts import EDGE_AT, ErrorScale, Footer, Quantity, axes_at, draw_point
 from figure_words import Notes
 from method_names import COMPARED, compared
-from paper_sizes import SIZES
+from paper_sizes import BODIES, SIZES
 from results_table import Row
 
 # Marker and dashes; black and white will do.
@@ -126,11 +126,11 @@ def mark_meshes(axes: Axes, rows: list[Row]) -> None:
                   rotation_mode="anchor", minor=False)
     top.minorticks_off()
     top.tick_params(length=2.5, pad=1)
-    ends = [[n for mesh, n in sizes.items() if SIZES[mesh].teeth == teeth] for teeth in (1, 4)]
+    ends = [[n for mesh, n in sizes.items() if SIZES[mesh].teeth == teeth] for teeth in BODIES]
     if all(ends):
         border = math.sqrt(max(ends[0]) * min(ends[1]))
         axes.axvline(border, color="0.45", linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
-    for words, sizes_there in zip(("one tooth", "rack of four teeth"), ends):
+    for words, sizes_there in zip(BODIES.values(), ends):
         if sizes_there:
             centre = math.sqrt(min(sizes_there) * max(sizes_there))
             axes.annotate(words, (centre, 1), xycoords=axes.get_xaxis_transform(),

@@ -12,6 +12,7 @@ import numpy as np
 PLOTS = Path(__file__).resolve().parents[2] / "plots"
 sys.path.insert(0, str(PLOTS))
 
+import error_map  # noqa: E402
 import field_drawing  # noqa: E402
 import fields  # noqa: E402
 
@@ -23,6 +24,13 @@ NAMES = [f"{mesh}-default-3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4
 def stress_at(x: float, y: float) -> tuple[float, float, float]:
     """Linear: sxx, syy, sxy in MPa."""
     return -100 + 10 * x, 5 * y, 20 - x
+
+
+def write_shares(folder: Path, name: str, shares: list[object]) -> Path:
+    path = folder / f"{name}.error.csv"
+    rows = [f"{t},{share}" for t, share in enumerate(shares, 1)]
+    path.write_text("\n".join([fields.ERROR, *rows]) + "\n", encoding="utf-8")
+    return path
 
 
 def write_solution(folder: Path, name: str, contact: bool = True) -> None:
@@ -112,6 +120,30 @@ class GalleryTest(unittest.TestCase):
             self.assertEqual((self.results / "a" / name).read_bytes(),
                              (self.results / "b" / name).read_bytes(), name)
 
+    def test_element_map_of_the_error(self) -> None:
+        write_solution(self.fields, NAMES[1])
+        write_shares(self.fields, NAMES[1], [0.25, 0.75])
+        self.assertEqual(self.run_gallery(self.results).returncode, 0)
+        picture = self.results / "figures" / f"error_map_{NAMES[1]}.png"
+        self.assert_png(picture, 686, most_bytes=300_000)
+
+    def test_no_error_no_map(self) -> None:
+        write_solution(self.fields, NAMES[1])
+        write_shares(self.fields, NAMES[1], [0, 0])
+        done = self.run_gallery(self.results)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", done.stdout)
+
+    def test_element_map_that_cannot_be(self) -> None:
+        write_solution(self.fields, NAMES[1])
+        for shares, words in (([1], ": 1 rows; expected one for each of the 2 triangles"),
+                              ([0.1, -0.1], ":3: error_share is '-0.1', expected a number from"),
+                              ([0.5, "much"], ":3: error_share is 'much', expected a finite")):
+            path = write_shares(self.fields, NAMES[1], shares)
+            self.assert_refused(f"{path}{words}")
+        path.write_text("triangle,share\n1,1\n")
+        self.assert_refused(f"{path}:1: expected the header {fields.ERROR}")
+
     def test_missing_folder(self) -> None:
         shutil.rmtree(self.fields)
         self.assert_refused(f"{self.fields}: no fields", "bench --fields")
@@ -164,6 +196,22 @@ class GalleryTest(unittest.TestCase):
         self.assert_refused("--nonsense", arguments=("--nonsense",))
         self.assert_refused("expected a folder to write to",
                             arguments=("--out", self.fields / f"{NAMES[0]}.stress.csv"))
+
+
+class ErrorMapTest(unittest.TestCase):
+    def test_share_of_the_worst_tenth(self) -> None:
+        share = np.r_[np.full(90, 1.0), np.full(10, 9.0)]
+        self.assertAlmostEqual(error_map.share_of_worst(share), 0.5)
+        self.assertAlmostEqual(error_map.share_of_worst(np.array([3.0, 1.0])), 0.75)
+
+    def test_every_triangle_has_its_colour(self) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "fields").mkdir()
+            write_solution(Path(folder) / "fields", NAMES[0])
+            s = fields.read_fields(Path(folder), NAMES[0])
+        drawn = error_map.draw(s, np.array([1e-9, 0.9])).axes[0].collections[0]
+        self.assertEqual(len(drawn.get_paths()), 2)
+        np.testing.assert_allclose(drawn.get_array(), [1e-5, 0.9])  # five decades, no more
 
 
 class FieldsTest(unittest.TestCase):

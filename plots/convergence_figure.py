@@ -1,0 +1,140 @@
+"""Discretisation error against the mesh size, and the bounds of the energy."""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import study_parts as parts
+from direct_labels import Labels
+from figure_parts import axes_at, log_axis, log_limits
+from paper_sizes import body_of
+from results_table import Row, scene_of
+
+LEFT, TOP, HEIGHT, BOTTOM, GAP, MAIN, BESIDE = 0.72, 0.4, 4.0, 0.5, 0.85, 5.0, 3.6
+MARKS = {"one tooth": ("#0072B2", "o"), "rack of four teeth": ("#D55E00", "s")}
+H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
+
+
+@dataclass(frozen=True)
+class Point:
+    """Of a mesh."""
+
+    mesh: str
+    n_phi: int
+    error: float  # relative
+    bounds_Nmm: tuple[float, float] | None
+
+    @property
+    def h(self) -> float:
+        return 1 / math.sqrt(self.n_phi)
+
+
+def points_of(rows: list[Row]) -> dict[str, list[Point]]:
+    """Body -> its meshes, the coarsest first. The error is of mesh and scene: any row has it."""
+    meshes: dict[str, list[Row]] = {}
+    for row in rows:
+        if row.error_discretisation and row.n_phi:
+            meshes.setdefault(row.mesh, []).append(row)
+    bodies: dict[str, list[Point]] = {}
+    for mesh, own in sorted(meshes.items(), key=lambda item: item[1][0].n_phi):
+        bounds = [(row.lower_bound_Nmm, row.upper_bound_Nmm) for row in own
+                  if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]
+        error = float(np.median([row.error_discretisation for row in own]))
+        bodies.setdefault(body_of(mesh), []).append(
+            Point(mesh, own[0].n_phi, error, bounds[0] if bounds else None))
+    return bodies
+
+
+def rate(points: list[Point]) -> float | None:
+    """p of error ~ h^p by least squares of logarithms; needs two meshes."""
+    if len({point.n_phi for point in points}) < 2:
+        return None
+    return float(np.polyfit(np.log([point.h for point in points]),
+                            np.log([point.error for point in points]), 1)[0])
+
+
+def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Point]]]:
+    """The scene to draw, else the first that has bounds, and its bodies with bounds on two meshes
+    or more."""
+    scenes = sorted({row.scene for row in rows})
+    for scene in sorted(scenes, key=lambda scene: scene != scene_of(rows)):
+        known = {body: [point for point in points if point.bounds_Nmm] for body, points
+                 in points_of([row for row in rows if row.scene == scene]).items()}
+        known = {body: points for body, points in known.items() if len(points) > 1}
+        if known:
+            return scene, known
+    return "", {}
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    """rows: of an error study. The figure, or why there is none."""
+    scene = scene_of(rows)
+    bodies = points_of([row for row in rows if row.scene == scene])
+    if sum(map(len, bodies.values())) < 2:
+        return "fewer than two meshes have error_discretisation"
+    bounded_scene, bounded = bounded_of(rows)
+    width = LEFT + MAIN + 0.15 + len(bounded) * (GAP + BESIDE)
+    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM, [
+        f"Scene {scene}. Relative constitutive relation error between the equilibrated "
+        "stresses and the compatible P2 displacements on the same mesh. h^p: power law fitted by "
+        "least squares of logarithms."
+        + (f" Right: scene {bounded_scene}; the bounds of the energy are guaranteed where there is "
+           "no friction." if bounded else "")])
+    figure.text(parts.MARGIN / width, 1 - 0.08 / figure.get_size_inches()[1], va="top",
+                s="Discretisation error", fontsize=11, weight="bold")
+    draw_errors(axes_at(figure, LEFT, TOP, MAIN, HEIGHT), bodies)
+    for k, (body, points) in enumerate(bounded.items(), 1):
+        axes = axes_at(figure, LEFT + MAIN + k * GAP + (k - 1) * BESIDE, TOP, BESIDE, HEIGHT)
+        draw_bounds(axes, body, points)
+    return figure
+
+
+def draw_errors(axes: Axes, bodies: dict[str, list[Point]]) -> None:
+    every = [point for points in bodies.values() for point in points]
+    axes.set(xscale="log", yscale="log", xlim=log_limits([point.h for point in every], 1.25),
+             ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
+             ylabel="relative discretisation error of the stresses, 1")
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
+    axes.grid(which="major")
+    axes.spines[["top", "right"]].set_visible(False)
+    labels = Labels(axes)
+    for body, points in bodies.items():
+        labels.avoid([p.h for p in points], [p.error for p in points])
+    for body, points in bodies.items():
+        colour, marker = MARKS.get(body, parts.OTHERS)
+        h, errors = [p.h for p in points], [p.error for p in points]
+        power = rate(points)
+        axes.plot(h, errors, color=colour, marker=marker, markersize=6,
+                  linestyle="none" if power else "-")
+        words = body
+        if power:
+            scale = math.exp(np.mean(np.log(errors) - power * np.log(h)))
+            ends = np.array([min(h), max(h)])
+            axes.plot(ends, scale * ends**power, color=colour, linewidth=1.2, zorder=1.5)
+            words += f": $h^{{{power:.2f}}}$"
+        for point in points:
+            labels.add(f"{point.mesh}, {parts.percent(point.error)}", point.h, point.error,
+                       color="0.25")
+        middle = len(points) // 2
+        labels.add(words, h[middle:] + h[:middle], errors[middle:] + errors[:middle],
+                   formula=True, color=colour, fontsize=10)
+
+
+def draw_bounds(axes: Axes, body: str, points: list[Point]) -> None:
+    colour, _ = MARKS.get(body, parts.OTHERS)
+    h = [point.h for point in points]
+    lower, upper = zip(*(point.bounds_Nmm for point in points))
+    axes.set_xlim(0, 1.25 * max(h))
+    axes.fill_between(h, lower, upper, color=colour, alpha=0.15, linewidth=0)
+    axes.plot(h, upper, color=colour, marker="v", label="upper bound")
+    axes.plot(h, lower, color=colour, marker="^", linestyle=(0, (4, 1.5)), label="lower bound")
+    axes.margins(y=0.12)
+    axes.legend(frameon=False, loc="best")
+    axes.set(xlabel=H, ylabel="energy, N mm", title=f"bounds of the energy, {body}")
+    axes.ticklabel_format(axis="y", useOffset=False)
+    axes.spines[["top", "right"]].set_visible(False)

@@ -1,0 +1,98 @@
+"""Names beside what they name, where they hide least. Sizes in points."""
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.font_manager import FontProperties
+from matplotlib.patheffects import withStroke
+from matplotlib.textpath import TextToPath
+
+from figure_words import plain
+
+DISTANCES = (5, 11, 18, 27, 38, 52, 70)
+DIRECTIONS = 16
+LEADER = 8  # beyond this distance a line leads to the label
+HALO = withStroke(linewidth=2, foreground="white", alpha=0.85)
+SPACING = 3  # between samples of a curve
+
+
+@dataclass
+class Labels:
+    """Of axes whose limits and size are set; labels are placed in the order of their coming."""
+
+    axes: Axes
+    size: float = 7.5
+    obstacles: list[np.ndarray] = field(default_factory=list)  # (n, 2) each
+    boxes: list[np.ndarray] = field(default_factory=list)      # left, bottom, right, top
+
+    def points(self, x: object, y: object) -> np.ndarray:
+        """(n, 2)."""
+        data = np.column_stack([np.atleast_1d(x), np.atleast_1d(y)]).astype(float)
+        return self.axes.transData.transform(data) * 72 / self.axes.figure.dpi
+
+    def avoid(self, x: object, y: object) -> None:
+        """A curve, or a point, that labels should not hide."""
+        points = self.points(x, y)
+        pieces = [points]
+        for a, b in zip(points, points[1:]):
+            count = min(int(np.hypot(*(b - a)) / SPACING), 400)
+            pieces.append(a + np.linspace(0, 1, count + 2)[1:-1, None] * (b - a))
+        self.obstacles.append(np.vstack(pieces))
+
+    def reserve(self, words: str, right: float, y: float, size: float) -> None:
+        """The place of words that end at (right, y) and stand upon it."""
+        corner = self.points(right, y)[0]
+        width = self.width_of(words, FontProperties(size=size))
+        self.boxes.append(np.r_[corner - [width + 3, 0], corner + [0, 1.4 * size]])
+
+    @staticmethod
+    def width_of(words: str, font: FontProperties) -> float:
+        return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
+
+    def add(self, words: str, x: object, y: object, formula: bool = False,
+            **text: object) -> None:
+        """Beside one of the points (x, y), the first rather than the last. formula: $ is math."""
+        anchors = self.points(x, y)
+        size = float(text.pop("fontsize", self.size))
+        font = FontProperties(size=size, weight=text.get("weight", "normal"))
+        lines = words.split("\n")
+        width = max(self.width_of(line, font) for line in lines)
+        half = np.array([width / 2 + 1, 0.62 * size * len(lines)])
+        anchor, centre = self.best(anchors, half)
+        self.boxes.append(np.r_[centre - half, centre + half])
+        scale = self.axes.figure.dpi / 72
+        inverse = self.axes.transData.inverted().transform
+        gap = centre - anchor
+        nearest = centre - np.clip(gap, -half, half)
+        if np.hypot(*(nearest - anchor)) > LEADER:
+            ends = inverse(np.array([anchor, nearest]) * scale)
+            self.axes.plot(*ends.T, color=text.get("color", "0.4"), linewidth=0.4, alpha=0.7,
+                           zorder=3)
+            self.avoid(*ends.T)
+        self.axes.text(*inverse(centre * scale), words if formula else plain(words), ha="center",
+                       va="center", fontsize=size, zorder=8, path_effects=[HALO], **text)
+
+    def best(self, anchors: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Anchor and centre of the box that hides least and is nearest."""
+        box = self.axes.get_window_extent()
+        low, high = np.array([[box.x0, box.y0], [box.x1, box.y1]]) * 72 / self.axes.figure.dpi
+        around = np.linspace(0, 2 * np.pi, DIRECTIONS, endpoint=False)
+        unit = np.column_stack([np.cos(around), np.sin(around)])
+        seen = np.vstack(self.obstacles) if self.obstacles else np.empty((0, 2))
+        best = (np.inf, anchors[0], np.clip(anchors[0], low + half, high - half))
+        for k, anchor in enumerate(anchors):
+            for distance in DISTANCES:
+                # The box's border, not its centre, is so far away.
+                reach = np.sign(np.round(unit, 6)) * half * np.minimum(1, 1.5 * np.abs(unit))
+                for centre in anchor + distance * unit + reach:
+                    if (centre - half < low).any() or (centre + half > high).any():
+                        continue
+                    hidden = (np.abs(seen - centre) < half + 1).all(1).sum()
+                    crossed = sum((np.abs((b[:2] + b[2:]) / 2 - centre)
+                                   < half + (b[2:] - b[:2]) / 2).all() for b in self.boxes)
+                    cost = 1000 * crossed + 12 * hidden + distance + 3 * k
+                    if cost < best[0]:
+                        best = (cost, anchor, centre)
+        return best[1], best[2]

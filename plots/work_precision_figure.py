@@ -1,0 +1,128 @@
+"""Error of the contact forces against time and memory: what each method pays for each digit."""
+from __future__ import annotations
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import study_parts as parts
+from direct_labels import Labels
+from figure_parts import axes_at, log_axis, log_limits
+from figure_words import short
+from results_table import Row
+
+WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 11.5, 0.72, 0.35, (6.6, 3.6), 5.6, 0.42, 0.5
+HIGHEST = 1e3  # errors above are drawn here
+SIZE = 4.5
+AXES = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB"}
+
+
+def is_paper_stop(row: Row) -> bool:
+    return row.stop == "paper" and parts.family(row.method) == "ALM"
+
+
+def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
+    """Method and knob -> points in the order of the knob, by family; without the paper's stop."""
+    curves: dict[tuple[str, str], list[Row]] = {}
+    for row in sorted(rows, key=lambda row: (parts.order(row.method), row.knob,
+                                             row.knob_value or 0)):
+        if not is_paper_stop(row) and row.method != parts.DISPLACEMENTS:
+            curves.setdefault((row.method, row.knob), []).append(row)
+    return curves
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    """rows: of an error study's mesh and scene. The figure, or why there is none."""
+    known = [row for row in rows if row.time_s and row.error_force is not None
+             and row.method != parts.DISPLACEMENTS]
+    if not known:
+        return "no row has time_s and error_force"
+    curves = curves_of(known)
+    stops = [row for row in known if is_paper_stop(row)]
+    heap = any(row.peak_heap_bytes for row in known)
+    floor = parts.error_floor(row.error_force for row in known)
+    absent = [f"{row.method} ({row.status_words()})" for row in rows
+              if row not in known and row.method != parts.DISPLACEMENTS]
+    target = next((row.target_error for row in known if row.target_error), 1e-6)
+    knobs = sorted({row.knob for row in known if row.knob})
+    words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
+             f"{parts.threads(known)}. Error of the contact forces against the reference, a point "
+             f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
+             f"single points: methods run to their end. Dashed: the target error {short(target)}.")
+    if stops:
+        words += " Stars: ALM ended by the paper's stop, small ones with given r and ρ."
+    if any(row.error_force < floor for row in known):
+        words += " Errors of 0 are drawn at the lower edge."
+    notes = [f"No point: {'; '.join(dict.fromkeys(absent))}."] if absent else []
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [words, *notes])
+    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
+                s=f"{known[0].mesh}: what each digit costs", fontsize=11, weight="bold")
+    left = LEFT
+    for column, width in zip(AXES if heap else ["time_s"], PANELS):
+        axes = axes_at(figure, left, TOP, width if heap else sum(PANELS), HEIGHT)
+        draw_panel(axes, column, curves, stops, floor, target)
+        left += width + GAP
+    return figure
+
+
+def value_of(row: Row, column: str) -> float | None:
+    value = getattr(row, column)
+    return value / 2**20 if value and column == "peak_heap_bytes" else value
+
+
+def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]], stops: list[Row],
+               floor: float, target: float) -> None:
+    shown = {key: known for key, curve in curves.items()
+             if (known := [row for row in curve if value_of(row, column)])}
+    rows = [row for curve in [*shown.values(), stops] for row in curve if value_of(row, column)]
+    highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
+    axes.set(xscale="log", yscale="log", xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
+             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
+    axes.grid(axis="both")
+    axes.spines[["top", "right"]].set_visible(False)
+    axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)
+    first = column == "time_s"
+    labels = Labels(axes)
+    labels.avoid(axes.get_xlim(), [target] * 2)
+    if first:
+        axes.set_ylabel("relative error of the contact forces, 1")
+    else:
+        axes.tick_params(labelleft=False)
+    ends: dict[str, list[tuple[float, float]]] = {}
+    for (method, knob), curve in shown.items():
+        colour, marker = parts.style(method)
+        x = [value_of(row, column) for row in curve]
+        y = [min(max(row.error_force, floor), HIGHEST) for row in curve]
+        axes.plot(x, y, color=colour, marker=marker, markersize=SIZE if knob else 7,
+                  linewidth=1.1, linestyle=parts.dashes(method), markeredgecolor="white",
+                  markeredgewidth=0.4, zorder=4 if knob else 5)
+        labels.avoid(x, y)
+        ends.setdefault(method, sorted(zip(y, x)))  # without knob first
+    draw_stops(axes, labels, stops, column)
+    for method, points in ends.items():
+        if not first and method.startswith("ALM:") and "ALM" in ends:
+            continue  # its memory is that of ALM
+        y, x = zip(*points)
+        labels.add(method, x, y, color=parts.style(method)[0] if len(points) > 1 else "0.1")
+
+
+def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
+    """A big mark where the grid chose r and rho, with the words of what the stop costs; small
+    ones where they were given."""
+    stops = [row for row in stops if value_of(row, column)]
+    for row in stops:
+        at = value_of(row, column), min(row.error_force, HIGHEST)
+        size = parts.STOP["markersize"] * (1 if row.method == "ALM" else 0.6)
+        axes.plot(*at, markerfacecolor=parts.style("ALM")[0], **parts.STOP | {"markersize": size})
+        labels.obstacles.append(labels.points(*at) + [[-4, 0], [0, 0], [4, 0]])
+    shown = [row for row in stops if row.method == "ALM"] or stops
+    if shown and column == "time_s":
+        errors = [row.error_force for row in shown]
+        words = parts.percent(max(errors))
+        if len(shown) > 1:
+            words = f"{parts.percent(min(errors))} to {words}"
+        labels.add(f"ALM with the paper's stop:\nerror {words}",
+                   [value_of(row, column) for row in shown],
+                   [min(error, HIGHEST) for error in errors], weight="bold", fontsize=9,
+                   color=parts.style("ALM")[0])

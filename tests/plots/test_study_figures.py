@@ -1,0 +1,329 @@
+"""plots/study_figures.py on made-up studies.  /usr/bin/python3 -m unittest FILE"""
+import contextlib
+import io
+import shutil
+import struct
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+import matplotlib
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
+from matplotlib.text import Text
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import made_up_studies as made_up  # noqa: E402; finds plots
+
+import atlas_figure  # noqa: E402
+import convergence_figure  # noqa: E402
+import direct_labels  # noqa: E402
+import figure_parts  # noqa: E402
+import limit_figure  # noqa: E402
+import paper_figures  # noqa: E402
+import pareto_figure  # noqa: E402
+import results_table  # noqa: E402
+import stop_figure  # noqa: E402
+import study_figures  # noqa: E402
+import study_parts  # noqa: E402
+import work_precision_figure  # noqa: E402
+from paper_sizes import SIZES, body_of  # noqa: E402
+
+
+def words_of(figure: Figure) -> str:
+    texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
+    return " ".join(text.get_text() for text in texts).replace("\u00a0", " ")
+
+
+class StudiesTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.results = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.results)
+        self.csv = self.results / "results.csv"
+        self.figures = self.results / "figures"
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(figure_parts.STYLE)
+
+    def read(self, rows: list[dict[str, object]]) -> list[results_table.Row]:
+        made_up.write(self.csv, rows)
+        return results_table.read_results(self.csv)
+
+    def run_script(self, script=study_figures) -> tuple[int, str, str]:
+        """Exit status, stdout, stderr."""
+        out, err, status = io.StringIO(), io.StringIO(), 0
+        with mock.patch.object(sys, "argv", ["a script", str(self.results)]), \
+                contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            try:
+                script.main()
+            except SystemExit as end:
+                status = end.code
+        return status, out.getvalue(), err.getvalue()
+
+    def assert_refused(self, *parts: str) -> None:
+        """Exit 2, one line that has all the parts, and nothing written."""
+        status, out, err = self.run_script()
+        self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
+        for part in parts:
+            self.assertIn(part, err)
+        self.assertFalse(self.figures.exists())
+
+
+class StudyFiguresTest(StudiesTest):
+    def test_a_folder_with_everything(self) -> None:
+        made_up.write(self.csv, made_up.error_study(["Mesh0", "Mesh1"])
+                      + made_up.stability_study("Mesh0") + made_up.sizes_to_the_limit())
+        status, out, err = self.run_script()
+        self.assertEqual((status, err), (0, ""))
+        names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
+                 "convergence", "stability_Mesh0", "size_to_limit"}
+        self.assertEqual({path.stem for path in self.figures.iterdir()}, names)
+        self.assertEqual(out.count("\n"), len(names))
+        for path in self.figures.iterdir():
+            data = path.read_bytes()
+            self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+            self.assertLess(len(data), 300_000, path.name)
+            self.assertGreaterEqual(struct.unpack(">I", data[16:20])[0], 800, path.name)
+
+    def test_what_cannot_be_drawn_is_said(self) -> None:
+        rows = [row | dict(error_discretisation="", error_total="")
+                for row in made_up.error_study(["Mesh0"], sweep=False)[:12]]
+        made_up.write(self.csv, rows)
+        with mock.patch.object(study_figures, "write_small_png",
+                               lambda figure, dpi, path, colours: path.touch()):
+            self.figures.mkdir()
+            (self.figures / "pareto.png").touch()
+            out = self.run_script()[1]
+        self.assertIn("pareto: left out: no row has time_s and an error_total up to 1; an earlier "
+                      "pareto.png stays", out)
+        self.assertIn("convergence: left out: fewer than two meshes", out)
+        self.assertIn("stop_and_error: left out: no two rows ALM:r=..,rho=..", out)
+
+    def test_an_ordinary_run_of_the_papers_meshes_is_not_for_here(self) -> None:
+        made_up.write(self.csv, made_up.sizes_to_the_limit()[:20])
+        self.assertEqual(self.run_script(), (0, "size_to_limit: left out: no mesh is larger than "
+                                                "the paper's\n", ""))
+
+    def test_the_papers_figures_pass_over_studies(self) -> None:
+        made_up.write(self.csv, made_up.error_study(["Mesh0"])[:5])
+        out = "paper_figures.py: nothing to draw: all rows are of studies\n"
+        self.assertEqual(self.run_script(paper_figures), (0, out, ""))
+
+    def test_wrong_cells(self) -> None:
+        for column, cell, allowed in (
+                ("study", "speed", "one of (empty), error, stability"),
+                ("outcome", "fine", "one of (empty), ok, inaccurate"),
+                ("outcome", "", "a value in the study 'error'"),
+                ("knob_value", "-1", "a number, 0 or more, or empty"),
+                ("error_total", "0", "a number above 0, or empty"),
+                ("upper_bound_Nmm", "high", "a number, or empty")):
+            rows = made_up.error_study(["Mesh0"])[:2]
+            made_up.write(self.csv, [rows[0], rows[1] | {column: cell}])
+            self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
+
+    def test_missing_columns(self) -> None:
+        for rows, column in ((made_up.error_study(["Mesh0"])[:2], "error_total"),
+                             (made_up.stability_study()[:2], "scene_group")):
+            made_up.write(self.csv, rows, [c for c in made_up.COLUMNS if c != column])
+            self.assert_refused(f"{self.csv}:1: no column {column}", "study of line 2 needs it")
+
+    def test_a_point_is_there_once(self) -> None:
+        rows = [row for row in made_up.error_study(["Mesh0"]) if row["knob"] == "tolerance"]
+        self.assertEqual(len(self.read(rows[:6])), 6)  # they differ in knob_value
+        made_up.write(self.csv, [rows[0], rows[0]])
+        self.assert_refused(f"{self.csv}:3:", "SYMMLQ:DTIC6, target, 0.1' as in line 2")
+
+
+class WorkPrecisionTest(StudiesTest):
+    def test_curves_and_the_papers_stop(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh3"]))
+        curves = work_precision_figure.curves_of(rows)
+        self.assertEqual(len(curves[("ALM", "uzawa iterations")]), 10)  # without its paper stop
+        self.assertEqual(len(curves[("HYBRID", "contact sweeps")]), 6)
+        self.assertEqual(len(curves[("HYBRID", "")]), 1)
+        self.assertNotIn(("P2", ""), curves)  # it has no error of its own
+        for curve in curves.values():
+            values = [row.knob_value or 0 for row in curve]
+            self.assertEqual(values, sorted(values))
+        words = words_of(work_precision_figure.draw(rows))
+        self.assertIn("ALM with the paper's stop:\nerror 7 %", words)
+        for method, _ in curves:
+            self.assertIn(method, words)
+
+    def test_every_point_is_drawn(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh3"]))
+        drawn = set()
+        plot = Axes.plot
+
+        def keep(axes: Axes, x: object, y: object, *rest: object, **style: object) -> object:
+            drawn.update(zip(np.ravel(x), np.ravel(y)))
+            return plot(axes, x, y, *rest, **style)
+        with mock.patch.object(Axes, "plot", keep):
+            work_precision_figure.draw(rows)
+        for row in rows:
+            if row.error_force:
+                self.assertIn((row.time_s, row.error_force), drawn, row)
+
+    def test_a_row_without_an_error_is_named(self) -> None:
+        rows = made_up.error_study(["Mesh3"], sweep=False)
+        rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
+        words = words_of(work_precision_figure.draw(self.read(rows)))
+        self.assertIn("No point: 3STEPD (timeout).", words)
+
+
+class ParetoTest(StudiesTest):
+    def test_nothing_beats_the_front(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh0", "Mesh1", "Mesh2", "Mesh3"]))
+        for column in ("time_s", "peak_heap_bytes"):
+            front = pareto_figure.front(rows, column)
+            self.assertGreater(len(front), 3)
+            for row in rows:
+                cheaper = [other for other in front
+                           if getattr(other, column) <= getattr(row, column)]
+                if cheaper:  # at equal cost or less it is at most 1 % better than the front
+                    best = min(other.error_total for other in cheaper)
+                    self.assertGreaterEqual(row.error_total * (1 + 1e-12), 0.99 * best)
+                else:
+                    self.fail(f"{row} is cheaper than the front")
+
+    def test_table_names_the_cheapest(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh0", "Mesh3"]))
+        stress = [row for row in rows if row.method != "P2"]
+        for level in (0.25, 0.1):
+            best = pareto_figure.cheapest(stress, level)
+            self.assertLessEqual(best.error_total, level)
+            self.assertFalse([row for row in stress if row.error_total <= level
+                              and row.time_s < best.time_s])
+        self.assertIsNone(pareto_figure.cheapest(rows, 1e-3))
+        table = pareto_figure.table_of(rows)
+        self.assertTrue(all(len(line) == len(pareto_figure.TABLE) for line in table))
+        self.assertEqual(table[-1][0], study_parts.percent(0.1))
+        self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
+
+    def test_levels_can_be_reached(self) -> None:
+        for errors in ([0.077, 0.31], [0.2], [1e-4, 0.5], [0.03, 0.031]):
+            levels = pareto_figure.levels(errors)
+            self.assertTrue(1 <= len(levels) <= pareto_figure.LEVELS)
+            self.assertTrue(all(level >= min(errors) for level in levels), errors)
+
+    def test_bodies_are_kept_apart(self) -> None:
+        words = words_of(pareto_figure.draw(self.read(made_up.error_study(["Mesh3", "Mesh4"]))))
+        self.assertIn("one tooth", words)
+        self.assertIn("rack of four teeth", words)
+        self.assertEqual([body_of(mesh) for mesh in ("Mesh0", "Mesh7-refined2", "Mesh70", "part")],
+                         ["one tooth", "rack of four teeth", "other meshes", "other meshes"])
+
+
+class ConvergenceTest(StudiesTest):
+    def test_rate(self) -> None:
+        rows = self.read(made_up.error_study(list(SIZES), sweep=False))
+        bodies = convergence_figure.points_of(rows)
+        self.assertEqual([p.mesh for p in bodies["one tooth"]], list(SIZES)[:4])
+        for points in bodies.values():  # made as n_phi^-0.45
+            self.assertAlmostEqual(convergence_figure.rate(points), 0.9, 6)
+        words = words_of(convergence_figure.draw(rows))
+        self.assertIn("one tooth: $h^{0.90}$", words)
+        self.assertIn("bounds of the energy, rack", words)
+
+    def test_bounds_of_another_scene(self) -> None:
+        rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
+        smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
+        rows += [row | dict(scene="frictionless") for row in smooth]
+        words = words_of(convergence_figure.draw(self.read(rows)))
+        self.assertIn("Right: scene frictionless", words)
+        self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
+
+    def test_without_bounds(self) -> None:
+        rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
+        words = words_of(convergence_figure.draw(self.read(rows)))
+        self.assertNotIn("bounds", words)
+
+
+class AtlasTest(StudiesTest):
+    def test_a_cell_per_case(self) -> None:
+        rows = self.read(made_up.stability_study())
+        with mock.patch.object(Axes, "add_patch") as patch:
+            figure = atlas_figure.draw(rows)
+        places = [call.args[0].get_xy() for call in patch.call_args_list]
+        self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
+        words = words_of(figure)
+        wrong = sum(row.outcome == "wrong_success" for row in rows)
+        self.assertIn(f"wrong success: said ok, and is not: {wrong}", words)
+        self.assertEqual(words.split().count("W!"), wrong + 1)
+        for row in rows:
+            self.assertIn(row.scene, words)
+            self.assertIn(row.scene_group, words)
+
+    def test_no_wrong_success_is_said_too(self) -> None:
+        rows = [row for row in made_up.stability_study() if row["outcome"] != "wrong_success"]
+        self.assertIn("is not: 0", words_of(atlas_figure.draw(self.read(rows))))
+
+    def test_digits(self) -> None:
+        for stress, force, digits in ((1e-9, 2e-7, "6"), (0, 0, "16"), (1e-12, "", "12"),
+                                      ("", "", "+"), (5, "", "0")):
+            row = made_up.stability_study()[0] | dict(error_stress=stress, error_force=force)
+            self.assertEqual(atlas_figure.digits(self.read([row])[0]), digits)
+
+    def test_columns_go_by_group_then_by_number(self) -> None:
+        row = made_up.stability_study()[0]
+        names = [("b", f"friction_{mu}") for mu in ("10", "1e-8", "1", "10_sheared", "0")]
+        names.append(("a", "z"))
+        rows = self.read([row | dict(scene_group=g, scene=s) for g, s in names])
+        self.assertEqual(atlas_figure.columns_of(rows),
+                         [names[5], names[4], names[1], names[2], names[0], names[3]])
+
+    def test_names_do_not_leave_the_sheet(self) -> None:
+        figure = atlas_figure.draw(self.read(made_up.stability_study()))
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        figure.draw(renderer)
+        for text in figure.findobj(Text):
+            if text.get_text() and text.get_visible():
+                box = text.get_window_extent(renderer)
+                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
+                                and box.y1 <= figure.bbox.y1, text)
+
+
+class OtherFiguresTest(StudiesTest):
+    def test_size_to_limit(self) -> None:
+        rows = self.read(made_up.sizes_to_the_limit())
+        figure = limit_figure.draw(rows)
+        for axes in figure.axes:
+            self.assertGreaterEqual(axes.get_xlim()[1], 1e6)
+        words = words_of(figure)
+        self.assertIn("Mesh7-refined2", words)
+        self.assertIn("3STEPD:CHOLMOD: $n^{1.30}$", words)
+
+    def test_stop_and_error(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh1"]))
+        curve, = stop_figure.curves_of(rows).values()
+        self.assertEqual([stop.r for stop in curve], [5, 20, 80, 320, 1280])
+        self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows)))
+
+    def test_labels_keep_apart_and_inside(self) -> None:
+        figure = Figure(figsize=(6, 4))
+        axes = figure.add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
+        labels = direct_labels.Labels(axes)
+        for k, (x, y) in enumerate(np.random.default_rng(2).uniform(0, 1, (25, 2))):
+            labels.add(f"method {k}", x, y)
+        box = axes.get_window_extent().bounds
+        low = np.array(box[:2]) * 72 / figure.dpi
+        high = low + np.array(box[2:]) * 72 / figure.dpi
+        for k, a in enumerate(labels.boxes):
+            self.assertTrue((a[:2] >= low - 1e-9).all() and (a[2:] <= high + 1e-9).all())
+            for b in labels.boxes[:k]:
+                self.assertTrue((a[:2] >= b[2:]).any() or (b[:2] >= a[2:]).any())
+
+    def test_words_for_numbers(self) -> None:
+        for value, words in ((0.0712, "7.1 %"), (0.2, "20 %"), (7e-4, "0.07 %"), (6e-6, "6e-6"),
+                             (1.5, "1.5")):
+            self.assertEqual(study_parts.percent(value).replace("\u00a0", " "), words)
+        for value, words in ((0.0031, "3.1 ms"), (0.25, "0.25 s"), (150, "150 s")):
+            self.assertEqual(study_parts.seconds(value).replace("\u00a0", " "), words)
+
+
+if __name__ == "__main__":
+    unittest.main()
