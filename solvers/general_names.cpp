@@ -107,6 +107,7 @@ Method symmlq(const std::string& name, Parts parts) {
     refuse(name, "schur=" + schur + " (allowed: dense, sparse)");
   const int lanes = lanes_of(name, parts);
   refuse_rest(name, parts, "schur, lanes");
+  method.condenses_contact_only = true;
   const SchurBlock block = schur == "dense" ? SchurBlock::dense : SchurBlock::sparse;
   method.solve = [make, block, lanes](const DualSystem& s, const RunControl& c) {
     return solve_symmlq_condensation(s, c, make, block, lanes);

@@ -28,14 +28,17 @@ struct Tuning {
 };
 
 struct Method {
-  std::string name;                 // "SDTIC3"
-  std::string summary;              // one line
-  bool in_paper = false;            // named there; these are run by default
-  Blocks blocks = Blocks::airy;     // what it needs assembled
+  std::string name;              // "SDTIC3"
+  std::string summary;           // one line
+  bool in_paper = false;         // named there; these are run by default
+  Blocks blocks = Blocks::airy;  // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
   std::vector<std::string> stages;  // in order, as StageTimes names them
+  // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
+  // contact there is nothing to condense.
+  bool condenses_contact_only = false;
   Solve solve;
   std::string general_name;  // "SYMMLQ:DTIC3" where the name is an alias; else empty
   // An iterative method is run to a target error: the harness begins with this tolerance per

@@ -62,6 +62,7 @@ HybridElement make_element(const Problem& problem, const HybridizedSystem& syste
                                                .tail<9>())
              : Eigen::Matrix<double, 9, 1>(Eigen::Matrix<double, 9, 1>::Zero());
 
+  element.particular_forces.setZero();
   Eigen::Matrix<double, 12, 12> T = Eigen::Matrix<double, 12, 12>::Zero();
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3, edge = problem.edges.of_triangle[t][k];
@@ -72,8 +73,9 @@ HybridElement make_element(const Problem& problem, const HybridizedSystem& syste
     rows.middleCols<3>(3 * next) = f.middleCols<3>(3);
     rows.col(9 + k) = f.col(6);
     T.middleRows<4>(4 * k) = q.transpose() * rows;
-    element.particular_forces.segment<4>(4 * k) =
-        q.transpose() * element_edge_forces(v, particular, k).reshaped();
+    if (loaded)
+      element.particular_forces.segment<4>(4 * k) =
+          q.transpose() * element_edge_forces(v, particular, k).reshaped();
     std::copy_n(system.unknown[edge].begin(), 4, element.unknown.begin() + 4 * k);
   }
   element.forces = T.rightCols<9>().transpose();
