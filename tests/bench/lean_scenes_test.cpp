@@ -85,7 +85,7 @@ constexpr std::int64_t rounding = 512;
 Measured measure(const LeanScene& scene, const Method& method) {
   const auto problem = scene.posed();
   RunControl control;
-  control.tolerance = 1e-10;
+  control.tolerance = 1e-6;
   Measured m;
   m.stages = decide_stages(*problem, method, /*fields_asked=*/false);
   // What libraries keep from their first call is no part of the second.
@@ -164,7 +164,7 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
     EXPECT_LE(lean.blocks_bytes, with.blocks_bytes + rounding) << scene.name;
     EXPECT_LE(lean.peak_bytes, with.peak_bytes + moved + rounding) << scene.name;
     // Each asking of the contact law and each growth of a history allocates: where other forces
-    // need more of them, nothing is said. One more: the sweeps of one component per point.
+    // need more of them, nothing is said. One temporary more is let pass.
     if (lean.solution.contact_iterations <= with.solution.contact_iterations &&
         lean.solution.uzawa_iterations <= with.solution.uzawa_iterations) {
       EXPECT_LE(lean.allocations, with.allocations + 1) << scene.name;
