@@ -31,15 +31,19 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
   decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
   decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
   decide("assemble q", airy && loaded, airy ? "no prescribed displacement, no body force" : unused);
-  decide("assemble F", airy && forced, airy ? "no traction, no body force" : unused);
+  decide("assemble F", airy && constrained && forced,
+         !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
   decide("assemble F0", airy && contact && loads.has_body_force(),
          !airy ? unused : (contact ? "no body force" : "no contact boundary"));
   decide("assemble gap", contact && loads.gap_mm != nullptr,
          contact ? "the gap is zero" : "no contact boundary");
   for (const std::string& stage : method.stages) {
-    decide(stage, contact || stage != "contact", "no contact boundary");
+    const bool for_contact =
+        stage == "contact" || (stage == "condense" && method.condenses_contact_only);
+    decide(stage, contact || !for_contact, "no contact boundary");
     if (stage == "condense" && airy) {
-      decide("condense: eliminate force multipliers", constrained, "no force boundary");
+      if (!method.condenses_contact_only)
+        decide("condense: eliminate force multipliers", constrained, "no force boundary");
       decide("condense: D and G", contact, "no contact boundary");
     }
     if (stage == "contact")

@@ -116,6 +116,7 @@ Method symmlq(const std::string& name, Parts parts) {
   const int lanes = lanes_of(name, parts);
   const Refine refine = refine_of(name, parts);
   refuse_rest(name, parts, "schur, lanes, refine");
+  method.condenses_contact_only = true;
   const SchurBlock block = schur == "dense" ? SchurBlock::dense : SchurBlock::sparse;
   method.solve = [make, block, lanes, refine](const DualSystem& s, const RunControl& c) {
     return solve_symmlq_condensation(s, c, make, block, lanes, refine);

@@ -45,6 +45,9 @@ struct Method {
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
   std::vector<std::string> stages;  // in order, as StageTimes names them
+  // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
+  // contact there is nothing to condense.
+  bool condenses_contact_only = false;
   Solve solve;
   std::string general_name;  // "SYMMLQ:DTIC3" where the name is an alias; else empty
   // An iterative method is run to a target error: the harness begins with this tolerance per

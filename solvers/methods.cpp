@@ -26,6 +26,12 @@ Method direct(const char* name, const char* summary, bool in_paper, Blocks block
   return method;
 }
 
+Method blind(const char* name, const char* summary, bool in_paper, Solve solve) {
+  Method method = direct(name, summary, in_paper, Blocks::airy, std::move(solve));
+  method.condenses_contact_only = true;
+  return method;
+}
+
 // One of the paper's names for a method that has a general one.
 Method alias(const char* name, const char* general_name) {
   Method method = method_of_general_name(general_name);
@@ -76,16 +82,15 @@ std::vector<Method> table() {
                        three_step(KeepX::Where::memory)),
                 AccuracyKnob::contact_sweeps),
       tuned_augmented_lagrangian(),
-      direct("BLIND", "blind condensation, MUMPS indefinite LDLT", true, Blocks::airy,
-             solve_blind_mumps),
-      direct("BLIND:SCHUR", "blind condensation, D from MUMPS's Schur complement", false,
-             Blocks::airy, blind_schur(Refine::no)),
-      direct("BLIND:SCHUR:REFINED", "BLIND:SCHUR refined with residuals in long double", false,
-             Blocks::airy, blind_schur(Refine::yes)),
+      blind("BLIND", "blind condensation, MUMPS indefinite LDLT", true, solve_blind_mumps),
+      blind("BLIND:SCHUR", "blind condensation, D from MUMPS's Schur complement", false,
+            blind_schur(Refine::no)),
+      blind("BLIND:SCHUR:REFINED", "BLIND:SCHUR refined with residuals in long double", false,
+            blind_schur(Refine::yes)),
+      blind("BLIND:SKY", "blind condensation, skyline LDLT, multipliers after their unknowns",
+            false, solve_blind_skyline),
       direct("3STEPD:REFINED", "3STEPD refined with residuals in long double", false, Blocks::airy,
              three_step(KeepX::Where::memory, Refine::yes)),
-      direct("BLIND:SKY", "blind condensation, skyline LDLT, multipliers after their unknowns",
-             false, Blocks::airy, solve_blind_skyline),
       direct("3STEPD:FILE", "3STEPD with the intermediate matrices in a file", false, Blocks::airy,
              three_step(KeepX::Where::file)),
       direct("3STEPD:LEAN", "3STEPD that never stores the intermediate matrices whole", false,

@@ -78,6 +78,7 @@ BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering
 CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& blind,
                                  const BlindSolve& solve, int columns_at_once) {
   const int n_c = system.n_c();
+  if (n_c == 0) return {};
   const std::vector<int> contact = contact_positions(system, blind);
   const auto contact_part = [&](const auto& x) {
     Eigen::VectorXd part(n_c);
@@ -85,7 +86,6 @@ CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& bl
     return part;
   };
   CondensedSystem condensed;
-  if (n_c == 0) return condensed;
   condensed.G.setZero(n_c);
   if (blind.load.size() > 0) {
     Eigen::VectorXd x = blind.load;

@@ -19,7 +19,7 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
                         const RunControl& control, const BlindSolve& solve, int columns_at_once,
                         Solution& solution) {
   CondensedSystem condensed;
-  {
+  if (system.n_c() > 0) {
     const StageTimer timer(solution.times.condense_s);
     condensed = condense_blindly(system, blind, solve, columns_at_once);
   }

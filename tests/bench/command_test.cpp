@@ -394,10 +394,16 @@ TEST_F(Command, ALongCaseIsMeasuredOnce) {
 }
 
 TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
+#ifdef __SANITIZE_ADDRESS__
+  const std::string mesh = "Mesh0";  // Mesh1 takes minutes
+#else
+  const std::string mesh = "Mesh1";
+#endif
   const std::string methods = "3STEPCG3,SDTIC6,SYMMLQ:FLIC3,ALM,BLIND:SKY,HYBRID";
   const auto counts = [&](const std::string& arguments, std::vector<const char*> keys) {
-    EXPECT_EQ(bench("--mesh=Mesh1 --repetitions=1 --out=o --method=" + methods + arguments).code,
-              0);
+    EXPECT_EQ(
+        bench("--mesh=" + mesh + " --repetitions=1 --out=o --method=" + methods + arguments).code,
+        0);
     std::vector<std::string> all;
     for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
       const auto record = nlohmann::json::parse(line);
@@ -410,8 +416,9 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   const auto first = counts("", every);
   EXPECT_EQ(first.size(), 30u);
   EXPECT_EQ(counts("", every), first);
-  const std::vector<const char*> linear = {"linear_iterations"};
-  EXPECT_EQ(counts(" --threads=2", linear), counts("", linear));
+  std::vector<std::string> linear;  // of the first run
+  for (std::size_t k = 0; k < first.size(); k += every.size()) linear.push_back(first[k]);
+  EXPECT_EQ(counts(" --threads=2", {"linear_iterations"}), linear);
 }
 
 }  // namespace
