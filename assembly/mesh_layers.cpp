@@ -22,9 +22,9 @@ std::vector<double> interfaces_of(const Mesh& mesh, const Layers& layers,
 void check_values(const Layers& layers) {
   if (!layers.normal.allFinite() || layers.normal.isZero(0))
     refuse("normal", shown(layers.normal), "(allowed: a direction, not [0, 0])");
-  if (layers.count < 1 || layers.count > most_layers)
+  if (layers.count < 0 || layers.count > most_layers)
     refuse("count", layers.count,
-           "(allowed: a whole number from 1 to " + std::to_string(most_layers) + ")");
+           "(allowed: a whole number from 0 to " + std::to_string(most_layers) + ")");
   if (layers.interfaces_mm.size() >= most_layers)
     refuse("interfaces_mm", layers.interfaces_mm.size(),
            "interfaces (allowed: fewer than " + std::to_string(most_layers) + ")");
@@ -36,6 +36,7 @@ void check_values(const Layers& layers) {
 
 Mesh layered(Mesh mesh, const Layers& layers) {
   check_values(layers);
+  if (layers.none()) return mesh;
   const Eigen::Vector2d n = layers.normal.stableNormalized();
   const std::vector<double> interfaces = interfaces_of(mesh, layers, n);
   std::vector<int> triangles(interfaces.size() + 1, 0);

@@ -9,11 +9,13 @@
 namespace airybench {
 
 // Either a number of layers, equally thick between the smallest and the largest n·x of the body, or
-// their interfaces.
+// their interfaces; neither: the mesh keeps its bodies.
 struct Layers {
   Eigen::Vector2d normal = {1, 0};    // not zero; any length
-  int count = 1;                      // 1 to most_layers; used when there are no interfaces
+  int count = 0;                      // 0 to most_layers; used when there are no interfaces
   std::vector<double> interfaces_mm;  // n·x with n = normal/|normal|, ascending
+
+  bool none() const { return count == 0 && interfaces_mm.empty(); }
 };
 inline constexpr int most_layers = 1000;
 

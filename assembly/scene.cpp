@@ -37,8 +37,7 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
 
 Mesh mesh_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
-  if (!scene.layers) return mesh;
-  return of_scene(scene, "layers", [&] { return layered(std::move(mesh), *scene.layers); });
+  return of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
 }
 
 struct Face {
@@ -120,7 +119,7 @@ void check_values(const Scene& scene) {
   for (const Material& material : scene.layer_materials)
     check_material(scene, "layers: materials: ", material);
   of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
-  if (scene.layers) of_scene(scene, "layers", [&] { check_values(*scene.layers); });
+  of_scene(scene, "layers", [&] { check_values(scene.layers); });
   if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
     fail(scene, "friction", scene.friction, "(allowed: >= 0)");
   if (scene.crown_radius_mm &&

@@ -22,7 +22,7 @@ struct Scene {
 
   // What is done to the mesh before anything else; layers then are its bodies.
   MeshTransform mesh;
-  std::optional<Layers> layers;
+  Layers layers;
 
   // Geometry belongs to the transformed mesh. What is given here is compared with it, and a
   // contradiction is refused.

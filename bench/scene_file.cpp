@@ -20,10 +20,12 @@ class Reader {
 
   using Setter = std::function<void(const std::string& key, const Json& value)>;
 
-  // Hands every key to its setter; unknown keys are refused.
+  // Hands every key to its setter; unknown keys are refused. prefix: empty, or "key: ".
   void object(const std::string& prefix, const Json& json,
               const std::vector<std::pair<std::string, Setter>>& keys) const {
-    if (!json.is_object()) fail(prefix.empty() ? "the scene" : prefix, json, "a JSON object");
+    if (!json.is_object())
+      fail(prefix.empty() ? "the scene" : prefix.substr(0, prefix.size() - 2), json,
+           "a JSON object");
     for (const auto& [key, value] : json.items()) {
       const auto found = std::find_if(keys.begin(), keys.end(),
                                       [&](const auto& known) { return known.first == key; });
@@ -135,7 +137,7 @@ MeshTransform read_mesh(const Reader& reader, const std::string& key, const Json
 }
 
 void read_layers(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
-  Layers& layers = scene.layers.emplace();
+  Layers& layers = scene.layers;
   reader.object(
       key + ": ", json,
       {{"normal", [&](const auto& k, const Json& v) { layers.normal = reader.vector(k, v); }},

@@ -92,5 +92,41 @@ TEST(Scene, EveryBodyCanHaveItsMaterial) {
   EXPECT_EQ(problem.compliance_of(20), compliance({70000, 0.33}, Plane::strain));
 }
 
+TEST(Scene, TheMeshIsTransformedFirst) {
+  Scene scene;
+  scene.mesh.refine = 1;
+  scene.mesh.scale = 10;
+  scene.length_mm = 100;  // of the transformed mesh
+  const Problem problem = pose(scene, small_tooth(4, 4));
+  EXPECT_EQ(problem.mesh.triangles.size(), 128u);
+  EXPECT_EQ(problem.mesh.name, "small tooth");
+  scene.length_mm = 10;
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: length_mm: 10 contradicts the mesh small tooth, which has 100");
+}
+
+TEST(Scene, LayersTakeTheirMaterialsInTurnAndNamedOnesTheirOwn) {
+  Scene scene;
+  scene.layers.count = 4;
+  scene.layer_materials = {{1000, 0.1}, {2000, 0.2}};
+  scene.materials["layer 3"] = {3000, 0.3};
+  const Problem problem = pose(scene, small_tooth(8, 4));
+  const Material expected[] = {{1000, 0.1}, {2000, 0.2}, {3000, 0.3}, {2000, 0.2}};
+  ASSERT_EQ(problem.compliance.size(), 4u);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(problem.compliance[k], compliance(expected[k], Plane::strain));
+}
+
+TEST(Scene, WhatTheMeshCannotBeIsSaidWithTheScene) {
+  Scene scene;
+  scene.mesh.keep_contact_edges = 9;
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: mesh: keep_contact_edges: 9 (the mesh small tooth has 4)");
+  scene.mesh = {};
+  scene.layers.normal = {0, 0};
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
+}
+
 }  // namespace
 }  // namespace airybench
