@@ -177,9 +177,7 @@ Scene from_json(const Json& json, const std::string& file) {
   };
   reader.object(
       "", json,
-      {{"group", text(scene.group)},
-       {"about", text(scene.about)},
-       {"teeth", [&](const auto& k, const Json& v) { scene.teeth = reader.whole(k, v, 1, most); }},
+      {{"teeth", [&](const auto& k, const Json& v) { scene.teeth = reader.whole(k, v, 1, most); }},
        {"root_half_height_mm", optional_length(scene.root_half_height_mm)},
        {"length_mm", optional_length(scene.length_mm)},
        {"tip_half_height_mm", optional_length(scene.tip_half_height_mm)},
@@ -203,7 +201,9 @@ Scene from_json(const Json& json, const std::string& file) {
        {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
        {"materials", [&](const auto&, const Json& v) { materials = v; }},
        {"mesh", [&](const auto& k, const Json& v) { scene.mesh = read_mesh(reader, k, v); }},
-       {"layers", [&](const auto&, const Json& v) { layers = v; }}});
+       {"layers", [&](const auto&, const Json& v) { layers = v; }},
+       {"group", text(scene.group)},
+       {"about", text(scene.about)}});
   // A missing value is the scene's own, wherever that stands in the file.
   if (!materials.is_null()) read_materials(reader, "materials", materials, scene);
   if (!layers.is_null()) read_layers(reader, "layers", layers, scene);
