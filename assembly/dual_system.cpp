@@ -76,7 +76,8 @@ ContactPoints contact_points(const Problem& problem) {
     if (!gap_at) continue;
     const auto &a = problem.mesh.vertices[edge.vertices[0]],
                &b = problem.mesh.vertices[edge.vertices[1]];
-    const auto [start, end] = edge_moments(gap_at(a), gap_at((a + b) / 2), gap_at(b));
+    const auto [start, end] =
+        edge_moments(gap_at(a, row), gap_at((a + b) / 2, row), gap_at(b, row));
     gap.insert(gap.end(), {start, end});
   }
   contact.count = static_cast<int>(contact.boundary.size());

@@ -24,9 +24,10 @@ namespace airybench {
 struct Loads {
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x)> displacement_mm;  // u0 on Γ_D
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal)>
-      traction_MPa;                                        // f on Γ_F; linear on every edge
-  std::function<double(const Eigen::Vector2d& x)> gap_mm;  // g0 on Γ_C; quadratic on every edge
-  Eigen::Vector2d body_force_N_per_mm3 = {0, 0};           // b, constant
+      traction_MPa;  // f on Γ_F; linear on every edge
+  std::function<double(const Eigen::Vector2d& x, int boundary_row)>
+      gap_mm;  // g0 on Γ_C, on an edge of Mesh::boundary; quadratic on every edge
+  Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
 };

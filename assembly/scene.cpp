@@ -18,12 +18,6 @@ constexpr double geometry_tolerance = 1e-6;
   throw SceneError(line.str());
 }
 
-std::string shown(const Eigen::Vector2d& v) {
-  std::ostringstream text;
-  text << "[" << v.x() << ", " << v.y() << "]";
-  return text.str();
-}
-
 void check_length(const Scene& scene, const std::string& key, std::optional<double> given,
                   double of_mesh, const Mesh& mesh) {
   if (!given || std::abs(*given - of_mesh) <= geometry_tolerance * of_mesh) return;
@@ -32,17 +26,32 @@ void check_length(const Scene& scene, const std::string& key, std::optional<doub
   fail(scene, key, *given, why.str());
 }
 
+// What `change` refuses was asked for by the scene.
+auto of_scene(const Scene& scene, const std::string& key, auto change) {
+  try {
+    return change();
+  } catch (const TransformError& error) {
+    throw SceneError(scene.source + ": " + key + ": " + error.what());
+  }
+}
+
+Mesh mesh_of(const Scene& scene, Mesh mesh) {
+  mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
+  return of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
+}
+
 struct Face {
+  std::vector<int> rows;   // of Mesh::boundary
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
 };
 
 std::vector<Face> contact_faces(const Mesh& mesh) {
   std::vector<Face> faces;
-  for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
+  for (auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
     const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
-    faces.push_back({(start + end) / 2, (end - start).norm() / 2});
+    faces.push_back({std::move(chain), (start + end) / 2, (end - start).norm() / 2});
   }
   return faces;
 }
@@ -82,10 +91,13 @@ std::vector<Eigen::Matrix3d> compliances(const Scene& scene, const Mesh& mesh) {
            "is no body of the mesh " + mesh.name + " (its bodies: " + valid + ")");
     }
   std::vector<Eigen::Matrix3d> result;
-  for (const std::string& body : mesh.body_names) {
-    const auto own = scene.materials.find(body);
-    result.push_back(
-        compliance(own == scene.materials.end() ? scene.material : own->second, scene.plane));
+  for (std::size_t k = 0; k < mesh.body_names.size(); ++k) {
+    const auto own = scene.materials.find(mesh.body_names[k]);
+    const auto& layers = scene.layer_materials;
+    result.push_back(compliance(own != scene.materials.end() ? own->second
+                                : layers.empty()             ? scene.material
+                                                             : layers[k % layers.size()],
+                                scene.plane));
   }
   return result;
 }
@@ -104,6 +116,10 @@ void check_values(const Scene& scene) {
   check_material(scene, "", scene.material);
   for (const auto& [body, material] : scene.materials)
     check_material(scene, "materials: " + body + ": ", material);
+  for (const Material& material : scene.layer_materials)
+    check_material(scene, "layers: materials: ", material);
+  of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
+  of_scene(scene, "layers", [&] { check_values(scene.layers); });
   if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
     fail(scene, "friction", scene.friction, "(allowed: >= 0)");
   if (scene.crown_radius_mm &&
@@ -119,8 +135,9 @@ void check_values(const Scene& scene) {
          "(allowed: finite numbers)");
 }
 
-Problem pose(const Scene& scene, Mesh mesh) {
+Problem pose(const Scene& scene, Mesh given_mesh) {
   check_values(scene);
+  Mesh mesh = mesh_of(scene, std::move(given_mesh));
   const std::vector<Face> faces = contact_faces(mesh);
   check_geometry(scene, mesh, faces);
 
@@ -130,10 +147,12 @@ Problem pose(const Scene& scene, Mesh mesh) {
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
   if (scene.crown_radius_mm || scene.clearance_mm > 0) {
     const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;
-    loads.gap_mm = [faces, curvature, clearance = scene.clearance_mm](const Eigen::Vector2d& x) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Face& face : faces) nearest = std::min(nearest, (x - face.middle).squaredNorm());
-      return clearance + nearest * curvature / 2;
+    std::vector<Eigen::Vector2d> axis(mesh.boundary.size(), Eigen::Vector2d::Zero());
+    for (const Face& face : faces)
+      for (const int row : face.rows) axis[static_cast<std::size_t>(row)] = face.middle;
+    loads.gap_mm = [axis = std::move(axis), curvature, clearance = scene.clearance_mm](
+                       const Eigen::Vector2d& x, int row) {
+      return clearance + (x - axis[static_cast<std::size_t>(row)]).squaredNorm() * curvature / 2;
     };
   }
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);

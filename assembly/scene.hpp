@@ -7,7 +7,10 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "assembly/mesh_layers.hpp"
+#include "assembly/mesh_transform.hpp"
 #include "assembly/problem.hpp"
 
 namespace airybench {
@@ -15,14 +18,20 @@ namespace airybench {
 struct Scene {
   std::string name = "default";
   std::string source = "default scene";  // where it comes from; for messages
+  std::string group, about;              // of an atlas of scenes; they change nothing
 
-  // Geometry belongs to the mesh. What is given here is compared with it, and a contradiction is
-  // refused.
+  // What is done to the mesh before anything else; layers then are its bodies.
+  MeshTransform mesh;
+  Layers layers;
+
+  // Geometry belongs to the transformed mesh. What is given here is compared with it, and a
+  // contradiction is refused.
   std::optional<int> teeth;  // separate contact faces
   std::optional<double> root_half_height_mm, length_mm, tip_half_height_mm;
 
-  Material material;                          // every body …
-  std::map<std::string, Material> materials;  // … but those named here
+  Material material;                      // every body …
+  std::vector<Material> layer_materials;  // … but layers: "layer k+1" has the k-th, cycled …
+  std::map<std::string, Material> materials;  // … and bodies named here
   Plane plane = Plane::strain;
 
   double friction = 0.2;                        // μ ≥ 0
@@ -40,9 +49,9 @@ struct SceneError : std::runtime_error {
 // Throws SceneError when a value is impossible in itself: ν ≥ 0.5, μ < 0, E ≤ 0, …
 void check_values(const Scene& scene);
 
-// Poses the scene. g0 = clearance + d²/(2R) on the contact boundary, where d is the distance from
-// the nearest of the contact faces' middles (the midpoint of a face's two ends: the tooth's axis).
-// Throws SceneError.
+// Transforms the mesh and poses the scene on it. g0 = clearance + d²/(2R) on the contact boundary,
+// where d is the distance from the middle of the contact face that the edge belongs to (the
+// midpoint of the face's two ends: the tooth's axis). Throws SceneError.
 Problem pose(const Scene& scene, Mesh mesh);
 
 }  // namespace airybench

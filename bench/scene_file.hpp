@@ -4,9 +4,16 @@
 //     "young_MPa": 210000, "poisson": 0.3, "plane": "strain", "friction": 0.2,
 //     "crown_radius_mm": 400, "clearance_mm": 0, "displacement_mm": [0.02, 0.006],
 //     "body_force_N_per_mm3": [0, 0],
-//     "materials": { "a body's name": { "young_MPa": 70000, "poisson": 0.33 } } }
+//     "materials": { "a body's name": { "young_MPa": 70000, "poisson": 0.33 } },
+//     "mesh": { "refine": 1, "grade": { "at_mm": [10, 0], "ratio": 100 },
+//               "slivers": { "aspect": 1000, "count": 5 }, "scale": 1, "stretch": [1, 1],
+//               "move_mm": [0, 0], "keep_contact_edges": 4, "keep_displacement_edges": 2,
+//               "keep_force_edges": 0 },
+//     "layers": { "normal": [1, 0], "count": 4, "materials": [ {}, { "young_MPa": 21 } ] },
+//     "group": "layered", "about": "any one sentence" }
 //
-// "crown_radius_mm": null is a flat wall; "plane" is "strain" or "stress".
+// "crown_radius_mm": null is a flat wall; "plane" is "strain" or "stress"; layers may have
+// "interfaces_mm": [ ... ] instead of "count".
 #pragma once
 
 #include <filesystem>

@@ -113,4 +113,21 @@ int convert_command(const std::filesystem::path& model, const std::filesystem::p
   return 0;
 }
 
+int modify_command(const std::string& name, const std::filesystem::path& repository,
+                   const MeshTransform& transform, const Layers& layers,
+                   const std::filesystem::path& out) {
+  const std::vector<std::string> selected = expand_mesh_selection(name);
+  if (selected.size() != 1)
+    throw std::invalid_argument(
+        fmt::format("--modify: '{}' are {} meshes; one is needed", name, selected.size()));
+  const std::string& mesh_name = selected.front();
+  Mesh mesh = read_msh(is_mesh_file(mesh_name) ? std::filesystem::path(mesh_name)
+                                               : repository / (mesh_name + ".msh"));
+  mesh = layered(transformed(std::move(mesh), transform), layers);
+  mesh.name = out.stem().string();
+  write_file_atomically(out, msh_text(mesh));
+  print_summary(out, mesh);
+  return 0;
+}
+
 }  // namespace airybench

@@ -7,6 +7,8 @@
 #include <optional>
 #include <string>
 
+#include "assembly/mesh_layers.hpp"
+#include "assembly/mesh_transform.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {
@@ -25,5 +27,10 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
 
 // Writes a user's Gmsh model in our format.
 int convert_command(const std::filesystem::path& model, const std::filesystem::path& out);
+
+// Writes a changed mesh; `mesh` is a file, or a name in `repository`.
+int modify_command(const std::string& mesh, const std::filesystem::path& repository,
+                   const MeshTransform& transform, const Layers& layers,
+                   const std::filesystem::path& out);
 
 }  // namespace airybench

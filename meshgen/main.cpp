@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iostream>
 
 #include "meshgen/commands.hpp"
@@ -14,15 +15,46 @@ namespace {
 constexpr int exit_failure = 1, exit_usage = 2;
 
 struct Arguments {
-  std::string selection, model, out;
+  std::string selection, model, to_modify, out;
   bool check = false, tooth = false;
   std::string repository = AIRYBENCH_MESH_DIR;
   airybench::ToothDimensions dimensions;
   airybench::EdgeCounts edges;
   int vertices = 0;
+  airybench::MeshTransform transform;
+  std::vector<double> grade, slivers, stretch, move_mm, layers;
 };
 
-constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert"};
+constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert", "--modify"};
+
+void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
+  const auto option = [&](const char* name, auto& value, const char* type, const char* help) {
+    return app.add_option(name, value, help)
+        ->needs(modify)
+        ->type_name(type)
+        ->group("With --modify, in this order");
+  };
+  const auto numbers = [&](const char* name, std::vector<double>& value, int count,
+                           const char* type, const char* help) {
+    option(name, value, type, help)->delimiter(',')->expected(count);
+  };
+  option("--refine", a.transform.refine, "K", "K times each triangle into four");
+  numbers("--grade", a.grade, 3, "X,Y,RATIO",
+          "Bisect at the vertex nearest to (X, Y) mm until edges there are RATIO times smaller");
+  numbers("--slivers", a.slivers, 2, "ASPECT,COUNT",
+          "A flat triangle of longest edge/height = ASPECT into COUNT triangles");
+  option("--scale", a.transform.scale, "S", "All lengths times S");
+  numbers("--stretch", a.stretch, 2, "SX,SY", "x times SX, y times SY");
+  numbers("--move", a.move_mm, 2, "DX,DY", "Move by (DX, DY) mm");
+  option("--keep-contact-edges", a.transform.keep_contact_edges, "N",
+         "Only the middle N contact edges stay; the others become force edges");
+  option("--keep-displacement-edges", a.transform.keep_displacement_edges, "N",
+         "Only the middle N displacement edges stay; the others become force edges");
+  option("--keep-force-edges", a.transform.keep_force_edges, "N",
+         "Only the middle N force edges stay; the others become displacement edges");
+  numbers("--layers", a.layers, 3, "NX,NY,COUNT",
+          "COUNT layers of equal thickness in the direction (NX, NY) as bodies \"layer 1\", ...");
+}
 
 void declare(CLI::App& app, Arguments& a) {
   const std::string what = "What to do, exactly one of";
@@ -40,9 +72,14 @@ void declare(CLI::App& app, Arguments& a) {
                  "force, contact and a physical surface per body")
       ->type_name("MODEL")
       ->group(what);
+  auto* modify =
+      app.add_option("--modify", a.to_modify, "Change a mesh: a .msh file or one of Mesh0..Mesh7")
+          ->type_name("MESH")
+          ->group(what);
 
   app.add_option("--out", a.out,
-                 "Where to write: a folder with --mesh; a .msh file with --tooth, --convert")
+                 "Where to write: a folder with --mesh; a .msh file with --tooth, --convert, "
+                 "--modify")
       ->type_name("PATH");
   app.add_option("--meshes", a.repository, "Folder of the repository's meshes")
       ->envname("AIRYBENCH_MESH_DIR")
@@ -67,6 +104,33 @@ void declare(CLI::App& app, Arguments& a) {
   length("--tip-half-height", a.dimensions.tip_half_height, "Half height of the tip");
   length("--pitch", a.dimensions.pitch, "Distance between a rack's teeth");
   length("--block-depth", a.dimensions.block_depth, "Depth of a rack's block");
+  declare_modify(app, modify, a);
+}
+
+// A count among numbers that may be fractions.
+int whole(const char* name, double value) {
+  if (!(value >= 1 && value <= 1e6) || value != std::floor(value))
+    throw std::invalid_argument(fmt::format(
+        "{}: {}: a whole number from 1 to 1000000 is needed for its count", name, value));
+  return static_cast<int>(value);
+}
+
+// The transformation that the options of --modify ask for.
+airybench::MeshTransform transform_of(const Arguments& a) {
+  airybench::MeshTransform transform = a.transform;
+  if (!a.grade.empty()) transform.grade = {{a.grade[0], a.grade[1]}, a.grade[2]};
+  if (!a.slivers.empty()) transform.slivers = {a.slivers[0], whole("--slivers", a.slivers[1])};
+  if (!a.stretch.empty()) transform.stretch = {a.stretch[0], a.stretch[1]};
+  if (!a.move_mm.empty()) transform.move_mm = {a.move_mm[0], a.move_mm[1]};
+  return transform;
+}
+
+airybench::Layers layers_of(const Arguments& a) {
+  airybench::Layers layers;
+  if (a.layers.empty()) return layers;
+  layers.normal = {a.layers[0], a.layers[1]};
+  layers.count = whole("--layers", a.layers[2]);
+  return layers;
 }
 
 // Everything CLI11 cannot say about the arguments.
@@ -76,9 +140,10 @@ void check_usage(const CLI::App& app, const Arguments& a) {
   if (given != 1)
     throw std::invalid_argument(fmt::format("exactly one of {} is needed ({} given); see --help",
                                             fmt::join(modes, ", "), given));
-  const bool writes_a_file = a.tooth || app.count("--convert") > 0;
+  const bool writes_a_file = a.tooth || app.count("--convert") > 0 || app.count("--modify") > 0;
   if (writes_a_file && a.out.empty())
-    throw std::invalid_argument("--out is missing; --tooth and --convert write the file it names");
+    throw std::invalid_argument(
+        "--out is missing; --tooth, --convert and --modify write the file it names");
   if (writes_a_file && !a.out.ends_with(".msh"))
     throw std::invalid_argument(
         fmt::format("--out: '{}'; a file name ending in .msh is needed", a.out));
@@ -100,6 +165,9 @@ int run(const CLI::App& app, const Arguments& a) {
         a.dimensions, a.edges,
         app.count("--vertices") > 0 ? std::optional(a.vertices) : std::nullopt, a.out);
   if (app.count("--convert") > 0) return airybench::convert_command(a.model, a.out);
+  if (app.count("--modify") > 0)
+    return airybench::modify_command(a.to_modify, a.repository, transform_of(a), layers_of(a),
+                                     a.out);
   return airybench::remake_command(
       a.selection, a.repository,
       a.out.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.out));

@@ -155,7 +155,7 @@ TEST(DualSystem, GapIsTheWorkPartnerOfTheNormalForce) {
     double work = 0;  // three-point Gauss
     for (const auto& [s, w] : {std::pair{0.5 - std::sqrt(0.15), 5 / 18.}, std::pair{0.5, 8 / 18.},
                                std::pair{0.5 + std::sqrt(0.15), 5 / 18.}})
-      work += w * length * problem.loads.gap_mm((1 - s) * xa + s * xb) *
+      work += w * length * problem.loads.gap_mm((1 - s) * xa + s * xb, system.contact.boundary[p]) *
               ((1 - s) * sigma_a + s * sigma_b);
     EXPECT_NEAR(
         length / 2 * (sigma_a * system.contact.gap(p) + sigma_b * system.contact.gap(p + 1)), work,

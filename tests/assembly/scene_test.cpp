@@ -20,13 +20,18 @@ std::string complaint(const Scene& scene, const Mesh& mesh) {
 }
 
 TEST(Scene, CrownIsCentredOnEachToothsAxis) {
-  const Problem tooth = pose({}, small_tooth(4, 4));
-  EXPECT_NEAR(tooth.loads.gap_mm({10, 0}), 0, 1e-15);
-  EXPECT_NEAR(tooth.loads.gap_mm({10, 3}), 9 / 800., 1e-15);
-  const Problem rack = pose({}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh"));
-  for (const double axis : {6.25, 18.75, 31.25, 43.75}) {
-    EXPECT_NEAR(rack.loads.gap_mm({10, axis}), 0, 1e-12);
-    EXPECT_NEAR(rack.loads.gap_mm({10, axis - 3}), 9 / 800., 1e-9);
+  for (const Mesh& mesh :
+       {small_tooth(4, 4), read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")}) {
+    const Problem problem = pose({}, mesh);
+    const auto faces = boundary_chains(problem.mesh, BoundaryRole::contact);
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      const double axis = faces.size() == 1 ? 0 : 6.25 + 12.5 * static_cast<double>(k);
+      const int row = faces[k].front();
+      EXPECT_NEAR(problem.loads.gap_mm({10, axis}, row), 0, 1e-12);
+      EXPECT_NEAR(problem.loads.gap_mm({10, axis - 3}, row), 9 / 800., 1e-9);
+      // The face's own axis, however near another one is.
+      EXPECT_NEAR(problem.loads.gap_mm({10, axis + 12.5}, row), 12.5 * 12.5 / 800., 1e-9);
+    }
   }
 }
 
@@ -85,6 +90,42 @@ TEST(Scene, EveryBodyCanHaveItsMaterial) {
   const Problem problem = pose(scene, mesh);
   EXPECT_EQ(problem.compliance_of(0), compliance({210000, 0.3}, Plane::strain));
   EXPECT_EQ(problem.compliance_of(20), compliance({70000, 0.33}, Plane::strain));
+}
+
+TEST(Scene, TheMeshIsTransformedFirst) {
+  Scene scene;
+  scene.mesh.refine = 1;
+  scene.mesh.scale = 10;
+  scene.length_mm = 100;  // of the transformed mesh
+  const Problem problem = pose(scene, small_tooth(4, 4));
+  EXPECT_EQ(problem.mesh.triangles.size(), 128u);
+  EXPECT_EQ(problem.mesh.name, "small tooth");
+  scene.length_mm = 10;
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: length_mm: 10 contradicts the mesh small tooth, which has 100");
+}
+
+TEST(Scene, LayersTakeTheirMaterialsInTurnAndNamedOnesTheirOwn) {
+  Scene scene;
+  scene.layers.count = 4;
+  scene.layer_materials = {{1000, 0.1}, {2000, 0.2}};
+  scene.materials["layer 3"] = {3000, 0.3};
+  const Problem problem = pose(scene, small_tooth(8, 4));
+  const Material expected[] = {{1000, 0.1}, {2000, 0.2}, {3000, 0.3}, {2000, 0.2}};
+  ASSERT_EQ(problem.compliance.size(), 4u);
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(problem.compliance[k], compliance(expected[k], Plane::strain));
+}
+
+TEST(Scene, WhatTheMeshCannotBeIsSaidWithTheScene) {
+  Scene scene;
+  scene.mesh.keep_contact_edges = 9;
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: mesh: keep_contact_edges: 9 (the mesh small tooth has 4)");
+  scene.mesh = {};
+  scene.layers.normal = {0, 0};
+  EXPECT_EQ(complaint(scene, small_tooth(4, 4)),
+            "default scene: layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
 }
 
 }  // namespace

@@ -62,6 +62,57 @@ TEST_F(SceneFile, EveryKeyIsRead) {
   EXPECT_EQ(scene.materials.at("tip").poisson, 0.33);  // the scene's own
 }
 
+TEST_F(SceneFile, TransformationsAndLayersAreRead) {
+  const Scene scene = read(R"({ "group": "layers", "about": "All keys at once.",
+    "mesh": { "refine": 2, "grade": { "at_mm": [10, 1], "ratio": 100 },
+      "slivers": { "aspect": 1e3, "count": 5 }, "scale": 2, "stretch": [1, 0.5],
+      "move_mm": [3, 4], "keep_contact_edges": 0, "keep_displacement_edges": 2,
+      "keep_force_edges": 1 },
+    "layers": { "normal": [0, 1], "interfaces_mm": [-1, 1],
+      "materials": [ {}, { "young_MPa": 21 } ] },
+    "poisson": 0.25 })");
+  EXPECT_EQ(scene.group, "layers");
+  EXPECT_EQ(scene.about, "All keys at once.");
+  EXPECT_EQ(scene.mesh.refine, 2);
+  EXPECT_EQ(scene.mesh.grade.value().at_mm, Eigen::Vector2d(10, 1));
+  EXPECT_EQ(scene.mesh.grade.value().ratio, 100);
+  EXPECT_EQ(scene.mesh.slivers.value().aspect, 1000);
+  EXPECT_EQ(scene.mesh.slivers.value().count, 5);
+  EXPECT_EQ(scene.mesh.scale, 2);
+  EXPECT_EQ(scene.mesh.stretch, Eigen::Vector2d(1, 0.5));
+  EXPECT_EQ(scene.mesh.move_mm, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(scene.mesh.keep_contact_edges, 0);
+  EXPECT_EQ(scene.mesh.keep_displacement_edges, 2);
+  EXPECT_EQ(scene.mesh.keep_force_edges, 1);
+  EXPECT_EQ(scene.layers.normal, Eigen::Vector2d(0, 1));
+  EXPECT_EQ(scene.layers.interfaces_mm, (std::vector<double>{-1, 1}));
+  ASSERT_EQ(scene.layer_materials.size(), 2u);
+  EXPECT_EQ(scene.layer_materials[1].young_MPa, 21);
+  EXPECT_EQ(scene.layer_materials[1].poisson, 0.25);  // the scene's own
+}
+
+TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
+  EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
+            "mesh: turn: unknown key (allowed: refine");
+  EXPECT_EQ(complaint(R"({"mesh": {"refine": 1.5}})"),
+            "mesh: refine: 1.5 (allowed: a whole number from 0 to 6)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"ratio": 10}}})"),
+            "mesh: grade: {\"ratio\":10} (allowed: {\"at_mm\": [x, y], \"ratio\": ...}, both "
+            "given)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"at_mm": [0, 0], "ratio": 0}}})"),
+            "mesh: grade: ratio: 0 (allowed: >= 1)");
+  EXPECT_EQ(complaint(R"({"mesh": {"stretch": [1, 0]}})"),
+            "mesh: stretch: [1, 0] (allowed: two numbers > 0)");
+  EXPECT_EQ(complaint(R"({"layers": {"normal": [1, 0]}})"),
+            "layers: {\"normal\":[1,0]} (allowed: either count or interfaces_mm)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "materials": [{"poisson": 0.6}]}})"),
+            "layers: materials: poisson: 0.6 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "normal": [0, 0]}})"),
+            "layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
+  EXPECT_EQ(complaint(R"({"group": 1})"), "group: 1 (allowed: a text)");
+}
+
 TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 32), "frction: unknown key (allowed: t");
   EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");

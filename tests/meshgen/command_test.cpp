@@ -69,7 +69,7 @@ using Names = std::vector<std::string>;
 TEST_F(Command, HelpNamesTheModes) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* mode : {"--mesh", "--check", "--tooth", "--convert"})
+  for (const char* mode : {"--mesh", "--check", "--tooth", "--convert", "--modify"})
     EXPECT_NE(outcome.out.find(mode), std::string::npos) << mode;
 }
 
@@ -89,6 +89,10 @@ TEST_F(Command, WrongUsageIsOneLineAndExitCode2) {
   expect_refusal("--convert=a.geo", 2, {"--out"});
   expect_refusal("--convert=a.geo --out=b.txt", 2, {"'b.txt'", ".msh"});
   expect_refusal("--tooth --out=a.msh --force-edges=9", 2, {"--contact-edges"});
+  expect_refusal("--modify=Mesh0", 2, {"--out is missing"});
+  expect_refusal("--modify=Mesh0..Mesh2 --out=a.msh", 2, {"'Mesh0..Mesh2' are 3 meshes"});
+  expect_refusal("--modify=Mesh8 --out=a.msh", 2, {"'Mesh8'", "valid: Mesh0..Mesh7"});
+  expect_refusal("--check --refine=2", 2, {"--refine", "--modify"});
   EXPECT_EQ(files(), Names{});
 }
 
@@ -101,6 +105,15 @@ TEST_F(Command, BadNumbersAreRefused) {
   expect_refusal(tooth + "--out=a.msh --length=nan", 2, {"length is nan mm", "positive"});
   expect_refusal(tooth + "--out=a.msh --teeth=3 --pitch=9", 2, {"pitch is 9 mm", "10"});
   expect_refusal(tooth + "--out=a.msh --teeth=9", 2, {"contact edges: 8", "9"});
+  const std::string modify = "--modify=Mesh0 --out=a.msh ";
+  expect_refusal(modify + "--refine=7", 2, {"refine: 7 (allowed: a whole number from 0 to 6)"});
+  expect_refusal(modify + "--refine=1.5", 2, {"--refine", "1.5"});
+  expect_refusal(modify + "--grade=1,2", 2, {"--grade", "3 required"});
+  expect_refusal(modify + "--slivers=10,2.5", 2, {"--slivers: 2.5: a whole number"});
+  expect_refusal(modify + "--stretch=1,0", 2, {"stretch: [1, 0] (allowed: two numbers > 0)"});
+  expect_refusal(modify + "--stretch=1,1e-14", 2, {"stretch: [1, 1e-14] cannot be: Mesh0: tri"});
+  expect_refusal(modify + "--keep-contact-edges=11", 2, {"keep_contact_edges: 11", "has 10"});
+  expect_refusal(modify + "--layers=0,0,2", 2, {"normal: [0, 0]"});
   EXPECT_EQ(files(), Names{});
 }
 
@@ -108,6 +121,8 @@ TEST_F(Command, MeshThatCannotBeMadeLeavesTheOldFile) {
   write_text(folder / "old.msh", "old");
   expect_refusal(tooth + "--out=old.msh --vertices=34", 1, {"34 vertices", "nearest"});
   expect_refusal("--convert=no.geo --out=old.msh", 1, {"no.geo: no such file"});
+  expect_refusal("--modify=no.msh --out=old.msh", 1, {"no.msh: cannot be opened"});
+  expect_refusal("--modify=Mesh0 --scale=-1 --out=old.msh", 2, {"scale: -1 (allowed: > 0)"});
   EXPECT_EQ(text_of(folder / "old.msh"), "old");
   EXPECT_EQ(files(), Names{"old.msh"});
 }
@@ -159,6 +174,31 @@ Physical Surface("steel") = {1};
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(read_msh(folder / "square.msh").body_names, Names{"steel"});
   EXPECT_EQ(files(), (Names{"square.geo", "square.msh"}));
+}
+
+TEST_F(Command, ModifiesAMesh) {
+  const Outcome outcome =
+      run("--modify=Mesh0 --refine=1 --grade=10,0,100 --slivers=1e3,5 --scale=2 --stretch=1,0.5 "
+          "--move=-1,3 --keep-contact-edges=4 --keep-displacement-edges=2 --layers=1,0,4 "
+          "--out=new.msh");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Mesh mesh = read_msh(folder / "new.msh");
+  EXPECT_EQ(mesh.name, "new");
+  EXPECT_EQ(mesh.body_names, (Names{"layer 1", "layer 2", "layer 3", "layer 4"}));
+  EXPECT_EQ(mesh_sizes(mesh).contact_edges, 4);
+  EXPECT_EQ(mesh_sizes(mesh).displacement_edges, 2);
+  double right = 0;
+  for (const auto& vertex : mesh.vertices) right = std::max(right, vertex.x());
+  EXPECT_EQ(right, 2 * 10 - 1);
+  // What is written can be changed again.
+  EXPECT_EQ(run("--modify=new.msh --keep-force-edges=0 --out=new.msh").exit_code, 0);
+  EXPECT_EQ(mesh_sizes(read_msh(folder / "new.msh")).force_edges, 0);
+  EXPECT_EQ(files(), Names{"new.msh"});
+}
+
+TEST_F(Command, ModifiedByNothingIsTheSameFile) {
+  EXPECT_EQ(run("--modify=Mesh3 --out=same.msh").exit_code, 0);
+  EXPECT_EQ(text_of(folder / "same.msh"), text_of(fs::path(MESH_DIR) / "Mesh3.msh"));
 }
 
 TEST_F(Command, CheckOfTheRepositoryPasses) {
