@@ -11,7 +11,7 @@ Reference compute_reference(const DualSystem& airy) {
   constexpr double aim = 1e-14, at_least = 1e-10;
   const Problem& problem = *airy.problem;
   const HybridizedSystem system = assemble_hybridized(problem, airy.contact);
-  HybridizedFactor factor;
+  StiffnessFactor factor;
   factor.cholesky.analyse(system.K, system.n_c);
   factor.cholesky.factor(system.K);
   factor.y = factor.cholesky.forward(system.b);
@@ -19,7 +19,7 @@ Reference compute_reference(const DualSystem& airy) {
   Reference reference;
   Eigen::VectorXd displacement;
   if (airy.contact.size() > 0) {
-    reference.condensed = condense(system, factor);
+    reference.condensed = condense(factor);
     RunControl control;
     control.contact_tolerance = aim;
     ContactResult contact =

@@ -8,7 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "assembly/control_points.hpp"
 #include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/displacement/quadratic_displacements.hpp"
 #include "solvers/general_names.hpp"
 #include "solvers/uzawa/alm_methods.hpp"
 
@@ -47,6 +49,11 @@ Method tuned_augmented_lagrangian() {
   return method;
 }
 
+Method in_displacements(Method method) {
+  method.in_displacements = true;
+  return method;
+}
+
 Solve three_step(KeepX::Where where) {
   return [where](const DualSystem& system, const RunControl& control) {
     return solve_three_step_skyline(system, control, where);
@@ -77,6 +84,9 @@ std::vector<Method> table() {
              Blocks::airy, solve_three_step_cholmod),
       direct("HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
              false, Blocks::contact_points, solve_hybridized),
+      in_displacements(direct("P2",
+                              "quadratic displacements, CHOLMOD: what most users would run instead",
+                              false, Blocks::contact_points, solve_quadratic_displacements)),
   };
   for (const char* family : {"SYMMLQ:", "3STEPCG:"})
     for (const std::string& preconditioner : preconditioner_names())
@@ -151,10 +161,15 @@ Solution failed(Status status, const std::string& message) {
 
 // What is wrong with a result that claims success; null: nothing that can be seen here.
 const char* flaw(const Solution& solution, const DualSystem& system) {
-  if (solution.F_C.size() != system.contact.size()) return "contact forces are missing";
-  if (solution.stress.size() != system.problem->mesh.triangles.size())
-    return "stresses are missing";
-  bool finite = solution.F_C.allFinite() && solution.phi.allFinite();
+  const Problem& problem = *system.problem;
+  const bool in_displacements = solution.displacement.cols() > 0;
+  const int forces = in_displacements ? control_points(problem).law.size() : system.contact.size();
+  if (solution.F_C.size() != forces) return "contact forces are missing";
+  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem))
+    return "displacements are missing";
+  if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
+  bool finite =
+      solution.F_C.allFinite() && solution.phi.allFinite() && solution.displacement.allFinite();
   for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
   return finite ? nullptr : "the result is not finite";
 }

@@ -189,24 +189,10 @@ HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints
   return system;
 }
 
-CondensedSystem condense(const HybridizedSystem& system, HybridizedFactor& factor) {
-  CondensedSystem condensed;
-  if (system.n_c == 0) return condensed;
-  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const Eigen::MatrixXd inverse = lower.solve(Eigen::MatrixXd::Identity(system.n_c, system.n_c));
-  condensed.D = inverse.transpose() * inverse;
-  condensed.G = -lower.transpose().solve(factor.y.tail(system.n_c));
-  return condensed;
-}
-
 StressField hybridized_stress(const Problem& problem, const HybridizedSystem& system,
-                              HybridizedFactor& factor,
+                              StiffnessFactor& factor,
                               const Eigen::VectorXd& contact_displacement) {
-  Eigen::VectorXd u = factor.y;
-  if (system.n_c > 0)
-    u.tail(system.n_c) = factor.cholesky.trailing_factor().transpose() * contact_displacement;
-  u = factor.cholesky.backward(u);
+  const Eigen::VectorXd u = all_displacements(factor, contact_displacement);
   const std::vector<bool> is_contact = contact_edges(problem);
   StressField field(problem.mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {

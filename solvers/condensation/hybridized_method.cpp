@@ -10,7 +10,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
     const StageTimer timer(solution.times.condense_s);
     return assemble_hybridized(problem, airy.contact);
   }();
-  HybridizedFactor factor;
+  StiffnessFactor factor;
   {
     const StageTimer timer(solution.times.order_s);
     factor.cholesky.analyse(system.K, system.n_c);
@@ -25,7 +25,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   {
     const StageTimer timer(solution.times.condense_s);
     factor.y = factor.cholesky.forward(system.b);
-    condensed = condense(system, factor);
+    condensed = condense(factor);
   }
   solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
                            static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
