@@ -32,7 +32,7 @@ struct Verification {
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
   double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ
-  double complementary_energy_Nmm = 0;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
 };
 

@@ -176,7 +176,10 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (!run.verification) run.verification = verify(*blocks.system, run.solution, reference());
+  if (run.verification) return;
+  run.verification = run.solution.displacement.cols() > 0
+                         ? verify_displacement(*blocks.system, run.solution)
+                         : verify(*blocks.system, run.solution, reference());
 }
 
 void Workbench::judge(const Verification& verification, Record& record) {
