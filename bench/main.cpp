@@ -53,8 +53,8 @@ std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<PosedScene> posed;
   for (const MeshFile& file : read_meshes(options.meshes))
     for (const Scene& scene : scenes)
-      posed.push_back(
-          {scene.name, "", file.sha256, std::make_shared<const Problem>(pose(scene, file.mesh))});
+      posed.push_back({scene.name, scene.group, file.sha256,
+                       std::make_shared<const Problem>(pose(scene, file.mesh))});
   return posed;
 }
 

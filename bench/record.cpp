@@ -50,7 +50,8 @@ bool is_measured(const Record& record) {
 
 std::string outcome_of(const Record& record) {
   if (record.status == Status::inaccurate && record.claimed_status == Status::ok)
-    return "wrong_success";
+    return record.verification && record.verification->error_stress ? "wrong_success"
+                                                                    : "unverified";
   return std::string(name_of(record.status));
 }
 
@@ -147,6 +148,8 @@ Columns columns(const Record& r) {
       {"condition_estimate", or_null(r.condition_estimate)},
       {"error_discretisation", or_null(r.error_discretisation)},
       {"error_total", total_error(r)},
+      {"lower_bound_Nmm", or_null(r.lower_bound_Nmm)},
+      {"upper_bound_Nmm", or_null(r.upper_bound_Nmm)},
       {"study", r.study.empty() ? Json() : Json(r.study)},
       {"knob", r.knob.empty() ? Json() : Json(r.knob)},
       {"knob_value", or_null(r.knob_value)},

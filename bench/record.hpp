@@ -43,9 +43,10 @@ struct Record {
   std::optional<Verification> verification;
   std::optional<Status> claimed_status;                      // what the method said itself
   std::optional<double> error_estimate, condition_estimate;  // see Solution
-  std::optional<double> error_discretisation;  // of the mesh, see discretisation_error.hpp
-  std::string study;                           // "error", "stability"; empty: an ordinary run
-  std::string knob;                            // what a study turns: "tolerance"; empty: nothing
+  // Of the mesh, see discretisation_error.hpp; the bounds where they are guaranteed.
+  std::optional<double> error_discretisation, lower_bound_Nmm, upper_bound_Nmm;
+  std::string study;  // "error", "stability"; empty: an ordinary run
+  std::string knob;   // what a study turns: "tolerance"; empty: nothing
   std::optional<double> knob_value;
   std::string scene_group;  // of the stability atlas: "nearly incompressible"
   std::vector<StageDecision> stages;
@@ -56,7 +57,7 @@ struct Record {
 bool is_measured(const Record& record);
 
 // One word for what became of a case: its status, or `wrong_success` where the method said ok and
-// the verifier disagrees.
+// the verifier disagrees; `unverified` where it has no reference to say.
 std::string outcome_of(const Record& record);
 
 double median(std::vector<double> values);  // NaN when empty

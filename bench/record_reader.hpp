@@ -29,7 +29,8 @@ struct CaseRecord {
   std::optional<double> done_fraction, extrapolated_time_s;  // status timeout only
 };
 
-// In the order of the lines, without those of studies; keys that are not in CaseRecord are passed over. Throws RecordError.
+// In the order of the lines, without those of studies; keys that are not in CaseRecord are passed
+// over. Throws RecordError.
 std::vector<CaseRecord> read_records(const std::filesystem::path& file);
 
 }  // namespace airybench

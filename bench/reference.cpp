@@ -72,7 +72,7 @@ Reference compute_reference(const DualSystem& airy) {
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
-  HybridizedFactor factor;
+  StiffnessFactor factor;
   {
     const SparseColumns K = system.K.cast<double>();
     factor.cholesky.analyse(K, system.n_c);

@@ -117,6 +117,30 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 void verify_contact(const ContactPoints& contact, const Solution& solution,
                     const Reference* reference, const LoadScale& scale, Verification& result) {
   const Eigen::VectorXd& F = solution.F_C;
+  note_contact_forces(contact, F, result);
+  if (reference == nullptr) return;
+  const CondensedSystem& condensed = reference->condensed;
+  note_contact_law(contact, F, condensed.D * F - condensed.G, condensed.D.diagonal(), scale,
+                   result);
+  const auto D_norm = [&](const Eigen::VectorXd& f) {
+    return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
+  };
+  result.error_force =
+      relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
+}
+
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C, const EdgeBalance& balance) {
+  double work = work_of_prescribed_displacement(*system.problem, balance);
+  for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
+    work += system.contact.gap(p) * F_C(system.contact.components * p);
+  return stress_norm_squared(*system.problem, stress) / 2 - work;
+}
+
+}  // namespace
+
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result) {
   const int m = contact.components;
   double normal = 0, tangential = 0;
   for (int p = 0; p < contact.count; ++p) {
@@ -132,11 +156,13 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   result.n_open = count(ContactState::open);
   result.n_stick = count(ContactState::stick);
   result.n_slip = count(ContactState::slip);
-  if (reference == nullptr) return;
+}
 
-  const CondensedSystem& condensed = reference->condensed;
-  const Eigen::VectorXd residual =
-      natural_map(contact, condensed.D.diagonal(), F, condensed.D * F - condensed.G);
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result) {
+  const int m = contact.components;
+  const Eigen::VectorXd residual = natural_map(contact, D_diagonal, F, displacement);
   result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
   double signorini = 0, coulomb = 0;
   for (int p = 0; p < contact.count; ++p) {
@@ -145,15 +171,12 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   }
   result.signorini_violation_N = signorini;
   if (m == 2) result.coulomb_violation_N = coulomb;
-
-  const auto D_norm = [&](const Eigen::VectorXd& f) {
-    return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
-  };
-  result.error_force =
-      relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
 }
 
-}  // namespace
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C) {
+  return complementary_energy(system, stress, F_C, edge_balance(*system.problem, stress));
+}
 
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
   constexpr double tolerance = 1e-9;
@@ -181,10 +204,8 @@ Verification verify(const DualSystem& system, const Solution& solution,
   const LoadScale scale = load_scale(problem);
   result.equilibrium_residual = equilibrium_residual(system, solution, balance, scale);
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
-  double work = work_of_prescribed_displacement(problem, balance);
-  for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
-    work += system.contact.gap(p) * solution.F_C(system.contact.components * p);
-  result.complementary_energy_Nmm = result.strain_energy_Nmm - work;
+  result.complementary_energy_Nmm =
+      complementary_energy(system, solution.stress, solution.F_C, balance);
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     result.relative_to_loads =

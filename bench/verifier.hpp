@@ -32,12 +32,24 @@ struct Verification {
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
   double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ
-  double complementary_energy_Nmm = 0;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
 };
 
 // reference: may be null.
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
+
+// The same for a displacement method, another discrete problem that has no reference: judged by its
+// displacements and its forces at the control points (control_points.hpp). No error_stress, no
+// error_force, no complementary energy.
+//   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
+//                         points, over the largest nodal force of an element
+//   natural_map_residual  with r from u, and the stiffness K_ii of a control point for ρ
+Verification verify_displacement(const DualSystem& system, const Solution& solution);
+
+// Π*(σ) = ½ ∫ σ:C:σ − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n, N mm; F_C at the contact points.
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C);
 
 struct LoadScale {
   double energy_norm = 0;  // √(N mm)
@@ -47,6 +59,14 @@ LoadScale load_scale(const Problem& problem);
 // error / quantity, or error / scale where the quantity is only rounding: ≤ 1e-9 · scale. A zero
 // error is zero.
 double relative_error(double error, double quantity, double scale);
+
+// Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
+// the contact law, with ρ = 1/D_diagonal.
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result);
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result);
 
 // The largest of the relative measures that decide between ok and inaccurate.
 struct WorstMeasure {

@@ -80,6 +80,19 @@ const Reference* Workbench::reference() {
   return reference_ ? &*reference_ : nullptr;
 }
 
+const ConstitutiveError* Workbench::discretisation() {
+  if (!discretisation_ && !discretisation_failed_) {
+    discretisation_failed_ = true;
+    if (reference() == nullptr) return nullptr;
+    const DualSystem system = assemble(problem_, Blocks::contact_points);
+    const Solution u = run(select_methods("P2").front(), system, {});
+    if (u.status != Status::ok) return nullptr;
+    discretisation_ =
+        constitutive_error(system, reference_->stress, reference_->F_C, u.displacement);
+  }
+  return discretisation_ ? &*discretisation_ : nullptr;
+}
+
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 bool histories) {
   RunControl control;
@@ -180,10 +193,13 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (!run.verification) run.verification = verify(*blocks.system, run.solution, reference());
+  if (run.verification) return;
+  run.verification = run.solution.displacement.cols() > 0
+                         ? verify_displacement(*blocks.system, run.solution)
+                         : verify(*blocks.system, run.solution, reference());
 }
 
-void Workbench::judge(const Verification& verification, Record& record) {
+void Workbench::judge(const Method& method, const Verification& verification, Record& record) {
   record.verification = verification;
   if (record.status != Status::ok) return;
   const WorstMeasure worst = worst_measure(*record.verification);
@@ -191,11 +207,12 @@ void Workbench::judge(const Verification& verification, Record& record) {
     record.status = Status::inaccurate;
     record.status_reason = fmt::format("{} {:.2e} is above the target {:.0e}", worst.name,
                                        worst.value, options_.target_error);
-  } else if (reference() == nullptr) {
+  } else if (record.verification->error_stress || method.in_displacements) {
+    if (verification.relative_to_loads)
+      record.status_reason = "next to no stress: errors are relative to the loads";
+  } else {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
-  } else if (record.verification->relative_to_loads) {
-    record.status_reason = "next to no stress: errors are relative to the loads";
   }
 }
 
@@ -254,9 +271,20 @@ Workbench::Examination Workbench::examine(const Method& method,
   }
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
-    judge(*run.verification, record);
-    if (!fields.empty())
+    judge(method, *run.verification, record);
+    const bool asks = options_.study == Study::error || method.in_displacements;
+    const ConstitutiveError* error = asks ? discretisation() : nullptr;
+    if (error != nullptr) {
+      record.error_discretisation = error->relative;
+      if (error->guaranteed) {
+        record.lower_bound_Nmm = error->lower_bound_Nmm;
+        record.upper_bound_Nmm = error->upper_bound_Nmm;
+      }
+    }
+    if (!fields.empty()) {
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
+      if (error != nullptr) write_error_field(fields.parent_path(), fields.filename(), *error);
+    }
   }
   const bool once = run.time_s > options_.long_case_s || options_.study == Study::stability;
   if (once && is_measured(record)) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "bench/discretisation_error.hpp"
 #include "bench/options.hpp"
 #include "bench/record.hpp"
 #include "bench/reference.hpp"
@@ -57,18 +58,22 @@ class Workbench {
   };
   const AssembledBlocks& blocks(Blocks which);
   const Reference* reference();  // null when there is none; no_reference_ says why
+  // Of the reference's stresses against the displacements of P2; null when one of them is missing.
+  const ConstitutiveError* discretisation();
   Run solve(const Choice& choice, const AssembledBlocks& blocks, bool histories);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
   Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
-  void judge(const Verification& verification, Record& record);
+  void judge(const Method& method, const Verification& verification, Record& record);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;
   std::map<Blocks, AssembledBlocks> blocks_;
   std::optional<Reference> reference_;
   std::string no_reference_;
+  std::optional<ConstitutiveError> discretisation_;
+  bool discretisation_failed_ = false;
 };
 
 }  // namespace airybench

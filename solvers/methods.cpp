@@ -8,7 +8,9 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "assembly/control_points.hpp"
 #include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/displacement/quadratic_displacements.hpp"
 #include "solvers/general_names.hpp"
 #include "solvers/uzawa/alm_methods.hpp"
 
@@ -59,6 +61,11 @@ Method with_knob(Method method, AccuracyKnob knob) {
   return method;
 }
 
+Method in_displacements(Method method) {
+  method.in_displacements = true;
+  return method;
+}
+
 Solve three_step(KeepX::Where where, Refine refine = Refine::no) {
   return [where, refine](const DualSystem& system, const RunControl& control) {
     return solve_three_step_skyline(system, control, where, refine);
@@ -101,6 +108,9 @@ std::vector<Method> table() {
           direct("HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
                  false, Blocks::contact_points, solve_hybridized),
           AccuracyKnob::contact_sweeps),
+      in_displacements(direct("P2",
+                              "quadratic displacements, CHOLMOD: what most users would run instead",
+                              false, Blocks::contact_points, solve_quadratic_displacements)),
   };
   for (const char* family : {"SYMMLQ:", "3STEPCG:"})
     for (const std::string& preconditioner : preconditioner_names())
@@ -175,10 +185,15 @@ Solution failed(Status status, const std::string& message) {
 
 // What is wrong with a result that claims success; null: nothing that can be seen here.
 const char* flaw(const Solution& solution, const DualSystem& system) {
-  if (solution.F_C.size() != system.contact.size()) return "contact forces are missing";
-  if (solution.stress.size() != system.problem->mesh.triangles.size())
-    return "stresses are missing";
-  bool finite = solution.F_C.allFinite() && solution.phi.allFinite();
+  const Problem& problem = *system.problem;
+  const bool in_displacements = solution.displacement.cols() > 0;
+  const int forces = in_displacements ? control_points(problem).law.size() : system.contact.size();
+  if (solution.F_C.size() != forces) return "contact forces are missing";
+  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem))
+    return "displacements are missing";
+  if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
+  bool finite =
+      solution.F_C.allFinite() && solution.phi.allFinite() && solution.displacement.allFinite();
   for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
   return finite ? nullptr : "the result is not finite";
 }

@@ -133,26 +133,6 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   return system;
 }
 
-CondensedSystem condense(HybridizedFactor& factor) {
-  CondensedSystem condensed;
-  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
-  if (L.rows() == 0) return condensed;
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const Eigen::MatrixXd inverse = lower.solve(Eigen::MatrixXd::Identity(L.rows(), L.rows()));
-  condensed.D = inverse.transpose() * inverse;
-  condensed.G = -lower.transpose().solve(factor.y.tail(L.rows()));
-  return condensed;
-}
-
-Eigen::VectorXd hybridized_displacements(HybridizedFactor& factor,
-                                         const Eigen::VectorXd& contact_displacement) {
-  Eigen::VectorXd z = factor.y;
-  if (contact_displacement.size() > 0)
-    z.tail(contact_displacement.size()) =
-        factor.cholesky.trailing_factor().transpose() * contact_displacement;
-  return factor.cholesky.backward(z);
-}
-
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {

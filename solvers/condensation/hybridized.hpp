@@ -10,13 +10,8 @@
 //   F_e = K_e ū_e + f_e,     f_e = F_p − T_e S_e⁻¹ p_e from the body force's particular stress
 //
 // where p_e = ∫ σ(φ_i):C:σ_p. Edge forces balance: Σ_e F_e = 0 inside, F on Γ_F, F_C on Γ_C, and
-// ū is prescribed on Γ_D. With the contact displacements last,
-//
-//   ⎡ K_II K_IC ⎤ ⎡ u_I ⎤   ⎡ b_I       ⎤      K_c = K_CC − K_CI K_II⁻¹ K_IC,   D = K_c⁻¹
-//   ⎣ K_CI K_CC ⎦ ⎣ ū_C ⎦ = ⎣ b_C + F_C ⎦      G = −D (b_C − K_CI K_II⁻¹ b_I)
-//
-// With K = L Lᵀ and y = L⁻¹ b (cholmod.hpp), K_c = L_CC L_CCᵀ and G = −L_CC⁻ᵀ y_C: no solve
-// with n_c right-hand sides. Given ū_C, the inner unknowns come from Lᵀ u = (y_I, L_CCᵀ ū_C).
+// ū is prescribed on Γ_D. Contact displacements are the last unknowns, and D and G come as in
+// stiffness_condensation.hpp.
 //
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
@@ -30,8 +25,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/condensation/condensed.hpp"
-#include "solvers/direct/cholmod.hpp"
+#include "solvers/condensation/stiffness_condensation.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -56,19 +50,6 @@ using HybridizedSystem = HybridizedSystemIn<double>;
 template <typename Scalar = double>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact);
-
-// K's factor and y = L⁻¹ b.
-struct HybridizedFactor {
-  CholmodFactor cholesky;
-  Eigen::VectorXd y;
-};
-
-// D and G; empty without contact.
-CondensedSystem condense(HybridizedFactor& factor);
-
-// All unknowns u, from contact displacements ū_C (size n_c).
-Eigen::VectorXd hybridized_displacements(HybridizedFactor& factor,
-                                         const Eigen::VectorXd& contact_displacement);
 
 // The stresses that belong to u: computed in Scalar, rounded at the end.
 template <typename Scalar>

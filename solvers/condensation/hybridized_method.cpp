@@ -10,7 +10,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
     const StageTimer timer(solution.times.condense_s);
     return assemble_hybridized(problem, airy.contact);
   }();
-  HybridizedFactor factor;
+  StiffnessFactor factor;
   {
     const StageTimer timer(solution.times.order_s);
     factor.cholesky.analyse(system.K, system.n_c);
@@ -33,8 +33,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   const StageTimer timer(solution.times.recover_s);
   Eigen::VectorXd displacement(airy.contact.size());
   if (airy.contact.size() > 0) displacement = condensed.D * solution.F_C - condensed.G;
-  solution.stress =
-      hybridized_stress(problem, system, hybridized_displacements(factor, displacement));
+  solution.stress = hybridized_stress(problem, system, all_displacements(factor, displacement));
   return solution;
 }
 

@@ -78,6 +78,8 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "condition_estimate",
                                             "error_discretisation",
                                             "error_total",
+                                            "lower_bound_Nmm",
+                                            "upper_bound_Nmm",
                                             "study",
                                             "knob",
                                             "knob_value",

@@ -124,7 +124,7 @@ TEST_F(Verifier, EnergiesAreClapeyrons) {
   pose_scene(scene);
   const Verification v = verified();
   EXPECT_EQ(*v.n_stick, system_.contact.count);
-  EXPECT_NEAR(v.complementary_energy_Nmm, -v.strain_energy_Nmm, 1e-9 * v.strain_energy_Nmm);
+  EXPECT_NEAR(*v.complementary_energy_Nmm, -v.strain_energy_Nmm, 1e-9 * v.strain_energy_Nmm);
 }
 
 TEST_F(Verifier, WithoutAReferenceErrorsAreUnknownNotZero) {

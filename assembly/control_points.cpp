@@ -1,0 +1,57 @@
+#include "assembly/control_points.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+
+std::array<double, 3> gap_coefficients(const Problem& problem, int boundary_row) {
+  const auto& gap = problem.loads.gap_mm;
+  if (!gap) return {0, 0, 0};
+  const auto [start, end] = problem.mesh.boundary[boundary_row].vertices;
+  const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+  return edge_coefficients(gap(a, boundary_row), gap((a + b) / 2, boundary_row),
+                           gap(b, boundary_row));
+}
+
+ControlPoints control_points(const Problem& problem) {
+  ControlPoints points;
+  points.law.friction = problem.friction;
+  points.law.components = problem.friction > 0 ? 2 : 1;
+  const Mesh& mesh = problem.mesh;
+  std::vector<double> gap;
+  std::vector<bool> prescribed;
+  std::map<int, int> point_of_node;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
+    if (edge.role != BoundaryRole::contact) continue;
+    if (prescribed.empty()) prescribed = prescribed_displacement(problem).at;
+    const EdgeFrame frame =
+        edge_frame(mesh.vertices[edge.vertices[0]], mesh.vertices[edge.vertices[1]]);
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    const std::array<double, 3> gaps = gap_coefficients(problem, row);
+    for (int k = 0; k < 3; ++k) {
+      if (prescribed[nodes[k]]) continue;
+      const auto [found, is_new] =
+          point_of_node.try_emplace(nodes[k], static_cast<int>(points.node.size()));
+      if (is_new) {
+        points.node.push_back(nodes[k]);
+        points.normal.push_back(frame.normal);
+        points.law.boundary.push_back(row);
+        gap.push_back(gaps[k]);
+      } else {
+        const int p = found->second;
+        points.normal[p] = (points.normal[p] + frame.normal).normalized();
+        gap[p] = std::min(gap[p], gaps[k]);
+      }
+    }
+  }
+  points.law.count = static_cast<int>(points.node.size());
+  if (problem.loads.gap_mm)
+    points.law.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
+  return points;
+}
+
+}  // namespace airybench

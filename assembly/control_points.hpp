@@ -1,0 +1,35 @@
+// The contact law at the control points of quadratic displacements: the nodes of
+// displacement_field.hpp on Γ_C, vertices and edges.
+//
+// At each, r = u − g0 n in Bernstein coefficients and F = ∫ t B ds, its work partner, follow the
+// law of dual_system.hpp. A quadratic with coefficients r_n ≤ 0 is ≤ 0 on its edge, and B ≥ 0: u_n
+// ≤ g0 holds at every point of Γ_C, not at nodes only.
+//
+// A vertex between two contact edges has one normal, their mean. Where the two differ, on a face
+// that is not straight, u_n ≤ g0 is no longer strict. A vertex that is also on Γ_D is prescribed
+// and has no law.
+#pragma once
+
+#include "assembly/displacement_field.hpp"
+#include "assembly/dual_system.hpp"
+
+namespace airybench {
+
+struct ControlPoints {
+  ContactPoints law;      // gap: coefficients; where two edges share a vertex, the smaller one
+  std::vector<int> node;  // per point
+  std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
+
+  Eigen::Matrix2d frame(int point) const {  // columns normal, tangent
+    const Eigen::Vector2d& n = normal[point];
+    Eigen::Matrix2d q;
+    q << n.x(), -n.y(), n.y(), n.x();
+    return q;
+  }
+};
+ControlPoints control_points(const Problem& problem);
+
+// The coefficients of g0 along an edge of Γ_C: start, edge, end.
+std::array<double, 3> gap_coefficients(const Problem& problem, int boundary_row);
+
+}  // namespace airybench

@@ -1,0 +1,41 @@
+// The constitutive relation error: how far apart a stress and a displacement are of which each is
+// admissible, and so how far each may be from the exact solution (Prager & Synge 1947; Ladevèze &
+// Leguillon 1983, doi:10.1137/0720033; with contact: Coorevits, Hild & Pelle 2000,
+// doi:10.1016/S0045-7825(99)00105-6).
+//
+// σ balances b and f with σ_n ≤ 0, |σ_t| ≤ −μ σ_n on Γ_C; u = u0 on Γ_D and u_n ≤ g0 on Γ_C. Then
+//
+//   e² = ∫ (σ − Aε(u)):C:(σ − Aε(u))  +  2 ∫_{Γ_C} σ_n (u_n − g0)  +  2 ∫_{Γ_C} μ|σ_n||u_t| + σ_t
+//   u_t
+//
+// and every term is ≥ 0. e = 0 exactly when σ and u solve the problem. Without friction
+//
+//   e² = 2 (Π(u) + Π*(σ)),    −Π*(σ) ≤ Π(u_exact) = −Π*(σ_exact) ≤ Π(u)
+//
+// where each bound is guaranteed, and ‖σ − σ_exact‖, ‖A ε(u) − σ_exact‖ ≤ e. With Coulomb's law it
+// is an estimator only.
+#pragma once
+
+#include "assembly/displacement_field.hpp"
+#include "assembly/dual_system.hpp"
+
+namespace airybench {
+
+struct ConstitutiveError {
+  // The terms of e², N mm. A negative one: a field is not admissible.
+  double body_Nmm = 0, normal_contact_Nmm = 0, tangential_contact_Nmm = 0;
+  std::vector<double> of_triangle_Nmm;  // they sum to e²; contact terms are with their triangles
+  double relative = 0;         // e / ‖σ‖, or to the loads where there is next to no stress
+  double lower_bound_Nmm = 0;  // −Π*(σ)
+  double upper_bound_Nmm = 0;  // Π(u)
+  // e and the two are bounds: no friction, and both fields keep to Γ_C's inequalities.
+  bool guaranteed = false;
+
+  double squared_Nmm() const { return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm; }
+};
+
+// stress and F_C at the contact points of `system`, as from an equilibrium method; u as from P2.
+ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
+                                     const Eigen::VectorXd& F_C, const DisplacementField& u);
+
+}  // namespace airybench

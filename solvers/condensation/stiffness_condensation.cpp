@@ -1,0 +1,25 @@
+#include "solvers/condensation/stiffness_condensation.hpp"
+
+namespace airybench {
+
+CondensedSystem condense(const StiffnessFactor& factor) {
+  CondensedSystem condensed;
+  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
+  if (L.rows() == 0) return condensed;
+  const auto lower = L.triangularView<Eigen::Lower>();
+  const Eigen::MatrixXd inverse = lower.solve(Eigen::MatrixXd::Identity(L.rows(), L.rows()));
+  condensed.D = inverse.transpose() * inverse;
+  condensed.G = -lower.transpose().solve(factor.y.tail(L.rows()));
+  return condensed;
+}
+
+Eigen::VectorXd all_displacements(StiffnessFactor& factor,
+                                  const Eigen::VectorXd& contact_displacement) {
+  Eigen::VectorXd u = factor.y;
+  if (contact_displacement.size() > 0)
+    u.tail(contact_displacement.size()) =
+        factor.cholesky.trailing_factor().transpose() * contact_displacement;
+  return factor.cholesky.backward(u);
+}
+
+}  // namespace airybench

@@ -1,0 +1,108 @@
+#include "solvers/displacement/quadratic_displacements.hpp"
+
+namespace airybench {
+namespace {
+
+// Numbers the unknowns, those of the control points last; returns how many there are.
+int number_unknowns(QuadraticDisplacements& system) {
+  constexpr int not_yet = -2;
+  const ContactPoints& law = system.control.law;
+  system.unknown.assign(system.given.at.size(), {not_yet, not_yet});
+  for (std::size_t node = 0; node < system.unknown.size(); ++node)
+    if (system.given.at[node]) system.unknown[node].fill(QuadraticDisplacements::prescribed);
+  std::vector<bool> is_contact_normal(system.unknown.size(), false);
+  for (const int node : system.control.node) is_contact_normal[node] = true;
+
+  int count = 0;
+  for (std::size_t node = 0; node < system.unknown.size(); ++node)
+    for (int k = 0; k < 2; ++k) {
+      const bool is_contact = is_contact_normal[node] && k < law.components;
+      if (system.unknown[node][k] == not_yet && !is_contact) system.unknown[node][k] = count++;
+    }
+  for (const int node : system.control.node)
+    for (int k = 0; k < law.components; ++k) system.unknown[node][k] = count++;
+  return count;
+}
+
+// Per node: its control point, or none.
+constexpr int none = -1;
+std::vector<int> points_of_nodes(const QuadraticDisplacements& system) {
+  std::vector<int> point(system.unknown.size(), none);
+  for (int p = 0; p < system.control.law.count; ++p) point[system.control.node[p]] = p;
+  return point;
+}
+
+void add_nodal_loads(const Problem& problem, const std::vector<int>& point,
+                     QuadraticDisplacements& system) {
+  if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return;
+  const Eigen::Matrix2Xd loads = nodal_loads(problem);
+  for (Eigen::Index node = 0; node < loads.cols(); ++node) {
+    if (system.given.at[node]) continue;
+    Eigen::Vector2d force = loads.col(node);
+    if (point[node] != none) force = system.control.frame(point[node]).transpose() * force;
+    for (int k = 0; k < 2; ++k) system.b(system.unknown[node][k]) += force(k);
+  }
+}
+
+}  // namespace
+
+std::size_t QuadraticDisplacements::bytes() const {
+  return static_cast<std::size_t>(K.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         static_cast<std::size_t>(K.cols() + 1) * sizeof(int) +
+         static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
+         unknown.size() * sizeof(unknown[0]);
+}
+
+QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) {
+  QuadraticDisplacements system;
+  system.control = control_points(problem);
+  system.given = prescribed_displacement(problem);
+  const int n = number_unknowns(system);
+  const std::vector<int> point = points_of_nodes(system);
+  system.b = Eigen::VectorXd::Zero(n);
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(78 * problem.mesh.triangles.size());
+
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
+    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    std::array<int, 12> unknown;
+    Eigen::Matrix<double, 12, 1> given;
+    for (int m = 0; m < 6; ++m) {
+      auto columns = strain.middleCols<2>(2 * m);
+      if (point[nodes[m]] != none)
+        columns = (columns * system.control.frame(point[nodes[m]])).eval();
+      given.segment<2>(2 * m) = system.given.u.col(nodes[m]);
+      for (int k = 0; k < 2; ++k) unknown[2 * m + k] = system.unknown[nodes[m]][k];
+    }
+    const QuadraticStiffness K =
+        quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem, t));
+    const Eigen::Matrix<double, 12, 1> force = K * given;
+    for (int j = 0; j < 12; ++j) {
+      const int column = unknown[j];
+      if (column == QuadraticDisplacements::prescribed) continue;
+      system.b(column) -= force(j);
+      for (int i = 0; i < 12; ++i)
+        if (unknown[i] >= column)  // the lower triangle, and nothing prescribed
+          entries.emplace_back(unknown[i], column, K(i, j));
+    }
+  }
+  add_nodal_loads(problem, point, system);
+  system.K.resize(n, n);
+  system.K.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+DisplacementField displacement_field(const QuadraticDisplacements& system,
+                                     const Eigen::VectorXd& unknowns) {
+  const std::vector<int> point = points_of_nodes(system);
+  DisplacementField u = system.given.u;
+  for (Eigen::Index node = 0; node < u.cols(); ++node) {
+    if (system.given.at[node]) continue;
+    for (int k = 0; k < 2; ++k) u(k, node) = unknowns(system.unknown[node][k]);
+    if (point[node] != none) u.col(node) = system.control.frame(point[node]) * u.col(node).eval();
+  }
+  return u;
+}
+
+}  // namespace airybench

@@ -1,0 +1,44 @@
+// P2: the displacement method with continuous quadratic displacements, in Bernstein form
+// (displacement_field.hpp).
+//
+//   K u = b + F_C,   K_ij = ∫ ε(u_i):A:ε(u_j),   b from body force, tractions and u = u0 on Γ_D
+//
+// K is symmetric positive definite. On Γ_C the unknowns are normal and tangential coefficients at
+// the control points (control_points.hpp), the last ones in their order; without friction the
+// tangential ones are inner unknowns. D and G come as in stiffness_condensation.hpp, and the
+// contact law is that of every other method, with F_C the control points' forces ∫ t B ds.
+//
+// The displacements are kinematically admissible: u = u0 on Γ_D (quadratic on every edge) and
+// u_n ≤ g0 everywhere on straight contact faces. The stresses balance in the mean only. For ν → ½
+// quadratic triangles do not lock but lose an order.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "assembly/control_points.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+struct QuadraticDisplacements {
+  static constexpr int prescribed = -1;
+  ControlPoints control;
+  PrescribedDisplacement given;
+  // Per node: the numbers of its two unknowns, x and y; at control points normal and tangential.
+  std::vector<std::array<int, 2>> unknown;
+  SparseColumns K;                                // lower triangle, N/mm
+  Eigen::VectorXd b;                              // N, without the contact forces
+  int n_c() const { return control.law.size(); }  // the last unknowns
+  std::size_t bytes() const;                      // of K, b and what is given
+};
+QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem);
+
+// The coefficients of all nodes, in x and y, from the unknowns.
+DisplacementField displacement_field(const QuadraticDisplacements& system,
+                                     const Eigen::VectorXd& unknowns);
+
+// The method. Solution::F_C are forces at the control points: not the contact points of `system`.
+Solution solve_quadratic_displacements(const DualSystem& system, const RunControl& control);
+
+}  // namespace airybench
