@@ -113,6 +113,7 @@ enum class Stop { target, paper };
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
+  bool condition = false;  // estimate it, where a factor is at hand: a few more solves
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;
   double target_error = 1e-6;         // a method that knows that it misses this must say so
