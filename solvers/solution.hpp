@@ -121,6 +121,7 @@ struct RunControl {
   double contact_tolerance = 1e-12;   // natural map residual ≤ tolerance · ‖F_C‖
   double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
   int contact_sweeps = 100000;        // at most
+  bool active_sets = true;            // finish the contact law by them where the sweeps did not
 };
 
 // Measures one stage: adds the time from construction to destruction.
