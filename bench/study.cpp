@@ -94,6 +94,7 @@ std::vector<TurnedMethod> error_points(const Method& method) {
       auto points =
           turned_to(method, "contact sweeps", sweeps, [](RunControl& control, double value) {
             control.contact_sweeps = static_cast<int>(value);
+            control.active_sets = false;
           });
       points.push_back({method, {}});
       return points;

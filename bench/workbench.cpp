@@ -101,6 +101,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.threads = options_.threads;
   control.stop = options_.stop;
   control.target_error = options_.target_error;
+  control.condition = histories && options_.study == Study::stability;
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();

@@ -113,6 +113,7 @@ enum class Stop { target, paper };
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
+  bool condition = false;  // estimate it, where a factor is at hand: a few more solves
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;
   double target_error = 1e-6;         // a method that knows that it misses this must say so
@@ -121,6 +122,7 @@ struct RunControl {
   double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
   int contact_sweeps = 100000;        // at most
   int uzawa_iterations = 20000;       // at most
+  bool active_sets = true;            // finish the contact law by them where the sweeps did not
 };
 
 // Measures one stage: adds the time from construction to destruction.

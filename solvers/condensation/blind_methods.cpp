@@ -1,5 +1,6 @@
 #include "solvers/condensation/blind.hpp"
 #include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/direct/condition.hpp"
 #include "solvers/direct/mumps.hpp"
 #include "solvers/direct/skyline.hpp"
 
@@ -18,6 +19,7 @@ SaddleVector recover(const DualSystem& system, const BlindSystem& blind, const E
 void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
                         const RunControl& control, const BlindSolve& solve, int columns_at_once,
                         Solution& solution) {
+  if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
   CondensedSystem condensed;
   if (system.n_c() > 0) {
     const StageTimer timer(solution.times.condense_s);

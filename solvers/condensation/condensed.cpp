@@ -19,7 +19,8 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   if (contact.size() == 0) return;
   const StageTimer timer(solution.times.contact_s);
   ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
-  if (!result.converged) finish_by_active_set(condensed, contact, control, result);
+  if (!result.converged && control.active_sets)
+    finish_by_active_set(condensed, contact, control, result);
   solution.F_C = std::move(result.F_C);
   solution.contact_iterations = result.sweeps;
   if (control.histories)

@@ -1,5 +1,6 @@
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/condensation/hybridized.hpp"
+#include "solvers/direct/condition.hpp"
 
 namespace airybench {
 
@@ -21,6 +22,10 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
     factor.cholesky.factor(system.K);
   }
   control.deadline.check("the factorisation of the hybridized system");
+  if (control.condition)
+    solution.condition_estimate = estimate_condition(system.K, [&](Eigen::Ref<Eigen::MatrixXd> X) {
+      factor.cholesky.solve_in_place(X, control.deadline);
+    });
   CondensedSystem condensed;
   {
     const StageTimer timer(solution.times.condense_s);

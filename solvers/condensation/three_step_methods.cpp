@@ -3,6 +3,7 @@
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/cholmod.hpp"
+#include "solvers/direct/condition.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
 
@@ -47,12 +48,12 @@ Solution solve_three_step_skyline(const DualSystem& system, const RunControl& co
     factor = factor_ldlt(std::move(profile), system.S, control.deadline);
   }
   solution.storage_bytes = factor.bytes();
-  condense_and_solve(
-      system, control, {where, skyline_columns_at_once * control.threads}, refine,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) {
-        solve_in_place(factor, X, control.deadline, control.threads);
-      },
-      solution);
+  const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
+    solve_in_place(factor, X, control.deadline, control.threads);
+  };
+  if (control.condition) solution.condition_estimate = estimate_condition(system.S, solve_S);
+  condense_and_solve(system, control, {where, skyline_columns_at_once * control.threads}, refine,
+                     solve_S, solution);
   return solution;
 }
 
@@ -68,9 +69,11 @@ Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& co
     factor.factor(system.S);
   }
   solution.storage_bytes = factor.bytes();
-  condense_and_solve(
-      system, control, {}, Refine::no,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); }, solution);
+  const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
+    factor.solve_in_place(X, control.deadline);
+  };
+  if (control.condition) solution.condition_estimate = estimate_condition(system.S, solve_S);
+  condense_and_solve(system, control, {}, Refine::no, solve_S, solution);
   return solution;
 }
 

@@ -2,8 +2,8 @@
 
 #include <random>
 
+#include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/contact/gauss_seidel.hpp"
 
 namespace airybench {
 namespace {
@@ -131,6 +131,80 @@ TEST(GaussSeidel, KeepsAHistoryOnRequest) {
   EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.sweeps));
   EXPECT_LE(result.history.back(), control.contact_tolerance);
   EXPECT_TRUE(solve_contact_by_gauss_seidel(condensed, contact, {}).history.empty());
+}
+
+TEST(GaussSeidel, GoesOnFromAGivenStart) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  const CondensedSystem condensed = random_condensed(24, 15);
+  const ContactResult first = solve_contact_by_gauss_seidel(condensed, contact, {});
+  const ContactResult again = solve_contact_by_gauss_seidel(condensed, contact, {}, first.F_C);
+  EXPECT_TRUE(again.converged);
+  EXPECT_LE(again.sweeps, 2);
+  EXPECT_LT((again.F_C - first.F_C).norm(), 1e-12 * first.F_C.norm());
+}
+
+// A compliance like that of a thin layer between long waves: sweeps carry little from end to end.
+CondensedSystem stiff_condensed(int count, int components) {
+  const int size = count * components;
+  Eigen::MatrixXd D = 1e-4 * Eigen::MatrixXd::Identity(size, size);
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j)
+      if (i % components == j % components)
+        D(i, j) += std::min(i, j) / components + 1 + (i % components);
+  Eigen::VectorXd G(size);
+  for (int i = 0; i < size; ++i) G(i) = i % components == 0 ? -1 - 0.01 * i : 0.3 - 0.02 * i;
+  return {D, G};
+}
+
+TEST(ActiveSet, FinishesWhereSweepsAreSlow) {
+  for (const int components : {1, 2}) {
+    const ContactPoints contact = points(40, components, components == 2 ? 0.3 : 0);
+    const CondensedSystem condensed = stiff_condensed(40, components);
+    RunControl control;
+    control.contact_sweeps = 300;
+    ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+    ASSERT_FALSE(result.converged) << components;
+    finish_by_active_set(condensed, contact, control, result);
+    EXPECT_TRUE(result.converged) << components;
+    EXPECT_LE(result.natural_map_residual, control.contact_tolerance);
+    EXPECT_GT(result.active_set_steps, 0);
+    Eigen::VectorXd r = condensed.D * result.F_C - condensed.G;
+    for (int p = 0; p < contact.count; ++p) {
+      r(components * p) -= contact.gap(p);
+      if (components == 2)
+        expect_coulomb_law(result.F_C.segment<2>(2 * p), r.segment<2>(2 * p), 0.3, 100, 100);
+    }
+  }
+}
+
+TEST(ActiveSet, HasTheSameSolutionAsTheSweeps) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  const CondensedSystem condensed = random_condensed(24, 16);
+  const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
+  RunControl control;
+  control.contact_sweeps = 1;
+  ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+  finish_by_active_set(condensed, contact, control, result);
+  ASSERT_TRUE(result.converged);
+  EXPECT_LT((result.F_C - sweeps.F_C).norm(), 1e-11 * sweeps.F_C.norm());
+}
+
+TEST(ActiveSet, AStepFromTheSolutionStaysThere) {
+  ContactPoints contact = points(12, 2, 0.3);
+  const CondensedSystem condensed = random_condensed(24, 17);
+  const Eigen::VectorXd F = solve_contact_by_gauss_seidel(condensed, contact, {}).F_C;
+  Eigen::VectorXd r = condensed.D * F - condensed.G;
+  for (int p = 0; p < contact.count; ++p) r(2 * p) -= contact.gap(p);
+  EXPECT_LT((active_set_step(condensed.D, contact, F, r) - F).norm(), 1e-11 * F.norm());
+}
+
+TEST(ActiveSet, NeverClaimsWhatTheNaturalMapDenies) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  CondensedSystem condensed = random_condensed(24, 18);
+  condensed.G(3) = std::nan("");
+  ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  finish_by_active_set(condensed, contact, {}, result);
+  EXPECT_FALSE(result.converged);
 }
 
 TEST(NaturalMap, IsZeroExactlyWhereTheLawHolds) {

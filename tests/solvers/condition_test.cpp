@@ -1,0 +1,106 @@
+#include "solvers/direct/condition.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <filesystem>
+
+#include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+double exact_condition(const Eigen::MatrixXd& A) {
+  return A.cwiseAbs().colwise().sum().maxCoeff() *
+         A.inverse().cwiseAbs().colwise().sum().maxCoeff();
+}
+
+double estimate(const Eigen::MatrixXd& A) {
+  const Eigen::SparseMatrix<double> lower =
+      Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
+  return estimate_condition(lower,
+                            [&](Eigen::Ref<Eigen::MatrixXd> X) { X = lu.solve(X.eval()).eval(); });
+}
+
+Eigen::MatrixXd equilibrated(const Eigen::MatrixXd& A) {
+  const Eigen::VectorXd d = A.diagonal().cwiseSqrt().cwiseInverse();
+  return d.asDiagonal() * A * d.asDiagonal();
+}
+
+// Random eigenvectors, eigenvalues from 1 down to 1/kappa.
+Eigen::MatrixXd random_definite(int n, double kappa) {
+  const Eigen::MatrixXd Q = Eigen::MatrixXd::Random(n, n).householderQr().householderQ();
+  const Eigen::VectorXd powers =
+      Eigen::VectorXd::LinSpaced(n, 0, -std::log(kappa)).array().exp().matrix();
+  return Q * powers.asDiagonal() * Q.transpose();
+}
+
+TEST(ConditionEstimate, IsAtMostTheExactOneAndAtLeastAThird) {
+  std::srand(4);
+  for (const int n : {1, 2, 5, 20, 60})
+    for (const double kappa : {1.0, 1e3, 1e8}) {
+      const Eigen::MatrixXd A = random_definite(n, kappa);
+      const double exact = exact_condition(equilibrated(A)), estimated = estimate(A);
+      EXPECT_LE(estimated, exact * (1 + 1e-6)) << n << " " << kappa;
+      EXPECT_GE(estimated, exact / 3) << n << " " << kappa;
+    }
+}
+
+TEST(ConditionEstimate, DoesNotSeeTheUnits) {
+  std::srand(5);
+  const Eigen::MatrixXd A = random_definite(30, 1e4);
+  const Eigen::VectorXd units = (8 * Eigen::VectorXd::Random(30)).array().exp().matrix();
+  EXPECT_NEAR(estimate(units.asDiagonal() * A * units.asDiagonal()) / estimate(A), 1, 1e-6);
+}
+
+TEST(ConditionEstimate, TakesRowsWithoutADiagonal) {
+  std::srand(6);
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(24, 24);
+  M.topLeftCorner(18, 18) = equilibrated(random_definite(18, 1e4));
+  M.bottomLeftCorner(6, 18) = Eigen::MatrixXd::Random(6, 18);
+  for (int i = 18; i < 24; ++i) M.row(i) /= M.row(i).cwiseAbs().maxCoeff();
+  M.topRightCorner(18, 6) = M.bottomLeftCorner(6, 18).transpose();
+  const double exact = exact_condition(M);
+  EXPECT_LE(estimate(M), exact * (1 + 1e-6));
+  EXPECT_GE(estimate(M), exact / 3);
+  M.bottomRows(6) *= 1e5;  // other units of the multipliers
+  M.rightCols(6) *= 1e5;
+  EXPECT_NEAR(estimate(M) / exact, 2. / 3, 1. / 3 + 1e-6);
+}
+
+TEST(ConditionEstimate, ASingularMatrixIsInfinite) {
+  const Eigen::MatrixXd A = Eigen::MatrixXd::Ones(3, 3);
+  EXPECT_FALSE(estimate(A) < 1e15);
+}
+
+// κ₁ lies between κ₂ and n κ₂. κ₂ by extreme eigenvalues: of S and K with unit diagonal 5.5e5 and
+// about 1e4 on Mesh0 (docs/theory.md, section 16).
+TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
+  const Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh");
+  const auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh));
+  const DualSystem system = assemble(problem);
+  RunControl control;
+  control.condition = true;
+  const auto of = [&](const char* name) {
+    return run(select_methods(name).front(), system, control).condition_estimate.value_or(0);
+  };
+  const double S = of("3STEPD"), K = of("HYBRID"), M = of("BLIND");
+  for (const auto& [name, value] : {std::pair{"S", S}, std::pair{"K", K}, std::pair{"M11", M}}) {
+    RecordProperty(name, std::to_string(value));
+  }
+  EXPECT_GT(S, 5.5e5);
+  EXPECT_LT(S, 5.5e5 * system.n());
+  EXPECT_NEAR(of("3STEPD:CHOLMOD") / S, 1, 1e-6);
+  EXPECT_GT(K, 9e3);
+  EXPECT_LT(K, S / 5);
+  EXPECT_GT(M, 1e3);
+  EXPECT_NEAR(of("BLIND:SKY") / M, 1, 1e-6);
+  EXPECT_FALSE(run(select_methods("HYBRID").front(), system, {}).condition_estimate);
+}
+
+}  // namespace
+}  // namespace airybench
