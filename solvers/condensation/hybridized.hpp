@@ -45,7 +45,6 @@ HybridizedSystem assemble_hybridized(const Problem& problem, const ContactPoints
 
 // The stresses that belong to contact displacements ū_C (size n_c).
 StressField hybridized_stress(const Problem& problem, const HybridizedSystem& system,
-                              StiffnessFactor& factor,
-                              const Eigen::VectorXd& contact_displacement);
+                              StiffnessFactor& factor, const Eigen::VectorXd& contact_displacement);
 
 }  // namespace airybench
