@@ -1,7 +1,7 @@
 // The constitutive relation error: how far apart a stress and a displacement are of which each is
 // admissible, and so how far each may be from the exact solution (Prager & Synge 1947; Ladevèze &
-// Leguillon 1983, doi:10.1137/0720033; with contact: Coorevits, Hild & Pelle 2000,
-// doi:10.1016/S0045-7825(99)00105-6).
+// Leguillon 1983, doi:10.1137/0720033; with contact: Coorevits, Hild & Pelle 2000; with friction:
+// Coorevits, Hild & Hjiaj 2001).
 //
 // σ balances b and f with σ_n ≤ 0, |σ_t| ≤ −μ σ_n on Γ_C; u = u0 on Γ_D and u_n ≤ g0 on Γ_C. Then
 //

@@ -49,7 +49,9 @@ struct IterationHistory {
 struct Solution {
   Status status = Status::crashed;
   std::string message = "the method returned nothing";
-  Eigen::VectorXd F_C;  // contact forces, N; per point normal, tangential (μ = 0: normal)
+  // Contact forces, N; per point normal, tangential (μ = 0: normal). At the contact points; a
+  // displacement method's are at its control points (control_points.hpp).
+  Eigen::VectorXd F_C;
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
   // Displacement methods only: Bernstein coefficients, mm; columns: every vertex, then every edge.

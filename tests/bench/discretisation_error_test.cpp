@@ -50,7 +50,7 @@ Solved solved_on(const std::string& mesh, const Scene& scene) {
 std::vector<Scene> scenes() {
   std::vector<Scene> all;
   for (const double mu : {0.0, 0.2, 1.0})
-    for (const Eigen::Vector2d body_force : {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, -10)})
+    for (const Eigen::Vector2d& body_force : {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, -10)})
       for (const double clearance : {0.0, 0.01}) {
         Scene scene = with_friction(mu);
         scene.body_force_N_per_mm3 = body_force;

@@ -90,7 +90,7 @@ TEST(QuadraticDisplacements, ReproducesAConstantStressThatSticksOrSlipsOnTheWall
 
 TEST(QuadraticDisplacements, NowherePenetratesTheWallAndMeetsWhatIsPrescribed) {
   for (const double mu : {0.0, 0.2, 1.0})
-    for (const Eigen::Vector2d body_force : {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, -10)}) {
+    for (const Eigen::Vector2d& body_force : {Eigen::Vector2d(0, 0), Eigen::Vector2d(30, -10)}) {
       Scene scene;
       scene.friction = mu;
       scene.body_force_N_per_mm3 = body_force;
@@ -161,10 +161,11 @@ TEST(QuadraticDisplacements, AContactVertexOnThePrescribedBoundaryHasNoLaw) {
   const Solution solution = solve(problem);
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   EXPECT_EQ(solution.F_C.size(), 2 * 9);  // 11 nodes on the face, less its ends
-  for (const BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::displacement)
-      for (const int vertex : edge.vertices)
-        EXPECT_LT((solution.displacement.col(vertex) - scene.displacement_mm).norm(), 1e-16);
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    if (edge.role != BoundaryRole::displacement) continue;
+    for (const int vertex : edge.vertices)
+      EXPECT_LT((solution.displacement.col(vertex) - scene.displacement_mm).norm(), 1e-16);
+  }
 }
 
 TEST(QuadraticDisplacements, ABodyThatOnlyMovesHasNoStress) {
