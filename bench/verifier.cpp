@@ -57,12 +57,6 @@ Eigen::Matrix2d walked(const Problem& problem, const EdgeBalance& balance, int r
   return a < b ? sum : Eigen::Matrix2d(sum.rowwise().reverse());
 }
 
-// The quantity, or the load scale where the quantity is nothing but rounding.
-double denominator(double quantity, double scale) {
-  constexpr double resolvable = 1e-9;
-  return quantity > resolvable * scale ? quantity : scale;
-}
-
 double equilibrium_residual(const DualSystem& system, const Solution& solution,
                             const EdgeBalance& balance, const LoadScale& scale) {
   const Problem& problem = *system.problem;
@@ -209,45 +203,13 @@ Verification verify(const DualSystem& system, const Solution& solution,
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     result.relative_to_loads =
-        scale.energy_norm > 0 && denominator(reference_norm, scale.energy_norm) != reference_norm;
+        scale.energy_norm > 0 && is_rounding(reference_norm, scale.energy_norm);
     result.error_stress =
         relative_error(stress_distance(problem, solution.stress, reference->stress), reference_norm,
                        scale.energy_norm);
   }
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   return result;
-}
-
-LoadScale load_scale(const Problem& problem) {
-  const Mesh& mesh = problem.mesh;
-  const Loads& loads = problem.loads;
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
-  const double diameter = box.diagonal().norm();
-  double displacement = 0, stress = loads.body_force_N_per_mm3.norm() * diameter;
-  for (const BoundaryEdge& edge : mesh.boundary) {
-    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
-    for (const Eigen::Vector2d& x : {a, b}) {
-      if (edge.role == BoundaryRole::displacement && loads.displacement_mm)
-        displacement = std::max(displacement, loads.displacement_mm(x).norm());
-      if (edge.role == BoundaryRole::force && loads.traction_MPa)
-        stress = std::max(stress, loads.traction_MPa(x, edge_frame(a, b).normal).norm());
-    }
-  }
-  LoadScale scale;
-  double energy = 0;
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
-    const double c = problem.compliance_of(t)(0, 0);
-    energy +=
-        problem.area_mm2(t) * (std::pow(displacement / diameter, 2) / c + c * stress * stress);
-    scale.force_N = std::max(scale.force_N, displacement / c + stress * diameter);
-  }
-  scale.energy_norm = std::sqrt(energy);
-  return scale;
-}
-
-double relative_error(double error, double quantity, double scale) {
-  return error == 0 ? 0 : error / denominator(quantity, scale);
 }
 
 WorstMeasure worst_measure(const Verification& v) {

@@ -15,6 +15,7 @@
 #include <optional>
 
 #include "assembly/dual_system.hpp"
+#include "assembly/load_scale.hpp"
 #include "bench/reference.hpp"
 #include "solvers/solution.hpp"
 
@@ -50,15 +51,6 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
 // Π*(σ) = ½ ∫ σ:C:σ − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n, N mm; F_C at the contact points.
 double complementary_energy(const DualSystem& system, const StressField& stress,
                             const Eigen::VectorXd& F_C);
-
-struct LoadScale {
-  double energy_norm = 0;  // √(N mm)
-  double force_N = 0;
-};
-LoadScale load_scale(const Problem& problem);
-// error / quantity, or error / scale where the quantity is only rounding: ≤ 1e-9 · scale. A zero
-// error is zero.
-double relative_error(double error, double quantity, double scale);
 
 // Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
 // the contact law, with ρ = 1/D_diagonal.

@@ -21,6 +21,10 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+bool has_answer(const Solution& solution) {
+  return solution.status == Status::ok || solution.status == Status::inaccurate;
+}
+
 std::optional<std::int64_t> if_probed(std::int64_t bytes) {
   return heap::is_active() ? std::optional(bytes) : std::nullopt;
 }
@@ -172,16 +176,17 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
     malloc_trim(0);  // what earlier runs freed shall not count
     Run run = solve(choice, blocks, true);
     const Solution& solution = run.solution;
-    if (finished && solution.status != Status::ok) {  // better than nothing
+    if (finished && !has_answer(solution)) {  // better than nothing
       record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
       choice.tolerance = finished_with;
       return std::move(*finished);
     }
     if (!method.is_iterative() || options_.stop == Stop::paper || solution.stress.empty() ||
-        solution.status != Status::ok || attempt == most_attempts)
+        !has_answer(solution) || attempt == most_attempts)
       return run;
     verify_run(blocks, run);
-    const double worst = worst_measure(*run.verification).value;
+    const double worst = std::max(worst_measure(*run.verification).value,
+                                  solution.error_estimate.value_or(0));  // it must know it, too
     if (worst <= options_.target_error || choice.tolerance <= tightest) return run;
     record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
     finished_with = choice.tolerance;

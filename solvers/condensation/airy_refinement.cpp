@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
+#include "assembly/load_scale.hpp"
 #include "solvers/condensation/airy_residual.hpp"
+#include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
 namespace {
-
-double ratio(double value, double scale) { return value == 0 ? 0 : value / scale; }
 
 double energy_norm(const DualSystem& system, const Eigen::VectorXd& x) {
   return std::sqrt(std::max(0.0, x.dot(system.S.selfadjointView<Eigen::Lower>() * x)));
@@ -32,8 +31,8 @@ struct Correction {
 };
 
 Correction correction(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
-                      const SaddleSolve& solve, const LongSaddleVector& answer,
-                      const Eigen::VectorXd& F_C) {
+                      const LoadScale& scale, const SaddleSolve& solve,
+                      const LongSaddleVector& answer, const Eigen::VectorXd& F_C) {
   const LongSaddleVector residual = airy_residual(system, answer, F_C);
   Correction result{{residual.x.cast<double>(), residual.lambda_F.cast<double>(),
                      residual.lambda_C.cast<double>()},
@@ -43,12 +42,14 @@ Correction correction(const DualSystem& system, const Eigen::VectorXd& D_diagona
       std::max(largest(result.delta.lambda_F), largest(result.delta.lambda_C));
   solve(result.delta);
   const Eigen::VectorXd x = answer.x.cast<double>() + result.delta.x;
-  result.estimate = ratio(energy_norm(system, result.delta.x), energy_norm(system, x));
-  if (force_scale > 0) result.estimate = std::max(result.estimate, unbalanced / force_scale);
+  result.estimate = relative_error(energy_norm(system, result.delta.x), energy_norm(system, x),
+                                   scale.energy_norm);
+  result.estimate =
+      std::max(result.estimate, relative_error(unbalanced, force_scale, scale.force_N));
   if (F_C.size() > 0) {
     const Eigen::VectorXd u = -(answer.lambda_C.cast<double>() + result.delta.lambda_C);
     const double off = natural_map(system.contact, D_diagonal, F_C, u).norm();
-    result.estimate = std::max(result.estimate, ratio(off, F_C.norm()));
+    result.estimate = std::max(result.estimate, relative_error(off, F_C.norm(), scale.force_N));
   }
   return result;
 }
@@ -64,24 +65,16 @@ void add(LongSaddleVector& answer, const SaddleVector& delta) {
   answer.lambda_C += delta.lambda_C.cast<long double>();
 }
 
-void judge(double estimate, const RunControl& control, Solution& solution) {
-  solution.error_estimate = estimate;
-  if (solution.status != Status::ok || estimate <= control.target_error) return;
-  std::ostringstream message;
-  message << "by its own estimate its error is " << estimate << " (target " << control.target_error
-          << ")";
-  solution.status = Status::inaccurate;
-  solution.message = message.str();
-}
-
 }  // namespace
 
 void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution) {
   const StageTimer timer(solution.times.check_s);
-  judge(correction(system, D_diagonal, solve, in_long(answer), solution.F_C).estimate, control,
-        solution);
+  judge_by_own_estimate(correction(system, D_diagonal, load_scale(*system.problem), solve,
+                                   in_long(answer), solution.F_C)
+                            .estimate,
+                        control, solution);
 }
 
 void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
@@ -90,9 +83,10 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
   constexpr int most_steps = 20;
   const StageTimer timer(solution.times.check_s);
   const Eigen::VectorXd D_diagonal = D.diagonal();
+  const LoadScale scale = load_scale(*system.problem);
   LongSaddleVector trial = in_long(answer), best = trial;
   Eigen::VectorXd F = solution.F_C;
-  Correction next = correction(system, D_diagonal, solve, trial, F);
+  Correction next = correction(system, D_diagonal, scale, solve, trial, F);
   double estimate = next.estimate;
   for (int step = 0; step < most_steps && estimate > 0 && std::isfinite(next.estimate); ++step) {
     control.deadline.check("refinement");
@@ -106,7 +100,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
       solve(change);
       add(trial, change);
     }
-    next = correction(system, D_diagonal, solve, trial, F);
+    next = correction(system, D_diagonal, scale, solve, trial, F);
     if (!(next.estimate < estimate)) break;
     const bool slow = next.estimate > estimate / 2;
     estimate = next.estimate;
@@ -116,7 +110,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
   }
   solution.phi = airy_function(system, best.x.cast<double>());
   solution.stress = airy_stress(system, best.x);
-  judge(estimate, control, solution);
+  judge_by_own_estimate(estimate, control, solution);
 }
 
 }  // namespace airybench

@@ -19,6 +19,8 @@
 //   ‖F − P(F − ρ r)‖ / ‖F‖              contact law, with the corrected displacements
 //   ‖(r_F, r_C)‖_∞ / ‖(F, F_C)‖_∞       equilibrium on the boundary
 //
+// or relative to the loads where there is next to no stress (load_scale.hpp).
+//
 // Refinement applies the correction, takes a Newton step of the contact law (active_set.hpp) with
 // the corrected displacements, and repeats while the estimate falls.
 #pragma once

@@ -5,10 +5,7 @@
 #include "solvers/solution.hpp"
 
 namespace airybench {
-namespace {
 
-// How the components of HybridizedSystemIn::unknown make an element's edge components: x, y at the
-// start and at the end of its walk.
 template <typename Scalar>
 Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool is_contact) {
   const auto& v = mesh.triangles[triangle];
@@ -26,8 +23,6 @@ Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bo
   }
   return q;
 }
-
-}  // namespace
 
 template <typename Scalar>
 HybridElement<Scalar> make_hybrid_element(const Problem& problem,
@@ -101,6 +96,7 @@ ElementStressIn<Scalar> HybridElement<Scalar>::stress_at(
 template struct HybridElement<double>;
 template struct HybridElement<long double>;
 template struct HybridElement<Quad>;
+template Eigen::Matrix4<double> edge_components(const Mesh&, int, int, bool);
 template HybridElement<double> make_hybrid_element(const Problem&, const std::vector<bool>&, int);
 template HybridElement<long double> make_hybrid_element(const Problem&, const std::vector<bool>&,
                                                         int);

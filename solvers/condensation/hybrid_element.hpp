@@ -32,6 +32,11 @@ struct HybridElement {
       const Eigen::Matrix<Scalar, 12, 1>& displacement) const;  // the total stress that ū_e makes
 };
 
+// How the components of HybridizedSystemIn::unknown make an element's edge components: x, y at the
+// start and at the end of its walk along edge k.
+template <typename Scalar = double>
+Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool is_contact);
+
 // is_contact_edge: per edge. Throws Breakdown naming the triangle whose flexibility is not positive
 // definite to rounding.
 template <typename Scalar>

@@ -62,7 +62,7 @@ std::vector<Eigen::Vector4d> prescribed_displacements(const Problem& problem) {
 
 // The prescribed forces on Γ_F into b.
 template <typename Scalar>
-void add_tractions(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::VectorX<Scalar>& b) {
   if (!problem.loads.traction_MPa) return;
   for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
@@ -73,7 +73,7 @@ void add_tractions(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
       const auto& at = problem.mesh.vertices[problem.edges.vertices[edge][end]];
       const Eigen::Vector2d force =
           frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal);
-      for (int k = 0; k < 2; ++k) system.b(system.unknown[edge][2 * end + k]) += force(k);
+      for (int k = 0; k < 2; ++k) b(unknown[edge][2 * end + k]) += force(k);
     }
   }
 }
@@ -127,7 +127,7 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
           entries.emplace_back(unknown[i], column, K(i, j));
     }
   }
-  add_tractions(problem, system);
+  add_tractions(problem, system.unknown, system.b);
   system.K.resize(n, n);
   system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
@@ -153,6 +153,27 @@ StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<S
                    .template cast<double>();
   }
   return field;
+}
+
+UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
+                                   const StressField& stress, const Eigen::VectorXd& F_C) {
+  const std::vector<bool> is_contact = contact_edges(problem);
+  UnbalancedForces result;
+  result.r.setZero(system.b.size());
+  add_tractions(problem, system.unknown, result.r);
+  result.r.tail(system.n_c) += F_C;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int edge = problem.edges.of_triangle[t][k];
+      const Eigen::Vector4d forces =
+          edge_components(problem.mesh, t, k, is_contact[edge]).transpose() *
+          element_edge_forces(problem.vertices_of(t), stress[t], k).reshaped();
+      result.largest = std::max(result.largest, forces.cwiseAbs().maxCoeff());
+      for (int i = 0; i < 4; ++i)
+        if (const int unknown = system.unknown[edge][i]; unknown != HybridizedSystem::prescribed)
+          result.r(unknown) -= forces(i);
+    }
+  return result;
 }
 
 template struct HybridizedSystemIn<double>;

@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
 #include "solvers/solution.hpp"
 
@@ -55,5 +56,9 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u);
+
+// The forces that stresses, the tractions on Γ_F and F_C leave unbalanced.
+UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
+                                   const StressField& stress, const Eigen::VectorXd& F_C);
 
 }  // namespace airybench

@@ -35,10 +35,16 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
                            static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, airy.contact, control, solution);
-  const StageTimer timer(solution.times.recover_s);
   Eigen::VectorXd displacement(airy.contact.size());
-  if (airy.contact.size() > 0) displacement = condensed.D * solution.F_C - condensed.G;
-  solution.stress = hybridized_stress(problem, system, all_displacements(factor, displacement));
+  {
+    const StageTimer timer(solution.times.recover_s);
+    if (airy.contact.size() > 0) displacement = condensed.D * solution.F_C - condensed.G;
+    solution.stress = hybridized_stress(problem, system, all_displacements(factor, displacement));
+  }
+  const StageTimer timer(solution.times.check_s);
+  check_stiffness_answer(problem, airy.contact, condensed,
+                         unbalanced_forces(problem, system, solution.stress, solution.F_C),
+                         displacement, factor, control, solution);
   return solution;
 }
 

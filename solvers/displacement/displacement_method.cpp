@@ -1,4 +1,5 @@
 #include "solvers/condensation/condensation_methods.hpp"
+#include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
 #include "solvers/displacement/quadratic_displacements.hpp"
 
@@ -31,11 +32,22 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
                            static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, system.control.law, control, solution);
-  const StageTimer timer(solution.times.recover_s);
-  Eigen::VectorXd contact;
-  if (system.n_c() > 0) contact = condensed.D * solution.F_C - condensed.G;
-  solution.displacement = displacement_field(system, all_displacements(factor, contact));
-  solution.stress = stress_of_displacement(problem, solution.displacement);
+  Eigen::VectorXd contact, u;
+  {
+    const StageTimer timer(solution.times.recover_s);
+    if (system.n_c() > 0) contact = condensed.D * solution.F_C - condensed.G;
+    u = all_displacements(factor, contact);
+    solution.displacement = displacement_field(system, u);
+    solution.stress = stress_of_displacement(problem, solution.displacement);
+  }
+  const StageTimer timer(solution.times.check_s);
+  UnbalancedForces unbalanced;
+  unbalanced.r = system.b - system.K.selfadjointView<Eigen::Lower>() * u;
+  unbalanced.r.tail(system.n_c()) += solution.F_C;
+  unbalanced.largest = std::max(system.b.cwiseAbs().maxCoeff(),
+                                solution.F_C.size() > 0 ? solution.F_C.cwiseAbs().maxCoeff() : 0);
+  check_stiffness_answer(problem, system.control.law, condensed, unbalanced, contact, factor,
+                         control, solution);
   return solution;
 }
 

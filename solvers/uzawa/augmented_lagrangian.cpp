@@ -175,6 +175,8 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
         if (!race) {
           result.F_C = it.F_C.col(k);
           result.x = it.x.col(k);
+          result.lambda = it.lambda.col(k);
+          result.lambda_c = it.lambda_c.col(k);
         }
         won = won || (race && met_truly);
         it.retire(k);
@@ -185,6 +187,54 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
     if (it.active > 0 && !won) deadline.check("the Uzawa iteration");
   }
   return results;
+}
+
+bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, SaddleVector& v,
+                  const Deadline& deadline) {
+  constexpr int most_iterations = 500;
+  constexpr double tolerance = 1e-4;
+  const int n_f = system.n_f(), n_c = system.n_c();
+  const auto solve = [&](Eigen::VectorXd b) {
+    solve_in_place(augmented.factor, b);
+    return b;
+  };
+  const auto C = [&](const Eigen::VectorXd& x) {
+    Eigen::VectorXd y(n_f + n_c);
+    y << system.C_F * x, system.C_C * x;
+    return y;
+  };
+  const auto C_transposed = [&](const Eigen::VectorXd& y) {
+    return Eigen::VectorXd(system.C_F.transpose() * y.head(n_f) +
+                           system.C_C.transpose() * y.tail(n_c));
+  };
+  Eigen::VectorXd R(n_f + n_c), forces(n_f + n_c);  // S̃ = S + CᵀRC
+  R << Eigen::VectorXd::Constant(n_f, augmented.r_F), Eigen::VectorXd::Constant(n_c, augmented.r_C);
+  forces << v.lambda_F, v.lambda_C;
+  const Eigen::VectorXd load = v.x + C_transposed(R.cwiseProduct(forces));
+  Eigen::VectorXd residual = C(solve(load)) - forces;
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(n_f + n_c);
+  // The right-hand side is made so that λ is 0 for R → ∞; R is then the preconditioner.
+  Eigen::VectorXd z = R.cwiseProduct(residual), direction = z;
+  double rz = residual.dot(z);
+  const double enough = tolerance * tolerance * rz;
+  bool met = rz == 0;
+  for (int k = 0; k < most_iterations && !met; ++k) {
+    deadline.check("the check of the answer");
+    const Eigen::VectorXd product = C(solve(C_transposed(direction)));
+    const double step = rz / direction.dot(product);
+    lambda += step * direction;
+    residual -= step * product;
+    z = R.cwiseProduct(residual);
+    const double next = residual.dot(z);
+    if (!std::isfinite(next)) break;
+    met = next <= enough;
+    direction = z + next / rz * direction;
+    rz = next;
+  }
+  v.x = solve(load - C_transposed(lambda));
+  v.lambda_F = lambda.head(n_f);
+  v.lambda_C = lambda.tail(n_c);
+  return met;
 }
 
 }  // namespace airybench

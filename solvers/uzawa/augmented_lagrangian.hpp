@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/solution.hpp"
 
@@ -51,9 +52,10 @@ struct UzawaResult {
   double rho = 0;
   UzawaOutcome outcome = UzawaOutcome::too_many_iterations;
   int iterations = 0;
-  double primal_N = 0;          // i_C at the end
-  double primal = 0, dual = 0;  // relative residuals of the stop `target`, at the end
-  Eigen::VectorXd F_C, x;       // the contact forces and the scaled Airy unknowns
+  double primal_N = 0;               // i_C at the end
+  double primal = 0, dual = 0;       // relative residuals of the stop `target`, at the end
+  Eigen::VectorXd F_C, x;            // the contact forces and the scaled Airy unknowns
+  Eigen::VectorXd lambda, lambda_c;  // λ, λ'
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
@@ -63,5 +65,10 @@ struct UzawaResult {
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race = false, const Deadline& deadline = {});
+
+// Solves [S Cᵀ; C 0] for any right-hand side, in place, by conjugate gradients on C S̃⁻¹ Cᵀ, to a
+// relative residual of 1e-4. False where that is not reached in 500 iterations.
+bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, SaddleVector& v,
+                  const Deadline& deadline = {});
 
 }  // namespace airybench

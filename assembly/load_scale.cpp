@@ -1,0 +1,45 @@
+#include "assembly/load_scale.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+
+LoadScale load_scale(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const Loads& loads = problem.loads;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
+  const double diameter = box.diagonal().norm();
+  double displacement = 0, stress = loads.body_force_N_per_mm3.norm() * diameter;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    for (const Eigen::Vector2d& x : {a, b}) {
+      if (edge.role == BoundaryRole::displacement && loads.displacement_mm)
+        displacement = std::max(displacement, loads.displacement_mm(x).norm());
+      if (edge.role == BoundaryRole::force && loads.traction_MPa)
+        stress = std::max(stress, loads.traction_MPa(x, edge_frame(a, b).normal).norm());
+    }
+  }
+  LoadScale scale;
+  double energy = 0;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const double c = problem.compliance_of(t)(0, 0);
+    energy +=
+        problem.area_mm2(t) * (std::pow(displacement / diameter, 2) / c + c * stress * stress);
+    scale.force_N = std::max(scale.force_N, displacement / c + stress * diameter);
+  }
+  scale.energy_norm = std::sqrt(energy);
+  return scale;
+}
+
+bool is_rounding(double quantity, double scale) { return !(quantity > 1e-9 * scale); }
+
+double relative_error(double error, double quantity, double scale) {
+  return error == 0 ? 0 : error / (is_rounding(quantity, scale) ? scale : quantity);
+}
+
+}  // namespace airybench
