@@ -33,10 +33,9 @@ void print_list() {
                same);
   }
   fmt::print(
-      "also: 3STEPCG:<preconditioner>[,lanes=1], "
-      "SYMMLQ:<preconditioner>[,schur=sparse][,lanes=1],\n"
-      "      ALM:r=<r>,rho=<rho>; preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, "
-      "NONE\n");
+      "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
+      "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
+      "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE\n");
 }
 
 std::vector<PosedScene> pose_all(const Options& options) {

@@ -18,8 +18,8 @@ const std::vector<Method>& methods();
 
 // The methods that a comma-separated list selects: names of the table and globs, in the table's
 // order and none twice; then general names that are not in the table, as they come:
-//   3STEPCG:<preconditioner>[,lanes=1]
-//   SYMMLQ:<preconditioner>[,schur=sparse][,lanes=1]
+//   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]
+//   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
 //   ALM:r=<r>,rho=<rho>
 // Throws std::invalid_argument: one line with the item that matches nothing and what is valid.
 std::vector<Method> select_methods(std::string_view selection);
