@@ -1,0 +1,93 @@
+// bench --study from outside: exit codes, records, one-line complaints.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+class StudyCommand : public ::testing::Test {
+ protected:
+  int bench(const std::string& arguments) const {
+    const int status =
+        std::system(("cd '" + folder_.path().string() + "' && '" BENCH_EXECUTABLE "' " + arguments +
+                     " >out.txt 2>err.txt </dev/null")
+                        .c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  std::string content(const std::string& name) const {
+    std::ostringstream text;
+    text << std::ifstream(folder_.path() / name).rdbuf();
+    return text.str();
+  }
+  std::vector<nlohmann::json> records() const {
+    std::vector<nlohmann::json> result;
+    std::istringstream lines(content("o/records.jsonl"));
+    for (std::string line; std::getline(lines, line);)
+      result.push_back(nlohmann::json::parse(line));
+    return result;
+  }
+  const testing::TemporaryFolder folder_;
+};
+
+TEST_F(StudyCommand, StabilityIsOneRecordMeasuredOnce) {
+  ASSERT_EQ(bench("--study=stability --mesh=Mesh0 --method=HYBRID --repetitions=3 --out=o "
+                  "--scene='" STABILITY_SCENES "/friction_0.json'"),
+            0)
+      << content("err.txt");
+  const auto all = records();
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0]["study"], "stability");
+  EXPECT_EQ(all[0]["scene"], "friction_0");
+  EXPECT_FALSE(all[0]["scene_group"].is_null());
+  EXPECT_EQ(all[0]["outcome"], "ok");
+  EXPECT_EQ(all[0]["claimed_status"], "ok");
+  EXPECT_EQ(all[0]["repetitions"], 1);
+  EXPECT_EQ(all[0]["measured_once"], true);
+  EXPECT_TRUE(all[0]["knob"].is_null());
+  EXPECT_NE(content("o/results.csv").find(",outcome,claimed_status,error_estimate,"),
+            std::string::npos);
+  EXPECT_FALSE(content("o/results.json").empty());
+}
+
+TEST_F(StudyCommand, ErrorHasAPointForEveryValueOfTheKnob) {
+  // Points that are cut short are not ok.
+  ASSERT_EQ(bench("--study=error --mesh=Mesh0 --method='SDTIC6,3STEPD' --repetitions=1 --out=o"), 1)
+      << content("err.txt");
+  std::set<double> tolerances;
+  for (const auto& record : records()) {
+    EXPECT_EQ(record["study"], "error");
+    EXPECT_GT(record["time_s"], 0) << record["status"];
+    EXPECT_GE(record["error_total"].get<double>(), record["error_discretisation"].get<double>());
+    if (record["method"] == "SDTIC6") {
+      EXPECT_EQ(record["knob"], "tolerance");
+      tolerances.insert(record["knob_value"].get<double>());
+    } else {
+      EXPECT_TRUE(record["knob"].is_null());
+    }
+  }
+  EXPECT_EQ(tolerances.size() + 1, records().size());
+}
+
+TEST_F(StudyCommand, RefusesWhatItCannotStudy) {
+  for (const char* arguments :
+       {"--study=foo", "--study=error --stop=paper", "--study=error --figure=3"}) {
+    EXPECT_EQ(bench(std::string(arguments) + " --out=o"), 2) << arguments;
+    const std::string complaint = content("err.txt");
+    EXPECT_TRUE(complaint.starts_with("bench: ")) << complaint;
+    EXPECT_NE(complaint.find("--st"), std::string::npos) << complaint;
+    EXPECT_EQ(std::count(complaint.begin(), complaint.end(), '\n'), 1) << complaint;
+    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "o")) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace airybench
