@@ -1,0 +1,189 @@
+// A method's own estimate of its error, and refinement, with the exact solve of a small saddle
+// matrix in place of a method's factors.
+#include "solvers/condensation/airy_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+
+#include "assembly/scene.hpp"
+#include "solvers/condensation/airy_residual.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+struct Dense {
+  DualSystem system;
+  Eigen::PartialPivLU<MatrixXd> factors;
+
+  explicit Dense(const Scene& scene)
+      : system(assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(4, 3))))) {
+    const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
+    MatrixXd C(n_f + n_c, n);
+    C << MatrixXd(system.C_F), MatrixXd(system.C_C);
+    MatrixXd matrix = MatrixXd::Zero(n + n_f + n_c, n + n_f + n_c);
+    matrix.topLeftCorner(n, n) = MatrixXd(system.S).selfadjointView<Eigen::Lower>();
+    matrix.bottomLeftCorner(n_f + n_c, n) = C;
+    matrix.topRightCorner(n, n_f + n_c) = C.transpose();
+    factors.compute(matrix);
+  }
+  SaddleSolve solve() const {
+    return [this](SaddleVector& v) {
+      VectorXd all(system.n() + system.n_f() + system.n_c());
+      all << v.x, v.lambda_F, v.lambda_C;
+      all = factors.solve(all).eval();
+      v = {all.head(system.n()), all.segment(system.n(), system.n_f()), all.tail(system.n_c())};
+    };
+  }
+  // Displacements per contact force.
+  MatrixXd D() const {
+    MatrixXd D(system.n_c(), system.n_c());
+    for (int i = 0; i < system.n_c(); ++i) {
+      SaddleVector unit = {VectorXd::Zero(system.n()), VectorXd::Zero(system.n_f()),
+                           VectorXd::Unit(system.n_c(), i)};
+      solve()(unit);
+      D.col(i) = -unit.lambda_C;
+    }
+    return D;
+  }
+  VectorXd or_zero(const VectorXd& v, int size) const {
+    return v.size() > 0 ? v : VectorXd(VectorXd::Zero(size));
+  }
+  SaddleVector answer(const VectorXd& F_C) const {
+    SaddleVector v = {or_zero(system.q, system.n()), or_zero(system.F, system.n_f()),
+                      F_C - or_zero(system.F0, system.n_c())};
+    solve()(v);
+    return v;
+  }
+  Solution solution() const {
+    Solution result = run(select_methods("3STEPD:REFINED").front(), system, {});
+    EXPECT_EQ(result.status, Status::ok) << result.message;
+    return result;
+  }
+  // The estimate of an answer, and what is said about it, for a target.
+  Solution checked(const SaddleVector& answer, const VectorXd& F_C, double target) const {
+    Solution result;
+    result.status = Status::ok;
+    result.F_C = F_C;
+    RunControl control;
+    control.target_error = target;
+    check_airy_answer(system, D().diagonal(), solve(), answer, control, result);
+    return result;
+  }
+  double energy_norm(const VectorXd& x) const {
+    return std::sqrt(x.dot(system.S.selfadjointView<Eigen::Lower>() * x));
+  }
+};
+
+std::vector<Scene> scenes() {
+  std::vector<Scene> all(6);
+  all[1].body_force_N_per_mm3 = {0.3, -0.7};
+  all[2].friction = 0;
+  all[3].mesh.keep_contact_edges = 0;
+  all[4].mesh.keep_force_edges = 0;
+  all[5].layers.count = 2;
+  all[5].layer_materials.resize(2);
+  all[5].layer_materials[1].young_MPa = 70000;
+  all[5].body_force_N_per_mm3 = {0.3, -0.7};
+  return all;
+}
+
+LongVector in_long(const VectorXd& v) { return v.cast<long double>(); }
+
+TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
+  int number = 0;
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(number++);
+    const Dense d(scene);
+    const DualSystem& s = d.system;
+    std::srand(7);
+    const VectorXd x = VectorXd::Random(s.n()), lambda_F = VectorXd::Random(s.n_f()),
+                   lambda_C = VectorXd::Random(s.n_c()), F_C = VectorXd::Random(s.n_c());
+    const LongSaddleVector r =
+        airy_residual(s, {in_long(x), in_long(lambda_F), in_long(lambda_C)}, F_C);
+    const auto expect_same = [](const LongVector& found, const VectorXd& by_blocks) {
+      ASSERT_EQ(found.size(), by_blocks.size());
+      EXPECT_LE((found.cast<double>() - by_blocks).norm(), 1e-10 * by_blocks.norm());
+    };
+    expect_same(r.x, d.or_zero(s.q, s.n()) - s.S.selfadjointView<Eigen::Lower>() * x -
+                         s.C_F.transpose() * lambda_F - s.C_C.transpose() * lambda_C);
+    expect_same(r.lambda_F, d.or_zero(s.F, s.n_f()) - s.C_F * x);
+    expect_same(r.lambda_C, F_C - d.or_zero(s.F0, s.n_c()) - s.C_C * x);
+  }
+}
+
+TEST(AiryRefinement, LeavesResidualsAtRounding) {
+  int number = 0;
+  for (const Scene& scene : scenes()) {
+    SCOPED_TRACE(number++);
+    const Dense d(scene);
+    Solution refined = d.solution();
+    refine_airy_answer(d.system, d.D(), d.solve(), d.answer(refined.F_C), {}, refined);
+    EXPECT_LE(refined.error_estimate.value_or(1), 1e-14);
+    EXPECT_EQ(refined.status, Status::ok);
+    EXPECT_EQ(d.checked(d.answer(refined.F_C), refined.F_C, 1e-10).status, Status::ok);
+  }
+}
+
+TEST(AiryRefinement, EstimatesAKnownErrorAndSaysWhenItIsAboveTheTarget) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  const SaddleVector exact = d.answer(F_C);
+  const auto expect_estimate = [&](const SaddleVector& answer, const VectorXd& F, double error) {
+    const Solution above = d.checked(answer, F, error / 20);
+    ASSERT_TRUE(above.error_estimate);
+    EXPECT_GE(*above.error_estimate, error / 10);
+    EXPECT_LE(*above.error_estimate, error * 10);
+    EXPECT_EQ(above.status, Status::inaccurate);
+    EXPECT_EQ(d.checked(answer, F, error * 20).status, Status::ok);
+  };
+  for (const double error : {1e-3, 1e-6, 1e-9}) {
+    SCOPED_TRACE(error);
+    // A stress without forces on the boundary, so that the energy norm measures it alone: the
+    // response to a compatibility residual.
+    SaddleVector self_stress = {VectorXd::Random(d.system.n()), VectorXd::Zero(d.system.n_f()),
+                                VectorXd::Zero(d.system.n_c())};
+    d.solve()(self_stress);
+    SaddleVector wrong = exact;
+    wrong.x += error * d.energy_norm(exact.x) / d.energy_norm(self_stress.x) * self_stress.x;
+    expect_estimate(wrong, F_C, error);
+
+    // Contact forces that are not the law's, everything else as they want it: displacements follow,
+    // and the natural map is off by about as much.
+    const VectorXd F_wrong = (1 + error) * F_C;
+    expect_estimate(d.answer(F_wrong), F_wrong, error);
+  }
+}
+
+TEST(AiryRefinement, MultipliersAloneAreCorrectedWithoutAnError) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  SaddleVector wrong = d.answer(F_C);
+  wrong.lambda_F *= 1.001;  // displacements of the free boundary: no stress, no force
+  wrong.lambda_C *= 1.001;
+  EXPECT_LE(d.checked(wrong, F_C, 1e-6).error_estimate.value_or(1), 1e-10);
+}
+
+TEST(AiryRefinement, NoLoadIsNoError) {
+  Scene scene;
+  scene.displacement_mm = {0, 0};
+  scene.crown_radius_mm.reset();
+  const Dense d(scene);
+  const VectorXd none = VectorXd::Zero(d.system.n_c());
+  const SaddleVector zero = {VectorXd::Zero(d.system.n()), VectorXd::Zero(d.system.n_f()), none};
+  EXPECT_EQ(d.checked(zero, none, 1e-6).error_estimate, 0.0);
+  for (const char* method : {"3STEPD:REFINED", "BLIND:SCHUR:REFINED"}) {
+    const Solution solution = run(select_methods(method).front(), d.system, {});
+    EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
+    EXPECT_EQ(solution.error_estimate, 0.0) << method;
+    EXPECT_TRUE(solution.F_C.isZero(0) && solution.phi.isZero(0)) << method;
+  }
+}
+
+}  // namespace
+}  // namespace airybench
