@@ -22,6 +22,7 @@ MARKS = {
     "inaccurate": ("i", "#F5D76E", "black"),
     "not_converged": ("n", "#E8A33D", "black"),
     "breakdown": ("b", "#B07A4A", "white"),
+    "unverified": ("?", "#FFFFFF", "black"),
     "wrong_success": ("W!", "#D00060", "white"),
     "timeout": ("t", "#A9A9B8", "black"),
     "out_of_memory": ("m", "#6B6B80", "white"),
@@ -29,6 +30,7 @@ MARKS = {
     "skipped": ("–", "#FFFFFF", "0.4"),
 }
 WORDS = {"ok": "ok, with the digits of its largest error",
+         "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached"}
 CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches
 LETTER = 0.078  # inches: of a name's letter, about

@@ -86,7 +86,7 @@ MakePreconditioner preconditioner_of(const std::string& name, const Parts& parts
 Method krylov_method(std::string summary) {
   Method method;
   method.summary = std::move(summary);
-  method.stages = {"precondition", "condense", "contact", "recover"};
+  method.stages = {"precondition", "condense", "contact", "recover", "check"};
   method.knob = AccuracyKnob::krylov_tolerance;
   // Tight from the start: where the preconditioner is poor the residual stays long and then falls
   // fast, so that two digits more cost some per cent, and a second run all of it.
@@ -127,7 +127,7 @@ Method symmlq(const std::string& name, Parts parts) {
 Method augmented_lagrangian(const std::string& name, Parts parts) {
   Method method;
   method.summary = "augmented Lagrangian, Uzawa's algorithm with given parameters";
-  method.stages = {"factor", "contact", "recover"};
+  method.stages = {"factor", "contact", "recover", "check"};
   method.first_tolerance = 2e-2;
   method.knob = AccuracyKnob::uzawa_iterations;
   if (!parts.first.empty()) refuse(name, "'" + parts.first + "' is no parameter (valid: r, rho)");

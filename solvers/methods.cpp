@@ -23,7 +23,7 @@ Method direct(const char* name, const char* summary, bool in_paper, Blocks block
   method.summary = summary;
   method.in_paper = in_paper;
   method.blocks = blocks;
-  method.stages = {"order", "factor", "condense", "contact", "recover"};
+  method.stages = {"order", "factor", "condense", "contact", "recover", "check"};
   method.solve = std::move(solve);
   return method;
 }

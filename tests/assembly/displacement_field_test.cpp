@@ -110,7 +110,7 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
 TEST(ControlPoints, AreTheVerticesAndEdgesOfTheContactFaceWithoutThePrescribedOnes) {
   Mesh mesh = small_tooth(5, 4);
   Loads loads;
-  loads.gap_mm = [](const auto& x) { return 0.1 + 0.02 * x.y() * x.y(); };
+  loads.gap_mm = [](const auto& x, int) { return 0.1 + 0.02 * x.y() * x.y(); };
   const auto posed = [&](double mu) {
     return make_problem(mesh, {compliance({}, Plane::strain)}, loads, mu);
   };
@@ -148,7 +148,7 @@ TEST(ControlPoints, AtAKinkTheNormalIsTheMeanAndTheGapTheSmallerOne) {
 TEST(ControlPoints, CoefficientsOfAGapMakeTheGap) {
   Mesh mesh = small_tooth(3, 3);
   Loads loads;
-  loads.gap_mm = [](const auto& x) { return 0.1 - 0.03 * x.y() + 0.02 * x.y() * x.y(); };
+  loads.gap_mm = [](const auto& x, int) { return 0.1 - 0.03 * x.y() + 0.02 * x.y() * x.y(); };
   const Problem problem = make_problem(mesh, {compliance({}, Plane::strain)}, loads, 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
@@ -157,7 +157,7 @@ TEST(ControlPoints, CoefficientsOfAGapMakeTheGap) {
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0})
       EXPECT_NEAR((1 - s) * (1 - s) * c0 + 2 * s * (1 - s) * c1 + s * s * c2,
-                  loads.gap_mm((1 - s) * a + s * b), 1e-14);
+                  loads.gap_mm((1 - s) * a + s * b, row), 1e-14);
   }
 }
 

@@ -76,7 +76,7 @@ TEST(Reference, SaysHowMuchAFlattenedMeshCosts) {
 
 TEST(Reference, WithoutAFiniteSolutionThereIsNone) {
   Problem problem = pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh"));
-  problem.loads.gap_mm = [](const Eigen::Vector2d&) { return std::nan(""); };
+  problem.loads.gap_mm = [](const Eigen::Vector2d&, int) { return std::nan(""); };
   EXPECT_THROW(compute_reference(assemble(std::make_shared<const Problem>(std::move(problem)),
                                           Blocks::contact_points)),
                Breakdown);

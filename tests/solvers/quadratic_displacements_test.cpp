@@ -113,7 +113,7 @@ TEST(QuadraticDisplacements, NowherePenetratesTheWallAndMeetsWhatIsPrescribed) {
           if (edge.role == BoundaryRole::displacement) {
             EXPECT_LT((u - scene.displacement_mm).norm(), 1e-15);
           } else {
-            const double r = edge_frame(a, b).normal.dot(u) - problem->loads.gap_mm(x);
+            const double r = edge_frame(a, b).normal.dot(u) - problem->loads.gap_mm(x, row);
             EXPECT_LE(r, 1e-13) << "at y = " << x.y();
             closest = std::max(closest, r);
           }
