@@ -21,7 +21,7 @@ ExpectedTable& table() {
       new ExpectedTable(std::string(TEST_DATA_DIR) + "/error_points.csv", 4);
   return *environment;
 }
-const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
+[[maybe_unused]] const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
 
 std::string text(const std::optional<double>& value) {
   return value ? fmt::format("{:.3g}", *value) : "";

@@ -1,6 +1,9 @@
 // Refined answers against the reference, which shares nothing with them but the mesh.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "assembly/msh_format.hpp"
 #include "bench/reference.hpp"
 #include "bench/scene_file.hpp"

@@ -28,7 +28,7 @@ ExpectedTable& table() {
       new ExpectedTable(std::string(TEST_DATA_DIR) + "/stability_outcomes.csv", 2);
   return *environment;
 }
-const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
+[[maybe_unused]] const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
 
 std::vector<Method> one_of_each_kind() {
   return select_methods(
