@@ -29,11 +29,12 @@ Parts split(const std::string& name) {
   std::istringstream items(colon == name.npos ? "" : name.substr(colon + 1));
   for (std::string item; std::getline(items, item, ',');) {
     const std::size_t equals = item.find('=');
+    const std::string key = item.substr(0, equals);
     if (equals == item.npos) {
       if (!parts.first.empty()) refuse(name, "'" + item + "' has no '='");
       parts.first = item;
-    } else if (!parts.options.emplace(item.substr(0, equals), item.substr(equals + 1)).second) {
-      refuse(name, "'" + item.substr(0, equals) + "' is there twice");
+    } else if (!parts.options.emplace(key, item.substr(equals + 1)).second) {
+      refuse(name, "'" + key + "' is there twice");
     }
   }
   return parts;

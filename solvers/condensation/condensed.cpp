@@ -23,9 +23,11 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
     finish_by_active_set(condensed, contact, control, result);
   solution.F_C = std::move(result.F_C);
   solution.contact_iterations = result.sweeps;
-  if (control.histories)
-    solution.histories.push_back(
-        {"relative change of F_C per Gauss-Seidel sweep", std::move(result.history)});
+  if (control.histories) {
+    IterationHistory& history = solution.histories.emplace_back();
+    history.what = "relative change of F_C per Gauss-Seidel sweep";
+    history.residual = std::move(result.history);
+  }
   if (!result.converged) {
     std::ostringstream message;
     message << "contact law: natural map residual " << result.natural_map_residual << " after "
