@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
 #include "bench/study.hpp"
 #include "bench/workbench.hpp"
 #include "tests/bench/expected_table.hpp"

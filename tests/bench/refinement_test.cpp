@@ -17,11 +17,11 @@ namespace {
 struct Posed {
   DualSystem system;
   Reference reference;
-  double error_of(const std::string& method) const {
+  double error_of(const std::string& method, Status expected = Status::ok) const {
     RunControl control;
     control.tolerance = 1e-12;
     const Solution solution = run(select_methods(method).front(), system, control);
-    EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
+    EXPECT_EQ(solution.status, expected) << method << ": " << solution.message;
     const Verification found = verify(system, solution, &reference);
     return std::max(found.error_stress.value_or(1), found.error_force.value_or(1));
   }
@@ -53,8 +53,9 @@ TEST(Refinement, GivesBackTheDigitsThatConditioningTook) {
   for (const char* scene : {"slivers_1e3", "grading_1e4"}) {
     const auto file = stability_scenes().front().parent_path() / (std::string(scene) + ".json");
     const Posed p = posed("Mesh0", read_scene(file));
-    EXPECT_LE(p.error_of("3STEPD:REFINED"), 1e-4 * p.error_of("3STEPD")) << scene;
-    EXPECT_LE(p.error_of("BLIND:SCHUR:REFINED"), 1e-4 * p.error_of("BLIND:SCHUR")) << scene;
+    for (const std::string method : {"3STEPD", "BLIND:SCHUR"})
+      EXPECT_LE(p.error_of(method + ":REFINED"), 1e-4 * p.error_of(method, Status::inaccurate))
+          << method << ", " << scene;
   }
 }
 
