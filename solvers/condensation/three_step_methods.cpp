@@ -89,8 +89,10 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
   const KrylovOptions options = krylov_options(control, lanes);
   KrylovSummary all;
   const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) {
+    KrylovOptions used = options;
+    if (X.cols() == 1) used.lanes = 1;
     try {
-      all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), options,
+      all.add(solve_by_conjugate_gradients(system.S, preconditioner, columns_of(X), used,
                                            control.deadline));
     } catch (TimeoutReached& timeout) {
       if (X.cols() == 1) timeout.count_before(system.n_f() + system.n_c());  // S⁻¹ q is the last

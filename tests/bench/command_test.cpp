@@ -275,7 +275,7 @@ TEST_F(Command, WrongMethodsFiguresAndStopsAreOneLine) {
       {"--method=ALM:r=1,rho=1,r=2", "'r' is there twice"},
       {"--method=ALM:r=1,rho=1,s=2", "unknown option 's' (valid: r, rho)"},
       {"--method=3STEPCG:DTIC3,lanes=3", "lanes=3 (allowed: 1, 16)"},
-      {"--method=3STEPCG:DTIC3,schur=sparse", "unknown option 'schur' (valid: lanes)"},
+      {"--method=3STEPCG:DTIC3,schur=sparse", "unknown option 'schur' (valid: lanes, refine)"},
       {"--method=SYMMLQ:DTIC3,schur=x", "schur=x (allowed: dense, sparse)"},
       {"--method=BLIND:DTIC3", "no method matches 'BLIND:DTIC3'"},
       {"--method=3STEPD,,HYBRID", "no method matches ''"},

@@ -145,7 +145,9 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
     EXPECT_EQ(s.contact.gap.size() > 0, runs["assemble gap"]) << scene.name;
     EXPECT_EQ(s.contact.count > 0 && s.contact.components == 2, runs["contact: tangential law"])
         << scene.name;
-    EXPECT_EQ(m.solution.F_C.size(), s.contact.size()) << scene.name;
+    if (!GetParam().in_displacements) {  // which has control points of its own
+      EXPECT_EQ(m.solution.F_C.size(), s.contact.size()) << scene.name;
+    }
     const bool sweeps = runs["contact"] && !m.solution.uzawa_iterations;
     EXPECT_EQ(m.solution.contact_iterations.has_value(), sweeps) << scene.name;
   }
@@ -159,17 +161,19 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
     const Measured lean = measure(scene, GetParam());
     // Without friction the tangential rows move to K_FF: its sum, copy and factor are larger.
     const std::int64_t moved =
-        three_step ? 3 * 8 * std::max<std::int64_t>(squared(lean.system) - squared(with.system), 0)
-                   : 0;
+        three_step ? 8 * std::max<std::int64_t>(squared(lean.system) - squared(with.system), 0) : 0;
     EXPECT_LE(lean.blocks_bytes, with.blocks_bytes + rounding) << scene.name;
-    EXPECT_LE(lean.peak_bytes, with.peak_bytes + moved + rounding) << scene.name;
-    // Each asking of the contact law and each growth of a history allocates: where other forces
-    // need more of them, nothing is said. One temporary more is let pass.
-    if (lean.solution.contact_iterations <= with.solution.contact_iterations &&
+    EXPECT_LE(lean.peak_bytes, with.peak_bytes + 3 * moved + rounding) << scene.name;
+    // Each asking of the contact law, each growth of a history, each step of a refinement
+    // allocates: where other forces need more of them, nothing is said. One temporary more is let
+    // pass.
+    const bool asks_otherwise =
+        GetParam().in_displacements || GetParam().name.ends_with(":REFINED");
+    if (!asks_otherwise && lean.solution.contact_iterations <= with.solution.contact_iterations &&
         lean.solution.uzawa_iterations <= with.solution.uzawa_iterations) {
       EXPECT_LE(lean.allocations, with.allocations + 1) << scene.name;
     }
-    EXPECT_LE(lean.solution.storage_bytes, with.solution.storage_bytes) << scene.name;
+    EXPECT_LE(lean.solution.storage_bytes, with.solution.storage_bytes + moved) << scene.name;
   }
 }
 

@@ -62,7 +62,8 @@ TEST_F(StudyCommand, StabilityIsOneRecordMeasuredOnce) {
 
 TEST_F(StudyCommand, ErrorHasAPointForEveryValueOfTheKnob) {
   // Points that are cut short are not ok.
-  ASSERT_EQ(bench("--study=error --mesh=Mesh0 --method='SDTIC6,BLIND:SCHUR' --repetitions=1 --out=o"), 1)
+  ASSERT_EQ(
+      bench("--study=error --mesh=Mesh0 --method='SDTIC6,BLIND:SCHUR' --repetitions=1 --out=o"), 1)
       << content("err.txt");
   std::set<double> tolerances;
   for (const auto& record : records()) {
