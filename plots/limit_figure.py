@@ -14,7 +14,7 @@ from results_table import Row
 from size_figure import exponent, spread
 from work_precision_figure import value_of
 
-LEFT, TOP, PANEL, NAMES, HEIGHT, BOTTOM = 0.72, 1.3, 2.8, 1.5, 4.6, 0.5
+LEFT, TOP, PANEL, NAMES, HEIGHT, BOTTOM = 0.72, 1.3, 2.8, 2.0, 4.6, 0.5
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
           "error_force": "relative error of the contact forces, 1"}
 WIDTH = len(PANELS) * (LEFT + PANEL + NAMES)
