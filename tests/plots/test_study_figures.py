@@ -119,7 +119,7 @@ class StudyFiguresTest(StudiesTest):
                 ("outcome", "fine", "one of (empty), ok, inaccurate"),
                 ("outcome", "", "a value in the study 'error'"),
                 ("knob_value", "-1", "a number, 0 or more, or empty"),
-                ("error_total", "0", "a number above 0, or empty"),
+                ("error_total", "-1", "a number, 0 or more, or empty"),
                 ("upper_bound_Nmm", "high", "a number, or empty")):
             rows = made_up.error_study(["Mesh0"])[:2]
             made_up.write(self.csv, [rows[0], rows[1] | {column: cell}])
