@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <regex>
 #include <sstream>
 
 #include "assembly/atomic_file.hpp"
@@ -127,7 +126,10 @@ void RecordFiles::finish() const {
   std::ostringstream written;
   written << std::ifstream(part).rdbuf();
   // The coefficient of variation of a counter that is zero: "NaN" is not JSON.
-  const std::string text = std::regex_replace(written.str(), std::regex(": -?(NaN|nan)"), ": null");
+  std::string text = written.str();
+  for (const std::string nan : {": NaN", ": -NaN", ": nan", ": -nan"})
+    for (std::size_t at = text.find(nan); at != text.npos; at = text.find(nan, at))
+      text.replace(at, nan.size(), ": null");
   if (!nlohmann::json::accept(text))  // Google Benchmark does not say when the disk is full
     throw OutputError(whole.string() + ": could not be written whole");
   write_file_atomically(whole, text);
