@@ -61,7 +61,7 @@ Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
 }  // namespace
 
 std::size_t ThreeStep::bytes() const {
-  return X.bytes() + static_cast<std::size_t>(x.size() + K_FF.matrixLLT().size() +
+  return X.bytes() + static_cast<std::size_t>(x.size() + (K_FF ? K_FF->matrixLLT().size() : 0) +
                                               K_FF_inverse_K_FC.size() + condensed.D.size()) *
                          sizeof(double);
 }
@@ -83,11 +83,11 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
   if (n_f > 0) {
     const auto K_FF = K.topLeftCorner(n_f, n_f);
     steps.K_FF = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
-    if (n_c > 0) steps.K_FF_inverse_K_FC = steps.K_FF.solve(K.topRightCorner(n_f, n_c));
+    if (n_c > 0) steps.K_FF_inverse_K_FC = steps.K_FF->solve(K.topRightCorner(n_f, n_c));
     if (system.q.size() > 0 || system.F.size() > 0) {
       steps.lambda_0 = times_or_zero(system.C_F, steps.x);
       if (system.F.size() > 0) steps.lambda_0 -= system.F;
-      steps.lambda_0 = steps.K_FF.solve(steps.lambda_0);
+      steps.lambda_0 = steps.K_FF->solve(steps.lambda_0);
     }
   }
 
@@ -154,7 +154,7 @@ void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveI
     v.lambda_C = (steps.condensed.D * v.lambda_C).eval();
   }
   if (system.n_f() > 0) {
-    v.lambda_F = steps.K_FF.solve(v.lambda_F);
+    v.lambda_F = steps.K_FF->solve(v.lambda_F);
     if (system.n_c() > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
   }
   subtract_multipliers(steps, system, solve, v);

@@ -13,6 +13,7 @@
 
 #include <Eigen/Cholesky>
 #include <functional>
+#include <optional>
 
 #include "assembly/dual_system.hpp"
 #include "solvers/condensation/airy_refinement.hpp"
@@ -37,8 +38,8 @@ struct ThreeStep {
   ColumnStore X;                      // n × (n_f + n_c), or empty if it is kept nowhere
   Eigen::VectorXd x;                  // S⁻¹ q; empty: zero
   Eigen::MatrixXd K_FF_inverse_K_FC;  // n_f × n_c
-  Eigen::LLT<Eigen::MatrixXd> K_FF;   // factorised
-  Eigen::VectorXd lambda_0;           // K_FF⁻¹ (C_F x − F); empty: zero
+  std::optional<Eigen::LLT<Eigen::MatrixXd>> K_FF;  // factorised; none without force rows
+  Eigen::VectorXd lambda_0;                         // K_FF⁻¹ (C_F x − F); empty: zero
 
   std::size_t bytes() const;
 };
