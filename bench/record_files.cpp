@@ -31,7 +31,8 @@ std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
   for (const auto& record : records) {
     for (std::size_t i = 0; i < header.size(); ++i) {
       const auto value = record.find(header[i].first);
-      text += (i > 0 ? "," : "") + (value != record.end() ? csv_field(*value) : std::string());
+      if (i > 0) text += ',';
+      if (value != record.end()) text += csv_field(*value);
     }
     text += "\n";
   }
