@@ -150,7 +150,8 @@ class Claims : public ::testing::Test {
     const Result result = claims(arguments);
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_EQ(result.err, "");
-    const std::string head = (number < 10 ? " " : "") + std::to_string(number) + "  ";
+    std::string head = number < 10 ? " " : "";
+    head += std::to_string(number) + "  ";
     std::istringstream lines(result.out);
     std::string text;
     for (std::string line; std::getline(lines, line);)
