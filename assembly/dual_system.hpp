@@ -26,6 +26,7 @@
 namespace airybench {
 
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 struct ContactPoints {

@@ -19,6 +19,22 @@ ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int tr
   return stress;
 }
 
+template <typename Scalar>
+void subtract_affine_part(const TriangleVertices& v, const EdgeSigns& outward,
+                          Eigen::Matrix<Scalar, 12, 1>& local) {
+  const Eigen::Vector2<Scalar> slope =
+      (local.template segment<2>(1) + local.template segment<2>(4) + local.template segment<2>(7)) /
+      3;
+  const Scalar value = (local(0) + local(3) + local(6)) / 3;
+  const Eigen::Matrix<Scalar, 2, 3> corners = v.cast<Scalar>();
+  const Eigen::Vector2<Scalar> centroid = corners.rowwise().mean();
+  for (int k = 0; k < 3; ++k) {
+    local(3 * k) -= value + slope.dot(corners.col(k) - centroid);
+    local.template segment<2>(3 * k + 1) -= slope;
+    local(9 + k) -= outward[k] * slope.dot(edge_frame<Scalar>(v.col(k), v.col((k + 1) % 3)).normal);
+  }
+}
+
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi) {
   const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
   StressField field(problem.mesh.triangles.size());
@@ -30,17 +46,8 @@ StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorX
       local.segment<3>(3 * k) = phi.segment<3>(3 * corner[k]);
       local(9 + k) = phi(3 * vertices + problem.edges.of_triangle[t][k]);
     }
-    // An affine part carries no stress; without it less cancels.
-    const Eigen::Vector2d slope =
-        (local.segment<2>(1) + local.segment<2>(4) + local.segment<2>(7)) / 3;
-    const double value = (local(0) + local(3) + local(6)) / 3;
-    const Eigen::Vector2d centroid = v.rowwise().mean();
     const EdgeSigns outward = problem.edge_signs(t);
-    for (int k = 0; k < 3; ++k) {
-      local(3 * k) -= value + slope.dot(v.col(k) - centroid);
-      local.segment<2>(3 * k + 1) -= slope;
-      local(9 + k) -= outward[k] * slope.dot(edge_frame(v.col(k), v.col((k + 1) % 3)).normal);
-    }
+    subtract_affine_part(v, outward, local);
     const HctStress from_dofs = hct_stress(v, outward);
     field[t].reshaped() = from_dofs * local;
     if (problem.loads.has_body_force()) field[t] += particular_element_stress(problem, t);
@@ -93,6 +100,10 @@ template ElementStressIn<double> stress_dual(const ElementStressIn<double>&, dou
                                              const Eigen::Matrix3d&);
 template Eigen::Matrix2<double> element_edge_forces(const TriangleVertices&,
                                                     const ElementStressIn<double>&, int);
+template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
+                                   Eigen::Matrix<double, 12, 1>&);
+template void subtract_affine_part(const TriangleVertices&, const EdgeSigns&,
+                                   Eigen::Matrix<long double, 12, 1>&);
 template ElementStressIn<long double> particular_element_stress(const Problem&, int);
 template ElementStressIn<long double> stress_dual(const ElementStressIn<long double>&, long double,
                                                   const Eigen::Matrix3d&);

@@ -22,6 +22,12 @@ using StressField = std::vector<ElementStress>;  // per triangle
 // the body force.
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi);
 
+// Takes the affine part out of an element's twelve unknowns: it carries no stress, and without it
+// less cancels.
+template <typename Scalar>
+void subtract_affine_part(const TriangleVertices& v, const EdgeSigns& outward,
+                          Eigen::Matrix<Scalar, 12, 1>& local);
+
 // The particular stress of the body force on one triangle.
 template <typename Scalar = double>
 ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int triangle);

@@ -4,14 +4,14 @@
 #include <exception>
 
 #include "assembly/mesh_selection.hpp"
-#include "bench/claims_command.hpp"
-#include "bench/environment.hpp"
-#include "bench/mesh_files.hpp"
+#include "bench/cases/mesh_files.hpp"
+#include "bench/cases/scene_file.hpp"
+#include "bench/cases/stages.hpp"
+#include "bench/claims/claims_command.hpp"
+#include "bench/measuring/environment.hpp"
+#include "bench/measuring/runner.hpp"
 #include "bench/options.hpp"
-#include "bench/record_files.hpp"
-#include "bench/runner.hpp"
-#include "bench/scene_file.hpp"
-#include "bench/stages.hpp"
+#include "bench/records/record_files.hpp"
 #include "bench/terminal.hpp"
 
 namespace airybench {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/study.hpp"
+#include "bench/cases/study.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/record.hpp"
+#include "bench/records/record.hpp"
 
 namespace airybench {
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "assembly/stress_field.hpp"
+#include "solvers/stage_times.hpp"
 
 namespace airybench {
 
@@ -28,17 +29,6 @@ enum class Status {
   skipped,
 };
 std::string_view name_of(Status status);
-
-// Wall-clock seconds by stage. Empty: the method has no such stage, or the scene does not need it.
-struct StageTimes {
-  std::optional<double> order_s;         // symbolic analysis, fill-reducing ordering
-  std::optional<double> precondition_s;  // building a preconditioner
-  std::optional<double> factor_s;        // numeric factorisation
-  std::optional<double> condense_s;      // from the factor to D and G
-  std::optional<double> contact_s;       // the contact law
-  std::optional<double> recover_s;       // F_C to φ and stresses
-  std::optional<double> check_s;         // the method's own estimate of its error, refinement
-};
 
 struct IterationHistory {
   std::string what;              // "natural map residual of the contact sweeps"
@@ -125,22 +115,6 @@ struct RunControl {
   int contact_sweeps = 100000;        // at most
   int uzawa_iterations = 20000;       // at most
   bool active_sets = true;            // finish the contact law by them where the sweeps did not
-};
-
-// Measures one stage: adds the time from construction to destruction.
-class StageTimer {
- public:
-  explicit StageTimer(std::optional<double>& seconds) : seconds_(seconds) {}
-  ~StageTimer() {
-    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-    seconds_ = seconds_.value_or(0) + spent.count();
-  }
-  StageTimer(const StageTimer&) = delete;
-  StageTimer& operator=(const StageTimer&) = delete;
-
- private:
-  std::optional<double>& seconds_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace airybench

@@ -18,12 +18,6 @@ double energy_norm(const DualSystem& system, const Eigen::VectorXd& x) {
 
 double largest(const Eigen::VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
 
-Eigen::VectorXd displacement_minus_gap(const ContactPoints& contact, Eigen::VectorXd displacement) {
-  for (int p = 0; p < static_cast<int>(contact.gap.size()); ++p)
-    displacement(contact.components * p) -= contact.gap(p);
-  return displacement;
-}
-
 // One correction, and the estimate of what it corrects. F_C keeps.
 struct Correction {
   SaddleVector delta;
@@ -70,7 +64,7 @@ void add(LongSaddleVector& answer, const SaddleVector& delta) {
 void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution) {
-  const StageTimer timer(solution.times.check_s);
+  const StageTimer timer(solution.times, Stage::check);
   judge_by_own_estimate(correction(system, D_diagonal, load_scale(*system.problem), solve,
                                    in_long(answer), solution.F_C)
                             .estimate,
@@ -81,7 +75,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
-  const StageTimer timer(solution.times.check_s);
+  const StageTimer timer(solution.times, Stage::check);
   const Eigen::VectorXd D_diagonal = D.diagonal();
   const LoadScale scale = load_scale(*system.problem);
   LongSaddleVector trial = in_long(answer), best = trial;
@@ -92,8 +86,8 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
     control.deadline.check("refinement");
     add(trial, next.delta);
     if (F.size() > 0) {
-      const Eigen::VectorXd r =
-          displacement_minus_gap(system.contact, -trial.lambda_C.cast<double>());
+      const Eigen::VectorXd u = -trial.lambda_C.cast<double>();
+      const Eigen::VectorXd r = relative_to_gap(system.contact, u);
       SaddleVector change{Eigen::VectorXd::Zero(system.n()), Eigen::VectorXd::Zero(system.n_f()),
                           active_set_step(D, system.contact, F, r) - F};
       F += change.lambda_C;

@@ -28,20 +28,6 @@ void scatter(const DualSystem& system, const std::array<int, count>& dofs,
       r(dofs[k]) += system.scale(dofs[k]) * values(static_cast<int>(k));
 }
 
-// Takes out the affine part, which carries no stress, so that less cancels.
-void subtract_affine(const TriangleVertices& v, const EdgeSigns& outward, LongColumn<12>& phi) {
-  const Eigen::Vector2<Long> slope =
-      (phi.segment<2>(1) + phi.segment<2>(4) + phi.segment<2>(7)) / 3;
-  const Long value = (phi(0) + phi(3) + phi(6)) / 3;
-  const Eigen::Matrix<Long, 2, 3> corners = v.cast<Long>();
-  const Eigen::Vector2<Long> centroid = corners.rowwise().mean();
-  for (int k = 0; k < 3; ++k) {
-    phi(3 * k) -= value + slope.dot(corners.col(k) - centroid);
-    phi.segment<2>(3 * k + 1) -= slope;
-    phi(9 + k) -= outward[k] * slope.dot(edge_frame<Long>(v.col(k), v.col((k + 1) % 3)).normal);
-  }
-}
-
 struct TriangleStress {
   HctStressIn<Long> from_dofs;
   ElementStressIn<Long> stress;  // with the particular stress
@@ -55,7 +41,7 @@ TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, in
   TriangleStress result;
   result.dofs = system.dofs.of_triangle(problem, t);
   LongColumn<12> phi = gather(system, x, result.dofs);
-  subtract_affine(v, outward, phi);
+  subtract_affine_part(v, outward, phi);
   result.from_dofs = hct_stress<Long>(v, outward);
   result.stress.reshaped() = result.from_dofs * phi;
   if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);

@@ -7,8 +7,6 @@
 
 namespace airybench {
 
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
 // x: scaled Airy unknowns; λ, λ' as in DualSystem. Also the residuals of their equations.
 struct LongSaddleVector {
   LongVector x, lambda_F, lambda_C;

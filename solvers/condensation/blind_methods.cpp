@@ -22,14 +22,14 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
   CondensedSystem condensed;
   if (system.n_c() > 0) {
-    const StageTimer timer(solution.times.condense_s);
+    const StageTimer timer(solution.times, Stage::condense);
     condensed = condense_blindly(system, blind, solve, columns_at_once);
   }
   solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
     solve(x);
     answer = recover(system, blind, x, solution);
@@ -47,13 +47,13 @@ BlindSystem factorise(const DualSystem& system, const RunControl& control, int t
                       MumpsFactor& factor, Solution& solution) {
   BlindSystem blind;
   {
-    const StageTimer timer(solution.times.order_s);
+    const StageTimer timer(solution.times, Stage::order);
     blind = make_blind_system(system, BlindNumbering::multipliers_last);
     factor.analyse(blind.lower, trailing);
   }
   control.deadline.check("MUMPS's analysis");
   {
-    const StageTimer timer(solution.times.factor_s);
+    const StageTimer timer(solution.times, Stage::factor);
     factor.factor(blind.lower);
   }
   control.deadline.check("MUMPS's factorisation");
@@ -84,14 +84,14 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   const Eigen::VectorXd load = blind_right_hand_side(system, blind, {});
   CondensedSystem condensed;
   if (n_c > 0) {
-    const StageTimer timer(solution.times.condense_s);
+    const StageTimer timer(solution.times, Stage::condense);
     condensed = condense_blindly(factor.schur(), factor.reduce(load));
   }
   solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     Eigen::VectorXd x = load;
     if (n_c > 0)
       x = factor.expand(condensed.G - condensed.D * solution.F_C);
@@ -116,13 +116,13 @@ Solution solve_blind_skyline(const DualSystem& system, const RunControl& control
   BlindSystem blind;
   SkylineProfile profile;
   {
-    const StageTimer timer(solution.times.order_s);
+    const StageTimer timer(solution.times, Stage::order);
     blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     profile = analyse_skyline(blind.lower);
   }
   SkylineFactor factor;
   {
-    const StageTimer timer(solution.times.factor_s);
+    const StageTimer timer(solution.times, Stage::factor);
     factor = factor_ldlt(std::move(profile), blind.lower, control.deadline);
   }
   check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),

@@ -17,7 +17,7 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   solution.status = Status::ok;
   solution.message.clear();
   if (contact.size() == 0) return;
-  const StageTimer timer(solution.times.contact_s);
+  const StageTimer timer(solution.times, Stage::contact);
   ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
   if (!result.converged && control.active_sets)
     finish_by_active_set(condensed, contact, control, result);

@@ -10,8 +10,6 @@
 
 namespace airybench {
 
-using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
-
 struct Refined {
   LongVector u;  // empty: zero
   int corrections = 0;

@@ -13,6 +13,31 @@ CondensedSystem condense(const StiffnessFactor& factor) {
   return condensed;
 }
 
+CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
+                                       const Eigen::VectorXd& b, int n_c, const std::string& system,
+                                       const RunControl& control, StiffnessFactor& factor,
+                                       Solution& solution) {
+  {
+    const StageTimer timer(solution.times, Stage::order);
+    factor.cholesky.analyse(K, n_c);
+  }
+  control.deadline.check("the ordering of the " + system);
+  {
+    const StageTimer timer(solution.times, Stage::factor);
+    factor.cholesky.factor(K);
+  }
+  control.deadline.check("the factorisation of the " + system);
+  CondensedSystem condensed;
+  {
+    const StageTimer timer(solution.times, Stage::condense);
+    factor.y = factor.cholesky.forward(b);
+    condensed = condense(factor);
+  }
+  solution.storage_bytes +=
+      factor.cholesky.bytes() + static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  return condensed;
+}
+
 Eigen::VectorXd all_displacements(StiffnessFactor& factor,
                                   const Eigen::VectorXd& contact_displacement) {
   Eigen::VectorXd u = factor.y;

@@ -10,6 +10,7 @@
 
 #include "solvers/condensation/condensed.hpp"
 #include "solvers/direct/cholmod.hpp"
+#include "solvers/solution.hpp"
 
 namespace airybench {
 
@@ -21,6 +22,13 @@ struct StiffnessFactor {
 
 // D and G; empty without contact.
 CondensedSystem condense(const StiffnessFactor& factor);
+
+// Orders, factorises and condenses K u = b + F_C, n_c contact unknowns last: the factor, D and G,
+// their stages' times and bytes into the solution. system: what messages call it.
+CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
+                                       const Eigen::VectorXd& b, int n_c, const std::string& system,
+                                       const RunControl& control, StiffnessFactor& factor,
+                                       Solution& solution);
 
 // All unknowns u, from the contact displacements u_C.
 Eigen::VectorXd all_displacements(StiffnessFactor& factor,

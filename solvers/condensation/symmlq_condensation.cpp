@@ -141,7 +141,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
   Solution solution;
   const Preconditioner preconditioner = [&] {
-    const StageTimer timer(solution.times.precondition_s);
+    const StageTimer timer(solution.times, Stage::precondition);
     return saddle_preconditioner(system, make(system.S, control.deadline), schur, lanes,
                                  control.threads, control.deadline);
   }();
@@ -158,7 +158,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   CondensedSystem condensed;
   KrylovSummary all;
   if (n_c > 0) {
-    const StageTimer timer(solution.times.condense_s);
+    const StageTimer timer(solution.times, Stage::condense);
     condensed.D.resize(n_c, n_c);
     condensed.G.resize(n_c);
     const RightHandSides sides = {n_c + 1,
@@ -197,7 +197,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   };
   SaddleVector answer;
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     answer = solve_one([&](LaneColumn b) {
       load(b);
       if (n_c > 0) b.tail(n_c) += solution.F_C;

@@ -15,14 +15,14 @@ void condense_and_solve(const DualSystem& system, const RunControl& control, con
                         Refine refine, const SolveInPlace& solve_S, Solution& solution) {
   ThreeStep steps;
   {
-    const StageTimer timer(solution.times.condense_s);
+    const StageTimer timer(solution.times, Stage::condense);
     steps = condense_in_three_steps(system, solve_S, keep);
   }
   solution.storage_bytes += steps.bytes();
   solve_condensed_contact(steps.condensed, system.contact, control, solution);
   SaddleVector answer;
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     answer = recover_airy_unknowns(steps, system, solution.F_C, solve_S);
     solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
@@ -39,12 +39,12 @@ Solution solve_three_step_skyline(const DualSystem& system, const RunControl& co
   Solution solution;
   SkylineProfile profile;
   {
-    const StageTimer timer(solution.times.order_s);
+    const StageTimer timer(solution.times, Stage::order);
     profile = analyse_skyline(system.S);
   }
   SkylineFactor factor;
   {
-    const StageTimer timer(solution.times.factor_s);
+    const StageTimer timer(solution.times, Stage::factor);
     factor = factor_ldlt(std::move(profile), system.S, control.deadline);
   }
   solution.storage_bytes = factor.bytes();
@@ -61,11 +61,11 @@ Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& co
   Solution solution;
   CholmodFactor factor;
   {
-    const StageTimer timer(solution.times.order_s);
+    const StageTimer timer(solution.times, Stage::order);
     factor.analyse(system.S);
   }
   {
-    const StageTimer timer(solution.times.factor_s);
+    const StageTimer timer(solution.times, Stage::factor);
     factor.factor(system.S);
   }
   solution.storage_bytes = factor.bytes();
@@ -81,7 +81,7 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
                              const MakePreconditioner& make, int lanes, Refine refine) {
   Solution solution;
   const Preconditioner preconditioner = [&] {
-    const StageTimer timer(solution.times.precondition_s);
+    const StageTimer timer(solution.times, Stage::precondition);
     return make(system.S, control.deadline);
   }();
   note_shift(preconditioner, solution);

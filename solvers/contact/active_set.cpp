@@ -55,8 +55,8 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
     const double norm = F.norm();
     if (!std::isfinite(norm)) break;
-    Eigen::VectorXd r = condensed.D * F - condensed.G;
-    const double residual = natural_map(contact, condensed.D.diagonal(), F, r).norm();
+    const Eigen::VectorXd u = condensed.D * F - condensed.G;
+    const double residual = natural_map(contact, condensed.D.diagonal(), F, u).norm();
     const double relative = norm > 0 ? residual / norm : residual;
     if (step == 0 || relative < result.natural_map_residual) {
       result.F_C = F;
@@ -64,8 +64,7 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
       since_best = 0;
     }
     if (relative <= control.contact_tolerance) break;
-    for (int p = 0; p < contact.gap.size(); ++p) r(contact.components * p) -= contact.gap(p);
-    F = active_set_step(condensed.D, contact, F, r);
+    F = active_set_step(condensed.D, contact, F, relative_to_gap(contact, u));
     ++result.active_set_steps;
     control.deadline.check("the active sets of the contact law");
   }

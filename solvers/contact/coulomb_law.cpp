@@ -50,9 +50,7 @@ Eigen::Vector2d solve_coulomb_law(const Eigen::Matrix2d& D, const Eigen::Vector2
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
   const int m = contact.components;
-  Eigen::VectorXd r = displacement;
-  if (contact.gap.size() > 0)
-    for (int p = 0; p < contact.count; ++p) r(m * p) -= contact.gap(p);
+  const Eigen::VectorXd r = relative_to_gap(contact, displacement);
   Eigen::VectorXd residual = F_C - r.cwiseQuotient(D_diagonal);
   for (int p = 0; p < contact.count; ++p) {
     if (m == 2)

@@ -21,6 +21,14 @@ double solve_signorini_law(double D, double b);
 // Projection in two steps: F_n to min(F_n, 0), then F_t to [μF_n, −μF_n].
 Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
 
+// r = ū_C − ḡ, in the precision of ū_C.
+template <typename Vector>
+Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
+  for (Eigen::Index p = 0; p < contact.gap.size(); ++p)
+    displacement(contact.components * p) -= contact.gap(p);
+  return displacement;
+}
+
 // F − P(F − ρ r) at every point, with ρ_n = 1/D_nn and ρ_t = 1/D_tt: zero exactly when the law
 // holds; N. displacement: ū_C. The vectors are ordered as DualSystem::contact says.
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,

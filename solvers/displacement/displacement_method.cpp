@@ -9,38 +9,23 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   const Problem& problem = *airy.problem;
   Solution solution;
   const QuadraticDisplacements system = [&] {
-    const StageTimer timer(solution.times.condense_s);
+    const StageTimer timer(solution.times, Stage::condense);
     return assemble_quadratic_displacements(problem);
   }();
   StiffnessFactor factor;
-  {
-    const StageTimer timer(solution.times.order_s);
-    factor.cholesky.analyse(system.K, system.n_c());
-  }
-  control.deadline.check("the ordering of the displacement system");
-  {
-    const StageTimer timer(solution.times.factor_s);
-    factor.cholesky.factor(system.K);
-  }
-  control.deadline.check("the factorisation of the displacement system");
-  CondensedSystem condensed;
-  {
-    const StageTimer timer(solution.times.condense_s);
-    factor.y = factor.cholesky.forward(system.b);
-    condensed = condense(factor);
-  }
-  solution.storage_bytes = system.bytes() + factor.cholesky.bytes() +
-                           static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solution.storage_bytes = system.bytes();
+  const CondensedSystem condensed = factorise_and_condense(
+      system.K, system.b, system.n_c(), "displacement system", control, factor, solution);
   solve_condensed_contact(condensed, system.control.law, control, solution);
   Eigen::VectorXd contact, u;
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     if (system.n_c() > 0) contact = condensed.D * solution.F_C - condensed.G;
     u = all_displacements(factor, contact);
     solution.displacement = displacement_field(system, u);
     solution.stress = stress_of_displacement(problem, solution.displacement);
   }
-  const StageTimer timer(solution.times.check_s);
+  const StageTimer timer(solution.times, Stage::check);
   UnbalancedForces unbalanced;
   unbalanced.r = system.b - system.K.selfadjointView<Eigen::Lower>() * u;
   unbalanced.r.tail(system.n_c()) += solution.F_C;

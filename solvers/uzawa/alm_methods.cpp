@@ -76,21 +76,21 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
                                     double rho) {
   Solution solution;
   const AugmentedFactor augmented = [&] {
-    const StageTimer timer(solution.times.factor_s);
+    const StageTimer timer(solution.times, Stage::factor);
     return factor_augmented(system, r, control.deadline);
   }();
   solution.storage_bytes = augmented.factor.bytes();
   const UzawaOptions options = options_of(control);
   UzawaResult result = [&] {
     // Without contact the iteration only finds the multipliers of the prescribed forces.
-    const StageTimer timer(system.n_c() > 0 ? solution.times.contact_s : solution.times.recover_s);
+    const StageTimer timer(solution.times, system.n_c() > 0 ? Stage::contact : Stage::recover);
     return iterate_uzawa(system, augmented, {rho}, options, false, control.deadline).front();
   }();
   solution.parameters = describe(r, rho);
   solution.uzawa_iterations = result.iterations;
   solution.F_C = std::move(result.F_C);
   {
-    const StageTimer timer(solution.times.recover_s);
+    const StageTimer timer(solution.times, Stage::recover);
     solution.phi = airy_function(system, result.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

@@ -101,7 +101,7 @@ TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
     ASSERT_EQ(solution.status, Status::ok) << solution.message;
     EXPECT_LT(deviation(*problem, solution.stress, exact.stress), 1e-10) << exact.name;
     EXPECT_FALSE(solution.contact_iterations) << exact.name;
-    EXPECT_FALSE(solution.times.contact_s) << exact.name;
+    EXPECT_FALSE(solution.times[Stage::contact]) << exact.name;
   }
 }
 

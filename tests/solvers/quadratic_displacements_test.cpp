@@ -55,7 +55,7 @@ TEST(QuadraticDisplacements, ReproducesQuadraticFieldsExactlyWithBodyForceAndTra
     EXPECT_LT(deviation(*problem, solution.displacement, exact.displacement), 1e-11) << exact.name;
     EXPECT_EQ(solution.F_C.size(), 0);
     EXPECT_FALSE(solution.contact_iterations);  // no contact loop
-    EXPECT_FALSE(solution.times.contact_s);
+    EXPECT_FALSE(solution.times[Stage::contact]);
   }
 }
 

@@ -1,0 +1,33 @@
+#include "bench/cases/mesh_files.hpp"
+
+#include <cstdlib>
+#include <stdexcept>
+
+#include "assembly/mesh_selection.hpp"
+#include "assembly/msh_format.hpp"
+#include "assembly/sha256.hpp"
+
+namespace airybench {
+
+std::filesystem::path mesh_directory() {
+  const char* own = std::getenv("AIRYBENCH_MESH_DIR");
+  return own != nullptr && *own != '\0' ? own : AIRYBENCH_DEFAULT_MESH_DIR;
+}
+
+std::vector<MeshFile> read_meshes(const std::string& selection) {
+  std::vector<MeshFile> files;
+  for (const std::string& item : expand_mesh_selection(selection)) {
+    const std::filesystem::path path =
+        is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
+    Mesh mesh = read_msh(path);
+    for (const MeshFile& earlier : files)
+      if (earlier.mesh.name == mesh.name)
+        throw std::invalid_argument("two meshes are named " + mesh.name + ": " +
+                                    earlier.path.string() + " and " + path.string() +
+                                    "; records could not tell them apart");
+    files.push_back({path, sha256_of_file(path), std::move(mesh)});
+  }
+  return files;
+}
+
+}  // namespace airybench

@@ -1,0 +1,243 @@
+#include "bench/cases/scene_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::json;
+
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  using Setter = std::function<void(const std::string& key, const Json& value)>;
+
+  // Hands every key to its setter; unknown keys are refused. prefix: empty, or "key: ".
+  void object(const std::string& prefix, const Json& json,
+              const std::vector<std::pair<std::string, Setter>>& keys) const {
+    if (!json.is_object())
+      fail(prefix.empty() ? "the scene" : prefix.substr(0, prefix.size() - 2), json,
+           "a JSON object");
+    for (const auto& [key, value] : json.items()) {
+      const auto found = std::find_if(keys.begin(), keys.end(),
+                                      [&](const auto& known) { return known.first == key; });
+      if (found == keys.end()) {
+        std::string valid;
+        for (const auto& known : keys) valid += (valid.empty() ? "" : ", ") + known.first;
+        throw SceneError(
+            fmt::format("{}: {}{}: unknown key (allowed: {})", file_, prefix, key, valid));
+      }
+      found->second(prefix + key, value);
+    }
+  }
+  double number(const std::string& key, const Json& value) const {
+    if (!value.is_number()) fail(key, value, "a number");
+    return value.get<double>();
+  }
+  double positive(const std::string& key, const Json& value) const {
+    const double number = this->number(key, value);
+    if (!(number > 0)) fail(key, value, "a number > 0");
+    return number;
+  }
+  int whole(const std::string& key, const Json& value, int least, int most) const {
+    if (!value.is_number_integer() || value < least || value > most)
+      fail(key, value, fmt::format("a whole number from {} to {}", least, most).c_str());
+    return value.get<int>();
+  }
+  std::string text(const std::string& key, const Json& value) const {
+    if (!value.is_string()) fail(key, value, "a text");
+    return value.get<std::string>();
+  }
+  Eigen::Vector2d vector(const std::string& key, const Json& value) const {
+    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number())
+      fail(key, value, "two numbers [x, y]");
+    return {value[0].get<double>(), value[1].get<double>()};
+  }
+  [[noreturn]] void fail(const std::string& key, const Json& value, const char* allowed) const {
+    throw SceneError(fmt::format("{}: {}: {} (allowed: {})", file_, key, value.dump(), allowed));
+  }
+
+ private:
+  std::string file_;
+};
+
+constexpr int most = 1'000'000;  // of things that are counted
+
+Material read_material(const Reader& reader, const std::string& prefix, const Json& json,
+                       Material material) {
+  reader.object(
+      prefix, json,
+      {{"young_MPa",
+        [&](const auto& k, const Json& v) { material.young_MPa = reader.number(k, v); }},
+       {"poisson", [&](const auto& k, const Json& v) { material.poisson = reader.number(k, v); }}});
+  return material;
+}
+
+void read_materials(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
+  if (!json.is_object()) reader.fail(key, json, "an object with a body's name as each key");
+  for (const auto& [body, value] : json.items())
+    scene.materials[body] = read_material(reader, key + ": " + body + ": ", value, scene.material);
+}
+
+// The keys that `needed` lists must be there.
+void require(const Reader& reader, const std::string& key, const Json& json,
+             const std::vector<const char*>& needed, const char* allowed) {
+  for (const char* name : needed)
+    if (!json.contains(name)) reader.fail(key, json, allowed);
+}
+
+MeshTransform read_mesh(const Reader& reader, const std::string& key, const Json& json) {
+  MeshTransform mesh;
+  const auto kept = [&](std::optional<int>& target, int least) {
+    return [&, least](const std::string& k, const Json& v) {
+      target = reader.whole(k, v, least, most);
+    };
+  };
+  const auto grade = [&](const std::string& k, const Json& v) {
+    Grading& grading = mesh.grade.emplace();
+    reader.object(k + ": ", v,
+                  {{"at_mm", [&](const auto& name,
+                                 const Json& x) { grading.at_mm = reader.vector(name, x); }},
+                   {"ratio", [&](const auto& name, const Json& x) {
+                      grading.ratio = reader.number(name, x);
+                    }}});
+    require(reader, k, v, {"at_mm", "ratio"}, "{\"at_mm\": [x, y], \"ratio\": ...}, both given");
+  };
+  const auto slivers = [&](const std::string& k, const Json& v) {
+    Slivers& given = mesh.slivers.emplace();
+    reader.object(k + ": ", v,
+                  {{"aspect", [&](const auto& name,
+                                  const Json& x) { given.aspect = reader.number(name, x); }},
+                   {"count", [&](const auto& name, const Json& x) {
+                      given.count = reader.whole(name, x, 1, most);
+                    }}});
+    require(reader, k, v, {"aspect", "count"}, "{\"aspect\": ..., \"count\": ...}, both given");
+  };
+  reader.object(
+      key + ": ", json,
+      {{"refine", [&](const auto& k,
+                      const Json& v) { mesh.refine = reader.whole(k, v, 0, most_refinements); }},
+       {"grade", grade},
+       {"slivers", slivers},
+       {"scale", [&](const auto& k, const Json& v) { mesh.scale = reader.positive(k, v); }},
+       {"stretch", [&](const auto& k, const Json& v) { mesh.stretch = reader.vector(k, v); }},
+       {"move_mm", [&](const auto& k, const Json& v) { mesh.move_mm = reader.vector(k, v); }},
+       {"keep_contact_edges", kept(mesh.keep_contact_edges, 0)},
+       {"keep_displacement_edges", kept(mesh.keep_displacement_edges, 1)},
+       {"keep_force_edges", kept(mesh.keep_force_edges, 0)}});
+  return mesh;
+}
+
+void read_layers(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
+  Layers& layers = scene.layers;
+  reader.object(
+      key + ": ", json,
+      {{"normal", [&](const auto& k, const Json& v) { layers.normal = reader.vector(k, v); }},
+       {"count",
+        [&](const auto& k, const Json& v) { layers.count = reader.whole(k, v, 1, most_layers); }},
+       {"interfaces_mm",
+        [&](const auto& k, const Json& v) {
+          if (!v.is_array() || v.empty()) reader.fail(k, v, "a list of numbers, ascending");
+          for (const Json& d : v) layers.interfaces_mm.push_back(reader.number(k, d));
+        }},
+       {"materials", [&](const auto& k, const Json& v) {
+          if (!v.is_array() || v.empty()) reader.fail(k, v, "a list of materials");
+          for (const Json& material : v)
+            scene.layer_materials.push_back(
+                read_material(reader, k + ": ", material, scene.material));
+        }}});
+  if (json.contains("count") == json.contains("interfaces_mm"))
+    reader.fail(key, json, "either count or interfaces_mm");
+}
+
+Scene from_json(const Json& json, const std::string& file) {
+  const Reader reader(file);
+  Scene scene;
+  scene.source = file;
+  Json materials, layers;
+  const auto optional_length = [&](std::optional<double>& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.positive(k, v); };
+  };
+  const auto number = [&](double& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.number(k, v); };
+  };
+  const auto vector = [&](Eigen::Vector2d& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.vector(k, v); };
+  };
+  const auto text = [&](std::string& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.text(k, v); };
+  };
+  reader.object(
+      "", json,
+      {{"teeth", [&](const auto& k, const Json& v) { scene.teeth = reader.whole(k, v, 1, most); }},
+       {"root_half_height_mm", optional_length(scene.root_half_height_mm)},
+       {"length_mm", optional_length(scene.length_mm)},
+       {"tip_half_height_mm", optional_length(scene.tip_half_height_mm)},
+       {"young_MPa", number(scene.material.young_MPa)},
+       {"poisson", number(scene.material.poisson)},
+       {"plane",
+        [&](const auto& k, const Json& v) {
+          if (v != "strain" && v != "stress") reader.fail(k, v, "\"strain\" or \"stress\"");
+          scene.plane = v == "strain" ? Plane::strain : Plane::stress;
+        }},
+       {"friction", number(scene.friction)},
+       {"crown_radius_mm",
+        [&](const auto& k, const Json& v) {
+          if (v.is_null())
+            scene.crown_radius_mm.reset();
+          else
+            scene.crown_radius_mm = reader.number(k, v);
+        }},
+       {"clearance_mm", number(scene.clearance_mm)},
+       {"displacement_mm", vector(scene.displacement_mm)},
+       {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
+       {"materials", [&](const auto&, const Json& v) { materials = v; }},
+       {"mesh", [&](const auto& k, const Json& v) { scene.mesh = read_mesh(reader, k, v); }},
+       {"layers", [&](const auto&, const Json& v) { layers = v; }},
+       {"group", text(scene.group)},
+       {"about", text(scene.about)}});
+  // A missing value is the scene's own, wherever that stands in the file.
+  if (!materials.is_null()) read_materials(reader, "materials", materials, scene);
+  if (!layers.is_null()) read_layers(reader, "layers", layers, scene);
+  return scene;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file) {
+  std::error_code error;
+  std::ifstream in(file);
+  if (!in || std::filesystem::is_directory(file, error))
+    throw SceneError(file.string() + ": cannot be opened as a scene file");
+  // JSON allows a key to be repeated; a scene does not.
+  std::vector<std::set<std::string>> keys;
+  const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
+    if (depth > 8) throw SceneError(file.string() + ": nested more than 8 deep");
+    if (event == Json::parse_event_t::object_start) keys.emplace_back();
+    if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
+      throw SceneError(file.string() + ": " + value.get<std::string>() + ": given twice");
+    return true;
+  };
+  Json json;
+  try {
+    json = Json::parse(in, watch);
+  } catch (const Json::exception& wrong) {
+    const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
+    throw SceneError(file.string() + ": not JSON: " + what.substr(what.find("] ") + 2));
+  }
+  Scene scene = from_json(json, file.string());
+  scene.name = file.stem().string();
+  check_values(scene);
+  return scene;
+}
+
+}  // namespace airybench

@@ -1,0 +1,58 @@
+#include "bench/cases/stages.hpp"
+
+namespace airybench {
+
+MeshSizes solved_sizes(const Problem& problem) {
+  MeshSizes sizes = mesh_sizes(problem.mesh);
+  if (problem.friction == 0) {
+    sizes.n_f += sizes.n_c / 2;
+    sizes.n_c -= sizes.n_c / 2;
+  }
+  return sizes;
+}
+
+std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
+                                         bool fields_asked) {
+  const MeshSizes sizes = mesh_sizes(problem.mesh);
+  const bool airy = method.blocks == Blocks::airy;
+  const bool contact = sizes.contact_edges > 0;
+  const bool friction = problem.friction > 0;
+  const Loads& loads = problem.loads;
+  const bool constrained = sizes.force_edges > 0 || (contact && !friction);
+  const bool loaded = loads.displacement_mm || loads.has_body_force();
+  const bool forced = loads.traction_MPa || loads.has_body_force();
+  const std::string unused = "the method does not work with the Airy function";
+
+  std::vector<StageDecision> decisions;
+  const auto decide = [&](const std::string& stage, bool needed, const std::string& why_not) {
+    decisions.push_back({stage, needed, needed ? "" : why_not});
+  };
+  decide("assemble S", airy, unused);
+  decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
+  decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
+  decide("assemble q", airy && loaded, airy ? "no prescribed displacement, no body force" : unused);
+  decide("assemble F", airy && constrained && forced,
+         !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
+  decide("assemble F0", airy && contact && loads.has_body_force(),
+         !airy ? unused : (contact ? "no body force" : "no contact boundary"));
+  decide("assemble gap", contact && loads.gap_mm != nullptr,
+         contact ? "the gap is zero" : "no contact boundary");
+  for (const std::string& stage : method.stages) {
+    const bool for_contact =
+        stage == "contact" || (stage == "condense" && method.condenses_contact_only);
+    decide(stage, contact || !for_contact, "no contact boundary");
+    if (stage == "condense" && airy) {
+      if (!method.condenses_contact_only)
+        decide("condense: eliminate force multipliers", constrained, "no force boundary");
+      decide("condense: D and G", contact, "no contact boundary");
+    }
+    if (stage == "contact")
+      decide("contact: tangential law", contact && friction,
+             contact ? "no friction: tangential forces are prescribed to zero"
+                     : "no contact boundary");
+  }
+  decide("write fields", fields_asked, "not asked for (--fields)");
+  return decisions;
+}
+
+}  // namespace airybench

@@ -1,0 +1,133 @@
+#include "bench/cases/study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+// A copy of the method that runs under a changed control, once and untightened.
+TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
+  TurnedMethod result{method, std::move(knob)};
+  result.method.first_tolerance = 0;
+  result.method.solve = [solve = method.solve, turn](const DualSystem& s, const RunControl& c) {
+    RunControl control = c;
+    turn(control);
+    return solve(s, control);
+  };
+  if (method.tune)
+    result.method.tune = [tune = method.tune, turn](const DualSystem& s, const RunControl& c) {
+      RunControl control = c;
+      turn(control);
+      Tuning tuning = tune(s, control);
+      tuning.solve = [solve = tuning.solve, turn](const DualSystem& s2, const RunControl& c2) {
+        RunControl again = c2;
+        turn(again);
+        return solve(s2, again);
+      };
+      return tuning;
+    };
+  return result;
+}
+
+TurnedMethod at_paper_stop(const Method& method) {
+  return turned(method, {"", {}, Stop::paper},
+                [](RunControl& control) { control.stop = Stop::paper; });
+}
+
+template <std::size_t count>
+std::vector<TurnedMethod> turned_to(const Method& method, const char* knob,
+                                    const std::array<double, count>& values,
+                                    void (*turn)(RunControl&, double)) {
+  std::vector<TurnedMethod> points;
+  for (const double value : values)
+    points.push_back(turned(method, {knob, value, {}},
+                            [value, turn](RunControl& control) { turn(control, value); }));
+  return points;
+}
+
+}  // namespace
+
+std::string name_of(Study study) {
+  switch (study) {
+    case Study::error:
+      return "error";
+    case Study::stability:
+      return "stability";
+    default:
+      return "";
+  }
+}
+
+std::string Knob::suffix() const {
+  std::string text = value ? fmt::format("/{}={}", name, *value) : "";
+  if (stop) text += *stop == Stop::paper ? "/stop=paper" : "/stop=target";
+  std::replace(text.begin(), text.end(), ' ', '_');
+  return text;
+}
+
+std::vector<TurnedMethod> error_points(const Method& method) {
+  constexpr std::array<double, 6> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+  constexpr std::array<double, 10> iterations = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};
+  constexpr std::array<double, 7> sweeps = {1, 3, 10, 30, 100, 300, 1000};
+  switch (method.knob) {
+    case AccuracyKnob::krylov_tolerance:
+      return turned_to(method, "tolerance", tolerances,
+                       [](RunControl& control, double value) { control.tolerance = value; });
+    case AccuracyKnob::uzawa_iterations: {
+      auto points =
+          turned_to(method, "uzawa iterations", iterations, [](RunControl& control, double value) {
+            control.tolerance = 0;
+            control.uzawa_iterations = static_cast<int>(value);
+          });
+      points.push_back(at_paper_stop(method));
+      return points;
+    }
+    case AccuracyKnob::stop:
+      return {{method, {}}, at_paper_stop(method)};
+    case AccuracyKnob::contact_sweeps: {
+      auto points =
+          turned_to(method, "contact sweeps", sweeps, [](RunControl& control, double value) {
+            control.contact_sweeps = static_cast<int>(value);
+            control.active_sets = false;
+          });
+      points.push_back({method, {}});
+      return points;
+    }
+    default:
+      return {{method, {}}};
+  }
+}
+
+std::string default_methods(Study study) {
+  if (study == Study::error)
+    return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"
+           "ALM:r=100,rho=100,ALM:r=300,rho=300,BLIND,BLIND:SCHUR,HYBRID,P2";
+  if (study == Study::none) {
+    std::string names;
+    for (const Method& method : methods())
+      if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
+    return names;
+  }
+  // The table, and the augmented Lagrangian far from where its parameters belong.
+  return "*,ALM:r=1e-6,rho=1e-6,ALM:r=1e6,rho=1e6,ALM:r=1e12,rho=1e12,ALM:r=20,rho=40,"
+         "ALM:r=20,rho=44";
+}
+
+std::vector<std::filesystem::path> stability_scenes() {
+  const std::filesystem::path folder = AIRYBENCH_STABILITY_SCENES;
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  if (files.empty()) throw std::invalid_argument(folder.string() + ": has no scene files");
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+}  // namespace airybench

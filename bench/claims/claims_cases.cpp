@@ -1,0 +1,72 @@
+#include "bench/claims/claims_cases.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+bool is_direct(const std::string& general_name) {
+  const std::string family = general_name.substr(0, general_name.find(':'));
+  return family == "3STEPD" || family == "BLIND" || family == "HYBRID";
+}
+
+std::string scene_of(const std::vector<CaseRecord>& records, const std::string& source) {
+  std::set<std::string> scenes;
+  for (const CaseRecord& record : records) scenes.insert(record.scene);
+  if (scenes.empty() || scenes.count("default") > 0) return "default";
+  if (scenes.size() > 1)
+    throw RecordError(
+        fmt::format("{}: scene: {} and {} (allowed: default among them, or one scene alone)",
+                    source, *scenes.begin(), *std::next(scenes.begin())));
+  return *scenes.begin();
+}
+
+}  // namespace
+
+std::string general_name(const std::string& method) {
+  for (const Method& known : airybench::methods())
+    if (known.name == method && !known.general_name.empty()) return known.general_name;
+  const std::size_t omega = method.find(":SSOR");
+  if (omega == method.npos) return method;
+  const char* const start = method.c_str() + omega + 5;
+  char* end = nullptr;
+  const double value = std::strtod(start, &end);
+  return end == start ? method : fmt::format("{}:SSOR{}{}", method.substr(0, omega), value, end);
+}
+
+CaseTable::CaseTable(const std::vector<CaseRecord>& records, const std::string& stop,
+                     const std::string& source)
+    : scene_(scene_of(records, source)) {
+  for (const bool of_this_stop : {false, true})  // the second replaces the first
+    for (const CaseRecord& record : records) {
+      const std::string name = general_name(record.method);
+      if (record.scene == scene_ && (record.stop.empty() || record.stop == stop) == of_this_stop &&
+          (of_this_stop || is_direct(name)))
+        cases_[{record.mesh, name}] = record;
+    }
+  for (const CaseRecord& record : records)
+    if (!methods(record.mesh).empty() &&
+        std::find(meshes_.begin(), meshes_.end(), record.mesh) == meshes_.end())
+      meshes_.push_back(record.mesh);
+}
+
+const CaseRecord* CaseTable::find(const std::string& mesh, const std::string& method) const {
+  const auto found = cases_.find({mesh, general_name(method)});
+  return found == cases_.end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> CaseTable::methods(const std::string& mesh) const {
+  std::vector<std::string> names;
+  for (auto at = cases_.lower_bound({mesh, ""}); at != cases_.end() && at->first.first == mesh;
+       ++at)
+    names.push_back(at->first.second);
+  return names;
+}
+
+}  // namespace airybench

@@ -1,0 +1,38 @@
+// The cases of one stop and one scene, found under any of their method's names.
+#pragma once
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/records/record_reader.hpp"
+
+namespace airybench {
+
+// The general name behind the paper's: SDTIC3 → SYMMLQ:DTIC3, SSKY → SYMMLQ:SKY,
+// 3STEPCG6 → 3STEPCG:DTIC6; SSOR's parameter without needless zeros.
+std::string general_name(const std::string& method);
+
+class CaseTable {
+ public:
+  // Keeps the records of the stop and of the default scene, or of the only scene there is; a direct
+  // method (no stop of its own to choose) that has none of this stop serves with the other one's.
+  // Of several records of a case the last one counts. Throws RecordError: several scenes, none of
+  // them the default one; `source` is the file that it names.
+  CaseTable(const std::vector<CaseRecord>& records, const std::string& stop,
+            const std::string& source);
+
+  const CaseRecord* find(const std::string& mesh, const std::string& method) const;  // or null
+  const std::vector<std::string>& meshes() const { return meshes_; }  // as they first appear
+  std::vector<std::string> methods(const std::string& mesh) const;    // general names, sorted
+  const std::string& scene() const { return scene_; }
+  std::size_t size() const { return cases_.size(); }
+
+ private:
+  std::string scene_ = "default";
+  std::vector<std::string> meshes_;
+  std::map<std::pair<std::string, std::string>, CaseRecord> cases_;  // (mesh, general name)
+};
+
+}  // namespace airybench

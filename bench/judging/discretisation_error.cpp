@@ -1,0 +1,127 @@
+#include "bench/judging/discretisation_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/control_points.hpp"
+#include "assembly/edge_forces.hpp"
+#include "bench/judging/verifier.hpp"
+
+namespace airybench {
+namespace {
+
+using EdgeValues = std::array<double, 3>;  // Bernstein coefficients along an edge
+
+double value_at(const EdgeValues& c, double s) {
+  return (1 - s) * (1 - s) * c[0] + 2 * s * (1 - s) * c[1] + s * s * c[2];
+}
+
+// The places in (0, 1) where the quadratic changes its sign, with the ends 0 and 1.
+std::vector<double> sign_changes(const EdgeValues& c) {
+  // a s² + 2 h s + c_0 by the stable formula: q = −(h + sgn(h) √(h² − a c_0)), roots q/a, c_0/q.
+  const double a = c[0] - 2 * c[1] + c[2], h = c[1] - c[0];
+  std::vector<double> places = {0};
+  const double discriminant = h * h - a * c[0];
+  if (discriminant > 0) {
+    const double q = -(h + std::copysign(std::sqrt(discriminant), h));
+    double first = q / a, second = c[0] / q;
+    if (!(first < second)) std::swap(first, second);  // a = 0: the first is infinite
+    for (const double root : {first, second})
+      if (root > places.back() && root < 1) places.push_back(root);
+  }
+  places.push_back(1);
+  return places;
+}
+
+// ∫ (μ|σ_n||u_t| + σ_t u_t) ds on an edge; forces (L/2) σ at its ends. Between sign changes of u_t
+// the integrand is a cubic: two Gauss points.
+double friction_gap(double mu, const Eigen::Vector2d& normal, const Eigen::Vector2d& tangential,
+                    const EdgeValues& u_t) {
+  double sum = 0;
+  const std::vector<double> places = sign_changes(u_t);
+  for (std::size_t i = 1; i < places.size(); ++i) {
+    const double middle = (places[i - 1] + places[i]) / 2, half = (places[i] - places[i - 1]) / 2;
+    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
+      const double s = middle + half * xi, u = value_at(u_t, s);
+      const double n = (1 - s) * normal(0) + s * normal(1),
+                   t = (1 - s) * tangential(0) + s * tangential(1);
+      sum += 2 * half * (-mu * n * std::abs(u) + t * u);  // 2/L · L/2 · (…) · 2
+    }
+  }
+  return sum;
+}
+
+// The terms of an edge on Γ_C, and whether both fields keep to its inequalities.
+struct ContactTerms {
+  double normal, tangential;
+  double highest_gap, highest_force;  // of u_n − g0 and F_n: ≤ 0 when admissible
+};
+
+ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::VectorXd& F_C,
+                           const DisplacementField& u) {
+  const Problem& problem = *system.problem;
+  const int row = system.contact.boundary[point], m = system.contact.components;
+  const std::array<int, 3> nodes = boundary_nodes(problem, row);
+  const EdgeFrame frame =
+      edge_frame(problem.mesh.vertices[nodes[0]], problem.mesh.vertices[nodes[2]]);
+  const EdgeValues gap = gap_coefficients(problem, row);
+  EdgeValues r, u_t;
+  for (int k = 0; k < 3; ++k) {
+    r[k] = frame.normal.dot(u.col(nodes[k])) - gap[k];
+    u_t[k] = frame.tangent.dot(u.col(nodes[k]));
+  }
+  const Eigen::Vector2d normal(F_C(m * point), F_C(m * (point + 1)));
+  ContactTerms terms{};
+  // ∫ σ_n r ds = Σ_k F_n^k r̄^k with r̄ = (2/L) ∫ N_k r ds.
+  terms.normal = 2 * (normal(0) * (r[0] / 2 + r[1] / 3 + r[2] / 6) +
+                      normal(1) * (r[0] / 6 + r[1] / 3 + r[2] / 2));
+  if (m == 2)
+    terms.tangential = 2 * friction_gap(system.contact.friction, normal,
+                                        {F_C(2 * point + 1), F_C(2 * point + 3)}, u_t);
+  terms.highest_gap = std::max({r[0], r[1], r[2]});
+  terms.highest_force = normal.maxCoeff();
+  return terms;
+}
+
+}  // namespace
+
+ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
+                                     const Eigen::VectorXd& F_C, const DisplacementField& u) {
+  const Problem& problem = *system.problem;
+  ConstitutiveError error;
+  const StressField other = stress_of_displacement(problem, u);
+  error.of_triangle_Nmm.resize(stress.size());
+  std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const ElementStress difference = stress[t] - other[t];
+    error.of_triangle_Nmm[t] =
+        difference
+            .cwiseProduct(stress_dual(difference, problem.area_mm2(t), problem.compliance_of(t)))
+            .sum();
+    error.body_Nmm += error.of_triangle_Nmm[t];
+    for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
+  }
+  double highest_gap = 0, highest_force = 0;
+  for (int point = 0; point < system.contact.count; point += 2) {  // two per edge
+    const ContactTerms terms = contact_terms(system, point, F_C, u);
+    error.normal_contact_Nmm += terms.normal;
+    error.tangential_contact_Nmm += terms.tangential;
+    const int edge = problem.edges.of_boundary[system.contact.boundary[point]];
+    error.of_triangle_Nmm[triangle_of_edge[edge]] += terms.normal + terms.tangential;
+    highest_gap = std::max(highest_gap, terms.highest_gap);
+    highest_force = std::max(highest_force, terms.highest_force);
+  }
+  error.lower_bound_Nmm = -complementary_energy(system, stress, F_C);
+  error.upper_bound_Nmm = potential_energy(problem, u);
+  constexpr double rounding = 1e-9;
+  const double largest_force = F_C.size() > 0 ? F_C.cwiseAbs().maxCoeff() : 0;
+  error.guaranteed = system.contact.count == 0 ||
+                     (system.contact.components == 1 && highest_force <= rounding * largest_force &&
+                      highest_gap <= rounding * u.cwiseAbs().maxCoeff());
+  error.relative = relative_error(std::sqrt(std::max(0.0, error.squared_Nmm())),
+                                  std::sqrt(stress_norm_squared(problem, stress)),
+                                  load_scale(problem).energy_norm);
+  return error;
+}
+
+}  // namespace airybench

@@ -1,0 +1,97 @@
+#include "bench/judging/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/load_scale.hpp"
+#include "solvers/condensation/refinement.hpp"
+#include "solvers/contact/active_set.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+// With D and G from the factor: what the defect correction starts from.
+Eigen::VectorXd solve_contact_in_double(const CondensedSystem& condensed,
+                                        const ContactPoints& contact) {
+  ContactResult result;
+  for (const int sweeps : {3000, 100000}) {  // long sweeps only where active sets do not help
+    RunControl control;
+    control.contact_sweeps = sweeps;
+    result = solve_contact_by_gauss_seidel(condensed, contact, control, result.F_C);
+    if (!result.converged) finish_by_active_set(condensed, contact, control, result);
+    if (result.converged) break;
+  }
+  return result.F_C;
+}
+
+double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
+  return std::sqrt(std::max(0.0, F.dot(D * F)));
+}
+
+// F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
+double solve_contact(const HybridizedSystemIn<long double>& system, const ContactPoints& contact,
+                     const LoadScale& scale, CholmodFactor& factor, Reference& reference,
+                     Refined& refined) {
+  constexpr int most_steps = 20;
+  const Eigen::MatrixXd& D = reference.condensed.D;
+  ContactPoints without_gap = contact;  // its displacement is r
+  without_gap.gap.resize(0);
+  Eigen::VectorXd F = solve_contact_in_double(reference.condensed, contact);
+  Refined at_F;
+  double error = 0, best = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_steps && F.allFinite(); ++step) {
+    refine(system, factor, F, at_F);
+    const LongVector u = at_F.u.tail(system.n_c);
+    const Eigen::VectorXd rounded = relative_to_gap(contact, u).cast<double>();
+    const double residual = relative_error(
+        natural_map(without_gap, D.diagonal(), F, rounded).norm(), F.norm(), scale.force_N);
+    if (!(residual < best)) break;
+    const Eigen::VectorXd next = active_set_step(D, without_gap, F, rounded);
+    error = next.allFinite() ? relative_error(D_norm(D, next - F), D_norm(D, F), scale.energy_norm)
+                             : std::numeric_limits<double>::infinity();
+    reference.F_C = F;
+    reference.natural_map_residual = residual;
+    refined = at_F;
+    if (residual == 0 || residual > best / 2) break;
+    best = residual;
+    F = next;
+  }
+  if (reference.F_C.size() == 0)
+    throw Breakdown("no reference: its contact law has no finite solution");
+  reference.condensed.G = D * reference.F_C - refined.u.tail(system.n_c).cast<double>();
+  return error;
+}
+
+}  // namespace
+
+Reference compute_reference(const DualSystem& airy) {
+  const Problem& problem = *airy.problem;
+  const LoadScale scale = load_scale(problem);
+  const auto system = assemble_hybridized<long double>(problem, airy.contact);
+  StiffnessFactor factor;
+  {
+    const SparseColumns K = system.K.cast<double>();
+    factor.cholesky.analyse(K, system.n_c);
+    factor.cholesky.factor(K);
+  }
+  Reference reference;
+  Refined refined;
+  double force_error = 0;
+  if (system.n_c > 0) {
+    factor.y = factor.cholesky.forward(system.b.cast<double>());
+    reference.condensed = condense(factor);
+    force_error = solve_contact(system, airy.contact, scale, factor.cholesky, reference, refined);
+  } else {
+    refine(system, factor.cholesky, {}, refined);
+  }
+  reference.stress = hybridized_stress(problem, system, refined.u);
+  const double stress_error =
+      relative_error(refined.last_correction,
+                     std::sqrt(stress_norm_squared(problem, reference.stress)), scale.energy_norm);
+  reference.error_estimate = std::max({stress_error, force_error, reference.natural_map_residual});
+  return reference;
+}
+
+}  // namespace airybench

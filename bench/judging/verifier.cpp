@@ -1,0 +1,226 @@
+#include "bench/judging/verifier.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "assembly/edge_forces.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+// What the element stresses say of the edges. Sums over an edge's elements: at its low and high
+// vertex (columns), x and y (rows), N.
+struct EdgeBalance {
+  std::vector<Eigen::Matrix2d> sum;
+  double largest = 0;     // of all forces that went in, N
+  double divergence = 0;  // largest resultant of ∇·σ + b in a third, N
+};
+
+EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
+  EdgeBalance balance;
+  balance.sum.assign(static_cast<std::size_t>(problem.edges.count()), Eigen::Matrix2d::Zero());
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    const Eigen::Vector2d centroid = v.rowwise().mean();
+    for (int k = 0; k < 3; ++k) {
+      const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];
+      const Eigen::Matrix2d force = element_edge_forces(v, stress[t], k);
+      balance.largest = std::max(balance.largest, force.cwiseAbs().maxCoeff());
+      auto& sum = balance.sum[problem.edges.of_triangle[t][k]];
+      if (a < b)
+        sum += force;
+      else
+        sum += force.rowwise().reverse();
+
+      // ∫ (∇·σ + b) over the third = Σ of its sides' tractions + b · area, side by side.
+      const std::array<Eigen::Vector2d, 3> corner = {v.col(k), v.col((k + 1) % 3), centroid};
+      Eigen::Vector2d resultant = problem.area_mm2(t) / 3 * problem.loads.body_force_N_per_mm3;
+      for (int side = 0; side < 3; ++side) {
+        const int next = (side + 1) % 3;
+        const EdgeFrame frame = edge_frame(corner[side], corner[next]);
+        resultant +=
+            frame.length_mm / 2 *
+            traction(stress[t].col(3 * k + side) + stress[t].col(3 * k + next), frame.normal);
+      }
+      balance.divergence = std::max(balance.divergence, resultant.cwiseAbs().maxCoeff());
+    }
+  }
+  return balance;
+}
+
+// Force on a boundary edge as the walk of Mesh::boundary has it: at its start, at its end.
+Eigen::Matrix2d walked(const Problem& problem, const EdgeBalance& balance, int row) {
+  const auto [a, b] = problem.mesh.boundary[row].vertices;
+  const Eigen::Matrix2d& sum = balance.sum[problem.edges.of_boundary[row]];
+  return a < b ? sum : Eigen::Matrix2d(sum.rowwise().reverse());
+}
+
+double equilibrium_residual(const DualSystem& system, const Solution& solution,
+                            const EdgeBalance& balance, const LoadScale& scale) {
+  const Problem& problem = *system.problem;
+  const Mesh& mesh = problem.mesh;
+  double unbalanced = balance.divergence;
+  std::vector<bool> on_boundary(balance.sum.size(), false);
+  int point = 0;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    on_boundary[problem.edges.of_boundary[row]] = true;
+    const BoundaryRole role = mesh.boundary[row].role;
+    if (role == BoundaryRole::displacement) continue;
+    const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
+               &b = mesh.vertices[mesh.boundary[row].vertices[1]];
+    const EdgeFrame frame = edge_frame(a, b);
+    Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+    if (role == BoundaryRole::force && problem.loads.traction_MPa) {
+      expected << problem.loads.traction_MPa(a, frame.normal),
+          problem.loads.traction_MPa(b, frame.normal);
+      expected *= frame.length_mm / 2;
+    } else if (role == BoundaryRole::contact) {
+      const int m = system.contact.components;
+      for (int end = 0; end < 2; ++end, ++point) {
+        expected.col(end) = solution.F_C(m * point) * frame.normal;
+        if (m == 2) expected.col(end) += solution.F_C(m * point + 1) * frame.tangent;
+      }
+    }
+    unbalanced =
+        std::max(unbalanced, (walked(problem, balance, row) - expected).cwiseAbs().maxCoeff());
+  }
+  for (std::size_t edge = 0; edge < balance.sum.size(); ++edge)
+    if (!on_boundary[edge])
+      unbalanced = std::max(unbalanced, balance.sum[edge].cwiseAbs().maxCoeff());
+  return relative_error(unbalanced, balance.largest, scale.force_N);
+}
+
+// ∫_{Γ_D} u0·σn.
+double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance& balance) {
+  const auto& u0 = problem.loads.displacement_mm;
+  if (!u0) return 0;
+  double work = 0;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
+    const auto &a = problem.mesh.vertices[problem.mesh.boundary[row].vertices[0]],
+               &b = problem.mesh.vertices[problem.mesh.boundary[row].vertices[1]];
+    const auto [start, end] = edge_moments(u0(a), u0((a + b) / 2), u0(b));
+    const Eigen::Matrix2d force = walked(problem, balance, row);
+    work += start.dot(force.col(0)) + end.dot(force.col(1));
+  }
+  return work;
+}
+
+void verify_contact(const ContactPoints& contact, const Solution& solution,
+                    const Reference* reference, const LoadScale& scale, Verification& result) {
+  const Eigen::VectorXd& F = solution.F_C;
+  note_contact_forces(contact, F, result);
+  if (reference == nullptr) return;
+  const CondensedSystem& condensed = reference->condensed;
+  note_contact_law(contact, F, condensed.D * F - condensed.G, condensed.D.diagonal(), scale,
+                   result);
+  const auto D_norm = [&](const Eigen::VectorXd& f) {
+    return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
+  };
+  result.error_force =
+      relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
+}
+
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C, const EdgeBalance& balance) {
+  double work = work_of_prescribed_displacement(*system.problem, balance);
+  for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
+    work += system.contact.gap(p) * F_C(system.contact.components * p);
+  return stress_norm_squared(*system.problem, stress) / 2 - work;
+}
+
+}  // namespace
+
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result) {
+  const int m = contact.components;
+  double normal = 0, tangential = 0;
+  for (int p = 0; p < contact.count; ++p) {
+    normal += F(m * p);
+    if (m == 2) tangential += F(m * p + 1);
+  }
+  const std::vector<ContactState> states = contact_states(contact, F);
+  const auto count = [&](ContactState state) {
+    return static_cast<int>(std::count(states.begin(), states.end(), state));
+  };
+  result.normal_resultant_N = normal;
+  result.tangential_resultant_N = tangential;
+  result.n_open = count(ContactState::open);
+  result.n_stick = count(ContactState::stick);
+  result.n_slip = count(ContactState::slip);
+}
+
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result) {
+  const int m = contact.components;
+  const Eigen::VectorXd residual = natural_map(contact, D_diagonal, F, displacement);
+  result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
+  double signorini = 0, coulomb = 0;
+  for (int p = 0; p < contact.count; ++p) {
+    signorini = std::max(signorini, std::abs(residual(m * p)));
+    if (m == 2) coulomb = std::max(coulomb, std::abs(residual(m * p + 1)));
+  }
+  result.signorini_violation_N = signorini;
+  if (m == 2) result.coulomb_violation_N = coulomb;
+}
+
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C) {
+  return complementary_energy(system, stress, F_C, edge_balance(*system.problem, stress));
+}
+
+std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
+  constexpr double tolerance = 1e-9;
+  const int m = contact.components;
+  double largest = 0;
+  for (int p = 0; p < contact.count; ++p) largest = std::max(largest, std::abs(F_C(m * p)));
+  std::vector<ContactState> states(static_cast<std::size_t>(contact.count));
+  for (int p = 0; p < contact.count; ++p) {
+    const double normal = std::abs(F_C(m * p));
+    if (normal <= tolerance * largest)
+      states[p] = ContactState::open;
+    else if (m == 1 || std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction * normal)
+      states[p] = ContactState::slip;
+    else
+      states[p] = ContactState::stick;
+  }
+  return states;
+}
+
+Verification verify(const DualSystem& system, const Solution& solution,
+                    const Reference* reference) {
+  const Problem& problem = *system.problem;
+  Verification result;
+  const EdgeBalance balance = edge_balance(problem, solution.stress);
+  const LoadScale scale = load_scale(problem);
+  result.equilibrium_residual = equilibrium_residual(system, solution, balance, scale);
+  result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
+  result.complementary_energy_Nmm =
+      complementary_energy(system, solution.stress, solution.F_C, balance);
+  if (reference != nullptr) {
+    const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
+    result.relative_to_loads =
+        scale.energy_norm > 0 && is_rounding(reference_norm, scale.energy_norm);
+    result.error_stress =
+        relative_error(stress_distance(problem, solution.stress, reference->stress), reference_norm,
+                       scale.energy_norm);
+  }
+  if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
+  return result;
+}
+
+WorstMeasure worst_measure(const Verification& v) {
+  WorstMeasure worst{"equilibrium_residual", v.equilibrium_residual};
+  const auto consider = [&](const char* name, std::optional<double> value) {
+    if (value && !(*value <= worst.value)) worst = {name, *value};  // NaN is worst
+  };
+  consider("error_stress", v.error_stress);
+  consider("error_force", v.error_force);
+  consider("natural_map_residual", v.natural_map_residual);
+  return worst;
+}
+
+}  // namespace airybench

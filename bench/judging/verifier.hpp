@@ -1,0 +1,75 @@
+// The judge: looks at a solution from outside, with nothing of the method that made it. No solver
+// may call it.
+//
+// It works from the element stresses, the contact forces and the reference. Errors are relative:
+//   error_stress          ‖σ − σ_ref‖ / ‖σ_ref‖   in the energy norm, ‖σ‖² = ∫ σ:C:σ
+//   error_force           ‖F_C − F_ref‖ / ‖F_ref‖  in the D-norm, ‖F‖² = Fᵀ D F
+//   equilibrium_residual  largest unbalanced force of the stresses — across inner edges, against
+//   the
+//                         prescribed forces on Γ_F, against F_C on Γ_C — and largest resultant of
+//                         ∇·σ + b in a third, over the largest edge force
+//   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "assembly/dual_system.hpp"
+#include "assembly/load_scale.hpp"
+#include "bench/judging/reference.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+// Empty: does not apply (no contact, or no reference).
+struct Verification {
+  std::optional<double> error_stress;
+  std::optional<double> error_force;
+  bool relative_to_loads = false;  // a denominator was replaced by the load scale
+  double equilibrium_residual = std::numeric_limits<double>::infinity();
+  std::optional<double> natural_map_residual;
+  std::optional<double> signorini_violation_N;   // largest normal component of the natural map
+  std::optional<double> coulomb_violation_N;     // largest tangential component
+  std::optional<double> normal_resultant_N;      // Σ F_n
+  std::optional<double> tangential_resultant_N;  // Σ F_t
+  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ
+  std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  std::optional<int> n_open, n_stick, n_slip;  // contact points
+};
+
+// reference: may be null.
+Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
+
+// The same for a displacement method, another discrete problem that has no reference: judged by its
+// displacements and its forces at the control points (control_points.hpp). No error_stress, no
+// error_force, no complementary energy.
+//   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
+//                         points, over the largest nodal force of an element
+//   natural_map_residual  with r from u, and the stiffness K_ii of a control point for ρ
+Verification verify_displacement(const DualSystem& system, const Solution& solution);
+
+// Π*(σ) = ½ ∫ σ:C:σ − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n, N mm; F_C at the contact points.
+double complementary_energy(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C);
+
+// Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
+// the contact law, with ρ = 1/D_diagonal.
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result);
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result);
+
+// The largest of the relative measures that decide between ok and inaccurate.
+struct WorstMeasure {
+  const char* name;
+  double value;
+};
+WorstMeasure worst_measure(const Verification& verification);
+
+enum class ContactState { open, stick, slip };
+// Open: |F_n| ≤ 1e-9 of the largest normal force; slip: |F_t| ≥ (1 − 1e-9) μ|F_n|. Without friction
+// a closed point slips.
+std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C);
+
+}  // namespace airybench

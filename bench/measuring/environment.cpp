@@ -1,0 +1,76 @@
+#include "bench/measuring/environment.hpp"
+
+#include <benchmark/benchmark.h>
+#include <cblas.h>
+#include <cholmod.h>
+#include <dmumps_c.h>
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <Eigen/Core>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "bench/build_info.hpp"
+#include "bench/measuring/heap_probe.hpp"
+
+namespace airybench {
+namespace {
+
+std::string cpu_model() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+std::string first_line(const char* path) {
+  std::ifstream file(path);
+  std::string line;
+  std::getline(file, line);
+  return line.empty() ? "unknown" : line;
+}
+
+}  // namespace
+
+void set_threads(int threads) {
+  openblas_set_num_threads(threads);
+  // CHOLMOD asks for a fixed number of threads in its regions; only the nesting level stops that.
+  omp_set_max_active_levels(threads == 1 ? 0 : 1);
+  omp_set_num_threads(threads);
+}
+
+std::map<std::string, std::string> describe_environment(int threads) {
+  double load[1] = {0};
+  if (getloadavg(load, 1) != 1) load[0] = -1;
+  return {
+      {"airybench_version", AIRYBENCH_VERSION},
+      {"git_revision", build_info::git_revision},
+      {"git_dirty", build_info::git_dirty},
+      {"build_type", build_info::build_type},
+      {"compiler", build_info::compiler},
+      {"compiler_flags", build_info::compiler_flags},
+      {"eigen",
+       fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
+      {"cholmod",
+       fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
+      {"mumps", MUMPS_VERSION},
+      {"blas", openblas_get_config()},
+      {"blas_core", openblas_get_corename()},
+      {"blas_threads", std::to_string(openblas_get_num_threads())},
+      {"google_benchmark", build_info::benchmark_version},
+      {"cpu", cpu_model()},
+      {"cpus", std::to_string(std::thread::hardware_concurrency())},
+      {"cpu_governor", first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},
+      {"kernel", first_line("/proc/sys/kernel/osrelease")},
+      {"load_1min_at_start", fmt::format("{:.2f}", load[0])},
+      {"threads", std::to_string(threads)},
+      {"heap_probe", heap::is_active() ? "on" : "off"},
+      {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
+  };
+}
+
+}  // namespace airybench

@@ -1,0 +1,15 @@
+#include "bench/measuring/heap_probe.hpp"
+
+namespace airybench::heap {
+
+bool is_active() { return false; }
+std::int64_t live_bytes() { return 0; }
+std::int64_t peak_bytes() { return 0; }
+std::int64_t peak_ever_bytes() { return 0; }
+std::int64_t allocations() { return 0; }
+void reset_peak() {}
+Limit::Limit(std::int64_t) {}
+Limit::~Limit() = default;
+bool Limit::exceeded() const { return false; }
+
+}  // namespace airybench::heap

@@ -1,0 +1,331 @@
+#include "bench/measuring/workbench.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+
+#include "bench/measuring/heap_probe.hpp"
+#include "bench/measuring/rss_probe.hpp"
+#include "bench/records/fields.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr double tightest = 1e-15;  // tolerance of an iteration
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+bool has_answer(const Solution& solution) {
+  return solution.status == Status::ok || solution.status == Status::inaccurate;
+}
+
+std::optional<std::int64_t> if_probed(std::int64_t bytes) {
+  return heap::is_active() ? std::optional(bytes) : std::nullopt;
+}
+
+AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
+                                     int repetitions) {
+  AssembledBlocks blocks;
+  for (int i = 0; i < repetitions; ++i) {
+    blocks.system.reset();
+    heap::reset_peak();
+    const std::int64_t before = heap::live_bytes();
+    const auto start = std::chrono::steady_clock::now();
+    blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
+    blocks.samples_s.push_back(seconds_since(start));
+    blocks.heap_bytes = if_probed(heap::live_bytes() - before);
+    blocks.peak_heap_bytes = if_probed(heap::peak_bytes() - before);
+  }
+  return blocks;
+}
+
+}  // namespace
+
+Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options)
+    : problem_(std::move(problem)), options_(options) {}
+
+const AssembledBlocks& Workbench::blocks(Blocks which) {
+  auto found = blocks_.find(which);
+  if (found == blocks_.end())
+    found =
+        blocks_.emplace(which, assemble_and_measure(problem_, which, options_.repetitions)).first;
+  return found->second;
+}
+
+const Reference* Workbench::reference() {
+  if (!reference_ && no_reference_.empty()) {
+    try {
+      const DualSystem system = assemble(problem_, Blocks::contact_points);
+      reference_ = compute_reference(system);
+      Solution as_solution;
+      as_solution.F_C = reference_->F_C;
+      as_solution.stress = reference_->stress;
+      const double residual = verify(system, as_solution, nullptr).equilibrium_residual;
+      const double at_most = options_.target_error / 10;
+      if (!(residual <= at_most && reference_->error_estimate <= at_most)) {
+        no_reference_ = fmt::format(
+            "no reference: by its own estimate its error is {:.1e}, its equilibrium residual "
+            "{:.1e}",
+            reference_->error_estimate, residual);
+        reference_.reset();
+      }
+    } catch (const Breakdown& breakdown) {
+      no_reference_ = breakdown.what();
+    } catch (const std::bad_alloc&) {
+      no_reference_ = "no reference: out of memory";
+    }
+  }
+  return reference_ ? &*reference_ : nullptr;
+}
+
+const ConstitutiveError* Workbench::discretisation() {
+  if (!discretisation_ && !discretisation_failed_) {
+    discretisation_failed_ = true;
+    if (reference() == nullptr) return nullptr;
+    const DualSystem system = assemble(problem_, Blocks::contact_points);
+    const Solution u = run(select_methods("P2").front(), system, {});
+    if (u.status != Status::ok) return nullptr;
+    discretisation_ =
+        constitutive_error(system, reference_->stress, reference_->F_C, u.displacement);
+  }
+  return discretisation_ ? &*discretisation_ : nullptr;
+}
+
+Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
+                                bool histories) {
+  RunControl control;
+  control.deadline = Deadline::after(options_.timeout_s);
+  control.histories = histories;
+  control.threads = options_.threads;
+  control.stop = options_.stop;
+  control.target_error = options_.target_error;
+  control.condition = histories && options_.study == Study::stability;
+  control.tolerance = choice.tolerance;
+  control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
+  const bool rss_is_reset = rss::reset_peak();
+  heap::reset_peak();
+  const std::int64_t before = heap::live_bytes();
+  const auto start = std::chrono::steady_clock::now();
+  Run result;
+  bool refused = false;
+  try {
+    std::optional<heap::Limit> limit;
+    if (options_.memory_limit_bytes)
+      limit.emplace(before - blocks.heap_bytes.value_or(0) + *options_.memory_limit_bytes);
+    result.solution = run(choice.solve, *blocks.system, control);
+    refused = limit && limit->exceeded();
+  } catch (const std::bad_alloc&) {  // so little that not even a message could be written
+    refused = true;
+  }
+  result.time_s = seconds_since(start);
+  result.peak_heap_bytes = if_probed(heap::peak_bytes() - before + blocks.heap_bytes.value_or(0));
+  if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
+  if (refused) {
+    result.solution = Solution();
+    result.solution.status = Status::out_of_memory;
+    result.solution.message = "the memory limit was reached";
+  }
+  return result;
+}
+
+Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
+                                    Record& record) {
+  Choice choice{method.solve, 0};
+  if (method.is_iterative()) {
+    choice.tolerance = options_.stop == Stop::paper
+                           ? method.paper_tolerance
+                           : std::max(tightest, method.first_tolerance * options_.target_error);
+  }
+  if (!method.tune) return choice;
+  Tuning tuning;
+  const auto tune = [&](const DualSystem& system, const RunControl& control) {
+    tuning = method.tune(system, control);
+    Solution none;
+    none.status = Status::skipped;
+    return none;
+  };
+  const Run tuned = solve({tune, choice.tolerance}, blocks, false);
+  record.tuning_s = tuned.time_s;
+  record.grid = std::move(tuning.grid);
+  if (tuning.solve != nullptr) {
+    choice.solve = tuning.solve;
+  } else {  // every run says what became of it
+    choice.solve = [status = tuned.solution.status, message = tuned.solution.message](
+                       const DualSystem&, const RunControl&) {
+      Solution solution;
+      solution.status = status;
+      solution.message = "while choosing parameters: " + message;
+      return solution;
+    };
+  }
+  return choice;
+}
+
+Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& blocks,
+                                  Choice& choice, Record& record) {
+  constexpr int most_attempts = 6;
+  std::optional<Run> finished;  // not accurate enough, with the tolerance before
+  double finished_with = 0;
+  for (int attempt = 1;; ++attempt) {
+    malloc_trim(0);  // what earlier runs freed shall not count
+    Run run = solve(choice, blocks, true);
+    const Solution& solution = run.solution;
+    if (finished && !has_answer(solution)) {  // better than nothing
+      record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
+      choice.tolerance = finished_with;
+      return std::move(*finished);
+    }
+    if (!method.is_iterative() || options_.stop == Stop::paper || solution.stress.empty() ||
+        !has_answer(solution) || attempt == most_attempts)
+      return run;
+    verify_run(blocks, run);
+    const double worst = std::max(worst_measure(*run.verification).value,
+                                  solution.error_estimate.value_or(0));  // it must know it, too
+    if (worst <= options_.target_error || choice.tolerance <= tightest) return run;
+    record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
+    finished_with = choice.tolerance;
+    // Errors follow the tolerance about linearly; a factor of 3 to be sure.
+    const double factor = options_.target_error / worst / 3;
+    choice.tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
+    choice.tolerance = std::max(tightest, choice.tolerance);
+    finished = std::move(run);
+  }
+}
+
+void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
+  if (run.verification) return;
+  run.verification = run.solution.displacement.cols() > 0
+                         ? verify_displacement(*blocks.system, run.solution)
+                         : verify(*blocks.system, run.solution, reference());
+}
+
+void Workbench::judge(const Method& method, const Verification& verification, Record& record) {
+  record.verification = verification;
+  if (record.status != Status::ok) return;
+  const WorstMeasure worst = worst_measure(*record.verification);
+  if (!(worst.value <= options_.target_error)) {
+    record.status = Status::inaccurate;
+    record.status_reason = fmt::format("{} {:.2e} is above the target {:.0e}", worst.name,
+                                       worst.value, options_.target_error);
+  } else if (record.verification->error_stress || method.in_displacements) {
+    if (verification.relative_to_loads)
+      record.status_reason = "next to no stress: errors are relative to the loads";
+  } else {
+    record.status = Status::inaccurate;
+    record.status_reason = "its error is not known: " + no_reference_;
+  }
+}
+
+Workbench::Examination Workbench::examine(const Method& method,
+                                          const std::filesystem::path& fields) {
+  const MeshSizes sizes = solved_sizes(*problem_);
+  Examination examination;
+  Record& record = examination.record;
+  record.mesh = problem_->mesh.name;
+  record.method = method.name;
+  record.threads = options_.threads;
+  record.stop = options_.stop;
+  record.study = name_of(options_.study);
+  record.target_error = options_.target_error;
+  record.n_phi = sizes.n_phi;
+  record.n_f = sizes.n_f;
+  record.n_c = sizes.n_c;
+  record.stages = decide_stages(*problem_, method, !fields.empty());
+  try {
+    blocks(method.blocks);
+  } catch (const std::exception& error) {
+    record.status = Status::breakdown;
+    record.status_reason = fmt::format("assembly: {}", error.what());
+    return examination;
+  }
+  const AssembledBlocks& assembled = blocks(method.blocks);
+  record.assembly_samples_s = assembled.samples_s;
+  record.blocks_heap_bytes = assembled.heap_bytes;
+  record.assembly_peak_heap_bytes = assembled.peak_heap_bytes;
+
+  Choice& choice = examination.choice;
+  choice = choose(method, assembled, record);
+  Run run = tighten(method, assembled, choice, record);
+  Solution& solution = run.solution;
+  record.status = solution.status;
+  record.status_reason = solution.message;
+  record.claimed_status = solution.status;
+  record.error_estimate = solution.error_estimate;
+  record.condition_estimate = solution.condition_estimate;
+  record.storage_bytes = solution.storage_bytes;
+  record.linear_iterations = solution.linear_iterations;
+  record.contact_iterations = solution.contact_iterations;
+  record.uzawa_iterations = solution.uzawa_iterations;
+  record.parameters = solution.parameters;
+  if (choice.tolerance > 0) record.tolerance = choice.tolerance;
+  if (options_.histories) record.histories = std::move(solution.histories);
+  if (solution.status == Status::timeout) {
+    record.done_fraction = solution.done_fraction;
+    record.error_so_far = solution.error_so_far;
+    if (solution.done_fraction) {  // the solve itself was at work: at least so much memory
+      record.peak_heap_bytes = run.peak_heap_bytes;
+      record.peak_rss_bytes = run.peak_rss_bytes;
+    }
+    if (solution.done_fraction.value_or(0) > 0)
+      record.extrapolated_time_s = run.time_s / *solution.done_fraction;
+  }
+  if (!solution.stress.empty()) {
+    verify_run(assembled, run);
+    judge(method, *run.verification, record);
+    const bool asks = options_.study == Study::error || method.in_displacements;
+    const ConstitutiveError* error = asks ? discretisation() : nullptr;
+    if (error != nullptr) {
+      record.error_discretisation = error->relative;
+      if (error->guaranteed) {
+        record.lower_bound_Nmm = error->lower_bound_Nmm;
+        record.upper_bound_Nmm = error->upper_bound_Nmm;
+      }
+    }
+    if (!fields.empty()) {
+      write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
+      if (error != nullptr) write_error_field(fields.parent_path(), fields.filename(), *error);
+    }
+  }
+  const bool once = run.time_s > options_.long_case_s || options_.study == Study::stability;
+  if (once && is_measured(record)) {
+    record.measured_once = true;
+    record.samples_s.push_back(run.time_s);
+    record.stage_samples.push_back(solution.times);
+    record.peak_heap_bytes = run.peak_heap_bytes;
+    record.peak_rss_bytes = run.peak_rss_bytes;
+    record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+  }
+  return examination;
+}
+
+void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
+  malloc_trim(0);
+  const Run run = solve(choice, blocks(method.blocks), false);
+  record.peak_heap_bytes = run.peak_heap_bytes;
+  record.peak_rss_bytes = run.peak_rss_bytes;
+  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+}
+
+double Workbench::measure_time(const Method& method, const Choice& choice, Record& record) {
+  const Run run = solve(choice, blocks(method.blocks), false);
+  if (run.solution.status != record.claimed_status) {
+    record.status = run.solution.status;
+    record.status_reason = "in a timed run: " + run.solution.message;
+    record.samples_s.clear();
+    record.stage_samples.clear();
+    record.peak_heap_bytes.reset();
+    record.peak_rss_bytes.reset();
+    return run.time_s;  // the time of a failure is no sample
+  }
+  record.samples_s.push_back(run.time_s);
+  record.stage_samples.push_back(run.solution.times);
+  return run.time_s;
+}
+
+}  // namespace airybench

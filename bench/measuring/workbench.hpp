@@ -1,0 +1,79 @@
+// One mesh under one scene: its blocks, its reference, and the measuring of methods on them.
+//
+// Detail (errors, counts, histories), memory and time are taken in separate runs of the same solve,
+// so that none disturbs the others. A solve that takes long is measured once: its detail run then
+// is the other two as well.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "bench/judging/discretisation_error.hpp"
+#include "bench/judging/reference.hpp"
+#include "bench/options.hpp"
+#include "bench/records/record.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+
+struct AssembledBlocks {
+  std::unique_ptr<const DualSystem> system;
+  std::vector<double> samples_s;
+  std::optional<std::int64_t> heap_bytes;       // live after assembly
+  std::optional<std::int64_t> peak_heap_bytes;  // highest during it
+};
+
+class Workbench {
+ public:
+  Workbench(std::shared_ptr<const Problem> problem, const Options& options);
+
+  const Problem& problem() const { return *problem_; }
+
+  // How a method is run on this problem, found in its detail run.
+  struct Choice {
+    Solve solve;
+    double tolerance = 0;
+  };
+  struct Examination {
+    Record record;
+    Choice choice;
+  };
+  // A record with the sizes, assembly figures and the detail run's verdict: status, errors, counts.
+  // An iterative method is run again with a tighter tolerance until its errors are below the
+  // target. fields: where to write the solution's fields, or empty.
+  Examination examine(const Method& method, const std::filesystem::path& fields);
+  // The memory run: heap and resident set at their peak during one solve.
+  void measure_memory(const Method& method, const Choice& choice, Record& record);
+  // One timed run, added to the record's samples; its seconds. A run that ends otherwise than the
+  // detail run did sets the record's status.
+  double measure_time(const Method& method, const Choice& choice, Record& record);
+
+ private:
+  // A solve and what it took.
+  struct Run {
+    Solution solution;
+    double time_s = 0;
+    std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes;
+    std::optional<Verification> verification;  // where it has been asked for
+  };
+  const AssembledBlocks& blocks(Blocks which);
+  const Reference* reference();  // null when there is none; no_reference_ says why
+  // Of the reference's stresses against the displacements of P2; null when one of them is missing.
+  const ConstitutiveError* discretisation();
+  Run solve(const Choice& choice, const AssembledBlocks& blocks, bool histories);
+  Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
+  // The run that meets the target, or the last that was tried; the choice has its tolerance.
+  Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
+  void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
+  void judge(const Method& method, const Verification& verification, Record& record);
+
+  std::shared_ptr<const Problem> problem_;
+  const Options& options_;
+  std::map<Blocks, AssembledBlocks> blocks_;
+  std::optional<Reference> reference_;
+  std::string no_reference_;
+  std::optional<ConstitutiveError> discretisation_;
+  bool discretisation_failed_ = false;
+};
+
+}  // namespace airybench

@@ -1,0 +1,154 @@
+#include "bench/cases/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+class SceneFile : public ::testing::Test {
+ protected:
+  Scene read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return read_scene(file_);
+  }
+  // The complaint without the file's name in front.
+  std::string complaint(const std::string& text) {
+    try {
+      read(text);
+    } catch (const SceneError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind(file_.string() + ": ", 0), 0u) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+      return what.substr(file_.string().size() + 2);
+    }
+    return "none";
+  }
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "my scene.json";
+};
+
+TEST_F(SceneFile, MissingKeysTakeTheDefaults) {
+  const Scene scene = read("{}"), standard;
+  EXPECT_EQ(scene.name, "my scene");
+  EXPECT_EQ(scene.friction, standard.friction);
+  EXPECT_EQ(scene.crown_radius_mm, standard.crown_radius_mm);
+  EXPECT_EQ(scene.displacement_mm, standard.displacement_mm);
+  EXPECT_FALSE(scene.teeth);
+}
+
+TEST_F(SceneFile, EveryKeyIsRead) {
+  const Scene scene = read(R"({ "teeth": 1, "root_half_height_mm": 5, "length_mm": 10,
+    "tip_half_height_mm": 3, "young_MPa": 70000, "poisson": 0.33, "plane": "stress",
+    "friction": 0.5, "crown_radius_mm": null, "clearance_mm": 0.001,
+    "displacement_mm": [0.01, -0.002], "body_force_N_per_mm3": [1, 2],
+    "materials": { "tip": { "young_MPa": 3000 } } })");
+  EXPECT_EQ(scene.teeth, 1);
+  EXPECT_EQ(scene.root_half_height_mm, 5);
+  EXPECT_EQ(scene.length_mm, 10);
+  EXPECT_EQ(scene.tip_half_height_mm, 3);
+  EXPECT_EQ(scene.material.young_MPa, 70000);
+  EXPECT_EQ(scene.material.poisson, 0.33);
+  EXPECT_EQ(scene.plane, Plane::stress);
+  EXPECT_EQ(scene.friction, 0.5);
+  EXPECT_FALSE(scene.crown_radius_mm);
+  EXPECT_EQ(scene.clearance_mm, 0.001);
+  EXPECT_EQ(scene.displacement_mm, Eigen::Vector2d(0.01, -0.002));
+  EXPECT_EQ(scene.body_force_N_per_mm3, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(scene.materials.at("tip").young_MPa, 3000);
+  EXPECT_EQ(scene.materials.at("tip").poisson, 0.33);  // the scene's own
+}
+
+TEST_F(SceneFile, TransformationsAndLayersAreRead) {
+  const Scene scene = read(R"({ "group": "layers", "about": "All keys at once.",
+    "mesh": { "refine": 2, "grade": { "at_mm": [10, 1], "ratio": 100 },
+      "slivers": { "aspect": 1e3, "count": 5 }, "scale": 2, "stretch": [1, 0.5],
+      "move_mm": [3, 4], "keep_contact_edges": 0, "keep_displacement_edges": 2,
+      "keep_force_edges": 1 },
+    "layers": { "normal": [0, 1], "interfaces_mm": [-1, 1],
+      "materials": [ {}, { "young_MPa": 21 } ] },
+    "poisson": 0.25 })");
+  EXPECT_EQ(scene.group, "layers");
+  EXPECT_EQ(scene.about, "All keys at once.");
+  EXPECT_EQ(scene.mesh.refine, 2);
+  EXPECT_EQ(scene.mesh.grade.value().at_mm, Eigen::Vector2d(10, 1));
+  EXPECT_EQ(scene.mesh.grade.value().ratio, 100);
+  EXPECT_EQ(scene.mesh.slivers.value().aspect, 1000);
+  EXPECT_EQ(scene.mesh.slivers.value().count, 5);
+  EXPECT_EQ(scene.mesh.scale, 2);
+  EXPECT_EQ(scene.mesh.stretch, Eigen::Vector2d(1, 0.5));
+  EXPECT_EQ(scene.mesh.move_mm, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(scene.mesh.keep_contact_edges, 0);
+  EXPECT_EQ(scene.mesh.keep_displacement_edges, 2);
+  EXPECT_EQ(scene.mesh.keep_force_edges, 1);
+  EXPECT_EQ(scene.layers.normal, Eigen::Vector2d(0, 1));
+  EXPECT_EQ(scene.layers.interfaces_mm, (std::vector<double>{-1, 1}));
+  ASSERT_EQ(scene.layer_materials.size(), 2u);
+  EXPECT_EQ(scene.layer_materials[1].young_MPa, 21);
+  EXPECT_EQ(scene.layer_materials[1].poisson, 0.25);  // the scene's own
+}
+
+TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
+  EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
+            "mesh: turn: unknown key (allowed: refine");
+  EXPECT_EQ(complaint(R"({"mesh": {"refine": 1.5}})"),
+            "mesh: refine: 1.5 (allowed: a whole number from 0 to 6)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"ratio": 10}}})"),
+            "mesh: grade: {\"ratio\":10} (allowed: {\"at_mm\": [x, y], \"ratio\": ...}, both "
+            "given)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"at_mm": [0, 0], "ratio": 0}}})"),
+            "mesh: grade: ratio: 0 (allowed: >= 1)");
+  EXPECT_EQ(complaint(R"({"mesh": {"stretch": [1, 0]}})"),
+            "mesh: stretch: [1, 0] (allowed: two numbers > 0)");
+  EXPECT_EQ(complaint(R"({"layers": {"normal": [1, 0]}})"),
+            "layers: {\"normal\":[1,0]} (allowed: either count or interfaces_mm)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "materials": [{"poisson": 0.6}]}})"),
+            "layers: materials: poisson: 0.6 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "normal": [0, 0]}})"),
+            "layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
+  EXPECT_EQ(complaint(R"({"group": 1})"), "group: 1 (allowed: a text)");
+}
+
+TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
+  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 32), "frction: unknown key (allowed: t");
+  EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
+  EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
+            "poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"young_MPa": 0})"), "young_MPa: 0 (allowed: > 0)");
+  EXPECT_EQ(complaint(R"({"plane": "bent"})"),
+            "plane: \"bent\" (allowed: \"strain\" or \"stress\")");
+  EXPECT_EQ(complaint(R"({"teeth": 0})"), "teeth: 0 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"teeth": 1.5})"),
+            "teeth: 1.5 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"length_mm": -2})"), "length_mm: -2 (allowed: a number > 0)");
+  EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
+            "displacement_mm: [1] (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
+            "crown_radius_mm: 0 (allowed: > 0, or null for a flat wall)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
+            "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
+            "materials: a: poisson: 0.7 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"friction": 0.2, "friction": 0.3})"), "friction: given twice");
+  EXPECT_EQ(complaint(R"({"friction": 1e400})").substr(0, 30), "not JSON: number overflow pars");
+  EXPECT_EQ(complaint("[]"), "the scene: [] (allowed: a JSON object)");
+  EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
+  EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");
+}
+
+TEST_F(SceneFile, AMissingFileIsNamed) {
+  try {
+    read_scene("no/such/scene.json");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened as a scene file");
+  }
+}
+
+}  // namespace
+}  // namespace airybench

@@ -1,0 +1,177 @@
+// The studies' plans, records and words.
+#include "bench/cases/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
+#include "bench/measuring/runner.hpp"
+#include "bench/measuring/workbench.hpp"
+#include "bench/records/record_files.hpp"
+#include "bench/records/record_reader.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+Method method(const std::string& name) { return select_methods(name).front(); }
+
+std::shared_ptr<const Problem> mesh0() {
+  static const auto problem = std::make_shared<const Problem>(
+      pose(Scene(), read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh")));
+  return problem;
+}
+
+TEST(Study, PointsTurnTheKnobOfTheMethod) {
+  for (const auto& [name, knob] : {std::pair{"SDTIC6", "tolerance"},
+                                   {"3STEPCG6", "tolerance"},
+                                   {"ALM:r=20,rho=20", "uzawa iterations"}}) {
+    SCOPED_TRACE(name);
+    std::set<double> values;
+    int at_paper_stop = 0;
+    for (const TurnedMethod& point : error_points(method(name))) {
+      EXPECT_EQ(point.method.name, name);
+      EXPECT_FALSE(point.method.is_iterative());  // the harness shall not tighten it
+      if (point.knob.value) {
+        EXPECT_EQ(point.knob.name, knob);
+        EXPECT_FALSE(point.knob.stop);
+        EXPECT_TRUE(values.insert(*point.knob.value).second);
+      } else {
+        EXPECT_EQ(point.knob.stop, Stop::paper);
+        ++at_paper_stop;
+      }
+    }
+    EXPECT_GE(values.size(), 5u);
+    EXPECT_EQ(at_paper_stop, std::string(name).starts_with("ALM") ? 1 : 0);
+  }
+}
+
+TEST(Study, AnUnparametrisedAlmHasItsOwnAndThePapersStop) {
+  const auto points = error_points(method("ALM"));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_FALSE(points[0].knob.stop);
+  EXPECT_EQ(points[1].knob.stop, Stop::paper);
+}
+
+TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
+  for (const char* name : {"3STEPD", "BLIND:SCHUR", "HYBRID", "P2"}) {
+    SCOPED_TRACE(name);
+    const auto points = error_points(method(name));
+    ASSERT_FALSE(points.empty());
+    EXPECT_TRUE(points.back().knob.suffix().empty());  // the method as it is
+    EXPECT_EQ(points.size() == 1, method(name).knob == AccuracyKnob::none);
+  }
+}
+
+TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
+  const DualSystem system = assemble(mesh0());
+  RunControl control;
+  control.tolerance = 1e-3;
+  std::int64_t before = 0;
+  for (const TurnedMethod& point : error_points(method("SDTIC3"))) {
+    const Solution solution = run(point.method, system, control);
+    ASSERT_TRUE(solution.linear_iterations) << point.knob.suffix();
+    EXPECT_GT(*solution.linear_iterations, before) << point.knob.suffix();
+    before = *solution.linear_iterations;
+  }
+}
+
+TEST(Study, NamesOfCasesAreUnique) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", mesh0()}, {"other", "", "", mesh0()}};
+  for (const Study study : {Study::error, Study::stability}) {
+    const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
+    std::set<std::string> names;
+    for (const Case& c : cases) EXPECT_TRUE(names.insert(c.name()).second) << c.name();
+    EXPECT_FALSE(names.empty());
+  }
+}
+
+TEST(Study, DefaultMethodsCanBeSelected) {
+  for (const Study study : {Study::none, Study::error, Study::stability})
+    EXPECT_GE(select_methods(default_methods(study)).size(), 7u);
+}
+
+TEST(Study, ScenesOfTheAtlasAreSorted) {
+  const auto files = stability_scenes();
+  EXPECT_GE(files.size(), 40u);
+  EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
+}
+
+TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
+  Options options;
+  options.study = Study::error;
+  options.repetitions = 1;
+  options.long_case_s = 1e-9;  // the detail run is the timed one, too
+  Workbench bench(mesh0(), options);
+  const TurnedMethod first = error_points(method("ALM:r=20,rho=20")).front();
+  const Record record = bench.examine(first.method, {}).record;
+  EXPECT_EQ(record.status, Status::not_converged);
+  EXPECT_TRUE(is_measured(record));
+  EXPECT_EQ(record.samples_s.size(), 1u);
+  ASSERT_TRUE(record.verification);
+  EXPECT_GT(record.verification->error_force.value_or(0), 1e-6);
+  EXPECT_EQ(record.uzawa_iterations, first.knob.value);
+
+  Record ordinary = record;  // elsewhere what has not converged is no measurement
+  ordinary.study.clear();
+  EXPECT_FALSE(is_measured(ordinary));
+}
+
+TEST(Study, OutcomesTellWhoKnewWhat) {
+  Record record;
+  record.status = record.claimed_status.emplace(Status::ok);
+  record.verification.emplace().error_stress = 1e-3;
+  EXPECT_EQ(outcome_of(record), "ok");
+  record.status = Status::inaccurate;  // by the verifier, against the method's word
+  EXPECT_EQ(outcome_of(record), "wrong_success");
+  record.verification->error_stress.reset();  // there is no reference
+  EXPECT_EQ(outcome_of(record), "unverified");
+  record.claimed_status = Status::inaccurate;
+  EXPECT_EQ(outcome_of(record), "inaccurate");
+  record.status = record.claimed_status.emplace(Status::breakdown);
+  EXPECT_EQ(outcome_of(record), "breakdown");
+}
+
+Record point_record(const std::string& study, std::optional<double> tolerance) {
+  Record record;
+  record.mesh = "Mesh0";
+  record.scene = "default";
+  record.method = "SDTIC6";
+  record.status = Status::ok;
+  record.study = study;
+  if (tolerance) record.knob = "tolerance";
+  record.knob_value = tolerance;
+  return record;
+}
+
+TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "records.jsonl";
+  const auto append = [&](const Record& record) {
+    RecordFiles(folder.path(), {}, true).append(record);
+  };
+  const auto count_lines = [&] {
+    std::ifstream in(file);
+    std::string line;
+    int lines = 0;
+    while (std::getline(in, line)) ++lines;
+    return lines;
+  };
+  append(point_record("", {}));
+  append(point_record("error", 1e-2));
+  append(point_record("error", 1e-4));
+  append(point_record("stability", {}));
+  EXPECT_EQ(count_lines(), 4);
+  append(point_record("error", 1e-2));
+  append(point_record("stability", {}));
+  append(point_record("", {}));
+  EXPECT_EQ(count_lines(), 4);
+  EXPECT_EQ(read_records(file).size(), 1u);
+}
+
+}  // namespace
+}  // namespace airybench

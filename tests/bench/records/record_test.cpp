@@ -1,0 +1,166 @@
+#include "bench/records/record.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "bench/records/record_files.hpp"
+#include "bench/terminal.hpp"
+
+namespace airybench {
+namespace {
+
+TEST(Statistics, MedianAndItsDeviation) {
+  EXPECT_TRUE(std::isnan(median({})));
+  EXPECT_EQ(median({3}), 3);
+  EXPECT_EQ(median({3, 1, 2}), 2);
+  EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
+  EXPECT_EQ(median_absolute_deviation({1, 2, 3, 4, 100}), 1);
+}
+
+TEST(Record, HasExactlyTheDocumentedColumns) {
+  const std::set<std::string> documented = {"mesh",
+                                            "scene",
+                                            "method",
+                                            "status",
+                                            "status_reason",
+                                            "n_phi",
+                                            "n_f",
+                                            "n_c",
+                                            "threads",
+                                            "repetitions",
+                                            "time_s",
+                                            "time_min_s",
+                                            "time_mad_s",
+                                            "assembly_s",
+                                            "stage_order_s",
+                                            "stage_precondition_s",
+                                            "stage_factor_s",
+                                            "stage_condense_s",
+                                            "stage_contact_s",
+                                            "stage_recover_s",
+                                            "stage_check_s",
+                                            "peak_heap_bytes",
+                                            "peak_rss_bytes",
+                                            "storage_bytes",
+                                            "linear_iterations",
+                                            "contact_iterations",
+                                            "uzawa_iterations",
+                                            "stop",
+                                            "target_error",
+                                            "tolerance",
+                                            "parameters",
+                                            "tuning_s",
+                                            "grid_best",
+                                            "grid_median",
+                                            "grid_worst",
+                                            "grid_failures",
+                                            "done_fraction",
+                                            "extrapolated_time_s",
+                                            "error_so_far",
+                                            "error_stress",
+                                            "error_force",
+                                            "equilibrium_residual",
+                                            "natural_map_residual",
+                                            "signorini_violation_N",
+                                            "coulomb_violation_N",
+                                            "normal_resultant_N",
+                                            "tangential_resultant_N",
+                                            "strain_energy_Nmm",
+                                            "complementary_energy_Nmm",
+                                            "n_open",
+                                            "n_stick",
+                                            "n_slip",
+                                            "outcome",
+                                            "claimed_status",
+                                            "error_estimate",
+                                            "condition_estimate",
+                                            "error_discretisation",
+                                            "error_total",
+                                            "lower_bound_Nmm",
+                                            "upper_bound_Nmm",
+                                            "study",
+                                            "knob",
+                                            "knob_value",
+                                            "scene_group"};
+  std::set<std::string> names;
+  for (const auto& [name, value] : columns(Record{}))
+    EXPECT_TRUE(names.insert(name).second) << name;
+  EXPECT_EQ(names, documented);
+}
+
+TEST(Record, AForgottenFieldCannotLookLikeSuccess) {
+  const Record record;
+  EXPECT_EQ(record.status, Status::crashed);
+  for (const auto& [name, value] : columns(record))
+    if (name.ends_with("_s") || name.starts_with("error") || name.ends_with("bytes")) {
+      EXPECT_TRUE(value.is_null()) << name;
+    }
+}
+
+Record filled() {
+  Record record;
+  record.mesh = "a \"quoted\", mesh";
+  record.scene = "default";
+  record.method = "3STEPD";
+  record.status = Status::ok;
+  record.status_reason.clear();
+  record.samples_s = {0.3, 0.1, 0.2};
+  record.stage_samples.resize(3);
+  for (int i = 0; i < 3; ++i) record.stage_samples[i][Stage::factor] = 0.01 * (i + 1);
+  record.verification.emplace();
+  record.verification->error_stress = 1.0 / 3;
+  record.verification->equilibrium_residual = std::nan("");
+  record.stages = {{"order", true, ""}, {"contact", false, "no contact boundary"}};
+  return record;
+}
+
+TEST(Record, CsvIsUnroundedQuotedAndEmptyWhereNothingApplies) {
+  const std::string text = csv_text({to_json(filled())});
+  const auto newline = text.find('\n');
+  EXPECT_EQ(text.substr(0, 18), "mesh,scene,method,");
+  const std::string row = text.substr(newline + 1);
+  EXPECT_EQ(row.substr(0, 42), "\"a \"\"quoted\"\", mesh\",default,3STEPD,ok,,0,");
+  EXPECT_NE(row.find(",0.3333333333333333,"), std::string::npos);
+  EXPECT_NE(row.find(",0.2,0.1,"), std::string::npos);  // median, minimum
+  EXPECT_EQ(row.find("nan"), std::string::npos);
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 2);
+}
+
+TEST(Record, JsonKeepsSamplesAndWhatWasLeftOut) {
+  const nlohmann::ordered_json json = to_json(filled());
+  EXPECT_EQ(json["samples_s"].size(), 3u);
+  EXPECT_EQ(json["time_s"], 0.2);
+  EXPECT_EQ(json["stage_factor_s"], 0.02);
+  EXPECT_TRUE(json["stage_contact_s"].is_null());
+  EXPECT_EQ(json["stages_left_out"]["contact"], "no contact boundary");
+  EXPECT_EQ(json["stages_run"][0], "order");
+}
+
+TEST(Terminal, ShowsUnitsAPersonReads) {
+  EXPECT_EQ(show_seconds(1.5e-5), "15 µs");
+  EXPECT_EQ(show_seconds(0.0123), "12.3 ms");
+  EXPECT_EQ(show_seconds(4.5), "4.5 s");
+  EXPECT_EQ(show_seconds(std::nan("")), "-");
+  EXPECT_EQ(show_bytes(1536 * 1024), "1.5 MiB");
+  EXPECT_EQ(show_bytes({}), "-");
+  EXPECT_EQ(show_error(1.23e-7), "1.2e-07");
+  EXPECT_EQ(show_error({}), "-");
+  EXPECT_EQ(show_duration(12), "12 s");
+  EXPECT_EQ(show_duration(190), "3 min 10 s");
+  EXPECT_EQ(show_duration(3725), "1 h 02 min");
+}
+
+TEST(Terminal, TableNamesWhatWentWrong) {
+  Record record = filled();
+  record.mesh = "Mesh0";
+  record.status = Status::timeout;
+  record.status_reason = "time limit reached during the contact sweeps";
+  const std::string table = results_table({record});
+  EXPECT_NE(table.find("Mesh0 default 3STEPD: timeout: time limit reached during"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace airybench

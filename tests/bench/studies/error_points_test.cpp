@@ -1,0 +1,94 @@
+// The error study's points on two small meshes, held against the committed ones: what a digit costs
+// may not grow, nor an error.
+#include <fmt/format.h>
+
+#include "assembly/msh_format.hpp"
+#include "assembly/scene.hpp"
+#include "bench/cases/study.hpp"
+#include "bench/measuring/workbench.hpp"
+#include "tests/bench/studies/expected_table.hpp"
+
+namespace airybench {
+namespace {
+
+using testing::ExpectedTable;
+
+constexpr const char* update =
+    "to accept what is found: AIRYBENCH_UPDATE=1 <build>/tests/bench/error_points_test";
+constexpr double rounding = 1e-11;  // errors below are compared as this
+
+ExpectedTable& table() {
+  static auto* const environment =
+      new ExpectedTable(std::string(TEST_DATA_DIR) + "/error_points.csv", 4);
+  return *environment;
+}
+[[maybe_unused]] const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
+
+std::string text(const std::optional<double>& value) {
+  return value ? fmt::format("{:.3g}", *value) : "";
+}
+
+// error_force, error_stress, error_total, iterations.
+ExpectedTable::Row values_of(const Record& record) {
+  ExpectedTable::Row row;
+  const Columns all = columns(record);
+  for (const char* name : {"error_force", "error_stress", "error_total"}) {
+    const auto column = std::find_if(all.begin(), all.end(),
+                                     [&](const auto& entry) { return entry.first == name; });
+    row.push_back(column->second.is_null() ? "" : text(column->second.get<double>()));
+  }
+  if (record.uzawa_iterations)
+    row.push_back(std::to_string(*record.uzawa_iterations));
+  else
+    row.push_back(record.linear_iterations ? std::to_string(*record.linear_iterations) : "");
+  return row;
+}
+
+void compare(const ExpectedTable::Row& expected, const ExpectedTable::Row& found) {
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    ASSERT_EQ(found[i].empty(), expected[i].empty()) << "column " << i;
+    if (expected[i].empty()) continue;
+    const double was = std::stod(expected[i]), is = std::stod(found[i]);
+    const bool iterations = i + 1 == expected.size();
+    EXPECT_LE(is, iterations ? 1.1 * was + 1 : 10 * std::max(was, rounding))
+        << (iterations ? "iterations; " : "error; ") << update;
+  }
+}
+
+class ErrorPoints : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
+  const std::string mesh = GetParam();
+  Options options;
+  options.study = Study::error;
+  options.repetitions = 1;
+  Workbench bench(std::make_shared<const Problem>(
+                      pose(Scene(), read_msh(std::filesystem::path(MESH_DIR) / (mesh + ".msh")))),
+                  options);
+  if (testing::updating()) table().forget(mesh);
+  for (const Method& method : select_methods("SDTIC6,3STEPCG6,ALM:r=20,rho=20,3STEPD,HYBRID,P2"))
+    for (const TurnedMethod& point : error_points(method)) {
+      const std::string knob = point.knob.stop ? "paper's stop" : point.knob.name;
+      const ExpectedTable::Row key = {mesh, method.name, knob, text(point.knob.value)};
+      SCOPED_TRACE(fmt::format("{}, {}{}", mesh, method.name, point.knob.suffix()));
+      const ExpectedTable::Row found = values_of(bench.examine(point.method, {}).record);
+      if (testing::updating()) {
+        table().note(key, found);
+        continue;
+      }
+      const ExpectedTable::Row* expected = table().find(key);
+      if (expected != nullptr)
+        compare(*expected, found);
+      else
+        ADD_FAILURE() << "is not in error_points.csv; " << update;
+    }
+}
+
+#ifdef AIRYBENCH_SANITIZED
+INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints, ::testing::Values("Mesh0"));
+#else
+INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints, ::testing::Values("Mesh0", "Mesh1"));
+#endif
+
+}  // namespace
+}  // namespace airybench
