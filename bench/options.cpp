@@ -25,6 +25,30 @@ Examples
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
+// What Google Benchmark is told. Its filter and context are ours to keep: the cases that are run
+// and the records must show them.
+void take_benchmark_argument(const std::string& argument, Options& options) {
+  const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
+    if (!argument.starts_with(option)) return {};
+    return argument.substr(option.size());
+  };
+  if (const auto filter = value_of("--benchmark_filter=")) {
+    options.filter = *filter;
+  } else if (const auto pair = value_of("--benchmark_context=")) {
+    const std::size_t equals = pair->find('=');
+    if (equals == pair->npos || equals == 0)
+      throw UsageError(fmt::format("-- {}: (allowed: --benchmark_context=key=value)", argument));
+    options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
+  } else if (argument.starts_with("--benchmark_enable_random_interleaving")) {
+    options.interleave = !argument.ends_with("=false") && !argument.ends_with("=0");
+  } else {
+    throw UsageError(
+        fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
+                    "--benchmark_enable_random_interleaving=, --benchmark_context=)",
+                    argument));
+  }
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -73,7 +97,8 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--threads", options.threads, "threads of BLAS and for right-hand sides")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
-  app.add_option("--timeout", options.timeout_s, "seconds that one solve may take")
+  app.add_option("--timeout", options.timeout_s,
+                 "seconds that one solve may take; one that does not end by itself is ended")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option(
@@ -87,6 +112,16 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   app.add_flag("--append", options.append,
                "keep the records in the folder, but those of the cases that are run");
+  app.add_flag("--resume", options.resume,
+               "go on with the run in the folder: only the cases that have no record are run; the "
+               "records must be of this machine, program and options")
+      ->excludes(app.get_option("--append"));
+  std::string shard;
+  app.add_option("--shard", shard,
+                 "k/n: the k-th of n parts of the cases, for n machines (bench merge joins them)");
+  app.add_flag("--interleave", options.interleave,
+               "the repetitions of a scene's cases in random turn, so that the machine's moods "
+               "fall on all alike; their records are written when all have theirs");
   app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
   app.add_flag("--list", options.list, "print meshes and methods, and end");
@@ -98,7 +133,7 @@ Options parse_options(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i)
     if (std::strcmp(argv[i], "--") == 0) {
       own = i;
-      options.benchmark_arguments.assign(argv + i + 1, argv + argc);
+      for (int k = i + 1; k < argc; ++k) take_benchmark_argument(argv[k], options);
       break;
     }
   try {
@@ -123,6 +158,11 @@ Options parse_options(int argc, const char* const* argv) {
   if (!(options.target_error > 0 && options.target_error <= 1e9))
     throw UsageError(
         fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
+  if (!shard.empty()) {
+    const std::optional<Shard> part = shard_of(shard);
+    if (!part) throw UsageError(fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shard));
+    options.shard = *part;
+  }
   if (stop == "paper") options.stop = Stop::paper;
   if (study == "error") options.study = Study::error;
   if (study == "stability") options.study = Study::stability;

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "bench/cases/plan.hpp"
 #include "bench/cases/study.hpp"
 #include "solvers/solution.hpp"
 
@@ -22,7 +24,10 @@ struct Options {
   Study study = Study::none;
   double target_error = 1e-6;
   Stop stop = Stop::target;
-  bool append = false;  // keep the records that are in the folder
+  bool append = false;      // keep the records that are in the folder
+  bool resume = false;      // and run only the cases that have none
+  Shard shard;              // the part of the plan that is run
+  bool interleave = false;  // repetitions of a scene's cases in random turn
   int repetitions = 5;
   int threads = 1;
   double timeout_s = 900;                          // per solve
@@ -31,7 +36,9 @@ struct Options {
   bool fields = false;                             // write stresses and contact points
   bool histories = false;                          // keep iteration histories in records.jsonl
   bool list = false, dry_run = false, explain = false;
-  std::vector<std::string> benchmark_arguments;  // what came after "--"
+  // What came after "--" for Google Benchmark:
+  std::string filter;                              // --benchmark_filter=, selects cases
+  std::map<std::string, std::string> own_context;  // --benchmark_context=, for the records
 };
 
 // Wrong usage: what() is one line that names the argument and what is valid. Exit code 2.

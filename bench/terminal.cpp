@@ -68,23 +68,26 @@ std::string results_table(const std::vector<Record>& records) {
   return table;
 }
 
-Progress::Progress(std::vector<int> n_phi_of_cases) {
-  for (const int n_phi : n_phi_of_cases) {
-    cost_.push_back(std::pow(n_phi, 1.7));
-    total_ += cost_.back();
-  }
+namespace {
+
+double cost(int n_phi) { return std::pow(n_phi, 1.7); }
+
+}  // namespace
+
+Progress::Progress(std::vector<int> n_phi_of_cases) : cases_(n_phi_of_cases.size()) {
+  for (const int n_phi : n_phi_of_cases) total_ += cost(n_phi);
 }
 
-std::string Progress::line(std::size_t k, const Record& r) {
-  done_ += cost_[k];
+std::string Progress::line(const Record& r) {
+  done_ += cost(r.n_phi);
   const double elapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   const std::optional<double> error = r.verification ? r.verification->error_force : std::nullopt;
-  return fmt::format("[{}/{}] {} {} {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n", k + 1,
-                     cost_.size(), r.mesh, r.scene, r.method, name_of(r.status),
+  return fmt::format("[{}/{}] {} {} {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n",
+                     ++ended_, cases_, r.mesh, r.scene, r.method, name_of(r.status),
                      show_seconds(median(r.samples_s)), show_bytes(r.peak_heap_bytes),
                      show_error(error), show_duration(elapsed),
-                     show_duration(elapsed * (total_ - done_) / done_));
+                     show_duration(elapsed * std::max(0.0, total_ - done_) / done_));
 }
 
 }  // namespace airybench

@@ -23,11 +23,11 @@ std::string show_duration(double seconds);
 class Progress {
  public:
   explicit Progress(std::vector<int> n_phi_of_cases);
-  // The line for case k (from 0), which has just ended.
-  std::string line(std::size_t k, const Record& record);
+  // The line for a case that has just ended.
+  std::string line(const Record& record);
 
  private:
-  std::vector<double> cost_;
+  std::size_t cases_, ended_ = 0;
   double done_ = 0, total_ = 0;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

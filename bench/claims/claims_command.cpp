@@ -94,7 +94,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
   return text;
 }
 
-void claims_command(int argc, const char* const* argv) {
+int claims_command(int argc, const char* const* argv) {
   const ClaimsOptions options = parse(argc, argv);
   const std::string file = (options.folder / "records.jsonl").string();
   const CaseTable cases(read_records(file), options.stop, file);
@@ -106,6 +106,7 @@ void claims_command(int argc, const char* const* argv) {
   if (!options.out.empty())
     write_file_atomically(options.out, title + "\n\n" + claims_markdown(claims));
   fmt::print("{}\n\n{}", title, claims_text(claims));
+  return 0;
 }
 
 }  // namespace airybench

@@ -7,9 +7,9 @@
 
 namespace airybench {
 
-// argv[0] is "claims". Prints, and writes --out where asked. Throws HelpRequested, UsageError,
-// RecordError, std::runtime_error (a file that cannot be written).
-void claims_command(int argc, const char* const* argv);
+// argv[0] is "claims". Returns the exit code. Prints, and writes --out where asked. Throws
+// HelpRequested, UsageError, RecordError, std::runtime_error (a file that cannot be written).
+int claims_command(int argc, const char* const* argv);
 
 // A verdict and its sentence on a line, what it rests on below.
 std::string claims_text(const std::vector<Claim>& claims);

@@ -7,13 +7,16 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <unistd.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "assembly/sha256.hpp"
 #include "bench/build_info.hpp"
 #include "bench/measuring/heap_probe.hpp"
 
@@ -32,6 +35,11 @@ std::string first_line(const char* path) {
   std::string line;
   std::getline(file, line);
   return line.empty() ? "unknown" : line;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
 }  // namespace
@@ -68,6 +76,8 @@ std::map<std::string, std::string> describe_environment(int threads) {
       {"kernel", first_line("/proc/sys/kernel/osrelease")},
       {"load_1min_at_start", fmt::format("{:.2f}", load[0])},
       {"threads", std::to_string(threads)},
+      {"program_sha256", sha256_of_file("/proc/self/exe")},
+      {"host", host_name()},
       {"heap_probe", heap::is_active() ? "on" : "off"},
       {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
   };

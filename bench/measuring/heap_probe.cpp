@@ -1,13 +1,16 @@
 #include "bench/measuring/heap_probe.hpp"
 
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
+#include <fstream>
 #include <limits>
+#include <string>
 
 // glibc's allocator under its own names.
 extern "C" {
@@ -23,7 +26,8 @@ namespace {
 constexpr std::size_t always_granted = 64 * 1024;
 std::atomic<bool> limit_passed{false};
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
-std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, count{0}, limit{no_limit};
+std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, count{0}, limit{no_limit},
+    backstop{no_limit};
 
 void raise(std::atomic<std::int64_t>& highest, std::int64_t now) {
   std::int64_t before = highest.load(std::memory_order_relaxed);
@@ -39,6 +43,8 @@ void add(std::int64_t bytes) {
 std::int64_t size_of(void* block) { return static_cast<std::int64_t>(malloc_usable_size(block)); }
 
 bool too_much(std::size_t bytes) {
+  if (live.load(std::memory_order_relaxed) > backstop.load(std::memory_order_relaxed))
+    _exit(airybench::heap::backstop_exit_code);
   const std::int64_t most = limit.load(std::memory_order_relaxed);
   if (most == no_limit) return false;
   const bool passed =
@@ -132,5 +138,18 @@ Limit::Limit(std::int64_t live_bytes_at_most) {
 }
 Limit::~Limit() { limit.store(no_limit); }
 bool Limit::exceeded() const { return limit_passed.load(); }
+
+Backstop::Backstop(std::optional<std::int64_t> limit_bytes) {
+  std::int64_t available = no_limit / 2;
+  std::ifstream file("/proc/meminfo");
+  for (std::string word; file >> word;) {
+    std::int64_t kibibytes = 0;
+    if (word == "MemAvailable:" && file >> kibibytes) available = kibibytes * 1024 / 100 * 95;
+  }
+  const std::int64_t granted =
+      limit_bytes ? std::min(available, *limit_bytes + *limit_bytes / 2) : available;
+  backstop.store(live_bytes() + granted);
+}
+Backstop::~Backstop() { backstop.store(no_limit); }
 
 }  // namespace airybench::heap

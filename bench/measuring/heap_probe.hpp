@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 namespace airybench::heap {
 
@@ -32,5 +33,17 @@ class Limit {
   Limit& operator=(const Limit&) = delete;
   bool exceeded() const;
 };
+
+// Ends the process with backstop_exit_code when the heap grows beyond what a Limit can hold: by
+// small blocks without end, or past all memory that the machine has left. For the scope of the
+// object. limit_bytes: of the Limits to come, or empty; half of it again is granted.
+class Backstop {
+ public:
+  explicit Backstop(std::optional<std::int64_t> limit_bytes);
+  ~Backstop();
+  Backstop(const Backstop&) = delete;
+  Backstop& operator=(const Backstop&) = delete;
+};
+inline constexpr int backstop_exit_code = 86;
 
 }  // namespace airybench::heap

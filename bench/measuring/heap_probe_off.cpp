@@ -10,6 +10,8 @@ std::int64_t allocations() { return 0; }
 void reset_peak() {}
 Limit::Limit(std::int64_t) {}
 Limit::~Limit() = default;
+Backstop::Backstop(std::optional<std::int64_t>) {}
+Backstop::~Backstop() = default;
 bool Limit::exceeded() const { return false; }
 
 }  // namespace airybench::heap

@@ -1,39 +1,34 @@
-// Runs the cases meshes × scenes × methods through Google Benchmark: one registered benchmark a
-// case, manual time, one iteration per repetition.
+// Runs cases through Google Benchmark: one registered benchmark a case, manual time, one iteration
+// per repetition. Each case runs in a process of its own (bench/isolation).
 #pragma once
 
-#include <map>
-#include <memory>
-#include <string>
 #include <vector>
 
+#include "bench/cases/plan.hpp"
 #include "bench/options.hpp"
 #include "bench/records/record.hpp"
-#include "solvers/methods.hpp"
+#include "bench/records/run_identity.hpp"
 
 namespace airybench {
 
-struct PosedScene {
-  std::string scene_name, scene_group, mesh_sha256;
-  std::shared_ptr<const Problem> problem;
+// What a run spent outside the cases' own solves.
+struct RunTimes {
+  double wall_s = 0;
+  double runs_s = 0;         // in solves, tuning included
+  double preparation_s = 0;  // assembly and references
+  double judging_s = 0;      // verification, and all else between a case's solves
+  double harness_s() const { return wall_s - runs_s - preparation_s - judging_s; }
 };
 
-struct Case {
-  PosedScene posed;
-  Method method;
-  Knob knob = {};             // of a study
-  std::string name() const {  // "Mesh0/default/3STEPD", "Mesh0/default/SSKY/tolerance=0.01"
-    return posed.problem->mesh.name + "/" + posed.scene_name + "/" + method.name + knob.suffix();
-  }
+struct RunResult {
+  std::vector<Record> records;  // of all cases of the plan, in its order; earlier ones included
+  int earlier = 0;              // that --resume found
+  bool torn = false;            // it found a line half written, too
+  RunTimes times;
 };
 
-// Scene by scene, so that methods on the same blocks run after one another.
-std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study = Study::none);
-
-// Prints progress to standard error, writes the output folder, returns the records in the order of
-// the cases that ran. Throws UsageError (arguments for Google Benchmark), OutputError.
-std::vector<Record> run_cases(const std::vector<Case>& cases, const Options& options,
-                              const std::map<std::string, std::string>& context);
+// Prints progress to standard error, writes the output folder. Throws UsageError (arguments for
+// Google Benchmark, no case), OutputError, Interrupted; what was measured is on disk then.
+RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context);
 
 }  // namespace airybench

@@ -10,6 +10,7 @@
 
 #include "bench/measuring/heap_probe.hpp"
 #include "bench/measuring/rss_probe.hpp"
+#include "bench/records/blank_record.hpp"
 #include "bench/records/fields.hpp"
 
 namespace airybench {
@@ -27,6 +28,10 @@ bool has_answer(const Solution& solution) {
 
 std::optional<std::int64_t> if_probed(std::int64_t bytes) {
   return heap::is_active() ? std::optional(bytes) : std::nullopt;
+}
+
+bool asks_for_discretisation(const Method& method, const Options& options) {
+  return options.study == Study::error || method.in_displacements;
 }
 
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
@@ -47,19 +52,38 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
 
 }  // namespace
 
-Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options)
-    : problem_(std::move(problem)), options_(options) {}
+Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options,
+                     LeftOut left_out)
+    : problem_(std::move(problem)),
+      options_(options),
+      left_out_(std::move(left_out)),
+      no_reference_(left_out_.reference) {}
+
+void Workbench::prepare(const Method& method) {
+  try {
+    blocks(method.blocks);
+  } catch (const std::exception&) {  // the examination will say it
+    return;
+  }
+  reference();
+  if (asks_for_discretisation(method, options_)) discretisation();
+}
 
 const AssembledBlocks& Workbench::blocks(Blocks which) {
+  if (const auto broken = left_out_.blocks.find(which); broken != left_out_.blocks.end())
+    throw std::runtime_error(broken->second);
   auto found = blocks_.find(which);
-  if (found == blocks_.end())
+  if (found == blocks_.end()) {
+    const ActivityScope scope(board_, Activity::assembly);
     found =
         blocks_.emplace(which, assemble_and_measure(problem_, which, options_.repetitions)).first;
+  }
   return found->second;
 }
 
 const Reference* Workbench::reference() {
   if (!reference_ && no_reference_.empty()) {
+    const ActivityScope scope(board_, Activity::reference);
     try {
       const DualSystem system = assemble(problem_, Blocks::contact_points);
       reference_ = compute_reference(system);
@@ -87,7 +111,8 @@ const Reference* Workbench::reference() {
 const ConstitutiveError* Workbench::discretisation() {
   if (!discretisation_ && !discretisation_failed_) {
     discretisation_failed_ = true;
-    if (reference() == nullptr) return nullptr;
+    if (reference() == nullptr || !left_out_.discretisation.empty()) return nullptr;
+    const ActivityScope scope(board_, Activity::discretisation);
     const DualSystem system = assemble(problem_, Blocks::contact_points);
     const Solution u = run(select_methods("P2").front(), system, {});
     if (u.status != Status::ok) return nullptr;
@@ -98,7 +123,9 @@ const ConstitutiveError* Workbench::discretisation() {
 }
 
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
-                                bool histories) {
+                                Activity what) {
+  const bool histories = what == Activity::detail_run;
+  const ActivityScope scope(board_, what);
   RunControl control;
   control.deadline = Deadline::after(options_.timeout_s);
   control.histories = histories;
@@ -150,7 +177,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
     none.status = Status::skipped;
     return none;
   };
-  const Run tuned = solve({tune, choice.tolerance}, blocks, false);
+  const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
   record.grid = std::move(tuning.grid);
   if (tuning.solve != nullptr) {
@@ -174,7 +201,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
   double finished_with = 0;
   for (int attempt = 1;; ++attempt) {
     malloc_trim(0);  // what earlier runs freed shall not count
-    Run run = solve(choice, blocks, true);
+    Run run = solve(choice, blocks, Activity::detail_run);
     const Solution& solution = run.solution;
     if (finished && !has_answer(solution)) {  // better than nothing
       record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
@@ -200,6 +227,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
   if (run.verification) return;
+  const ActivityScope scope(board_, Activity::verification);
   run.verification = run.solution.displacement.cols() > 0
                          ? verify_displacement(*blocks.system, run.solution)
                          : verify(*blocks.system, run.solution, reference());
@@ -224,19 +252,9 @@ void Workbench::judge(const Method& method, const Verification& verification, Re
 
 Workbench::Examination Workbench::examine(const Method& method,
                                           const std::filesystem::path& fields) {
-  const MeshSizes sizes = solved_sizes(*problem_);
   Examination examination;
   Record& record = examination.record;
-  record.mesh = problem_->mesh.name;
-  record.method = method.name;
-  record.threads = options_.threads;
-  record.stop = options_.stop;
-  record.study = name_of(options_.study);
-  record.target_error = options_.target_error;
-  record.n_phi = sizes.n_phi;
-  record.n_f = sizes.n_f;
-  record.n_c = sizes.n_c;
-  record.stages = decide_stages(*problem_, method, !fields.empty());
+  record = blank_record(*problem_, method, options_);
   try {
     blocks(method.blocks);
   } catch (const std::exception& error) {
@@ -278,8 +296,8 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, *run.verification, record);
-    const bool asks = options_.study == Study::error || method.in_displacements;
-    const ConstitutiveError* error = asks ? discretisation() : nullptr;
+    const ConstitutiveError* error =
+        asks_for_discretisation(method, options_) ? discretisation() : nullptr;
     if (error != nullptr) {
       record.error_discretisation = error->relative;
       if (error->guaranteed) {
@@ -306,26 +324,20 @@ Workbench::Examination Workbench::examine(const Method& method,
 
 void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
   malloc_trim(0);
-  const Run run = solve(choice, blocks(method.blocks), false);
+  const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
   record.peak_heap_bytes = run.peak_heap_bytes;
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
 }
 
-double Workbench::measure_time(const Method& method, const Choice& choice, Record& record) {
-  const Run run = solve(choice, blocks(method.blocks), false);
-  if (run.solution.status != record.claimed_status) {
-    record.status = run.solution.status;
-    record.status_reason = "in a timed run: " + run.solution.message;
-    record.samples_s.clear();
-    record.stage_samples.clear();
-    record.peak_heap_bytes.reset();
-    record.peak_rss_bytes.reset();
-    return run.time_s;  // the time of a failure is no sample
-  }
-  record.samples_s.push_back(run.time_s);
-  record.stage_samples.push_back(run.solution.times);
-  return run.time_s;
+TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
+  const Run run = solve(choice, blocks(method.blocks), Activity::timed_run);
+  TimedRun timed;
+  timed.time_s = run.time_s;
+  timed.stages = run.solution.times;
+  timed.status = run.solution.status;
+  timed.message = run.solution.message;
+  return timed;
 }
 
 }  // namespace airybench

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 
+#include "bench/isolation/activity_board.hpp"
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/reference.hpp"
 #include "bench/options.hpp"
@@ -15,6 +16,12 @@
 #include "solvers/methods.hpp"
 
 namespace airybench {
+
+// What broke the process that tried it, and is not to be tried again; the text says how.
+struct LeftOut {
+  std::map<Blocks, std::string> blocks;
+  std::string reference, discretisation;
+};
 
 struct AssembledBlocks {
   std::unique_ptr<const DualSystem> system;
@@ -25,7 +32,11 @@ struct AssembledBlocks {
 
 class Workbench {
  public:
-  Workbench(std::shared_ptr<const Problem> problem, const Options& options);
+  Workbench(std::shared_ptr<const Problem> problem, const Options& options, LeftOut left_out = {});
+
+  void show_on(ActivityBoard* board) { board_ = board; }  // what it does from now on
+  // Blocks, reference, and what else cases of this method share.
+  void prepare(const Method& method);
 
   const Problem& problem() const { return *problem_; }
 
@@ -44,9 +55,7 @@ class Workbench {
   Examination examine(const Method& method, const std::filesystem::path& fields);
   // The memory run: heap and resident set at their peak during one solve.
   void measure_memory(const Method& method, const Choice& choice, Record& record);
-  // One timed run, added to the record's samples; its seconds. A run that ends otherwise than the
-  // detail run did sets the record's status.
-  double measure_time(const Method& method, const Choice& choice, Record& record);
+  TimedRun measure_time(const Method& method, const Choice& choice);
 
  private:
   // A solve and what it took.
@@ -60,7 +69,7 @@ class Workbench {
   const Reference* reference();  // null when there is none; no_reference_ says why
   // Of the reference's stresses against the displacements of P2; null when one of them is missing.
   const ConstitutiveError* discretisation();
-  Run solve(const Choice& choice, const AssembledBlocks& blocks, bool histories);
+  Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
   Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
@@ -69,6 +78,8 @@ class Workbench {
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;
+  LeftOut left_out_;
+  ActivityBoard* board_ = nullptr;
   std::map<Blocks, AssembledBlocks> blocks_;
   std::optional<Reference> reference_;
   std::string no_reference_;

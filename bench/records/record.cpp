@@ -43,6 +43,25 @@ Json total_error(const Record& record) {
 
 }  // namespace
 
+void add_run(const TimedRun& run, Record& record) {
+  if (run.runs_s > 0) record.runs_s = run.runs_s;
+  if (run.status == record.claimed_status) {
+    record.samples_s.push_back(run.time_s);
+    record.stage_samples.push_back(run.stages);
+    return;
+  }
+  record.status = run.status;
+  record.status_reason = "in a timed run: ";
+  record.status_reason += run.message;
+  record.signal = run.signal;
+  record.ended_in = run.ended_in;
+  if (!run.ended_in.empty()) record.time_so_far_s = run.time_s;
+  record.samples_s.clear();
+  record.stage_samples.clear();
+  record.peak_heap_bytes.reset();
+  record.peak_rss_bytes.reset();
+}
+
 bool is_measured(const Record& record) {
   return record.status == Status::ok || record.status == Status::inaccurate ||
          (record.study == "error" && record.status == Status::not_converged && record.verification);
@@ -157,18 +176,38 @@ Columns columns(const Record& r) {
       {"knob", r.knob.empty() ? Json() : Json(r.knob)},
       {"knob_value", or_null(r.knob_value)},
       {"scene_group", r.scene_group.empty() ? Json() : Json(r.scene_group)},
+      {"signal", r.signal.empty() ? Json() : Json(r.signal)},
+      {"ended_in", r.ended_in.empty() ? Json() : Json(r.ended_in)},
+      {"time_so_far_s", or_null(r.time_so_far_s)},
+      {"runs_s", or_null(r.runs_s)},
+      {"wall_s", or_null(r.wall_s)},
+      {"noise_kernel_s", number_or_null(median(r.noise_kernel_samples_s))},
   };
   result.insert(result.end(), measures.begin(), measures.end());
   return result;
+}
+
+nlohmann::ordered_json json_of(const StageTimes& times) {
+  OrderedJson json = OrderedJson::object();
+  for (const Stage stage : all_stages)
+    if (times[stage]) json[std::string(name_of(stage))] = *times[stage];
+  return json;
 }
 
 nlohmann::ordered_json to_json(const Record& r) {
   OrderedJson json;
   for (const auto& [name, value] : columns(r)) json[name] = value;
   json["samples_s"] = r.samples_s;
+  OrderedJson stage_samples = OrderedJson::array();
+  for (const StageTimes& times : r.stage_samples) stage_samples.push_back(json_of(times));
+  json["stage_samples"] = stage_samples;
   json["assembly_samples_s"] = r.assembly_samples_s;
+  json["noise_kernel_samples_s"] = r.noise_kernel_samples_s;
+  json["case_number"] = r.case_number;
   json["measured_once"] = r.measured_once;
+  json["mesh_file"] = r.mesh_file;
   json["mesh_sha256"] = r.mesh_sha256;
+  json["scene_definition"] = OrderedJson::parse(r.scene_definition);
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
   json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);

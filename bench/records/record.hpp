@@ -16,14 +16,22 @@
 namespace airybench {
 
 struct Record {
-  std::string mesh, mesh_sha256, scene, method;
+  std::string mesh, mesh_file, mesh_sha256, scene, method;
+  std::string scene_definition = "{}";  // the scene file's JSON
+  int case_number = 0;                  // in the plan of its run, from 1
   Status status = Status::crashed;
   std::string status_reason = "the case did not run";
+  std::string signal;                   // that ended the case's process: "SIGSEGV"; empty: none
+  std::string ended_in;                 // what the process was doing then: "timed run, factor"
+  std::optional<double> time_so_far_s;  // of that activity
   int n_phi = 0, n_f = 0, n_c = 0;  // as solved: μ = 0 moves the tangential contact rows to n_f
   int threads = 1;
   std::vector<double> samples_s;           // every timed run, blocks assembled → F_C and stresses
   std::vector<StageTimes> stage_samples;   // of the same runs
   std::vector<double> assembly_samples_s;  // the blocks' assembly
+  std::vector<double> noise_kernel_samples_s;  // the machine's own pace, see noise_kernel.hpp
+  std::optional<double> runs_s;                // in this case's solves of all runs, tuning included
+  std::optional<double> wall_s;  // in this case altogether, but its share of preparation
   std::optional<std::int64_t> peak_heap_bytes;  // blocks and all that the solve added, at the peak
   std::optional<std::int64_t> peak_rss_bytes;   // of the process, during the solve
   std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
@@ -53,6 +61,19 @@ struct Record {
   std::vector<IterationHistory> histories;
 };
 
+// One timed run of a case.
+struct TimedRun {
+  double time_s = 0;
+  StageTimes stages;
+  Status status = Status::crashed;
+  std::string message = "the run did not take place";
+  std::string signal, ended_in;  // see Record
+  double runs_s = 0;             // of the case, up to here
+};
+// Adds its sample. A run that ended otherwise than the detail run did sets the record's status, and
+// takes the samples away.
+void add_run(const TimedRun& run, Record& record);
+
 // Has it an answer whose time and memory are worth taking? Also one that was cut short on purpose.
 bool is_measured(const Record& record);
 
@@ -75,6 +96,9 @@ GridSummary summary_of(const std::vector<GridPoint>& grid);
 // The flat view: names and values of the columns, in order; null: does not apply.
 using Columns = std::vector<std::pair<std::string, nlohmann::json>>;
 Columns columns(const Record& record);
+
+// {"factor": 0.12, …}, of the stages that there are.
+nlohmann::ordered_json json_of(const StageTimes& times);
 
 // A line of records.jsonl: the columns, then samples, stages, mesh hash and histories.
 nlohmann::ordered_json to_json(const Record& record);

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <sstream>
+#include <utility>
 
 #include "assembly/atomic_file.hpp"
+#include "bench/records/record_json.hpp"
 
 namespace airybench {
 namespace {
@@ -45,32 +46,64 @@ namespace {
 constexpr std::array<const char*, 4> case_keys = {"mesh", "scene", "method", "stop"};
 constexpr std::array<const char*, 3> study_keys = {"study", "knob", "knob_value"};
 
-// The records of a folder, line by line; none if there is no file.
-std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& path) {
-  std::vector<nlohmann::ordered_json> records;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) return records;
-  std::ifstream file(path);
-  if (error || !file.is_open() || std::filesystem::is_directory(path))
-    throw OutputError(path.string() + ": cannot be read");
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
-    if (!record.is_object())
-      throw OutputError(fmt::format("{}:{}: not a record (allowed: a JSON object on a line)",
-                                    path.string(), number));
-    for (const char* key : case_keys)
-      if (record.contains(key) ? !record[key].is_string() : key != std::string_view("stop"))
-        throw OutputError(fmt::format("{}:{}: {}: not a text", path.string(), number, key));
-    records.push_back(record);
+// What is not UTF-8, in a file's name say, is replaced.
+std::string line_of(const nlohmann::ordered_json& record) {
+  return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+std::string lines_of(const std::vector<nlohmann::ordered_json>& records) {
+  std::string text;
+  for (const auto& record : records) {
+    text += line_of(record);
+    text += '\n';
   }
+  return text;
+}
+
+// To keep a folder's files in step, what belongs to other records goes first.
+void remove_summaries(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* stale : {"results.csv", "results.json"})
+    std::filesystem::remove(folder / stale, ignored);
+}
+
+void write_summaries(const std::filesystem::path& folder,
+                     const std::vector<nlohmann::ordered_json>& records) {
+  write_file_atomically(folder / "results.csv", csv_text(records));
+}
+
+nlohmann::ordered_json parsed(const std::string& line, const std::string& place) {
+  auto record = nlohmann::ordered_json::parse(line, nullptr, false);
+  if (!record.is_object())
+    throw OutputError(fmt::format("{}: not a record (allowed: a JSON object on a line)", place));
+  for (const char* key : case_keys)
+    if (record.contains(key) ? !record[key].is_string() : key != std::string_view("stop"))
+      throw OutputError(fmt::format("{}: {}: not a text", place, key));
+  return record;
+}
+
+std::vector<nlohmann::ordered_json> parsed(const JournalLines& journal,
+                                           const std::filesystem::path& file) {
+  std::vector<nlohmann::ordered_json> records;
+  for (const std::string& line : journal.lines)
+    records.push_back(parsed(line, fmt::format("{}:{}", file.string(), records.size() + 1)));
   return records;
 }
 
-// What is not UTF-8, in a file's name say, is replaced.
-std::string line_of(const nlohmann::ordered_json& record) {
-  return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}  // namespace
+
+std::vector<nlohmann::ordered_json> read_record_lines(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "records.jsonl";
+  if (!std::filesystem::exists(file)) throw OutputError(file.string() + ": there is no such file");
+  return parsed(read_journal(file), file);
+}
+
+Context context_of(const nlohmann::ordered_json& record) {
+  Context context;
+  if (const auto found = record.find("context"); found != record.end() && found->is_object())
+    for (const auto& [key, value] : found->items())
+      context[key] = value.is_string() ? value.get<std::string>() : value.dump();
+  return context;
 }
 
 bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
@@ -87,17 +120,68 @@ bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b)
                      [&](const char* key) { return value(a, key) == value(b, key); });
 }
 
-}  // namespace
+std::string case_name(const nlohmann::ordered_json& record) {
+  std::string name = fmt::format("{}/{}/{}", record.value("mesh", ""), record.value("scene", ""),
+                                 record.value("method", ""));
+  if (const auto value = record.find("knob_value"); value != record.end() && value->is_number())
+    name += fmt::format("/{}={}", record.value("knob", ""), value->get<double>());
+  if (record.value("stop", "target") == "paper") name += "/stop=paper";
+  return name;
+}
 
-RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
-                         bool keep_others)
-    : folder_(std::move(folder)), context_(std::move(context)) {
+void write_records(const std::filesystem::path& folder,
+                   const std::vector<nlohmann::ordered_json>& records) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw OutputError(
+        fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  remove_summaries(folder);
+  write_file_atomically(folder / "records.jsonl", lines_of(records));
+  write_summaries(folder, records);
+}
+
+RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep keep)
+    : folder_(std::move(folder)), context_(std::move(context)), keep_(keep) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), error.message()));
-  if (keep_others) records_ = read_records(folder_ / "records.jsonl");
+  if (keep_ == Keep::none) return;
+  const JournalLines journal = read_journal(records_file());
+  records_ = parsed(journal, records_file());
+  torn_ = journal.torn;
+  if (keep_ == Keep::finished)
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+      const std::string differs =
+          differences(context_of(records_[i]), context_, Sameness::same_program);
+      if (!differs.empty())
+        throw OutputError(fmt::format("{}:{}: of another run, which does not mix with this one: {}",
+                                      records_file().string(), i + 1, differs));
+    }
+  if (torn_) rewrite();
+}
+
+std::optional<Record> RecordFiles::finished(const Record& blank) const {
+  if (keep_ != Keep::finished) return {};
+  const nlohmann::ordered_json wanted = to_json(blank);
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    if (!same_case(records_[i], wanted)) continue;
+    for (const char* key : {"mesh_sha256", "scene_definition"})
+      if (records_[i].value(key, nlohmann::ordered_json()) != wanted[key])
+        throw OutputError(fmt::format("{}:{}: {}: another than now, for {}",
+                                      records_file().string(), i + 1, key, case_name(wanted)));
+    return record_from_json(records_[i]);
+  }
+  return {};
+}
+
+void RecordFiles::rewrite() {
+  journal_ = Journal();
+  remove_summaries(folder_);
+  write_file_atomically(records_file(), lines_of(records_));
+  journal_ = Journal(records_file());
 }
 
 void RecordFiles::append(const Record& record) {
@@ -105,45 +189,11 @@ void RecordFiles::append(const Record& record) {
   json["context"] = context_;
   const auto replaced = std::erase_if(
       records_, [&](const nlohmann::ordered_json& other) { return same_case(other, json); });
-  const std::filesystem::path path = folder_ / "records.jsonl";
-  if (!lines_.is_open() || replaced > 0) {
-    std::string text;
-    for (const auto& other : records_) text += line_of(other);
-    lines_.close();
-    write_file_atomically(path, text);
-    std::error_code ignored;
-    for (const char* stale : {"results.csv", "results.json"})
-      std::filesystem::remove(folder_ / stale, ignored);
-    lines_.open(path, std::ios::binary | std::ios::app);
-  }
-  lines_ << line_of(json) << std::flush;
-  if (!lines_) throw OutputError(path.string() + ": cannot be written");
+  if (!journal_.is_open() || replaced > 0) rewrite();
+  journal_.append(line_of(json));
   records_.push_back(std::move(json));
 }
 
-void RecordFiles::finish() const {
-  write_file_atomically(folder_ / "results.csv", csv_text(records_));
-  const std::filesystem::path part = benchmark_json_part(folder_), whole = folder_ / "results.json";
-  std::ostringstream written;
-  written << std::ifstream(part).rdbuf();
-  // The coefficient of variation of a counter that is zero: "NaN" is not JSON.
-  std::string text = written.str();
-  for (const std::string nan : {": NaN", ": -NaN", ": nan", ": -nan"})
-    for (std::size_t at = text.find(nan); at != text.npos; at = text.find(nan, at))
-      text.replace(at, nan.size(), ": null");
-  if (!nlohmann::json::accept(text))  // Google Benchmark does not say when the disk is full
-    throw OutputError(whole.string() + ": could not be written whole");
-  write_file_atomically(whole, text);
-  abandon();
-}
-
-void RecordFiles::abandon() const {
-  std::error_code ignored;
-  std::filesystem::remove(benchmark_json_part(folder_), ignored);
-}
-
-std::filesystem::path RecordFiles::benchmark_json_part(const std::filesystem::path& folder) {
-  return folder / "results.json.part";
-}
+void RecordFiles::finish() const { write_summaries(folder_, records_); }
 
 }  // namespace airybench

@@ -1,44 +1,68 @@
-// The output folder: records.jsonl (a line per case, written as it ends), results.csv (the flat
-// view, written at the end), fields/ (on request). results.json is Google Benchmark's own.
+// The output folder: records.jsonl (a line per case, on disk before the next case starts),
+// results.csv (the flat view) and results.json (Google Benchmark's schema), both written at the
+// end, fields/ (on request).
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <stdexcept>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/records/journal.hpp"
 #include "bench/records/record.hpp"
+#include "bench/records/run_identity.hpp"
 
 namespace airybench {
 
-struct OutputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+// What becomes of the records that a folder has.
+enum class Keep {
+  none,      // they go when the first of this run comes
+  others,    // only those of the same cases go, whatever they were measured with
+  finished,  // all stay, and must be of the same machine, program and settings as this run
 };
 
 class RecordFiles {
  public:
-  // Makes the folder. What an earlier run left there stays until the first record of this one, and
-  // with keep_others beyond: then only records of the same cases (mesh, scene, method, stop, study,
-  // knob) go. Throws OutputError, also for records to keep that cannot be read.
-  RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
-              bool keep_others);
+  // Makes the folder. Throws OutputError: the folder, records to keep that cannot be read or, with
+  // Keep::finished, are of another run.
+  RecordFiles(std::filesystem::path folder, Context context, Keep keep);
 
-  void append(const Record& record);  // one line, flushed; throws OutputError
-  // results.csv of all records, and Google Benchmark's file, which is of this run, under its name.
+  // With Keep::finished: the record of this case, if there is one. Throws OutputError when its mesh
+  // or scene was another.
+  std::optional<Record> finished(const Record& blank) const;
+
+  // One line, on disk when it returns; throws OutputError.
+  void append(const Record& record);
+  // results.csv and results.json, of all records of the folder.
   void finish() const;
-  void abandon() const;  // removes the file that Google Benchmark writes while the run goes on
 
-  // Where Google Benchmark writes while the run goes on.
-  static std::filesystem::path benchmark_json_part(const std::filesystem::path& folder);
+  bool was_torn() const { return torn_; }  // a line was half written, and is dropped
 
  private:
+  std::filesystem::path records_file() const { return folder_ / "records.jsonl"; }
+  void rewrite();  // all records, whole
+
   std::filesystem::path folder_;
-  std::map<std::string, std::string> context_;
+  Context context_;
+  Keep keep_;
   std::vector<nlohmann::ordered_json> records_;  // those of the folder
-  std::ofstream lines_;
+  bool torn_ = false;
+  Journal journal_;
 };
+
+// The records of a folder, as they stand there. Throws OutputError: file, line, what is allowed.
+std::vector<nlohmann::ordered_json> read_record_lines(const std::filesystem::path& folder);
+Context context_of(const nlohmann::ordered_json& record);
+
+// Same mesh, scene, method, stop, study and knob?
+bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
+// "Mesh0/default/SSKY/tolerance=0.01", as the run called it.
+std::string case_name(const nlohmann::ordered_json& record);
+
+// records.jsonl, results.csv and results.json of these records; each file whole or not at all.
+void write_records(const std::filesystem::path& folder,
+                   const std::vector<nlohmann::ordered_json>& records);
 
 // results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
 // 4180.

@@ -16,7 +16,7 @@ Record measured(const Scene& scene, Mesh mesh, const char* method) {
   const Method chosen = select_methods(method).front();
   auto [record, choice] = bench.examine(chosen, {});
   bench.measure_memory(chosen, choice, record);
-  bench.measure_time(chosen, choice, record);
+  add_run(bench.measure_time(chosen, choice), record);
   EXPECT_EQ(record.status, Status::ok) << record.status_reason;
   return record;
 }

@@ -1,0 +1,68 @@
+#include "bench/cases/plan.hpp"
+
+#include <fmt/format.h>
+#include <regex.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <iterator>
+#include <stdexcept>
+
+namespace airybench {
+
+std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
+                             const std::vector<Method>& methods, Study study) {
+  std::vector<Case> cases;
+  const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
+    cases.push_back(
+        {scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1});
+  };
+  for (const PosedScene& scene : scenes)
+    for (const Method& method : methods)
+      if (study == Study::error)
+        for (TurnedMethod& point : error_points(method))
+          add(scene, std::move(point.method), std::move(point.knob));
+      else
+        add(scene, method, {});
+  return cases;
+}
+
+std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+
+std::optional<Shard> shard_of(const std::string& text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto [slash, first_error] = std::from_chars(text.data(), end, shard.index);
+  if (first_error != std::errc() || slash == end || *slash != '/') return {};
+  const auto [rest, second_error] = std::from_chars(slash + 1, end, shard.count);
+  if (second_error != std::errc() || rest != end) return {};
+  if (shard.index < 1 || shard.index > shard.count) return {};
+  return shard;
+}
+
+std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard) {
+  std::vector<Case> part;
+  for (const Case& c : plan)
+    if ((c.number - 1) % shard.count == shard.index - 1) part.push_back(c);
+  return part;
+}
+
+std::vector<Case> matching(const std::vector<Case>& plan, const std::string& expression) {
+  const bool others = expression.starts_with('-');
+  regex_t compiled;
+  if (const int error =
+          regcomp(&compiled, expression.c_str() + (others ? 1 : 0), REG_EXTENDED | REG_NOSUB)) {
+    std::array<char, 200> what{};
+    regerror(error, &compiled, what.data(), what.size());
+    throw std::invalid_argument(fmt::format("{}: {}", expression, what.data()));
+  }
+  std::vector<Case> found;
+  std::copy_if(plan.begin(), plan.end(), std::back_inserter(found), [&](const Case& c) {
+    return (regexec(&compiled, c.name().c_str(), 0, nullptr, 0) == 0) != others;
+  });
+  regfree(&compiled);
+  return found;
+}
+
+}  // namespace airybench

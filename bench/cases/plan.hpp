@@ -1,0 +1,49 @@
+// The cases of a run: meshes × scenes × methods, in a study × points of a knob.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assembly/problem.hpp"
+#include "bench/cases/study.hpp"
+#include "solvers/method.hpp"
+
+namespace airybench {
+
+struct PosedScene {
+  std::string scene_name, scene_group;
+  std::string mesh_file, mesh_sha256;
+  std::string scene_definition = "{}";  // the scene file's JSON
+  std::shared_ptr<const Problem> problem;
+};
+
+struct Case {
+  PosedScene posed;
+  Method method;
+  Knob knob = {};             // of a study
+  int number = 0;             // in the whole plan, from 1, whatever part of it is run
+  std::string name() const {  // "Mesh0/default/3STEPD", "Mesh0/default/SSKY/tolerance=0.01"
+    return posed.problem->mesh.name + "/" + posed.scene_name + "/" + method.name + knob.suffix();
+  }
+};
+
+// Scene by scene, so that methods on the same blocks run after one another.
+std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
+                             const std::vector<Method>& methods, Study study = Study::none);
+
+// One of `count` parts of a plan, for as many machines: the cases index, index + count, …, so that
+// each has cases of every size.
+struct Shard {
+  int index = 1, count = 1;
+};
+std::string name_of(const Shard& shard);                 // "2/3"
+std::optional<Shard> shard_of(const std::string& text);  // empty: not k/n with 1 ≤ k ≤ n
+std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
+
+// The cases whose names a POSIX extended regular expression matches somewhere; with a leading '-'
+// the others. Throws std::invalid_argument.
+std::vector<Case> matching(const std::vector<Case>& plan, const std::string& expression);
+
+}  // namespace airybench

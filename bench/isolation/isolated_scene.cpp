@@ -1,0 +1,100 @@
+#include "bench/isolation/isolated_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+
+#include "bench/isolation/scene_process.hpp"
+#include "bench/records/blank_record.hpp"
+#include "bench/records/record_json.hpp"
+
+namespace airybench {
+namespace {
+
+volatile std::sig_atomic_t interrupting_signal = 0;
+
+void on_interrupt(int signal) {
+  if (interrupting_signal != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupting_signal = signal;
+}
+
+}  // namespace
+
+Interrupted::Interrupted(int number)
+    : std::runtime_error(fmt::format("ended by {}", signal_name(number))), signal(number) {}
+
+void catch_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that we can tell
+}
+
+void throw_if_interrupted() {
+  if (interrupting_signal != 0) throw Interrupted(interrupting_signal);
+}
+
+IsolatedScene::IsolatedScene(const std::vector<const Case*>& cases, const Options& options)
+    : cases_(cases), options_(options) {}
+
+bool IsolatedScene::overdue() const {
+  return interrupting_signal != 0 || is_overdue(board_, options_);
+}
+
+void IsolatedScene::prepare(std::size_t k) {
+  constexpr int most_attempts = 4;  // assembly, reference and discretisation error may each break
+  const auto start = std::chrono::steady_clock::now();
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    if (process_ == nullptr)
+      process_ = std::make_unique<ChildProcess>(
+          [this](Channel& channel) { serve_scene(channel, cases_, options_, board_, left_out_); });
+    if (process_->ask(fmt::format("prepare {}", k), [this] { return overdue(); })) break;
+    throw_if_interrupted();
+    const std::string why = obituary_of(process_->end(), board_, options_).sentence;
+    switch (board_.activity()) {
+      case Activity::assembly:
+        left_out_.blocks[cases_[k]->method.blocks] = why;
+        break;
+      case Activity::discretisation:
+        left_out_.discretisation = why;
+        break;
+      default:
+        left_out_.reference = "no reference: " + why;
+    }
+    board_.ends();
+    process_.reset();
+  }
+  preparation_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Record IsolatedScene::examine(std::size_t k) {
+  prepare(k);
+  std::optional<std::string> answer;
+  if (process_ != nullptr)
+    answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
+  throw_if_interrupted();
+  if (answer) return record_from_json(nlohmann::ordered_json::parse(*answer));
+  Record record = blank_record(*cases_[k], options_);
+  record.status_reason = "the process of its scene ended";
+  process_.reset();
+  return record;
+}
+
+TimedRun IsolatedScene::measure_time(std::size_t k) {
+  std::optional<std::string> answer;
+  if (process_ != nullptr)
+    answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
+  throw_if_interrupted();
+  if (answer) return timed_run_from_json(nlohmann::ordered_json::parse(*answer));
+  TimedRun run;
+  run.message = "the process of its scene ended";
+  return run;
+}
+
+void IsolatedScene::end(std::size_t k) {
+  if (process_ != nullptr) process_->ask(fmt::format("end {}", k));
+}
+
+}  // namespace airybench

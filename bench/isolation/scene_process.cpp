@@ -1,0 +1,156 @@
+#include "bench/isolation/scene_process.hpp"
+
+#include <fmt/format.h>
+
+#include <csignal>
+#include <map>
+#include <sstream>
+
+#include "bench/measuring/environment.hpp"
+#include "bench/measuring/heap_probe.hpp"
+#include "bench/records/blank_record.hpp"
+#include "bench/records/record_json.hpp"
+#include "bench/terminal.hpp"
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Command {
+  std::string verb;
+  std::size_t k = 0;
+};
+
+Command command_of(const std::string& line) {
+  Command command;
+  std::istringstream(line) >> command.verb >> command.k;
+  return command;
+}
+
+std::string text_of(const Json& json) {
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::filesystem::path fields_of(const Case& c, const Options& options) {
+  if (!options.fields) return {};
+  std::string name = c.name();
+  for (char& letter : name)
+    if (letter == '/' || letter == ':') letter = '-';
+  return options.out / "fields" / name;
+}
+
+// The case's own process.
+void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench) {
+  set_threads(options.threads);
+  const heap::Backstop backstop(options.memory_limit_bytes);
+  Record record;
+  Workbench::Choice choice;
+  while (const auto line = channel.receive()) {
+    if (command_of(*line).verb == "examine") {
+      auto examination = bench.examine(c.method, fields_of(c, options));
+      record = std::move(examination.record);
+      choice = std::move(examination.choice);
+      identify(c, options, record);
+      if (is_measured(record) && !record.measured_once)
+        bench.measure_memory(c.method, choice, record);
+      channel.send(text_of(to_json(record)));
+    } else {
+      channel.send(text_of(to_json(bench.measure_time(c.method, choice))));
+    }
+  }
+}
+
+struct CaseProcess {
+  ActivityBoard board;
+  std::unique_ptr<ChildProcess> process;
+};
+
+}  // namespace
+
+bool is_overdue(const ActivityBoard& board, const Options& options) {
+  return board.seconds() > 1.1 * options.timeout_s + 2;
+}
+
+Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
+  Obituary obituary;
+  obituary.ended_in = board.where();
+  obituary.time_so_far_s = board.seconds();
+  const std::string place =
+      fmt::format("in {} after {}", obituary.ended_in, show_seconds(obituary.time_so_far_s));
+  if (end.given_up) {
+    obituary.status = Status::timeout;
+    obituary.sentence =
+        fmt::format("its process was ended {}: the limit is {} s", place, options.timeout_s);
+  } else if (end.exit_code == heap::backstop_exit_code) {
+    obituary.status = Status::out_of_memory;
+    obituary.sentence = fmt::format("its process was ended {}: it passed the memory limit", place);
+  } else if (end.signal != 0) {
+    obituary.signal = signal_name(end.signal);
+    const bool killed = end.signal == SIGKILL;  // not by us
+    if (killed) obituary.status = Status::out_of_memory;
+    obituary.sentence = fmt::format("its process was ended {} by {}{}", place, obituary.signal,
+                                    killed ? ", as the kernel does when memory runs out" : "");
+  } else {
+    obituary.sentence = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
+  }
+  return obituary;
+}
+
+void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
+                 ActivityBoard& board, const LeftOut& left_out) {
+  set_threads(1);  // OpenMP's threads would not be there in the cases' processes
+  Workbench bench(cases.front()->posed.problem, options, left_out);
+  bench.show_on(&board);
+  std::map<std::size_t, CaseProcess> processes;
+  while (const auto line = channel.receive()) {
+    const auto [verb, k] = command_of(*line);
+    const Case& c = *cases[k];
+    if (verb == "prepare") {
+      bench.prepare(c.method);
+      channel.send("{}");
+      continue;
+    }
+    if (verb == "end") {
+      processes.erase(k);
+      channel.send("{}");
+      continue;
+    }
+    CaseProcess& own = processes[k];
+    if (own.process == nullptr)
+      own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
+        bench.show_on(&own.board);
+        const ObservedStages observed(&own.board);
+        serve_case(to_scene, c, options, bench);
+      });
+    const auto answer = own.process->ask(*line, [&] { return is_overdue(own.board, options); });
+    if (answer) {
+      Json json = Json::parse(*answer);
+      json["runs_s"] = own.board.seconds_in_runs();
+      channel.send(text_of(json));
+      continue;
+    }
+    const Obituary obituary = obituary_of(own.process->end(), own.board, options);
+    if (verb == "examine") {
+      Record record = blank_record(c, options);
+      record.status = obituary.status;
+      record.status_reason = obituary.sentence;
+      record.signal = obituary.signal;
+      record.ended_in = obituary.ended_in;
+      record.time_so_far_s = obituary.time_so_far_s;
+      record.runs_s = own.board.seconds_in_runs();
+      channel.send(text_of(to_json(record)));
+    } else {
+      TimedRun run;
+      run.status = obituary.status;
+      run.message = obituary.sentence;
+      run.signal = obituary.signal;
+      run.ended_in = obituary.ended_in;
+      run.time_s = obituary.time_so_far_s;
+      run.runs_s = own.board.seconds_in_runs();
+      channel.send(text_of(to_json(run)));
+    }
+  }
+}
+
+}  // namespace airybench

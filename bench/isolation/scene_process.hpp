@@ -1,0 +1,34 @@
+// The processes of a scene: what runs in them. Commands are lines, "examine 3", "time 3", "end 3";
+// answers are JSON on a line.
+#pragma once
+
+#include <vector>
+
+#include "bench/cases/plan.hpp"
+#include "bench/isolation/activity_board.hpp"
+#include "bench/isolation/child_process.hpp"
+#include "bench/measuring/workbench.hpp"
+#include "bench/options.hpp"
+
+namespace airybench {
+
+// Serves the cases of one scene until the line ends. board: its own, for "prepare 3", which
+// assembles and computes what the cases share.
+void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
+                 ActivityBoard& board, const LeftOut& left_out);
+
+// An activity that takes longer than --timeout and a grace in which a method can end by itself, and
+// say how far it came.
+bool is_overdue(const ActivityBoard& board, const Options& options);
+
+// What became of a process that ended without an answer, in a sentence; with status and signal.
+struct Obituary {
+  Status status = Status::crashed;
+  std::string signal;  // "SIGSEGV"; empty: none
+  std::string ended_in;
+  double time_so_far_s = 0;
+  std::string sentence;
+};
+Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
+
+}  // namespace airybench

@@ -1,0 +1,16 @@
+// A case's record before anything has run: names, sizes, stages, what makes it this case.
+#pragma once
+
+#include "bench/cases/plan.hpp"
+#include "bench/options.hpp"
+#include "bench/records/record.hpp"
+
+namespace airybench {
+
+Record blank_record(const Problem& problem, const Method& method, const Options& options);
+Record blank_record(const Case& planned, const Options& options);
+
+// Scene, mesh file, knob and stop of the case.
+void identify(const Case& planned, const Options& options, Record& record);
+
+}  // namespace airybench

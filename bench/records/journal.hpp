@@ -1,0 +1,43 @@
+// A file of lines that only grows, each line on disk before the next thing happens.
+#pragma once
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace airybench {
+
+struct OutputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class Journal {
+ public:
+  Journal() = default;  // closed
+  // Opens for appending. Throws OutputError.
+  explicit Journal(const std::filesystem::path& file);
+  ~Journal();
+  Journal(Journal&& other) noexcept;
+  Journal& operator=(Journal&& other) noexcept;
+
+  bool is_open() const { return descriptor_ >= 0; }
+  // Writes the line and waits until it is on disk (fsync). Throws OutputError; what was written of
+  // the line is taken back then.
+  void append(const std::string& line);
+
+ private:
+  std::filesystem::path file_;
+  int descriptor_ = -1;
+};
+
+// The whole lines of a file, without their ends. What follows the last end of line is the start of
+// a line whose writer was stopped: it is no line.
+struct JournalLines {
+  std::vector<std::string> lines;
+  bool torn = false;  // there was such a start
+};
+// A file that is not there has no lines. Throws OutputError.
+JournalLines read_journal(const std::filesystem::path& file);
+
+}  // namespace airybench

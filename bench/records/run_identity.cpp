@@ -1,0 +1,56 @@
+#include "bench/records/run_identity.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "bench/measuring/environment.hpp"
+
+namespace airybench {
+namespace {
+
+// What may differ: when and where, and with how much beside it.
+const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host", "shard",
+                                             "cases_planned"};
+
+std::string value_of(const Context& context, const std::string& key) {
+  const auto found = context.find(key);
+  return found == context.end() ? "(not said)" : found->second;
+}
+
+}  // namespace
+
+Context context_of_run(const Options& options) {
+  Context context = describe_environment(options.threads);
+  const Context settings = {
+      {"target_error", fmt::format("{}", options.target_error)},
+      {"timeout_s", fmt::format("{}", options.timeout_s)},
+      {"long_case_s", fmt::format("{}", options.long_case_s)},
+      {"repetitions", std::to_string(options.repetitions)},
+      {"interleaved", options.interleave ? "yes" : "no"},
+      {"memory_limit_bytes",
+       options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
+  };
+  context.insert(settings.begin(), settings.end());
+  if (options.shard.count > 1) context["shard"] = name_of(options.shard);
+  for (const auto& [key, value] : options.own_context) context[key] = value;
+  return context;
+}
+
+std::string differences(const Context& a, const Context& b, Sameness sameness) {
+  std::set<std::string> keys;
+  for (const Context* context : {&a, &b})
+    for (const auto& [key, value] : *context) keys.insert(key);
+  const bool clean = value_of(a, "git_dirty") == "no" && value_of(b, "git_dirty") == "no";
+  std::string text;
+  for (const std::string& key : keys) {
+    if (of_the_moment.count(key) > 0) continue;
+    if (key == "program_sha256" && sameness == Sameness::same_sources && clean) continue;
+    const std::string first = value_of(a, key), second = value_of(b, key);
+    if (first != second)
+      text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", key, first, second);
+  }
+  return text;
+}
+
+}  // namespace airybench

@@ -1,0 +1,185 @@
+#include "bench/replay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+
+#include "assembly/atomic_file.hpp"
+#include "assembly/sha256.hpp"
+#include "bench/cases/mesh_files.hpp"
+#include "bench/cases/plan.hpp"
+#include "bench/cases/scene_file.hpp"
+#include "bench/isolation/isolated_scene.hpp"
+#include "bench/measuring/environment.hpp"
+#include "bench/measuring/runner.hpp"
+#include "bench/records/record_files.hpp"
+#include "bench/records/record_json.hpp"
+#include "bench/run_command.hpp"
+#include "bench/terminal.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* footer = R"(
+RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD. The mesh must be the
+file that the record was measured on, and this program the one that measured it.
+
+Exit status  0  the same status, iterations and contact states as recorded
+             1  something of these is another
+             2  wrong usage, another mesh, another program: one line on standard error
+)";
+
+struct ReplayOptions {
+  std::string record;
+  std::filesystem::path out = "results/replay";
+  bool other_program = false;
+};
+
+ReplayOptions parse(int argc, const char* const* argv) {
+  ReplayOptions options;
+  CLI::App app("Runs one recorded case again, as it was run then.", "bench replay");
+  app.footer(footer);
+  app.add_option("RECORD", options.record, "which")->required();
+  app.add_option("--out", options.out, "folder of the new record")->capture_default_str();
+  app.add_flag("--other-program", options.other_program,
+               "although program, machine or settings are not the record's");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw HelpRequested(app.help());
+  } catch (const CLI::ExtrasError& error) {
+    throw UsageError(fmt::format("{} (valid: RECORD --out --other-program --help)", error.what()));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  return options;
+}
+
+Json find_record(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == name.npos)
+    throw UsageError(fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", name));
+  const std::string folder = name.substr(0, colon), which = name.substr(colon + 1);
+  const std::vector<Json> records = read_record_lines(folder);
+  std::size_t line = 0;
+  const auto [end, error] = std::from_chars(which.data(), which.data() + which.size(), line);
+  if (error == std::errc() && end == which.data() + which.size()) {
+    if (line < 1 || line > records.size())
+      throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, line, records.size()));
+    return records[line - 1];
+  }
+  for (const Json& record : records)
+    if (case_name(record) == which) return record;
+  throw UsageError(fmt::format("{}: no such case (the first is {})", name,
+                               records.empty() ? "missing" : case_name(records.front())));
+}
+
+double number_in(const Context& context, const std::string& key, double otherwise) {
+  const auto found = context.find(key);
+  return found == context.end() ? otherwise : std::atof(found->second.c_str());
+}
+
+Options options_of(const Record& record, const Context& context, std::filesystem::path out) {
+  Options options;
+  options.out = std::move(out);
+  options.threads = record.threads;
+  options.target_error = record.target_error;
+  options.stop = record.stop;
+  if (record.study == name_of(Study::error)) options.study = Study::error;
+  if (record.study == name_of(Study::stability)) options.study = Study::stability;
+  options.repetitions = static_cast<int>(number_in(context, "repetitions", options.repetitions));
+  options.timeout_s = number_in(context, "timeout_s", options.timeout_s);
+  options.long_case_s = number_in(context, "long_case_s", options.long_case_s);
+  if (const double limit = number_in(context, "memory_limit_bytes", 0); limit > 0)
+    options.memory_limit_bytes = static_cast<std::int64_t>(limit);
+  return options;
+}
+
+MeshFile mesh_of(const Record& record) {
+  const auto here = mesh_directory() / (record.mesh + ".msh");
+  const std::filesystem::path file =
+      std::filesystem::exists(record.mesh_file) ? std::filesystem::path(record.mesh_file) : here;
+  MeshFile mesh = std::move(read_meshes(file.string()).front());
+  if (mesh.sha256 != record.mesh_sha256)
+    throw OutputError(fmt::format("{}: is not the mesh of the record: its SHA-256 is {}, not {}",
+                                  file.string(), mesh.sha256, record.mesh_sha256));
+  return mesh;
+}
+
+Case case_of(const Record& record, const Options& options) {
+  MeshFile mesh = mesh_of(record);
+  PosedScene posed{record.scene, record.scene_group,      mesh.path.string(),
+                   mesh.sha256,  record.scene_definition, nullptr};
+  Scene scene;
+  if (record.scene_definition != "{}") {
+    const auto file = options.out / (record.scene + ".json");
+    std::filesystem::create_directories(options.out);
+    write_file_atomically(file, record.scene_definition + "\n");
+    scene = read_scene(file);
+  }
+  posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
+  const auto plan = plan_cases({posed}, select_methods(record.method), options.study);
+  for (const Case& c : plan)
+    if (c.knob.name == record.knob && c.knob.value == record.knob_value &&
+        c.knob.stop.value_or(options.stop) == record.stop)
+      return c;
+  throw OutputError(fmt::format("{}: this program has no such point of the study", record.method));
+}
+
+std::string text_of(const Json& value) {
+  if (value.is_null()) return "-";
+  if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : value.dump();
+}
+
+// What must be the same, and what may differ.
+constexpr std::array<const char*, 8> exact = {"status",
+                                              "linear_iterations",
+                                              "contact_iterations",
+                                              "uzawa_iterations",
+                                              "parameters",
+                                              "n_open",
+                                              "n_stick",
+                                              "n_slip"};
+constexpr std::array<const char*, 4> measured = {"time_s", "peak_heap_bytes", "error_stress",
+                                                 "error_force"};
+
+}  // namespace
+
+int replay_command(int argc, const char* const* argv) {
+  const ReplayOptions asked = parse(argc, argv);
+  const Json before = find_record(asked.record);
+  const Record record = record_from_json(before);
+  const Context recorded = context_of(before);
+  const Options options = options_of(record, recorded, asked.out);
+  set_threads(options.threads);
+  const Context context = context_of_run(options);
+  const std::string differs = differences(recorded, context, Sameness::same_program);
+  if (!differs.empty() && !asked.other_program)
+    throw OutputError(
+        fmt::format("{}: was not measured by this program, or not so (recorded and "
+                    "now): {} (--other-program runs it all the same)",
+                    asked.record, differs));
+  const Case planned = case_of(record, options);
+  catch_interrupts();
+  const RunResult result = run_cases({planned}, options, context);
+  const Json now = to_json(result.records.front());
+  bool same = true;
+  fmt::print("{:<20}  {:>14}  {:>14}\n", case_name(before), "recorded", "now");
+  for (const char* key : measured)
+    fmt::print("{:<20}  {:>14}  {:>14}\n", key, text_of(before.value(key, Json())),
+               text_of(now[key]));
+  for (const char* key : exact) {
+    const Json then = before.value(key, Json());
+    same = same && then == now[key];
+    fmt::print("{:<20}  {:>14}  {:>14}{}\n", key, text_of(then), text_of(now[key]),
+               then == now[key] ? "" : "  differs");
+  }
+  return same ? all_ok : some_case_failed;
+}
+
+}  // namespace airybench

@@ -1,0 +1,202 @@
+// Methods that crash, hang, eat memory or lie: each becomes its case's record, and the run goes on.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstring>
+#include <limits>
+#include <thread>
+
+#include "assembly/scene.hpp"
+#include "bench/isolation/child_process.hpp"
+#include "bench/measuring/heap_probe.hpp"
+#include "bench/measuring/runner.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/small_meshes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+using Harm = std::function<void(Solution&)>;  // done to HYBRID's answer
+
+// A method that is HYBRID and then does harm; in the factor stage, where it says so.
+Method harmful(const std::string& name, Harm harm) {
+  Method method = select_methods("HYBRID").front();
+  method.name = name;
+  method.solve = [solve = method.solve, harm](const DualSystem& system, const RunControl& control) {
+    Solution solution = solve(system, control);
+    const StageTimer timer(solution.times, Stage::factor);
+    harm(solution);
+    return solution;
+  };
+  return method;
+}
+
+void die_of(int signal) {
+  std::signal(signal, SIG_DFL);  // sanitizers have handlers
+  std::raise(signal);
+}
+
+class Isolation : public ::testing::Test {
+ protected:
+  // The method between two that are sound.
+  Record run_between(const Method& method) {
+    const Method sound = select_methods("HYBRID").front();
+    const std::vector<Record> records = run({sound, method, select_methods("P2").front()});
+    EXPECT_EQ(records.size(), 3u);
+    EXPECT_EQ(records.front().status, Status::ok) << records.front().status_reason;
+    EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
+    EXPECT_EQ(records.at(1).method, method.name);
+    return records.at(1);
+  }
+  std::vector<Record> run(const std::vector<Method>& methods) {
+    return run_cases(plan_cases({posed_}, methods), options_, {}).records;
+  }
+
+  Isolation() {
+    options_.out = folder_ / "o";
+    options_.repetitions = 2;
+    options_.target_error = 1e-6;
+    posed_.scene_name = "default";
+    posed_.problem = std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(4, 3)));
+  }
+  const testing::TemporaryFolder folder_;
+  Options options_;
+  PosedScene posed_;
+};
+
+TEST_F(Isolation, CrashesAreRecordedWithSignalAndStage) {
+  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) {
+    const Record record = run_between(harmful("CRASH", [signal](Solution&) { die_of(signal); }));
+    EXPECT_EQ(record.status, Status::crashed);
+    EXPECT_EQ(record.signal, signal_name(signal));
+    EXPECT_EQ(record.ended_in, "detail run, factor");
+    EXPECT_TRUE(record.time_so_far_s);
+    EXPECT_TRUE(record.samples_s.empty());
+    EXPECT_NE(record.status_reason.find(signal_name(signal)), std::string::npos);
+  }
+}
+
+TEST_F(Isolation, AProcessThatLeavesOrIsKilledIsRecorded) {
+  Record record = run_between(harmful("LEAVES", [](Solution&) { _exit(3); }));
+  EXPECT_EQ(record.status, Status::crashed);
+  EXPECT_NE(record.status_reason.find("exit code 3"), std::string::npos) << record.status_reason;
+  // As the kernel does to one that takes the last of the machine's memory.
+  record = run_between(harmful("KILLED", [](Solution&) { die_of(SIGKILL); }));
+  EXPECT_EQ(record.status, Status::out_of_memory);
+  EXPECT_EQ(record.signal, "SIGKILL");
+}
+
+TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
+  auto runs = std::make_shared<int>(0);
+  const Record record = run_between(harmful("LATE", [runs](Solution&) {
+    if (++*runs == 4) die_of(SIGSEGV);  // detail, memory, first timed, second timed
+  }));
+  EXPECT_EQ(record.status, Status::crashed);
+  EXPECT_EQ(record.ended_in, "timed run, factor");
+  EXPECT_TRUE(record.samples_s.empty());
+  EXPECT_TRUE(record.verification);
+}
+
+TEST_F(Isolation, ExceptionsAreRecorded) {
+  Record record =
+      run_between(harmful("THROWS", [](Solution&) { throw std::runtime_error("no such luck"); }));
+  EXPECT_EQ(record.status, Status::crashed);
+  EXPECT_EQ(record.status_reason, "no such luck");
+  EXPECT_EQ(record.signal, "");
+  record = run_between(harmful("THROWS", [](Solution&) { throw 42; }));
+  EXPECT_EQ(record.status, Status::crashed);
+  EXPECT_EQ(record.signal, "SIGABRT");
+}
+
+TEST_F(Isolation, AHangIsEnded) {
+  options_.timeout_s = 0.1;
+  const Record record = run_between(harmful("HANGS", [](Solution&) {
+    for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+  }));
+  EXPECT_EQ(record.status, Status::timeout);
+  EXPECT_EQ(record.ended_in, "detail run, factor");
+  EXPECT_GT(record.time_so_far_s.value_or(0), options_.timeout_s);
+}
+
+TEST_F(Isolation, NonsenseIsNoSuccess) {
+  Record record = run_between(harmful("NAN", [](Solution& solution) {
+    solution.F_C.setConstant(std::numeric_limits<double>::quiet_NaN());
+  }));
+  EXPECT_EQ(record.status, Status::breakdown);
+  record = run_between(harmful("LIES", [](Solution& solution) {
+    solution.F_C *= 1.5;
+    for (ElementStress& stress : solution.stress) stress *= 1.5;
+  }));
+  EXPECT_EQ(record.status, Status::inaccurate);
+  EXPECT_EQ(record.claimed_status, Status::ok);
+  EXPECT_EQ(outcome_of(record), "wrong_success");
+}
+
+TEST_F(Isolation, MemoryWithoutEndIsEnded) {
+  if (!heap::is_active()) return;  // sanitizers count for themselves
+  options_.memory_limit_bytes = 64 << 20;
+  // Blocks that the limit refuses, and blocks so small that it grants them.
+  for (const std::size_t bytes : {std::size_t{1} << 20, std::size_t{1} << 10}) {
+    const Record record = run_between(harmful("EATS", [bytes](Solution&) {
+      std::vector<std::unique_ptr<char[]>> eaten;
+      for (;;) {
+        eaten.emplace_back(new char[bytes]);
+        std::memset(eaten.back().get(), 1, bytes);
+      }
+    }));
+    EXPECT_EQ(record.status, Status::out_of_memory) << bytes;
+    EXPECT_NE(record.status_reason.find("limit"), std::string::npos) << record.status_reason;
+  }
+}
+
+TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {
+  auto problem = std::make_shared<Problem>(*posed_.problem);
+  problem->loads.displacement_mm = [](const Eigen::Vector2d&) -> Eigen::Vector2d {
+    die_of(SIGSEGV);
+    return Eigen::Vector2d::Zero();
+  };
+  posed_.problem = problem;
+  const std::vector<Record> records = run(select_methods("3STEPD,BLIND"));
+  ASSERT_EQ(records.size(), 2u);
+  for (const Record& record : records) {
+    EXPECT_NE(record.status, Status::ok);
+    EXPECT_NE(record.status_reason.find("SIGSEGV"), std::string::npos) << record.status_reason;
+  }
+  EXPECT_NE(records[0].status_reason.find("assembly"), std::string::npos);
+}
+
+TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
+  options_.interleave = true;
+  options_.repetitions = 5;
+  const std::vector<Record> records = run(select_methods("3STEPD,HYBRID,P2"));
+  options_.interleave = false;
+  ASSERT_EQ(records.size(), 3u);
+  for (const Record& record : records) {
+    EXPECT_EQ(record.status, Status::ok);
+    EXPECT_EQ(record.samples_s.size(), 5u);
+    EXPECT_EQ(record.stage_samples.size(), 5u);
+  }
+}
+
+TEST(ChildProcess, AnswersUntilItEnds) {
+  ChildProcess child([](Channel& channel) {
+    while (const auto line = channel.receive()) channel.send("you said " + *line);
+  });
+  EXPECT_EQ(child.ask("yes"), "you said yes");
+  const std::string text(1 << 20, 'x');  // more than a socket holds
+  EXPECT_EQ(child.ask(text).value_or("").size(), text.size() + 9);
+}
+
+TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
+  ChildProcess child([](Channel&) {
+    for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
+    for (;;) pause();
+  });
+  EXPECT_FALSE(child.ask("are you there"));
+  EXPECT_EQ(child.end().signal, SIGKILL);
+}
+
+}  // namespace
+}  // namespace airybench

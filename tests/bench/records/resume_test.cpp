@@ -1,0 +1,307 @@
+// Nothing measured is lost: runs that are killed, interrupted or out of disk space, and gone on
+// with; shards and their joining; one recorded case run again.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <map>
+#include <random>
+#include <set>
+#include <thread>
+
+#include "tests/support/bench_command.hpp"
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::json;
+using testing::BenchCommand;
+using testing::CommandResult;
+
+const std::string six =
+    "--mesh=Mesh0 --method=3STEPD,BLIND,BLIND:SCHUR,3STEPD:CHOLMOD,HYBRID,P2 --repetitions=1 ";
+
+std::string name_of(const Json& record) {
+  return record["mesh"].get<std::string>() + "/" + record["method"].get<std::string>();
+}
+
+// What is the same whenever a case is run.
+Json lasting(const Json& record) {
+  Json kept;
+  for (const char* key :
+       {"mesh", "scene", "method", "status", "n_phi", "n_f", "n_c", "storage_bytes", "error_stress",
+        "error_force", "contact_iterations", "n_open", "n_stick", "n_slip", "case_number"})
+    kept[key] = record[key];
+  return kept;
+}
+
+std::map<std::string, Json> by_name(const std::vector<Json>& records) {
+  std::map<std::string, Json> result;
+  for (const Json& record : records) {
+    EXPECT_EQ(result.count(name_of(record)), 0u) << name_of(record) << " is there twice";
+    result[name_of(record)] = lasting(record);
+  }
+  return result;
+}
+
+// A run in the background that can be sent signals.
+class Background {
+ public:
+  Background(const BenchCommand& folder, const std::string& arguments) {
+    std::string command = "cd '" + folder.path("").string();
+    command += "' && exec '" BENCH_EXECUTABLE "' ";
+    command += arguments;
+    command += " >bg_out.txt 2>bg_err.txt </dev/null";
+    pid_ = fork();
+    if (pid_ == 0) {
+      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
+      _exit(127);
+    }
+  }
+  ~Background() {
+    if (pid_ > 0) end(SIGKILL);
+  }
+  pid_t pid() const { return pid_; }
+  // The wait status after this signal.
+  int end(int signal) {
+    kill(pid_, signal);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = -1;
+    return status;
+  }
+
+ private:
+  pid_t pid_ = -1;
+};
+
+// Waits for something, as long as the test runner's patience lasts.
+template <typename Condition>
+void wait_for(const Condition& condition) {
+  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+std::set<pid_t> descendants(pid_t of) {
+  std::set<pid_t> found;
+  const std::string id = std::to_string(of);
+  std::istringstream children(testing::text_of("/proc/" + id + "/task/" + id + "/children"));
+  for (pid_t child; children >> child;) {
+    found.insert(child);
+    found.merge(descendants(child));
+  }
+  return found;
+}
+
+bool is_there(pid_t pid) {
+  const std::string status = testing::text_of("/proc/" + std::to_string(pid) + "/stat");
+  return !status.empty() && status.find(") Z ") == status.npos;  // a zombie runs no more
+}
+
+TEST(Resume, AfterKillAtRandomMomentsNothingIsLostOrRepeated) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(six + "--out=undisturbed").code, 0) << bench.content("err.txt");
+  const auto undisturbed = by_name(bench.records("undisturbed"));
+  ASSERT_EQ(undisturbed.size(), 6u);
+  std::mt19937 engine(5);
+  std::size_t before = 0;
+  int killed_at_work = 0;
+  for (int kills = 0; kills < 20; ++kills) {
+    if (before == undisturbed.size()) {  // it came to the end: from the start again
+      std::filesystem::remove_all(bench.path("o"));
+      before = 0;
+    }
+    Background run(bench, six + "--out=o --resume");
+    std::this_thread::sleep_for(std::chrono::milliseconds(engine() % 400));
+    killed_at_work += WIFSIGNALED(run.end(SIGKILL)) ? 1 : 0;
+    const auto records = by_name(bench.records());
+    EXPECT_GE(records.size(), before) << "a record was lost";
+    for (const auto& [name, record] : records) EXPECT_EQ(record, undisturbed.at(name));
+    before = records.size();
+  }
+  EXPECT_GT(killed_at_work, 0);
+  ASSERT_EQ(bench.run(six + "--out=o --resume").code, 0) << bench.content("err.txt");
+  EXPECT_EQ(by_name(bench.records()), undisturbed);
+  EXPECT_EQ(bench.content("o/results.csv").substr(0, 5), "mesh,");
+}
+
+TEST(Resume, ALineHalfWrittenIsRunAgain) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(six + "--out=o").code, 0);
+  const auto whole = by_name(bench.records());
+  const std::string text = bench.content("o/records.jsonl");
+  testing::write_text(bench.path("o/records.jsonl"), text.substr(0, text.size() - 100));
+  const CommandResult result = bench.run(six + "--out=o --resume");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("5 of these 6 records were there already, and the start of another"),
+            std::string::npos)
+      << result.out;
+  EXPECT_EQ(by_name(bench.records()), whole);
+}
+
+TEST(Resume, AfterAFullDisk) {
+  const BenchCommand bench;
+  // A file may have so many KiB: a record is a few.
+  const CommandResult full = bench.run(six + "--out=o", "ulimit -f 16; ");
+  EXPECT_EQ(full.code, 2);
+  EXPECT_NE(full.err.find("o/records.jsonl: cannot be written: File too large"), std::string::npos)
+      << full.err;
+  const auto first = by_name(bench.records());
+  EXPECT_GE(first.size(), 1u);
+  EXPECT_LT(first.size(), 6u);
+  const std::string text = bench.content("o/records.jsonl");
+  EXPECT_EQ(text.back(), '\n') << "the line that did not fit was not taken back";
+  EXPECT_EQ(bench.run(six + "--out=o --resume").code, 0);
+  const auto whole = by_name(bench.records());
+  EXPECT_EQ(whole.size(), 6u);
+  for (const auto& [name, record] : first) EXPECT_EQ(whole.at(name), record);
+}
+
+TEST(Resume, RefusesToMixAndSaysWhatDiffers) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o").code, 0);
+  const std::string before = bench.content("o/records.jsonl");
+  const auto refused = [&](const std::string& arguments, const std::string& what) {
+    const CommandResult result =
+        bench.run("--mesh=Mesh0 --method=HYBRID,P2 --out=o --resume " + arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find("o/records.jsonl:1: of another run"), std::string::npos)
+        << result.err;
+    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
+    EXPECT_EQ(bench.content("o/records.jsonl"), before);
+  };
+  refused("--repetitions=1 --threads=2", "; threads: 1 and 2");
+  refused("--repetitions=1 --target-error=1e-7", ": target_error: 1e-06 and 1e-07");
+  refused("--repetitions=2", ": repetitions: 1 and 2");
+  refused("--repetitions=1 --memory-limit=500", ": memory_limit_bytes: none and 524288000");
+  // Another machine, another build: as the records say.
+  for (const auto& [key, now] : {std::pair("cpu", "Abacus"), std::pair("compiler", "pencil")}) {
+    Json record = bench.records().front();
+    record["context"][key] = now;
+    testing::write_text(bench.path("o/records.jsonl"), record.dump() + "\n");
+    const CommandResult result =
+        bench.run("--mesh=Mesh0 --method=HYBRID,P2 --out=o --resume --repetitions=1");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_NE(result.err.find(std::string(key) + ": " + now + " and "), std::string::npos)
+        << result.err;
+    testing::write_text(bench.path("o/records.jsonl"), before);
+  }
+}
+
+TEST(Interrupt, LeavesWhatWasMeasuredAndNoProcess) {
+  const std::string slow = "--mesh=Mesh0,Mesh3 --method=HYBRID,SYMMLQ:NONE --out=o";
+  for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
+    const BenchCommand bench;
+    Background run(bench, slow);
+    std::set<pid_t> children;
+    wait_for([&] {
+      children = descendants(run.pid());
+      return children.size() >= 2 && !bench.records().empty();
+    });
+    const int status = run.end(signal);
+    for (const pid_t child : children) wait_for([&] { return !is_there(child); });
+    EXPECT_GE(bench.records().size(), 1u);
+    if (signal == SIGKILL) continue;
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
+    EXPECT_NE(bench.content("bg_err.txt").find("--resume goes on"), std::string::npos);
+    EXPECT_EQ(bench.content("o/results.csv").substr(0, 5), "mesh,");
+  }
+}
+
+TEST(Shards, JoinToTheWhole) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(six + "--out=whole").code, 0);
+  for (const char* shard : {"1", "2", "3"})
+    ASSERT_EQ(bench.run(six + "--shard=" + shard + "/3 --out=part" + shard).code, 0);
+  EXPECT_EQ(bench.records("part2").size(), 2u);
+  const CommandResult merged = bench.run("merge part3 part1 part2 --out=joined");
+  EXPECT_EQ(merged.code, 0) << merged.err;
+  EXPECT_EQ(by_name(bench.records("joined")), by_name(bench.records("whole")));
+  std::vector<int> numbers;
+  for (const Json& record : bench.records("joined")) numbers.push_back(record["case_number"]);
+  EXPECT_EQ(numbers, (std::vector<int>{1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(bench.content("joined/results.csv").substr(0, 5), "mesh,");
+
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const CommandResult result = bench.run("merge " + arguments + " --out=no");
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
+    EXPECT_FALSE(std::filesystem::exists(bench.path("no")));
+  };
+  refused("part1 part3", "2 of 6 cases are missing: 2, 5");
+  refused("part1 part2 part3 part2", "both are case 2, Mesh0/default/BLIND");
+  refused("part1 part2 nowhere", "nowhere/records.jsonl: there is no such file");
+  EXPECT_EQ(bench.run("merge part1 part3 --incomplete --out=some").code, 0);
+  EXPECT_EQ(bench.records("some").size(), 4u);
+  ASSERT_EQ(bench.run(six + "--shard=2/3 --target-error=1e-5 --out=other").code, 0);
+  refused("part1 other part3", "do not mix: target_error: 1e-06 and 1e-05");
+  ASSERT_EQ(
+      bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --shard=2/2 --out=other").code, 0);
+  refused("part1 other", "are parts of different plans, of 6 and 2 cases");
+}
+
+TEST(Shards, AreRefusedWhenTheyAreNone) {
+  const BenchCommand bench;
+  for (const char* shard : {"0/3", "4/3", "1", "1/", "/2", "1/2/3", "-1/2", "one/two"}) {
+    const CommandResult result = bench.run(std::string("--shard=") + shard);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err,
+              "bench: --shard: " + std::string(shard) + " (allowed: k/n with 1 <= k <= n)\n");
+  }
+}
+
+TEST(Replay, RunsOneRecordedCaseAgain) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=2 --out=o").code, 0);
+  for (const char* record : {"o:2", "o:Mesh0/default/HYBRID"}) {
+    const CommandResult result = bench.run(std::string("replay ") + record + " --out=again");
+    EXPECT_EQ(result.code, 0) << result.err << result.out;
+    EXPECT_EQ(bench.records("again").size(), 1u);
+    EXPECT_EQ(lasting(bench.records("again")[0])["error_stress"],
+              bench.records()[1]["error_stress"]);
+    EXPECT_EQ(bench.records("again")[0]["samples_s"].size(), 2u);
+  }
+  const auto changed = [&](const std::string& key, const Json& value, const Json& context = {}) {
+    Json record = bench.records()[1];
+    record[key] = value;
+    if (context.is_object()) record["context"].update(context);
+    std::filesystem::create_directories(bench.path("c"));
+    testing::write_text(bench.path("c/records.jsonl"), record.dump() + "\n");
+    return bench.run("replay c:1 --out=again2");
+  };
+  CommandResult result = changed("n_slip", 1);
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.out.find("differs"), std::string::npos);
+  result = changed("mesh_sha256", "0123");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("is not the mesh of the record"), std::string::npos) << result.err;
+  result = changed("study", nullptr, {{"program_sha256", "0123"}});
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("program_sha256: 0123 and "), std::string::npos) << result.err;
+  EXPECT_EQ(bench.run("replay c:1 --other-program --out=again2").code, 0);
+}
+
+TEST(Replay, KeepsSceneAndKnob) {
+  const BenchCommand bench;
+  testing::write_text(bench.path("flat.json"), R"({"crown_radius_mm": null, "friction": 0.4})");
+  ASSERT_EQ(bench
+                .run("--study=error --mesh=Mesh0 --method=HYBRID --scene=flat.json "
+                     "--repetitions=1 --out=o")
+                .code,
+            1);  // the coarse points of the knob are not ok
+  std::filesystem::remove(bench.path("flat.json"));
+  const Json recorded = bench.records()[1];
+  ASSERT_TRUE(recorded["knob_value"].is_number());
+  const CommandResult result = bench.run("replay o:2 --out=again");
+  EXPECT_EQ(result.code, 0) << result.err << result.out;
+  const Json again = bench.records("again")[0];
+  for (const char* key : {"scene", "knob", "knob_value", "study", "error_force", "n_slip"})
+    EXPECT_EQ(again[key], recorded[key]) << key;
+}
+
+}  // namespace
+}  // namespace airybench

@@ -1,0 +1,52 @@
+// The bench command from outside, in a folder of its own.
+#pragma once
+
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <vector>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::testing {
+
+struct CommandResult {
+  int code = -1;  // -1: ended by a signal
+  std::string out, err;
+};
+
+class BenchCommand {
+ public:
+  // before: what the shell does first, "ulimit -f 8; ".
+  CommandResult run(const std::string& arguments, const std::string& before = "") const {
+    std::string command = "cd '" + folder_.path().string();
+    command += "' && ";
+    command += before;
+    command += "'" BENCH_EXECUTABLE "' ";
+    command += arguments;
+    command += " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    CommandResult result;
+    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    result.out = content("out.txt");
+    result.err = content("err.txt");
+    return result;
+  }
+  std::filesystem::path path(const std::string& name) const { return folder_ / name; }
+  std::string content(const std::string& name) const { return text_of(folder_ / name); }
+  // The whole lines of a records.jsonl.
+  std::vector<nlohmann::json> records(const std::string& folder = "o") const {
+    std::vector<nlohmann::json> result;
+    std::istringstream lines(content(folder + "/records.jsonl"));
+    for (std::string line; std::getline(lines, line) && !lines.eof();)
+      result.push_back(nlohmann::json::parse(line));
+    return result;
+  }
+
+ private:
+  TemporaryFolder folder_;
+};
+
+}  // namespace airybench::testing
