@@ -1,0 +1,246 @@
+#include "bench/cases/prediction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "bench/records/method_names.hpp"
+
+namespace airybench {
+namespace {
+
+using RecordList = std::vector<const CaseRecord*>;
+using Quantity = std::optional<double> (*)(const CaseRecord&);
+
+std::optional<double> time_of(const CaseRecord& record) {
+  return record.time_s ? record.time_s : record.extrapolated_time_s;
+}
+// No tuning is not a time of zero: it says nothing about its growth.
+std::optional<double> tuning_of(const CaseRecord& record) {
+  return record.tuning_s.value_or(0) > 0 ? record.tuning_s : std::nullopt;
+}
+std::optional<double> heap_of(const CaseRecord& record) {
+  if (record.peak_heap_bytes.value_or(0) == 0) return {};
+  return static_cast<double>(*record.peak_heap_bytes);
+}
+
+// Standard deviations of logarithms, at least: of times between runs on a machine that does other
+// work as well, and of memory, which is the same in every run of one build. As found by leaving out
+// each mesh of the committed records in turn.
+struct Scatter {
+  double measured, direct, iterative, relative;
+};
+constexpr Scatter scatter_of_time = {0.15, 0.15, 0.3, 0.7};
+constexpr Scatter scatter_of_heap = {0.01, 0.05, 0.05, 0.35};
+
+struct Grounded {
+  Estimate estimate;
+  std::string basis;
+};
+
+std::string counted(std::size_t count, const char* what) {
+  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
+// "7 records, Mesh0..Mesh6": the smallest and the largest mesh.
+std::string extent_of(const RecordList& records) {
+  const auto [smallest, largest] =
+      std::minmax_element(records.begin(), records.end(),
+                          [](const auto* a, const auto* b) { return a->n_phi < b->n_phi; });
+  std::string text = fmt::format("{}, {}", counted(records.size(), "record"), (*smallest)->mesh);
+  if ((*smallest)->n_phi != (*largest)->n_phi) text += ".." + (*largest)->mesh;
+  return text;
+}
+
+std::size_t common_beginning(const std::string& a, const std::string& b) {
+  const std::size_t most = std::min(a.size(), b.size());
+  return static_cast<std::size_t>(std::mismatch(a.begin(), a.begin() + most, b.begin()).first -
+                                  a.begin());
+}
+
+class Past {
+ public:
+  explicit Past(const std::vector<CaseRecord>& records) {
+    std::map<std::tuple<std::string, Variant, std::string, int>, const CaseRecord*> latest;
+    for (const CaseRecord& record : records) {
+      if (record.n_phi <= 0) continue;
+      const Variant variant =
+          variant_of(record.method, record.stop, record.knob, record.knob_value);
+      latest[{record.scene, variant, record.mesh, record.n_phi}] = &record;
+    }
+    for (const auto& [key, record] : latest) variants_[std::get<Variant>(key)].push_back(record);
+  }
+
+  std::optional<Grounded> estimate(const PlannedCase& c, Quantity quantity,
+                                   const Scatter& scatter) const {
+    const Variant own = planned_variant(c);
+    if (auto result = from(own, c, quantity, scatter)) return result;
+    const Variant* closest = nullptr;
+    std::tuple<bool, bool, std::size_t> best;
+    for (const auto& [variant, records] : variants_) {
+      if (family_of(variant.method) != family_of(own.method) || points(records, quantity).empty())
+        continue;
+      const std::tuple likeness = {variant.method == own.method && variant.knob == own.knob,
+                                   variant.knob.empty(),
+                                   common_beginning(variant.method, own.method)};
+      if (closest == nullptr || likeness > best) {
+        closest = &variant;
+        best = likeness;
+      }
+    }
+    if (closest == nullptr) return {};
+    auto result = from(*closest, c, quantity, scatter);
+    if (!result) return {};
+    const double factor = std::exp(2 * scatter.relative);
+    result->estimate.low /= factor;
+    result->estimate.high *= factor;
+    result->basis = fmt::format("like {}: {}", closest->text(), result->basis);
+    return result;
+  }
+
+ private:
+  // A method as it is run.
+  struct Variant {
+    std::string method, stop, knob;
+    auto operator<=>(const Variant&) const = default;
+    std::string text() const {
+      std::string result = method;
+      if (!stop.empty()) result += " with stop " + stop;
+      return knob.empty() ? result : result + ", " + knob;
+    }
+  };
+  static Variant variant_of(const std::string& method, const std::string& stop,
+                            const std::string& knob, const std::optional<double>& value) {
+    const std::string name = general_name(method);
+    return {name, is_direct(name) ? "" : stop, value ? fmt::format("{} {}", knob, *value) : knob};
+  }
+  static Variant planned_variant(const PlannedCase& c) {
+    return variant_of(c.method, c.stop == Stop::paper ? "paper" : "target", c.knob, c.knob_value);
+  }
+
+  static std::vector<SizedValue> points(const RecordList& records, Quantity quantity) {
+    std::vector<SizedValue> result;
+    for (const CaseRecord* record : records)
+      if (const auto value = quantity(*record)) result.push_back({record->n_phi, *value});
+    return result;
+  }
+  static std::size_t sizes(const RecordList& records) {
+    std::set<int> n_phi;
+    for (const CaseRecord* record : records) n_phi.insert(record->n_phi);
+    return n_phi.size();
+  }
+
+  std::optional<Grounded> from(const Variant& variant, const PlannedCase& c, Quantity quantity,
+                               const Scatter& scatter) const {
+    const auto found = variants_.find(variant);
+    if (found == variants_.end()) return {};
+    RecordList any_scene, same_scene;
+    for (const CaseRecord* record : found->second) {
+      if (!quantity(*record)) continue;
+      any_scene.push_back(record);
+      if (record->scene != c.scene) continue;
+      same_scene.push_back(record);
+      if (record->mesh == c.mesh && record->n_phi == c.n_phi)
+        return Grounded{estimate_of(*quantity(*record), scatter.measured),
+                        record->status == Status::timeout ? "a timeout, extrapolated" : "measured"};
+    }
+    if (any_scene.empty()) return {};
+    const double least = is_direct(variant.method) ? scatter.direct : scatter.iterative;
+    const RecordList& used = sizes(same_scene) >= 2 ? same_scene : any_scene;
+    const std::vector<SizedValue> values = points(used, quantity);
+    std::string basis = extent_of(used);
+    if (const auto law = extrapolate(values, c.n_phi, least)) return Grounded{*law, basis};
+    if (values.front().n == c.n_phi)  // other scenes of this mesh
+      return Grounded{extrapolate(values, c.n_phi, 0, least), basis};
+    std::vector<std::vector<SizedValue>> groups;
+    for (const auto& [other, records] : variants_) groups.push_back(points(records, quantity));
+    const std::optional<double> exponent = pooled_exponent(groups, c.n_phi);
+    if (!exponent) return {};
+    basis += fmt::format(", exponent {:.2f} of all methods", *exponent);
+    return Grounded{extrapolate(values, c.n_phi, *exponent, least), basis};
+  }
+
+  std::map<Variant, RecordList> variants_;
+};
+
+LimitMark mark_of(const std::optional<Estimate>& estimate, double limit) {
+  if (!estimate || estimate->high <= limit) return LimitMark::below;
+  return estimate->value > limit ? LimitMark::above : LimitMark::may_pass;
+}
+
+Prediction predict(const PlannedCase& c, const Past& past, const Options& options) {
+  Prediction result;
+  const auto time = past.estimate(c, time_of, scatter_of_time);
+  const auto heap = past.estimate(c, heap_of, scatter_of_heap);
+  result.basis = time ? time->basis : heap ? heap->basis : "no record";
+  if (time) {
+    result.time_s = time->estimate;
+    const auto tuning = past.estimate(c, tuning_of, scatter_of_time);
+    result.tuning_s = tuning ? tuning->estimate.value : 0;
+    result.run_s = run_seconds(result.time_s->value, result.tuning_s, options);
+    result.timeout = std::max(
+        mark_of(result.time_s, options.timeout_s),
+        mark_of(tuning ? std::optional(tuning->estimate) : std::nullopt, options.timeout_s));
+  }
+  if (heap) result.peak_heap_bytes = heap->estimate;
+  if (options.memory_limit_bytes)
+    result.memory_limit =
+        mark_of(result.peak_heap_bytes, static_cast<double>(*options.memory_limit_bytes));
+  return result;
+}
+
+}  // namespace
+
+PastRecords read_past_records(const std::vector<std::filesystem::path>& folders) {
+  PastRecords past;
+  for (const auto& folder : folders) {
+    const std::filesystem::path file = folder / "records.jsonl";
+    std::error_code error;
+    if (!std::filesystem::exists(file, error)) continue;
+    try {
+      std::vector<CaseRecord> records = read_records(file, StudyRecords::kept);
+      std::move(records.begin(), records.end(), std::back_inserter(past.records));
+    } catch (const RecordError& unusable) {
+      past.passed_over.push_back(unusable.what());
+    }
+  }
+  std::stable_sort(past.records.begin(), past.records.end(),
+                   [](const CaseRecord& a, const CaseRecord& b) { return a.date < b.date; });
+  return past;
+}
+
+double run_seconds(double time_s, double tuning_s, const Options& options) {
+  const double tuning = std::min(tuning_s, options.timeout_s);
+  if (time_s >= options.timeout_s) return tuning + options.timeout_s;
+  if (time_s > options.long_case_s || options.study == Study::stability) return tuning + time_s;
+  const double until_long = std::ceil(options.long_case_s / time_s);
+  const double timed = std::min<double>(options.repetitions, until_long);
+  return tuning + (2 + timed) * time_s;
+}
+
+Forecast forecast(const std::vector<PlannedCase>& cases, const std::vector<CaseRecord>& records,
+                  const Options& options) {
+  // The reference takes so many times as long as HYBRID, from which it starts.
+  constexpr double reference_per_hybrid = 15;
+  const Past past(records);
+  Forecast result;
+  result.references_s = 0;
+  std::set<std::pair<std::string, std::string>> posed;
+  for (const PlannedCase& c : cases) {
+    result.cases.push_back(predict(c, past, options));
+    if (!posed.insert({c.mesh, c.scene}).second) continue;
+    const auto hybrid =
+        past.estimate({c.mesh, c.scene, "HYBRID", c.n_phi}, time_of, scatter_of_time);
+    if (!hybrid || !result.references_s)
+      result.references_s.reset();
+    else
+      *result.references_s += reference_per_hybrid * hybrid->estimate.value;
+  }
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,27 @@
+// How steadily the machine computes: a fixed piece of work of one or two milliseconds, timed again
+// and again between the measurements. Its times would all be the same on a machine that does
+// nothing else; how much they scatter is what the measurements beside them have to bear.
+//
+// The work has a part in the processor's caches, an LDLᵀ factorisation of 128 rows, and a part in
+// its memory, two sweeps over 8 MiB; both are loops of our own, so that no library's version
+// matters. Its data are in static storage, so that heap figures do not see them.
+#pragma once
+
+#include <vector>
+
+namespace airybench {
+
+// Seconds of one pass. Allocates nothing. Not for several threads at once.
+double run_noise_kernel();
+
+// The work itself; always the same number.
+double noise_kernel_checksum();
+
+struct NoiseSummary {
+  double median_s = 0, mad_s = 0;  // median absolute deviation from the median
+  std::vector<double> samples;     // s, in order
+  double spread() const { return mad_s / median_s; }
+};
+NoiseSummary summarise_noise(std::vector<double> samples_s);  // at least one
+
+}  // namespace airybench
