@@ -54,7 +54,8 @@ struct PastRecords {
 };
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders);
 
-// Of several records of one case the last one counts.
+// Of several records of one case the last one counts, but a study's only where there is no other:
+// its runs do more than the method alone.
 Forecast forecast(const std::vector<PlannedCase>& cases, const std::vector<CaseRecord>& records,
                   const Options& options);
 

@@ -9,37 +9,47 @@
 namespace airybench {
 namespace {
 
-std::int64_t whole_bytes(double bytes) { return std::llround(bytes); }
+// "3.4 MiB"; what no machine has, at the largest number of bytes there is.
+std::string show_heap(const std::optional<Estimate>& bytes) {
+  if (!bytes) return "-";
+  constexpr double most = 9e18;
+  return show_bytes(std::llround(std::min(bytes->value, most)));
+}
+
+// "43.2 s", "2 min 05 s"; far extrapolations may be of any size.
+std::string show_time(double seconds) {
+  return seconds < 100 || seconds > 1e9 ? show_seconds(seconds) : show_duration(seconds);
+}
 
 std::string show_range(const std::optional<Estimate>& time_s) {
   if (!time_s) return "-";
-  return fmt::format("{} .. {}", show_seconds(time_s->low), show_seconds(time_s->high));
+  return fmt::format("{} .. {}", show_time(time_s->low), show_time(time_s->high));
 }
 
 std::string totals(const std::vector<PlannedCase>& cases, const Forecast& forecast) {
   double sum_s = forecast.references_s.value_or(0);
   std::size_t unknown = 0, largest = 0;
-  double most_bytes = 0;
+  std::optional<Estimate> most;
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const Prediction& p = forecast.cases[k];
     if (p.run_s)
       sum_s += *p.run_s;
     else
       ++unknown;
-    if (p.peak_heap_bytes && p.peak_heap_bytes->value > most_bytes) {
-      most_bytes = p.peak_heap_bytes->value;
+    if (p.peak_heap_bytes && (!most || p.peak_heap_bytes->value > most->value)) {
+      most = p.peak_heap_bytes;
       largest = k;
     }
   }
-  std::string text = fmt::format("the run: about {}", show_duration(sum_s));
+  std::string text = fmt::format("the run: about {}", show_time(sum_s));
   if (forecast.references_s)
-    text += fmt::format(", {} of it for references", show_duration(*forecast.references_s));
+    text += fmt::format(", {} of it for references", show_time(*forecast.references_s));
   else
     text += ", without references";
   if (unknown > 0) text += fmt::format(", without {} of {} cases", unknown, cases.size());
-  if (most_bytes > 0)
-    text += fmt::format("; largest heap {}, {} {} {}", show_bytes(whole_bytes(most_bytes)),
-                        cases[largest].mesh, cases[largest].scene, cases[largest].method);
+  if (most)
+    text += fmt::format("; largest heap {}, {} {} {}", show_heap(most), cases[largest].mesh,
+                        cases[largest].scene, cases[largest].method);
   return text + "\n";
 }
 
@@ -60,9 +70,8 @@ std::string prediction_table(const std::vector<PlannedCase>& cases, const Foreca
     const Prediction& p = forecast.cases[k];
     const std::string knob = c.knob_value ? fmt::format(" {}={}", c.knob, *c.knob_value) : "";
     rows.push_back({c.mesh, c.scene, c.method + knob, std::to_string(c.n_phi),
-                    p.time_s ? show_seconds(p.time_s->value) : "-", show_range(p.time_s),
-                    p.peak_heap_bytes ? show_bytes(whole_bytes(p.peak_heap_bytes->value)) : "-",
-                    p.run_s ? show_seconds(*p.run_s) : "-", p.basis});
+                    p.time_s ? show_time(p.time_s->value) : "-", show_range(p.time_s),
+                    show_heap(p.peak_heap_bytes), p.run_s ? show_time(*p.run_s) : "-", p.basis});
   }
   std::string text = aligned_table(rows, 3) + totals(cases, forecast);
   for (std::size_t k = 0; k < cases.size(); ++k) {

@@ -45,7 +45,6 @@ class Line {
     if (value != "target" && value != "paper") fail("stop", value, "target, paper, null");
     return value.get<std::string>();
   }
-  bool is_of_a_study() const { return !value("study").is_null(); }
   // Null and a missing key are the same: does not apply.
   std::optional<double> number(const char* key, double most) const {
     const Json& value = this->value(key);
@@ -124,6 +123,7 @@ CaseRecord from(const Line& line) {
   record.done_fraction = line.number("done_fraction", 1);
   record.extrapolated_time_s = line.time("extrapolated_time_s");
   record.n_phi = static_cast<int>(line.whole("n_phi", 30).value_or(0));
+  record.study = line.text("study");
   record.knob = line.text("knob");
   record.knob_value = line.number("knob_value", std::numeric_limits<double>::infinity());
   record.date = line.date();
@@ -141,7 +141,9 @@ std::vector<CaseRecord> read_records(const std::filesystem::path& file, StudyRec
   int number = 0;
   for (std::string text; std::getline(in, text);) {
     const Line line(file.string(), ++number, text);
-    if (of_studies == StudyRecords::kept || !line.is_of_a_study()) records.push_back(from(line));
+    CaseRecord record = from(line);
+    if (of_studies == StudyRecords::kept || record.study.empty())
+      records.push_back(std::move(record));
   }
   if (in.bad()) throw RecordError(file.string() + ": cannot be read");
   return records;

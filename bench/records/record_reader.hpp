@@ -28,6 +28,7 @@ struct CaseRecord {
   std::optional<double> stage_contact_s;
   std::optional<std::int64_t> peak_heap_bytes, storage_bytes;
   std::optional<double> done_fraction, extrapolated_time_s;  // status timeout only
+  std::string study;                                         // empty: an ordinary run
   std::string knob;                                          // what a study turned; empty: nothing
   std::optional<double> knob_value;
   std::string date;  // UTC, "2026-11-21T11:28:12Z"; empty: the line does not say

@@ -174,12 +174,47 @@ TEST(Prediction, ACaseCostsWhatTheRunnerRuns) {
   EXPECT_DOUBLE_EQ(run_seconds(1, 10, options), 11);
 }
 
-TEST(Prediction, TuningIsPredictedToo) {
-  CaseRecord tuned = record_of("ALM", small, 1);
+TEST(Prediction, TuningIsThatOfTheSameRecords) {
+  CaseRecord tuned = record_of("ALM", small, 1), other = record_of("ALM", middle, 10);
   tuned.tuning_s = 40;
-  const Prediction p = predict_one(planned("ALM", small), {tuned});
+  Prediction p = predict_one(planned("ALM", small), {tuned, other});
   EXPECT_EQ(p.tuning_s, 40);
   EXPECT_EQ(*p.run_s, 47);
+  EXPECT_EQ(predict_one(planned("ALM", middle), {tuned, other}).tuning_s, 0);
+  other.tuning_s = 40. * 6287 / 761;
+  p = predict_one(planned("ALM", large), {tuned, other});
+  EXPECT_NEAR(p.tuning_s, 40. * 50483 / 761, 1e-6);
+  CaseRecord given = record_of("ALM:r=20,rho=20", small, 2);
+  p = predict_one(planned("ALM:r=20,rho=32", small), {tuned, given});
+  EXPECT_EQ(p.time_s->value, 2);
+  EXPECT_EQ(p.tuning_s, 0) << "of a method that chooses its parameters";
+}
+
+TEST(Prediction, AStudysRecordServesOnlyWhereThereIsNoOther) {
+  CaseRecord of_study = record_of("HYBRID", small, 7);
+  of_study.study = "stability";
+  EXPECT_EQ(predict_one(planned("HYBRID", small), {of_study}).time_s->value, 7);
+  const std::vector<CaseRecord> both = {record_of("HYBRID", small, 1), of_study};
+  EXPECT_EQ(predict_one(planned("HYBRID", small), both).time_s->value, 1);
+}
+
+TEST(Prediction, ScenesOfOneMeshStandInForEachOther) {
+  CaseRecord one = record_of("HYBRID", small, 1), other = record_of("HYBRID", small, 4);
+  one.scene = "flat";
+  other.scene = "steep";
+  const Prediction p = predict_one(planned("HYBRID", small), {one, other});
+  EXPECT_NEAR(p.time_s->value, 2, 1e-12);
+  EXPECT_LT(p.time_s->low, 0.5);
+  EXPECT_GT(p.time_s->high, 8);
+  EXPECT_EQ(p.basis, "2 records, Mesh0");
+}
+
+TEST(Prediction, FarExtrapolationsStillFitTheTable) {
+  std::vector<CaseRecord> records = {record_of("SSKY", {"A", 10}, 1e-9, 1),
+                                     record_of("SSKY", {"B", 11}, 1e9, std::int64_t{1} << 60)};
+  const std::vector<PlannedCase> cases = {planned("SSKY", large)};
+  const std::string table = prediction_table(cases, forecast(cases, records, {}), {});
+  EXPECT_NE(table.find("Mesh7 default SSKY: above --timeout=900"), table.npos) << table;
 }
 
 TEST(Prediction, TheTableHasTotalsAndLimits) {
