@@ -29,13 +29,14 @@ std::optional<double> heap_of(const CaseRecord& record) {
 }
 
 // Standard deviations of logarithms, at least: of times between runs on a machine that does other
-// work as well, and of memory, which is the same in every run of one build. As found by leaving out
-// each mesh of the committed records in turn.
+// work as well, and of memory. With these, 52 of the 54 cases of direct methods on Mesh5..Mesh7 in
+// results/paper and results/direct lie in the interval from the other meshes of their folder. An
+// extrapolated timeout and a relative are trusted to a factor of four.
 struct Scatter {
   double measured, direct, iterative, relative;
 };
 constexpr Scatter scatter_of_time = {0.15, 0.15, 0.3, 0.7};
-constexpr Scatter scatter_of_heap = {0.01, 0.05, 0.05, 0.35};
+constexpr Scatter scatter_of_heap = {0.01, 0.1, 0.1, 0.35};
 
 std::size_t common_beginning(const std::string& a, const std::string& b) {
   const std::size_t most = std::min(a.size(), b.size());
@@ -76,17 +77,18 @@ struct Grounded {
   const CaseRecord* same_case = nullptr;  // that of the case itself
 };
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-// "7 records, Mesh0..Mesh6": the smallest and the largest mesh.
+// "7 records, Mesh0..Mesh6, 2 extrapolated": the smallest and the largest mesh.
 std::string extent_of(const RecordList& records) {
   const auto [smallest, largest] =
       std::minmax_element(records.begin(), records.end(),
                           [](const auto* a, const auto* b) { return a->n_phi < b->n_phi; });
-  std::string text = fmt::format("{}, {}", counted(records.size(), "record"), (*smallest)->mesh);
-  if ((*smallest)->n_phi != (*largest)->n_phi) text += ".." + (*largest)->mesh;
+  std::string text = fmt::format("{} record{}, {}", records.size(), records.size() == 1 ? "" : "s",
+                                 (*smallest)->mesh);
+  if ((*smallest)->mesh != (*largest)->mesh) text += ".." + (*largest)->mesh;
+  const auto extrapolated = std::count_if(records.begin(), records.end(), [](const auto* record) {
+    return record->status == Status::timeout;
+  });
+  if (extrapolated > 0) text += fmt::format(", {} extrapolated", extrapolated);
   return text;
 }
 
@@ -158,10 +160,11 @@ class Past {
       any_scene.push_back(record);
       if (record->scene != c.scene) continue;
       same_scene.push_back(record);
-      if (record->mesh == c.mesh && record->n_phi == c.n_phi)
-        return Grounded{estimate_of(*quantity(*record), scatter.measured),
-                        record->status == Status::timeout ? "a timeout, extrapolated" : "measured",
-                        variant, record};
+      if (record->mesh != c.mesh || record->n_phi != c.n_phi) continue;
+      const bool measured = record->status != Status::timeout;
+      return Grounded{
+          estimate_of(*quantity(*record), measured ? scatter.measured : scatter.relative),
+          measured ? "measured" : "a timeout, extrapolated", variant, record};
     }
     if (any_scene.empty()) return {};
     const double least = is_direct(variant.method) ? scatter.direct : scatter.iterative;

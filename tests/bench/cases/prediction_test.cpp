@@ -141,6 +141,10 @@ TEST(Prediction, ATimeoutCountsWithItsExtrapolatedTime) {
   EXPECT_EQ(p.time_s->value, 5000);
   EXPECT_EQ(*p.run_s, 900);
   EXPECT_EQ(p.timeout, LimitMark::above);
+  EXPECT_EQ(p.basis, "a timeout, extrapolated");
+  EXPECT_GT(p.time_s->high, 3 * 5000);
+  EXPECT_EQ(predict_one(planned("SSKY", middle), {record_of("SSKY", small, 1), stopped}).basis,
+            "2 records, Mesh0..Mesh7, 1 extrapolated");
   stopped.extrapolated_time_s.reset();
   EXPECT_FALSE(predict_one(planned("SSKY", large), {stopped}).time_s);
 }
