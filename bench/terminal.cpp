@@ -30,6 +30,29 @@ std::string show_duration(double seconds) {
   return fmt::format("{} s", whole);
 }
 
+std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
+                          std::size_t first_number) {
+  // Characters, not bytes: "±" and "µ" have two.
+  const auto length = [](const std::string& text) {
+    return static_cast<std::size_t>(
+        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+  };
+  std::vector<std::size_t> width(rows.front().size(), 0);
+  for (const auto& row : rows)
+    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], length(row[i]));
+  std::string table;
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string padding(width[i] - length(row[i]), ' ');
+      const bool number = i >= first_number && i + 1 < row.size();
+      line += (i > 0 ? "  " : "") + (number ? padding + row[i] : row[i] + padding);
+    }
+    table += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  }
+  return table;
+}
+
 std::string results_table(const std::vector<Record>& records) {
   const std::vector<std::string> header = {"mesh",        "scene", "method", "n_phi",
                                            "time",        "±",     "heap",   "error stress",
@@ -43,24 +66,7 @@ std::string results_table(const std::vector<Record>& records) {
                     show_bytes(r.peak_heap_bytes), show_error(v ? v->error_stress : std::nullopt),
                     show_error(v ? v->error_force : std::nullopt), std::string(name_of(r.status))});
   }
-  // Characters, not bytes: "±" and "µ" have two.
-  const auto length = [](const std::string& text) {
-    return static_cast<std::size_t>(
-        std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-  };
-  std::vector<std::size_t> width(header.size(), 0);
-  for (const auto& row : rows)
-    for (std::size_t i = 0; i < row.size(); ++i) width[i] = std::max(width[i], length(row[i]));
-  std::string table;
-  for (const auto& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(width[i] - length(row[i]), ' ');
-      const bool number = i >= 3 && i + 1 < row.size();
-      line += (i > 0 ? "  " : "") + (number ? padding + row[i] : row[i] + padding);
-    }
-    table += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
-  }
+  std::string table = aligned_table(rows, 3);
   for (const Record& r : records)
     if (r.status != Status::ok)
       table += fmt::format("{} {} {}: {}: {}\n", r.mesh, r.scene, r.method, name_of(r.status),

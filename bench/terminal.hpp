@@ -14,6 +14,11 @@ std::string show_seconds(double seconds);
 std::string show_bytes(std::optional<std::int64_t> bytes);
 std::string show_error(std::optional<double> error);
 
+// Rows of equally many cells, the header first: columns from first_number to the last but one are
+// flush right.
+std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
+                          std::size_t first_number);
+
 std::string results_table(const std::vector<Record>& records);
 
 // "1 h 02 min", "3 min 10 s", "12 s".

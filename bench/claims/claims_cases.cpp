@@ -3,18 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
-
-#include "solvers/methods.hpp"
 
 namespace airybench {
 namespace {
-
-bool is_direct(const std::string& general_name) {
-  const std::string family = general_name.substr(0, general_name.find(':'));
-  return family == "3STEPD" || family == "BLIND" || family == "HYBRID";
-}
 
 std::string scene_of(const std::vector<CaseRecord>& records, const std::string& source) {
   std::set<std::string> scenes;
@@ -28,17 +20,6 @@ std::string scene_of(const std::vector<CaseRecord>& records, const std::string& 
 }
 
 }  // namespace
-
-std::string general_name(const std::string& method) {
-  for (const Method& known : airybench::methods())
-    if (known.name == method && !known.general_name.empty()) return known.general_name;
-  const std::size_t omega = method.find(":SSOR");
-  if (omega == method.npos) return method;
-  const char* const start = method.c_str() + omega + 5;
-  char* end = nullptr;
-  const double value = std::strtod(start, &end);
-  return end == start ? method : fmt::format("{}:SSOR{}{}", method.substr(0, omega), value, end);
-}
 
 CaseTable::CaseTable(const std::vector<CaseRecord>& records, const std::string& stop,
                      const std::string& source)

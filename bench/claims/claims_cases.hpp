@@ -6,13 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "bench/records/method_names.hpp"
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {
-
-// The general name behind the paper's: SDTIC3 → SYMMLQ:DTIC3, SSKY → SYMMLQ:SKY,
-// 3STEPCG6 → 3STEPCG:DTIC6; SSOR's parameter without needless zeros.
-std::string general_name(const std::string& method);
 
 class CaseTable {
  public:

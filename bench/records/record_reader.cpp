@@ -45,7 +45,6 @@ class Line {
     if (value != "target" && value != "paper") fail("stop", value, "target, paper, null");
     return value.get<std::string>();
   }
-  bool is_of_a_study() const { return !value("study").is_null(); }
   // Null and a missing key are the same: does not apply.
   std::optional<double> number(const char* key, double most) const {
     const Json& value = this->value(key);
@@ -61,12 +60,28 @@ class Line {
     if (seconds == 0.0) fail(key, value(key), "a number > 0, null");
     return seconds;
   }
-  std::optional<std::int64_t> bytes(const char* key) const {
+  std::optional<std::int64_t> whole(const char* key, int power_of_two) const {
     const Json& value = this->value(key);
     if (value.is_null()) return {};
-    if (!value.is_number_integer() || value < 0 || value > std::int64_t{1} << 60)
-      fail(key, value, "a whole number from 0 to 2^60, null");
+    if (!value.is_number_integer() || value < 0 || value > std::int64_t{1} << power_of_two)
+      fail(key, value, fmt::format("a whole number from 0 to 2^{}, null", power_of_two));
     return value.get<std::int64_t>();
+  }
+  std::optional<std::int64_t> bytes(const char* key) const { return whole(key, 60); }
+  std::string text(const char* key) const {  // empty: null or missing
+    const Json& value = this->value(key);
+    if (value.is_null()) return "";
+    if (!value.is_string()) fail(key, value, "a text, null");
+    return value.get<std::string>();
+  }
+  std::string date() const {
+    const Json& context = value("context");
+    if (context.is_null()) return "";
+    if (!context.is_object()) fail("context", context, "a JSON object, null");
+    const auto found = context.find("date");
+    if (found == context.end()) return "";
+    if (!found->is_string()) fail("context: date", *found, "a text");
+    return found->get<std::string>();
   }
   std::vector<double> times(const char* key) const {
     const Json& value = this->value(key);
@@ -107,12 +122,17 @@ CaseRecord from(const Line& line) {
   record.storage_bytes = line.bytes("storage_bytes");
   record.done_fraction = line.number("done_fraction", 1);
   record.extrapolated_time_s = line.time("extrapolated_time_s");
+  record.n_phi = static_cast<int>(line.whole("n_phi", 30).value_or(0));
+  record.study = line.text("study");
+  record.knob = line.text("knob");
+  record.knob_value = line.number("knob_value", std::numeric_limits<double>::infinity());
+  record.date = line.date();
   return record;
 }
 
 }  // namespace
 
-std::vector<CaseRecord> read_records(const std::filesystem::path& file) {
+std::vector<CaseRecord> read_records(const std::filesystem::path& file, StudyRecords of_studies) {
   std::error_code error;
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file, error))
@@ -121,7 +141,9 @@ std::vector<CaseRecord> read_records(const std::filesystem::path& file) {
   int number = 0;
   for (std::string text; std::getline(in, text);) {
     const Line line(file.string(), ++number, text);
-    if (!line.is_of_a_study()) records.push_back(from(line));
+    CaseRecord record = from(line);
+    if (of_studies == StudyRecords::kept || record.study.empty())
+      records.push_back(std::move(record));
   }
   if (in.bad()) throw RecordError(file.string() + ": cannot be read");
   return records;

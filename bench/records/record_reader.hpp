@@ -19,6 +19,7 @@ struct RecordError : std::runtime_error {
 
 struct CaseRecord {
   std::string mesh, scene, method;  // method as it was asked for: "SDTIC3"
+  int n_phi = 0;                    // 0: the line does not say
   Status status = Status::crashed;
   std::string stop;                // "target" or "paper"; empty: the run made no difference
   std::vector<double> samples_s;   // every timed run
@@ -27,10 +28,16 @@ struct CaseRecord {
   std::optional<double> stage_contact_s;
   std::optional<std::int64_t> peak_heap_bytes, storage_bytes;
   std::optional<double> done_fraction, extrapolated_time_s;  // status timeout only
+  std::string study;                                         // empty: an ordinary run
+  std::string knob;                                          // what a study turned; empty: nothing
+  std::optional<double> knob_value;
+  std::string date;  // UTC, "2026-11-21T11:28:12Z"; empty: the line does not say
 };
 
-// In the order of the lines, without those of studies; keys that are not in CaseRecord are passed
-// over. Throws RecordError.
-std::vector<CaseRecord> read_records(const std::filesystem::path& file);
+enum class StudyRecords { left_out, kept };
+
+// In the order of the lines; keys that are not in CaseRecord are passed over. Throws RecordError.
+std::vector<CaseRecord> read_records(const std::filesystem::path& file,
+                                     StudyRecords of_studies = StudyRecords::left_out);
 
 }  // namespace airybench
