@@ -125,7 +125,9 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
   app.add_flag("--list", options.list, "print meshes and methods, and end");
-  app.add_flag("--dry-run", options.dry_run, "print the cases, and end");
+  app.add_flag("--dry-run", options.dry_run,
+               "print the cases, what they will take (from earlier records) and what is left out, "
+               "and end");
   app.add_flag("--explain", options.explain,
                "print each case's stages, those left out and why, and end");
 

@@ -8,10 +8,13 @@
 #include "assembly/mesh_selection.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
+#include "bench/cases/prediction.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/measuring/environment.hpp"
+#include "bench/measuring/machine_warnings.hpp"
+#include "bench/measuring/noise_kernel.hpp"
 #include "bench/measuring/runner.hpp"
 #include "bench/options.hpp"
 #include "bench/terminal.hpp"
@@ -66,17 +69,51 @@ std::vector<PosedScene> pose_all(const Options& options) {
   return posed;
 }
 
-void print_plan(const std::vector<Case>& cases, bool explain) {
-  for (std::size_t k = 0; k < cases.size(); ++k) {
-    const Case& c = cases[k];
+void print_stages(const std::vector<Case>& plan) {
+  for (const Case& c : plan) {
     const MeshSizes sizes = solved_sizes(*c.posed.problem);
-    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", k + 1, cases.size(), c.name(), sizes.n_phi,
-               sizes.n_f, sizes.n_c);
-    if (!explain) continue;
+    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", c.number, plan.size(), c.name(),
+               sizes.n_phi, sizes.n_f, sizes.n_c);
     for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
       fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
                  decision.run ? "" : ": ", decision.reason);
   }
+}
+
+void print_left_out(const std::vector<Case>& plan, const Options& options) {
+  std::map<std::pair<std::string, std::string>, int> cases_without;  // stage, reason
+  for (const Case& c : plan)
+    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, options.fields))
+      if (!decision.run) ++cases_without[{decision.stage, decision.reason}];
+  fmt::print("left out:\n");
+  for (const auto& [what, count] : cases_without)
+    fmt::print("  {:<36} {} (in {} of {} cases)\n", what.first, what.second, count, plan.size());
+}
+
+void print_prediction(const std::vector<Case>& plan, const Options& options) {
+  std::vector<PlannedCase> planned;
+  for (const Case& c : plan)
+    planned.push_back({c.posed.problem->mesh.name, c.posed.scene_name, c.method.name,
+                       mesh_sizes(c.posed.problem->mesh).n_phi, c.knob.stop.value_or(options.stop),
+                       c.knob.name, c.knob.value});
+  const std::filesystem::path committed = AIRYBENCH_COMMITTED_RESULTS;
+  const PastRecords past = read_past_records(
+      {committed / "paper", committed / "direct", committed / "stability", options.out});
+  for (const std::string& why : past.passed_over) fmt::print(stderr, "{}\n", why);
+  fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, options), options));
+  print_left_out(plan, options);
+}
+
+void print_warnings(const Context& context, const RunResult& result, const Options& options) {
+  std::vector<double> noise;
+  for (const Record& record : result.records)
+    noise.insert(noise.end(), record.noise_kernel_samples_s.begin(),
+                 record.noise_kernel_samples_s.end());
+  const std::optional<double> spread =
+      noise.empty() ? std::nullopt : std::optional(summarise_noise(noise).spread());
+  for (const std::string& warning :
+       machine_warnings(machine_state(context, options.repetitions, spread)))
+    fmt::print("note: {}\n", warning);
 }
 
 // The cases of the command line, before they are shared out.
@@ -115,10 +152,9 @@ int run_command(int argc, const char* const* argv) {
   if (plan.empty())
     throw UsageError(
         fmt::format("--shard: {} (there are {} cases)", name_of(options.shard), whole.size()));
-  if (options.dry_run || options.explain) {
-    print_plan(plan, options.explain);
-    return all_ok;
-  }
+  if (options.explain) print_stages(plan);
+  if (options.dry_run) print_prediction(plan, options);
+  if (options.explain || options.dry_run) return all_ok;
   set_threads(options.threads);
   catch_interrupts();
   Context context = context_of_run(options);
@@ -130,6 +166,7 @@ int run_command(int argc, const char* const* argv) {
                result.records.size(),
                result.torn ? ", and the start of another, which was run again" : "");
   if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
+  print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
   for (const Record& record : result.records)
     if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "bench/measuring/heap_probe.hpp"
+#include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/rss_probe.hpp"
 #include "bench/records/blank_record.hpp"
 #include "bench/records/fields.hpp"
@@ -141,6 +142,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   const auto start = std::chrono::steady_clock::now();
   Run result;
   bool refused = false;
+  const InstructionCounter counter;
   try {
     std::optional<heap::Limit> limit;
     if (options_.memory_limit_bytes)
@@ -151,6 +153,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     refused = true;
   }
   result.time_s = seconds_since(start);
+  result.instructions = counter.count();
   result.peak_heap_bytes = if_probed(heap::peak_bytes() - before + blocks.heap_bytes.value_or(0));
   if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
   if (refused) {
@@ -328,6 +331,7 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   record.peak_heap_bytes = run.peak_heap_bytes;
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+  record.instructions = run.instructions;
 }
 
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/records/answer_hash.hpp"
+
 namespace airybench {
 namespace {
 
@@ -31,6 +33,11 @@ Json verified(const Record& record, std::optional<T> Verification::*value) {
 }
 Json verified(const Record& record, double Verification::*value) {
   return record.verification ? number_or_null(*record.verification.*value) : Json();
+}
+
+Json answer_hash_of(const Record& record) {
+  const std::string hash = record.verification ? answer_hash(*record.verification) : "";
+  return hash.empty() ? Json() : Json(hash);
 }
 
 // Algebraic and discretisation error together, relative, in the energy norm. A displacement method
@@ -179,6 +186,8 @@ Columns columns(const Record& r) {
       {"signal", r.signal.empty() ? Json() : Json(r.signal)},
       {"ended_in", r.ended_in.empty() ? Json() : Json(r.ended_in)},
       {"time_so_far_s", or_null(r.time_so_far_s)},
+      {"instructions", or_null(r.instructions)},
+      {"answer_hash", answer_hash_of(r)},
       {"runs_s", or_null(r.runs_s)},
       {"wall_s", or_null(r.wall_s)},
       {"noise_kernel_s", number_or_null(median(r.noise_kernel_samples_s))},

@@ -30,6 +30,7 @@ struct Record {
   std::vector<StageTimes> stage_samples;   // of the same runs
   std::vector<double> assembly_samples_s;  // the blocks' assembly
   std::vector<double> noise_kernel_samples_s;  // the machine's own pace, see noise_kernel.hpp
+  std::optional<std::int64_t> instructions;    // of the memory run
   std::optional<double> runs_s;                // in this case's solves of all runs, tuning included
   std::optional<double> wall_s;  // in this case altogether, but its share of preparation
   std::optional<std::int64_t> peak_heap_bytes;  // blocks and all that the solve added, at the peak

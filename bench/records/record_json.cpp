@@ -87,6 +87,7 @@ void read_measures(const Json& json, Record& r) {
       r.stage_samples.push_back(stage_times_of(times));
   read(json, "assembly_samples_s", r.assembly_samples_s);
   read(json, "noise_kernel_samples_s", r.noise_kernel_samples_s);
+  read(json, "instructions", r.instructions);
   read(json, "runs_s", r.runs_s);
   read(json, "wall_s", r.wall_s);
   read(json, "measured_once", r.measured_once);
