@@ -8,6 +8,7 @@
 #include "bench/cases/scene_file.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/claims/claims_command.hpp"
+#include "bench/exports/export_command.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/runner.hpp"
 #include "bench/options.hpp"
@@ -73,6 +74,10 @@ void print_plan(const std::vector<Case>& cases, bool explain) {
 int bench(int argc, char** argv) {
   if (argc > 1 && std::string_view(argv[1]) == "claims") {
     claims_command(argc - 1, argv + 1);
+    return all_ok;
+  }
+  if (argc > 1 && std::string_view(argv[1]) == "export") {
+    export_command(argc - 1, argv + 1);
     return all_ok;
   }
   Options options = parse_options(argc, argv);

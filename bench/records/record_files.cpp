@@ -9,7 +9,6 @@
 #include "assembly/atomic_file.hpp"
 
 namespace airybench {
-namespace {
 
 std::string csv_field(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "";
@@ -20,8 +19,6 @@ std::string csv_field(const nlohmann::ordered_json& value) {
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-
-}  // namespace
 
 std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
   const Columns header = columns(Record{});
@@ -45,29 +42,6 @@ namespace {
 constexpr std::array<const char*, 4> case_keys = {"mesh", "scene", "method", "stop"};
 constexpr std::array<const char*, 3> study_keys = {"study", "knob", "knob_value"};
 
-// The records of a folder, line by line; none if there is no file.
-std::vector<nlohmann::ordered_json> read_records(const std::filesystem::path& path) {
-  std::vector<nlohmann::ordered_json> records;
-  std::error_code error;
-  if (!std::filesystem::exists(path, error) && !error) return records;
-  std::ifstream file(path);
-  if (error || !file.is_open() || std::filesystem::is_directory(path))
-    throw OutputError(path.string() + ": cannot be read");
-  int number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
-    if (!record.is_object())
-      throw OutputError(fmt::format("{}:{}: not a record (allowed: a JSON object on a line)",
-                                    path.string(), number));
-    for (const char* key : case_keys)
-      if (record.contains(key) ? !record[key].is_string() : key != std::string_view("stop"))
-        throw OutputError(fmt::format("{}:{}: {}: not a text", path.string(), number, key));
-    records.push_back(record);
-  }
-  return records;
-}
-
 // What is not UTF-8, in a file's name say, is replaced.
 std::string line_of(const nlohmann::ordered_json& record) {
   return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -89,6 +63,28 @@ bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b)
 
 }  // namespace
 
+std::vector<nlohmann::ordered_json> stored_records(const std::filesystem::path& path) {
+  std::vector<nlohmann::ordered_json> records;
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) && !error) return records;
+  std::ifstream file(path);
+  if (error || !file.is_open() || std::filesystem::is_directory(path))
+    throw OutputError(path.string() + ": cannot be read");
+  int number = 0;
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const auto record = nlohmann::ordered_json::parse(line, nullptr, false);
+    if (!record.is_object())
+      throw OutputError(fmt::format("{}:{}: not a record (allowed: a JSON object on a line)",
+                                    path.string(), number));
+    for (const char* key : case_keys)
+      if (record.contains(key) ? !record[key].is_string() : key != std::string_view("stop"))
+        throw OutputError(fmt::format("{}:{}: {}: not a text", path.string(), number, key));
+    records.push_back(record);
+  }
+  return records;
+}
+
 RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std::string> context,
                          bool keep_others)
     : folder_(std::move(folder)), context_(std::move(context)) {
@@ -97,7 +93,7 @@ RecordFiles::RecordFiles(std::filesystem::path folder, std::map<std::string, std
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), error.message()));
-  if (keep_others) records_ = read_records(folder_ / "records.jsonl");
+  if (keep_others) records_ = stored_records(folder_ / "records.jsonl");
 }
 
 void RecordFiles::append(const Record& record) {

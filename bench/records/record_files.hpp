@@ -40,8 +40,14 @@ class RecordFiles {
   std::ofstream lines_;
 };
 
+// The lines of records.jsonl, whole; none if there is no file. Throws OutputError.
+std::vector<nlohmann::ordered_json> stored_records(const std::filesystem::path& file);
+
 // results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
 // 4180.
 std::string csv_text(const std::vector<nlohmann::ordered_json>& records);
+
+// A cell of it: null is empty, a text is quoted where it must be.
+std::string csv_field(const nlohmann::ordered_json& value);
 
 }  // namespace airybench
