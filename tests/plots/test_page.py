@@ -1,0 +1,291 @@
+"""plots/page.py on a made-up history, in headless Chromium.  /usr/bin/python3 -m unittest FILE"""
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+from html.parser import HTMLParser
+from pathlib import Path
+
+import made_up_history as made_up
+
+PAGE = Path(__file__).resolve().parents[2] / "plots" / "page.py"
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+VOID = {"meta", "link", "input", "img", "br"}
+# A pixel.
+PNG = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010806000000"
+                    "1f15c4890000000d49444154789c626001000000ffff03000006000557bfab"
+                    "d40000000049454e44ae426082")
+
+
+class Element:
+    def __init__(self, name: str, attributes: dict) -> None:
+        self.name, self.attributes, self.children, self.words = name, attributes, [], []
+
+    def all(self, name: str, **wanted: str) -> list["Element"]:
+        """Descendants; class_ is one of the classes."""
+        found = []
+        for child in self.children:
+            of_class = wanted.get("class_", "") in (child.attributes.get("class") or "").split()
+            others = {key.replace("_", "-"): value for key, value in wanted.items()
+                      if key != "class_"}
+            if child.name == name and (of_class or "class_" not in wanted) and \
+                    others.items() <= child.attributes.items():
+                found.append(child)
+            found += child.all(name, **wanted)
+        return found
+
+    def one(self, name: str, **wanted: str) -> "Element":
+        found = self.all(name, **wanted)
+        assert len(found) == 1, f"{len(found)} of {name} {wanted}"
+        return found[0]
+
+    @property
+    def text(self) -> str:
+        return "".join(word if isinstance(word, str) else word.text for word in self.words)
+
+
+class Document(HTMLParser):
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open = [Element("", {})]
+        self.feed(text)
+
+    def handle_starttag(self, tag: str, attrs: list) -> None:
+        element = Element(tag, dict(attrs))
+        self.open[-1].children.append(element)
+        self.open[-1].words.append(element)
+        if tag not in VOID:
+            self.open.append(element)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag not in VOID:
+            self.open.pop()
+
+    def handle_data(self, data: str) -> None:
+        self.open[-1].words.append(data)
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        if not CHROMIUM:
+            raise AssertionError("no chromium: the page cannot be tested (Debian: chromium)")
+        cls.folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
+        cls.page = cls.make(made_up.write_history(cls.folder / "history"))
+
+    @classmethod
+    def make(cls, *arguments: object, name: str = "page.html") -> Path:
+        out = cls.folder / name
+        subprocess.run([sys.executable, PAGE, *map(str, arguments), f"--out={out}"], check=True,
+                       capture_output=True, text=True)
+        return out
+
+    def shown(self, fragment: str = "", page: Path | None = None) -> Element:
+        """The page as the browser has it when its script has run without a complaint."""
+        with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+            # No home to write to, and no display.
+            environment = {key: value for key, value in os.environ.items()
+                           if key not in ("HOME", "DISPLAY", "WAYLAND_DISPLAY")}
+            done = subprocess.run(
+                [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu",
+                 "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking",
+                 f"--user-data-dir={profile}", "--enable-logging=stderr", "--dump-dom",
+                 f"--log-net-log={profile}/net.json", "--virtual-time-budget=3000",
+                 f"{(page or self.page).as_uri()}{fragment}"],
+                env=environment | {"XDG_CONFIG_HOME": profile, "XDG_CACHE_HOME": profile},
+                capture_output=True, text=True, timeout=120)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertNotIn("CONSOLE", done.stderr)
+        return Document(done.stdout).open[0]
+
+    def panels(self, document: Element) -> dict[str, Element]:
+        return {panel.attributes["data-case"]: panel
+                for panel in document.one("div", id="panels").all("article", class_="panel")}
+
+    def column(self, document: Element, key: str) -> list[str]:
+        table = document.one("table", id="table")
+        keys = [head.attributes["data-key"] for head in table.all("th", scope="col")]
+        return [[cell.text for cell in row.children][keys.index(key)]
+                for row in table.one("tbody").all("tr")]
+
+    def test_headline_says_what_the_last_night_was(self) -> None:
+        state = self.shown().one("div", id="state")
+        self.assertEqual(state.attributes["class"], "failed")
+        self.assertEqual(state.one("h1").text, "Failed: 2 changes for the worse")
+        self.assertEqual([item.text[1:] for item in state.all("li")],
+                         [verdict["sentence"] for verdict in made_up.made_up_verdicts(11)])
+        self.assertIn("7 of 8 cases ok; 12 nights", state.text)
+        link = state.all("a")[0].attributes["href"]
+        self.assertEqual(list(self.panels(self.shown(link))), [made_up.SLOW_CASE])
+
+    def test_a_panel_per_case_and_a_mark_where_it_changed(self) -> None:
+        panels = self.panels(self.shown())
+        self.assertEqual(len(panels), 8)
+        slow = panels[made_up.SLOW_CASE]
+        points = slow.all("circle", class_="point")
+        self.assertEqual(len(points), made_up.NIGHTS)
+        mark = slow.one("line", class_="mark")
+        self.assertEqual(mark.attributes["class"], "mark worse")
+        self.assertEqual(mark.attributes["data-since"], made_up.date_of(made_up.SLOWER))
+        self.assertEqual(mark.attributes["x1"], points[made_up.SLOWER].attributes["cx"])
+        heights = [float(point.attributes["cy"]) for point in points]
+        self.assertGreater(min(heights[:made_up.SLOWER]), max(heights[made_up.SLOWER:]) + 50)
+        self.assertEqual(len(slow.all("path", class_="band")), 1)
+        self.assertEqual(len(slow.all("line", class_="tick")), made_up.NIGHTS // 2)  # revisions
+        self.assertIn(made_up.revision_of(0)[:7], slow.text)
+        self.assertEqual(panels["Mesh0/default/HYBRID"].all("line", class_="mark"), [])
+        lost = panels[made_up.LOST_CASE]
+        self.assertEqual(lost.one("path", class_="failure").attributes["data-night"], "11")
+        self.assertEqual(len(lost.all("circle", class_="point")), made_up.NIGHTS - 1)
+        self.assertEqual(lost.one("span", class_="now").text, "–")
+
+    def test_the_quantity_is_chosen_by_the_address(self) -> None:
+        document = self.shown("#quantity=peak_heap_bytes")
+        panels = self.panels(document)
+        mark = panels[made_up.LEAN_CASE].one("line", class_="mark")
+        self.assertEqual(mark.attributes["class"], "mark better")
+        self.assertEqual(mark.attributes["data-night"], str(made_up.LEANER))
+        self.assertEqual(panels[made_up.SLOW_CASE].all("line", class_="mark"), [])
+        self.assertRegex(panels[made_up.SLOW_CASE].one("span", class_="now").text,
+                         r"^\d+\.\d MiB$")
+        errors = self.panels(self.shown("#quantity=error_stress"))["Mesh0/default/HYBRID"]
+        self.assertEqual(errors.one("span", class_="now").text, "4.0e-13")
+        self.assertIn("1e-12", errors.text)  # decades
+
+    def test_filter_and_sort(self) -> None:
+        document = self.shown("#filter=mesh0+HYB")
+        self.assertEqual(self.column(document, "method"), ["HYBRID"])
+        self.assertEqual(list(self.panels(document)), ["Mesh0/default/HYBRID"])
+        self.assertEqual(document.one("p", id="count").text, "1 of 8 cases")
+        document = self.shown("#filter=Mesh0&sort=-time_s")
+        self.assertEqual(self.column(document, "method"),
+                         ["ALM", "BLIND:SCHUR", "3STEPD", "HYBRID"])
+        head = document.one("th", data_key="time_s")
+        self.assertEqual(head.attributes["aria-sort"], "descending")
+        self.assertEqual(len(head.all("button")), 1)
+        for sort in ("time_s", "-time_s"):  # without a time always last
+            self.assertEqual(self.column(self.shown(f"#sort={sort}"), "status")[-1],
+                             "timeout900 s are up")
+
+    def test_an_address_with_nonsense_is_as_none(self) -> None:
+        document = self.shown("#quantity=%&sort=-nothing&other=1")
+        self.assertEqual(len(self.panels(document)), 8)
+        self.assertEqual(len(self.column(document, "method")), 8)
+
+    def test_environment_marks_what_differs_from_the_night_before(self) -> None:
+        table = self.shown().one("table", id="context")
+        rows = {row.attributes["data-key"]: row for row in table.all("tr")}
+        self.assertEqual(set(rows), set(made_up.made_up_night(0)["context"]))
+        self.assertEqual([key for key, row in rows.items() if row.attributes.get("class")],
+                         ["kernel"])
+        self.assertEqual(rows["kernel"].text, "◆ kernel6.2.0before: 6.1.0")
+
+    def test_a_results_folder_brings_its_records_and_figures(self) -> None:
+        results = self.folder / "results"
+        (results / "figures").mkdir(parents=True)
+        (results / "figures" / "figure4.png").write_bytes(PNG)
+        record = made_up.made_up_night(0)["cases"][0] | {"method": "<b>&lt;", "stop": "paper"}
+        (results / "records.jsonl").write_text(json.dumps(record) + "\n", encoding="utf-8")
+        document = self.shown(page=self.make(self.folder / "history", results, name="both.html"))
+        self.assertEqual(self.column(document, "method"), ["<b>&lt;"])
+        image = document.one("div", id="pictures").one("img")
+        self.assertTrue(image.attributes["src"].startswith("data:image/png;base64,iVBOR"))
+        self.assertNotIn("hidden", document.one("section", id="figures").attributes)
+        self.assertIn("hidden", self.shown().one("section", id="figures").attributes)
+
+    def test_one_night_is_enough(self) -> None:
+        history = made_up.write_history(self.folder / "first", nights=1)
+        document = self.shown(page=self.make(history, name="first.html"))
+        self.assertEqual(document.one("h1").text, "Passed, nothing has changed")
+        self.assertEqual(len(self.panels(document)), 8)
+
+    def test_the_page_fetches_nothing(self) -> None:
+        text = self.page.read_text(encoding="utf-8")
+        self.assertIn("default-src 'none'", text)
+        addresses = set(re.findall(r"\w+://[^\s\"'`]*", text))
+        self.assertEqual(addresses, {"http://www.w3.org/2000/svg"})  # a name, not a place
+        self.assertEqual([word for word in re.findall(r"(?:src|href)=\"([^\"]*)", text)
+                          if not word.startswith(("data:", "#"))], [])
+        for call in ("fetch(", "XMLHttpRequest", "import(", "WebSocket", "@import", "url("):
+            self.assertNotIn(call, text)
+
+
+class WrongInputTest(unittest.TestCase):
+    def setUp(self) -> None:
+        self.folder = Path(tempfile.mkdtemp())
+        self.addCleanup(shutil.rmtree, self.folder)
+        self.history = made_up.write_history(self.folder / "history", nights=2)
+        self.file = sorted((self.history / "nights").iterdir())[0]
+
+    def expect(self, line: str, *arguments: object) -> None:
+        out = self.folder / "page.html"
+        done = subprocess.run([sys.executable, PAGE, *map(str, arguments or [self.history]),
+                               f"--out={out}"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr, f"page.py: {line}\n")
+        self.assertFalse(out.exists())
+        self.assertEqual(list(self.folder.glob(".page*")), [])
+
+    def spoil(self, change: dict) -> None:
+        night = made_up.made_up_night(0)
+        for key, value in change.items():
+            if key in ("cases", "verdicts") and isinstance(value, dict):
+                items = night[key] or made_up.made_up_verdicts(11)
+                night[key] = [items[0] | value]
+            else:
+                night[key] = value
+        self.file.write_text(json.dumps(night), encoding="utf-8")
+
+    def test_folders(self) -> None:
+        missing = self.folder / "nowhere"
+        self.expect(f"{missing}/nights: no *.json; expected what bench track writes", missing)
+        self.expect(f"{missing}: no such folder; expected the --out of bench", self.history,
+                    missing)
+
+    def test_broken_files(self) -> None:
+        self.file.write_text('{"format":\n', encoding="utf-8")
+        self.expect(f"{self.file}:2: not JSON: Expecting value; expected an object")
+        self.file.write_bytes(b"\xff")
+        self.expect(f"{self.file}: cannot be read: not UTF-8")
+        self.file.write_text("[]", encoding="utf-8")
+        self.expect(f"{self.file}: not a night; expected an object with format airybench-night-1")
+        self.spoil({"noise": {"median_s": float("nan")}})
+        self.expect(f"{self.file}: NaN is not JSON; expected null")
+
+    def test_wrong_values_are_named(self) -> None:
+        for change, line in (
+                ({"date": "yesterday"}, "date is 'yesterday', expected a date in ISO 8601"),
+                ({"failed": 1}, "failed is 1, expected true or false"),
+                ({"context": {"cpus": 2}}, "cpus is 2, expected a text"),
+                ({"cases": [7]}, "cases[0]: 7, expected an object"),
+                ({"cases": {"time_s": "1"}},
+                 'cases[0]: time_s is "1", expected a number or null'),
+                ({"cases": {"stop": "never"}},
+                 "cases[0]: stop is 'never', expected one of target, paper"),
+                ({"verdicts": {"kind": "odd"}},
+                 "verdicts[0]: kind is 'odd', expected one of worse, better, changed")):
+            with self.subTest(line):
+                self.spoil(change)
+                self.expect(f"{self.file}: {line}")
+
+    def test_records(self) -> None:
+        results = self.folder / "results"
+        results.mkdir()
+        (results / "records.jsonl").write_text("{}\n", encoding="utf-8")
+        self.expect(f"{results}/records.jsonl:1: mesh is null, expected a text", self.history,
+                    results)
+
+    def test_a_file_that_cannot_be_written(self) -> None:
+        done = subprocess.run([sys.executable, PAGE, self.history, "--out=/nowhere/page.html"],
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
