@@ -13,7 +13,7 @@ from pathlib import Path
 import made_up_history as made_up
 
 PAGE = Path(__file__).resolve().parents[2] / "plots" / "page.py"
-CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 VOID = {"meta", "link", "input", "img", "br"}
 # A pixel.
 PNG = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010806000000"
@@ -69,7 +69,20 @@ class Document(HTMLParser):
         self.open[-1].words.append(data)
 
 
+def requests_of_the_page(log: Path) -> list[str]:
+    """Addresses on the network that a page asks for, by the browser's log; not its own."""
+    urls = []
+    for event in json.loads(log.read_text(encoding="utf-8"))["events"]:
+        about = event.get("params") or {}
+        if about.get("initiator", "not an origin") != "not an origin" and \
+                re.match(r"(https?|wss?|ftp):", about.get("url", "")):
+            urls.append(about["url"])
+    return urls
+
+
 class PageTest(unittest.TestCase):
+    views: dict[tuple[str, Path], Element] = {}
+
     @classmethod
     def setUpClass(cls) -> None:
         if not CHROMIUM:
@@ -85,8 +98,8 @@ class PageTest(unittest.TestCase):
                        capture_output=True, text=True)
         return out
 
-    def shown(self, fragment: str = "", page: Path | None = None) -> Element:
-        """The page as the browser has it when its script has run without a complaint."""
+    def browsed(self, fragment: str, page: Path | None) -> Element:
+        """The page as the browser has it when its script has run."""
         with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
             # No home to write to, and no display.
             environment = {key: value for key, value in os.environ.items()
@@ -94,14 +107,36 @@ class PageTest(unittest.TestCase):
             done = subprocess.run(
                 [CHROMIUM, "--headless=new", "--no-sandbox", "--disable-gpu",
                  "--disable-dev-shm-usage", "--no-first-run", "--disable-background-networking",
+                 "--host-resolver-rules=MAP * ~NOTFOUND",  # nothing leaves this machine
                  f"--user-data-dir={profile}", "--enable-logging=stderr", "--dump-dom",
                  f"--log-net-log={profile}/net.json", "--virtual-time-budget=3000",
                  f"{(page or self.page).as_uri()}{fragment}"],
                 env=environment | {"XDG_CONFIG_HOME": profile, "XDG_CACHE_HOME": profile},
                 capture_output=True, text=True, timeout=120)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertNotIn("CONSOLE", done.stderr)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.requests = requests_of_the_page(Path(profile) / "net.json")
+        self.console = re.findall(r"CONSOLE.*", done.stderr)
         return Document(done.stdout).open[0]
+
+    def shown(self, fragment: str = "", page: Path | None = None) -> Element:
+        """The same, without a complaint and without a request; each view is browsed to once."""
+        view = (fragment, page or self.page)
+        if view not in self.views:
+            document = self.browsed(fragment, page)
+            self.assertEqual(self.console, [])
+            self.assertEqual(self.requests, [])
+            self.views[view] = document
+        return self.views[view]
+
+    def changed_page(self, name: str, *changes: tuple[str, str]) -> Path:
+        """With the policy off, so that scripts of the test run."""
+        text = re.sub(r'<meta http-equiv="Content[^>]*>', "", self.page.read_text(encoding="utf-8"))
+        for old, new in changes:
+            self.assertIn(old, text)
+            text = text.replace(old, new)
+        page = self.folder / name
+        page.write_text(text, encoding="utf-8")
+        return page
 
     def panels(self, document: Element) -> dict[str, Element]:
         return {panel.attributes["data-case"]: panel
@@ -203,6 +238,46 @@ class PageTest(unittest.TestCase):
         document = self.shown(page=self.make(history, name="first.html"))
         self.assertEqual(document.one("h1").text, "Passed, nothing has changed")
         self.assertEqual(len(self.panels(document)), 8)
+
+    def test_heads_arrows_and_words_are_used(self) -> None:
+        page = self.changed_page("used.html", ("</body>", """<script>
+            const key = (node, name) =>
+              node.dispatchEvent(new KeyboardEvent("keydown", {key: name, bubbles: true}));
+            const head = () => document.querySelector("th[data-key=time_s] button");
+            head().click();
+            head().click();
+            const filter = document.getElementById("filter");
+            filter.value = "Mesh0";
+            filter.dispatchEvent(new Event("input"));
+            const panel = document.querySelector(".panel svg");
+            key(panel, "Home");
+            for (let k = 0; k < 8; ++k) key(panel, "ArrowRight");
+            document.body.dataset.fragment = location.hash;
+            document.body.dataset.tip = document.getElementById("tip").textContent;
+          </script></body>"""))
+        document = self.shown("#quantity=time_s", page)
+        self.assertEqual(self.column(document, "method"),
+                         ["ALM", "BLIND:SCHUR", "3STEPD", "HYBRID"])
+        body = document.one("body").attributes
+        self.assertEqual(body["data-fragment"], "#filter=Mesh0&sort=-time_s")
+        night, value, sentence = body["data-tip"].split("\n")
+        self.assertEqual(night, f"{made_up.date_of(8)[:10]}  {made_up.revision_of(8)[:7]}")
+        self.assertRegex(value, r"^4\.\d+ ms  \(4\.\d+ ms to 4\.\d+ ms\)$")
+        self.assertEqual(sentence, f"▲ {made_up.SENTENCE}")
+
+    def test_the_tests_see_what_they_look_for(self) -> None:
+        """A page with an error and a request, which the policy would forbid."""
+        page = self.changed_page("bad.html", ("</body>", "<script>nothing();</script>"
+                                              "<img src='http://127.0.0.1:9/x.png'></body>"))
+        self.browsed("", page)
+        self.assertEqual(self.requests, ["http://127.0.0.1:9/x.png"])
+        self.assertTrue(any("nothing is not defined" in line for line in self.console))
+        kept = self.folder / "kept.html"
+        kept.write_text(self.page.read_text(encoding="utf-8").replace(
+            "</body>", "<img src='http://127.0.0.1:9/x.png'></body>"), encoding="utf-8")
+        self.browsed("", kept)
+        self.assertEqual(self.requests, [])
+        self.assertTrue(any("Content Security Policy" in line for line in self.console))
 
     def test_the_page_fetches_nothing(self) -> None:
         text = self.page.read_text(encoding="utf-8")
