@@ -48,7 +48,8 @@ function step(key, before, after) {
   const percent = 100 * (after / before - 1), size = Math.abs(percent);
   if (percent === 0) return "unchanged";
   if (isError(key) || size >= 1000) return `× ${digits(after / before)}`;
-  return `${percent > 0 ? "+" : "−"}${size < 0.05 ? "< 0.1" : size.toFixed(size < 10 ? 1 : 0)} %`;
+  if (size < 0.05) return "< 0.1 %";
+  return `${percent > 0 ? "+" : "−"}${size.toFixed(size < 10 ? 1 : 0)} %`;
 }
 
 const day = (date) => date.slice(0, 10);

@@ -11,7 +11,7 @@ function headline() {
   const words = failed ? `Failed${worse ? `: ${worse} ${worse === 1 ? "change" : "changes"} for the worse` : ""}`
     : verdicts.length ? "Passed, with changes" : "Passed, nothing has changed";
   const sentences = verdicts.map((verdict) => {
-    const link = element("a", {href: fragment({...state, filter: verdict.case, quantity: verdict.quantity})}, verdict.sentence);
+    const link = element("a", {href: fragment({...state, filter: `${verdict.case}/`, quantity: verdict.quantity})}, verdict.sentence);
     link.addEventListener("click", () => byId("history").scrollIntoView());
     return element("li", {class: verdict.kind}, element("b", {class: "glyph", title: verdict.kind}, GLYPHS[verdict.kind]), link);
   });
@@ -43,7 +43,7 @@ const marksOf = (name, key) => data.marks.filter((mark) => (mark.case === name |
 
 function fillPanels() {
   const matches = matcher(state.filter), key = state.quantity;
-  const panels = data.cases.filter((one) => matches(one.name) && one.values[key]).map((one) => {
+  const panels = data.cases.filter((one) => matches(`${one.name}/`) && one.values[key]).map((one) => {
     const bounds = key === "time_s" ? {low: one.values.time_low_s, high: one.values.time_high_s} : {};
     return panel(one.method, `${one.mesh} · ${one.scene}`, key,
                  {name: one.name, values: one.values[key], status: one.status, ...bounds}, data.nights, marksOf(one.name, key));

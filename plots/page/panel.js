@@ -88,8 +88,9 @@ function chart(key, values, low, high, status, nights, marks) {
   for (const tick of axis ? axis.ticks : [])
     svg.append(drawn("line", {class: "grid", x1: BOX.left, x2: right, y1: axis.y(tick), y2: axis.y(tick)}),
                drawn("text", {x: BOX.left - 6, y: axis.y(tick) + 3.5, "text-anchor": "end"}, showShort(key, tick)));
+  const few = nights.length <= 60;  // else points and ticks run into each other
   nights.forEach((night, k) => {
-    if (k === 0 || night.revision !== nights[k - 1].revision)
+    if (few && (k === 0 || night.revision !== nights[k - 1].revision))
       svg.append(drawn("line", {class: "tick", x1: x(k), x2: x(k), y1: bottom, y2: bottom + 4}));
   });
   svg.append(...revisionLabels(nights, marks, x));
@@ -99,11 +100,11 @@ function chart(key, values, low, high, status, nights, marks) {
       if (bounded.length > 1)
         svg.append(drawn("path", {class: "band", d: `${path([...bounded.map((k) => [x(k), axis.y(high[k])]),
           ...bounded.reverse().map((k) => [x(k), axis.y(low[k])])])}Z`}));
-      svg.append(drawn("path", {class: "curve", d: path(piece.map((k) => [x(k), axis.y(values[k])]))}));
+      svg.append(drawn("path", {class: "curve", d: `${path(piece.map((k) => [x(k), axis.y(values[k])]))}h0`}));  // h0: a dot for one night
     }
-    const radius = nights.length > 60 ? 0 : nights.length > 30 ? 1.6 : 2.4;
+    const radius = nights.length > 30 ? 1.6 : 2.4;
     values.forEach((value, k) => {
-      if (radius && axis.inside(value)) svg.append(drawn("circle", {class: "point", cx: x(k), cy: axis.y(value), r: radius}));
+      if (few && axis.inside(value)) svg.append(drawn("circle", {class: "point", cx: x(k), cy: axis.y(value), r: radius}));
     });
   }
   status.forEach((word, k) => {
@@ -116,6 +117,9 @@ function chart(key, values, low, high, status, nights, marks) {
   return {svg, x, axis};
 }
 
+// A line may break after : and , in a method's name.
+const breakable = (name) => name.split(/(?<=[:,])/).flatMap((piece, k) => (k ? [element("wbr"), piece] : [piece]));
+
 // data-* attributes say what the panel shows.
 function panel(title, where, key, series, nights, marks) {
   const {values, low, high, status} = series;
@@ -124,7 +128,7 @@ function panel(title, where, key, series, nights, marks) {
   svg.setAttribute("aria-label", `${title} ${where}: ${show(key, last)} in the last of ${nights.length} nights`);
   const now = element("span", {class: "now"}, show(key, last));
   const box = element("article", {class: "panel", "data-case": series.name, "data-quantity": key},
-    element("header", {}, element("h3", {}, title), now, element("span", {class: "where"}, where),
+    element("header", {}, element("h3", {}, ...breakable(title)), now, element("span", {class: "where"}, where),
             element("span", {class: "step", title: "against the night before"}, step(key, before, last))), svg);
   const words = (k) => [
     `${day(nights[k].date)}  ${shortRevision(nights[k].revision)}`,

@@ -14,8 +14,7 @@ function sorted(rows, sort) {
   });
 }
 
-const wordsOf = (row) => ["mesh", "scene", "method", "stop", "status"].map((key) => row[key] || "").join("/")
-  .replace(/\/(target|paper)\//, "/stop=$1/");
+const wordsOf = (row) => `${row.mesh}/${row.scene}/${row.method}/stop=${row.stop || "target"}/${row.status}/`;
 
 function cell(row, column, numeric) {
   const value = row[column.key];
