@@ -26,7 +26,7 @@ from page_data import page_data
 from results_table import ResultsError
 
 PARTS = Path(__file__).resolve().parent / "page"
-SCRIPTS = ("format.js", "state.js", "panel.js", "table.js", "page.js")
+SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
 
 
 def main() -> None:

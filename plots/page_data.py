@@ -78,17 +78,20 @@ def series(nights: list[Night]) -> list[dict]:
 
 def marks(nights: list[Night]) -> list[dict]:
     """Every change once, as the latest night that tells of it has it, with its night's number."""
+    names = {case_name(case) for night in nights for case in night.cases}
     latest = {}
     for night in nights:
         for verdict in night.verdicts:
-            key = (verdict["case"], verdict["quantity"], moment(verdict["since"]))
-            latest[key] = verdict
+            name = verdict["case"]  # mesh, scene and method, of whatever stop
+            name = name if name in names else f"{name}/stop=paper"
+            latest[name, verdict["quantity"], moment(verdict["since"])] = verdict
     found = []
-    for (*_, since), verdict in latest.items():
+    for (name, _, since), verdict in latest.items():
         after = [k for k, night in enumerate(nights) if moment(night.date) >= since]
         if after:
-            found.append({key: verdict[key] for key in ("case", "lane", "quantity", "kind", "since",
-                                                        "sentence")} | {"night": after[0]})
+            found.append({"case": name, "night": after[0]} |
+                         {key: verdict[key] for key in ("lane", "quantity", "kind", "since",
+                                                        "sentence")})
     return found
 
 

@@ -20,8 +20,8 @@ const unitOf = (key) => (key.endsWith("_bytes") ? MEBIBYTE : 1);
 // 1.1e-12; two digits of the exponent at least.
 const exponential = (value) => value.toExponential(1).replace(/e([+-])(\d)$/, "e$10$2");
 
-const grouped = (value) => (Number.isInteger(value)
-  ? String(value).replace(/\B(?=(\d{3})+$)/g, "\u202f") : digits(value));
+const grouped = (value) =>
+    (Number.isInteger(value) ? String(value).replace(/\B(?=(\d{3})+$)/g, "\u202f") : digits(value));
 
 function show(key, value) {
   if (value === null || value === undefined) return "–";
@@ -54,7 +54,11 @@ function step(key, before, after) {
 
 const day = (date) => date.slice(0, 10);
 const shortRevision = (revision) => revision.slice(0, 7);
-const GLYPHS = {worse: "▲", better: "▼", changed: "◆"};
+const GLYPHS = {
+  worse: "▲",
+  better: "▼",
+  changed: "◆"
+};
 
 // An element with attributes and children; text stays text.
 function element(name, attributes = {}, ...children) {
