@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "bench/claims/claims_command.hpp"
+#include "bench/exports/export_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/options.hpp"
 #include "bench/records/merge_command.hpp"
@@ -19,6 +20,7 @@ using Command = int (*)(int argc, const char* const* argv);
 // `bench WORD …`; without such a word it is a run.
 const std::map<std::string_view, Command> commands = {
     {"claims", airybench::claims_command},
+    {"export", airybench::export_command},
     {"merge", airybench::merge_command},
     {"replay", airybench::replay_command},
 };

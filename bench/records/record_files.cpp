@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "assembly/atomic_file.hpp"
+#include "bench/exports/google_benchmark.hpp"
 #include "bench/records/record_json.hpp"
 
 namespace airybench {
-namespace {
 
 std::string csv_field(const nlohmann::ordered_json& value) {
   if (value.is_null()) return "";
@@ -21,8 +21,6 @@ std::string csv_field(const nlohmann::ordered_json& value) {
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-
-}  // namespace
 
 std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
   const Columns header = columns(Record{});
@@ -70,6 +68,7 @@ void remove_summaries(const std::filesystem::path& folder) {
 void write_summaries(const std::filesystem::path& folder,
                      const std::vector<nlohmann::ordered_json>& records) {
   write_file_atomically(folder / "results.csv", csv_text(records));
+  write_file_atomically(folder / "results.json", google_benchmark_json(records));
 }
 
 nlohmann::ordered_json parsed(const std::string& line, const std::string& place) {
@@ -94,7 +93,8 @@ std::vector<nlohmann::ordered_json> parsed(const JournalLines& journal,
 
 std::vector<nlohmann::ordered_json> read_record_lines(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "records.jsonl";
-  if (!std::filesystem::exists(file)) throw OutputError(file.string() + ": there is no such file");
+  if (!std::filesystem::exists(file))
+    throw OutputError(file.string() + ": no such file (a folder that bench --out wrote has it)");
   return parsed(read_journal(file), file);
 }
 

@@ -64,8 +64,14 @@ std::string case_name(const nlohmann::ordered_json& record);
 void write_records(const std::filesystem::path& folder,
                    const std::vector<nlohmann::ordered_json>& records);
 
+// A field as RFC 4180 has it.
+std::string csv_field(const nlohmann::ordered_json& value);
+
 // results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
 // 4180.
 std::string csv_text(const std::vector<nlohmann::ordered_json>& records);
+
+// A cell of it: null is empty, a text is quoted where it must be.
+std::string csv_field(const nlohmann::ordered_json& value);
 
 }  // namespace airybench

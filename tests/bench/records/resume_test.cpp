@@ -234,7 +234,7 @@ TEST(Shards, JoinToTheWhole) {
   };
   refused("part1 part3", "2 of 6 cases are missing: 2, 5");
   refused("part1 part2 part3 part2", "both are case 2, Mesh0/default/BLIND");
-  refused("part1 part2 nowhere", "nowhere/records.jsonl: there is no such file");
+  refused("part1 part2 nowhere", "nowhere/records.jsonl: no such file");
   EXPECT_EQ(bench.run("merge part1 part3 --incomplete --out=some").code, 0);
   EXPECT_EQ(bench.records("some").size(), 4u);
   ASSERT_EQ(bench.run(six + "--shard=2/3 --target-error=1e-5 --out=other").code, 0);

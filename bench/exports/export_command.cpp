@@ -1,0 +1,85 @@
+#include "bench/exports/export_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "assembly/atomic_file.hpp"
+#include "bench/exports/google_benchmark.hpp"
+#include "bench/exports/junit.hpp"
+#include "bench/exports/tracker_formats.hpp"
+#include "bench/options.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* footer = R"(
+Formats  google-benchmark  Google Benchmark's JSON, for its compare.py and most trackers
+         github-action     github-action-benchmark, tool customSmallerIsBetter
+         bencher           Bencher Metric Format, adapter json
+         csv               date,revision,mesh,scene,method,stop,quantity,value: a row per case and
+                           number; of a history folder the whole series
+         junit             JUnit XML: a case that is not ok fails, with its reason
+
+DIR is a folder with records.jsonl; for csv also a history, a folder with nights/.
+
+Exit status  0  written, whatever the cases' statuses
+             2  wrong usage, or records that cannot be read: one line on standard error
+
+Example
+  bench export results/latest --format=bencher --out=bmf.json
+)";
+
+struct ExportOptions {
+  std::filesystem::path folder, out;
+  std::string format;
+};
+
+ExportOptions parse(int argc, const char* const* argv) {
+  ExportOptions options;
+  CLI::App app("The records of a run in the format of another tool.", "bench export");
+  app.footer(footer);
+  app.add_option("DIR", options.folder, "folder with records.jsonl, or for csv with nights/")
+      ->required();
+  app.add_option("--format", options.format, "of the formats below")
+      ->required()
+      ->check(CLI::IsMember({"google-benchmark", "github-action", "bencher", "csv", "junit"}));
+  app.add_option("--out", options.out, "file to write; default: standard output");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    throw HelpRequested(app.help());
+  } catch (const CLI::ExtrasError& error) {
+    throw UsageError(fmt::format("{} (valid: DIR --format --out --help)", error.what()));
+  } catch (const CLI::ParseError& error) {
+    throw UsageError(error.what());
+  }
+  return options;
+}
+
+std::string exported(const std::string& format, const std::vector<StoredCase>& cases) {
+  if (format == "google-benchmark") return google_benchmark_json(cases);
+  if (format == "github-action") return github_action_json(cases);
+  if (format == "bencher") return bencher_json(cases);
+  if (format == "junit") return junit_xml(cases);
+  return series_csv(cases);
+}
+
+}  // namespace
+
+int export_command(int argc, const char* const* argv) {
+  const ExportOptions options = parse(argc, argv);
+  const bool history =
+      options.format == "csv" && std::filesystem::is_directory(options.folder / "nights");
+  const std::string text = exported(
+      options.format, history ? stored_history(options.folder) : stored_run(options.folder));
+  if (options.out.empty())
+    fmt::print("{}", text);
+  else
+    write_file_atomically(options.out, text);
+  return 0;
+}
+
+}  // namespace airybench

@@ -1,0 +1,137 @@
+#include "bench/exports/google_benchmark.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <boost/math/statistics/univariate_statistics.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/records/record.hpp"
+
+namespace airybench {
+namespace {
+
+using Run = benchmark::BenchmarkReporter::Run;
+
+// The reporter escapes quotes and line ends, but no other control characters.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = ' ';
+  return text;
+}
+
+void add_counters(const StoredCase& stored, Run& run) {
+  for (const auto& [key, value] : stored.quantities)
+    if (!key.starts_with("time_") && key != "threads" && key != "repetitions")
+      run.counters[key] = value;
+}
+
+Run run_of(const StoredCase& stored, std::size_t family) {
+  Run run;
+  run.run_name.function_name = printable(stored.name());
+  run.run_name.iterations = "iterations:1";
+  run.run_name.time_type = "manual_time";
+  run.family_index = static_cast<std::int64_t>(family);
+  run.per_family_instance_index = 0;
+  run.threads = std::lround(stored.quantity("threads").value_or(1));
+  run.time_unit = benchmark::kMillisecond;
+  run.repetitions = static_cast<std::int64_t>(stored.samples_s.size());
+  run.repetition_index = 0;
+  return run;
+}
+
+Run failed_run(const StoredCase& stored, std::size_t family) {
+  Run run = run_of(stored, family);
+  run.error_occurred = true;
+  run.error_message = printable(stored.status + ": " + stored.status_reason);
+  return run;
+}
+
+// A time in s, or for a percentage the fraction itself.
+Run aggregate(const StoredCase& stored, std::size_t family, const char* name, double value,
+              benchmark::StatisticUnit unit) {
+  Run run = run_of(stored, family);
+  run.run_type = Run::RT_Aggregate;
+  run.aggregate_name = name;
+  run.aggregate_unit = unit;
+  run.repetition_index = Run::no_repetition_index;
+  run.iterations = run.repetitions;
+  // The reporter divides times, and times only, by the iterations.
+  run.real_accumulated_time =
+      unit == benchmark::kTime ? value * static_cast<double>(run.iterations) : value;
+  return run;
+}
+
+std::vector<Run> runs_of(const StoredCase& stored, std::size_t family) {
+  const std::vector<double>& samples = stored.samples_s;
+  if (samples.empty()) return {failed_run(stored, family)};
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Run run = run_of(stored, family);
+    run.repetition_index = static_cast<std::int64_t>(k);
+    run.real_accumulated_time = samples[k];
+    add_counters(stored, run);
+    runs.push_back(std::move(run));
+  }
+  if (samples.size() < 2) return runs;
+  const double mean = boost::math::statistics::mean(samples);
+  const double deviation = std::sqrt(boost::math::statistics::sample_variance(samples));
+  using enum benchmark::StatisticUnit;
+  runs.push_back(aggregate(stored, family, "mean", mean, kTime));
+  add_counters(stored, runs.back());
+  runs.push_back(aggregate(stored, family, "median", median(samples), kTime));
+  add_counters(stored, runs.back());
+  runs.push_back(aggregate(stored, family, "stddev", deviation, kTime));
+  if (mean > 0) runs.push_back(aggregate(stored, family, "cv", deviation / mean, kPercentage));
+  return runs;
+}
+
+// The keys that the library writes, as far as a record knows them, and then the record's own.
+nlohmann::ordered_json context_of(const std::vector<StoredCase>& cases) {
+  const std::map<std::string, std::string> known =
+      cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
+  const auto number = [&](const char* key) {
+    const auto found = known.find(key);
+    return found == known.end() ? 0.0 : std::strtod(found->second.c_str(), nullptr);
+  };
+  nlohmann::ordered_json context = {
+      {"date", known.contains("date") ? known.at("date") : ""},
+      {"host_name", ""},
+      {"executable", "bench"},
+      {"num_cpus", std::lround(number("cpus"))},
+      {"mhz_per_cpu", 0},
+      {"cpu_scaling_enabled", false},
+      {"caches", nlohmann::ordered_json::array()},
+      {"load_avg", {number("load_1min_at_start")}},
+      {"library_build_type", "release"},
+  };
+  for (const auto& [key, value] : known) context[key] = value;
+  return context;
+}
+
+}  // namespace
+
+std::string google_benchmark_json(const std::vector<StoredCase>& cases) {
+  std::ostringstream text;
+  // ReportContext() would describe the machine that exports, and its clock.
+  text << "{\n  \"context\": " << context_of(cases).dump(2) << ",\n  \"benchmarks\": [\n";
+  benchmark::JSONReporter reporter;
+  reporter.SetOutputStream(&text);
+  for (std::size_t k = 0; k < cases.size(); ++k) reporter.ReportRuns(runs_of(cases[k], k));
+  reporter.Finalize();
+  if (!nlohmann::json::accept(text.str()))
+    throw std::runtime_error("Google Benchmark's reporter wrote what is not JSON");
+  return text.str();
+}
+
+std::string google_benchmark_json(const std::vector<nlohmann::ordered_json>& records) {
+  std::vector<StoredCase> cases;
+  for (const auto& record : records)
+    cases.push_back(stored_case(record, fmt::format("record {}", cases.size() + 1)));
+  return google_benchmark_json(cases);
+}
+
+}  // namespace airybench

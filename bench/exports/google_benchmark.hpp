@@ -1,0 +1,24 @@
+// Records in the JSON of Google Benchmark, for compare.py and other readers of it. Its own reporter
+// writes the runs, so the schema is the library's.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/exports/stored_case.hpp"
+
+namespace airybench {
+
+// A case is the benchmark MESH/SCENE/METHOD/iterations:1/manual_time: real_time is one timed solve
+// in ms, a run per sample, then mean, median, stddev and cv where there are two samples or more;
+// cpu_time is not measured and 0. Counters: the numeric columns but those that the schema has
+// itself. A case without samples is one run with error_occurred and "status: reason". `context` is
+// that of the first case, not of the machine that exports. Throws std::runtime_error when the
+// library wrote what is not JSON.
+std::string google_benchmark_json(const std::vector<StoredCase>& cases);
+
+// The same from lines of records.jsonl; throws RecordError too.
+std::string google_benchmark_json(const std::vector<nlohmann::ordered_json>& records);
+
+}  // namespace airybench

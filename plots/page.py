@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Makes one self-contained HTML page from a history of nights.
+
+    page.py HISTORY [RESULTS] [--out=page.html]
+
+HISTORY  folder with nights/*.json, as `bench track` writes them
+RESULTS  folder of one run: its records.jsonl is listed instead of the last night's cases, and the
+         pictures in its figures/ are shown
+
+The page fetches nothing. Exit 2: wrong input; one line says which, and nothing is written.
+"""
+from __future__ import annotations
+
+import argparse
+import base64
+import hashlib
+import html
+import json
+import os
+import sys
+import tempfile
+from pathlib import Path
+
+from night_history import read_history, read_records
+from page_data import page_data
+from results_table import ResultsError
+
+PARTS = Path(__file__).resolve().parent / "page"
+SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("history", type=Path, metavar="HISTORY")
+    parser.add_argument("results", type=Path, metavar="RESULTS", nargs="?")
+    parser.add_argument("--out", type=Path, default=Path("page.html"))
+    parser.error = fail
+    args = parser.parse_args()
+    try:
+        write_whole(args.out, page(args.history, args.results))
+    except ResultsError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}; expected a file to write")
+    print(args.out)
+
+
+def page(history: Path, results: Path | None) -> str:
+    nights, records = read_history(history), None
+    if results and not results.is_dir():
+        raise ResultsError(f"{results}: no such folder; expected the --out of bench")
+    if results and (results / "records.jsonl").exists():
+        records = read_records(results / "records.jsonl")
+    data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
+                      separators=(",", ":")).replace("<", "\\u003c")
+    style = part("page.css")
+    script = '(() => {\n"use strict";\n' + "\n".join(map(part, SCRIPTS)) + "})();\n"
+    fill = {"STYLE": style, "SCRIPT": script, "DATA": data, "STYLE_HASH": hash_of(style),
+            "SCRIPT_HASH": hash_of(script), "TITLE": html.escape(f"airybench {nights[-1].date}"),
+            "FIGURES": figures(results / "figures") if results else ""}
+    pieces = part("page.html").split("%%")  # text, name, text, name, ... text
+    return "".join(fill[piece] if k % 2 else piece for k, piece in enumerate(pieces))
+
+
+def part(name: str) -> str:
+    return (PARTS / name).read_text(encoding="utf-8")
+
+
+def hash_of(text: str) -> str:
+    """As a content security policy names an inline script or style."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+def figures(folder: Path) -> str:
+    shown = []
+    for file in sorted(folder.glob("*.png")):
+        name = html.escape(file.stem.replace("_", " "))
+        image = base64.b64encode(file.read_bytes()).decode()
+        shown.append(f'<figure><button type="button" aria-label="enlarge {name}">'
+                     f'<img alt="{name}" src="data:image/png;base64,{image}"></button>'
+                     f'<figcaption>{name}</figcaption></figure>')
+    return "\n".join(shown)
+
+
+def write_whole(file: Path, text: str) -> None:
+    """The old file or the new one, never a part."""
+    descriptor, temporary = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}-")
+    try:
+        with os.fdopen(descriptor, "w", encoding="utf-8") as out:
+            out.write(text)
+        os.chmod(temporary, 0o644)  # mkstemp's files are their owner's alone
+        os.replace(temporary, file)
+    except BaseException:
+        os.unlink(temporary)
+        raise
+
+
+def fail(message: object) -> None:
+    print(f"page.py: {message}", file=sys.stderr)
+    sys.exit(2)
+
+
+if __name__ == "__main__":
+    main()
