@@ -81,7 +81,8 @@ TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
 }
 
 TEST(Study, NamesOfCasesAreUnique) {
-  const std::vector<PosedScene> scenes = {{"default", "", "", mesh0()}, {"other", "", "", mesh0()}};
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()},
+                                          {"other", "", "", "", "{}", mesh0()}};
   for (const Study study : {Study::error, Study::stability}) {
     const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
     std::set<std::string> names;
@@ -152,7 +153,7 @@ TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
   const testing::TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "records.jsonl";
   const auto append = [&](const Record& record) {
-    RecordFiles(folder.path(), {}, true).append(record);
+    RecordFiles(folder.path(), {}, Keep::others).append(record);
   };
   const auto count_lines = [&] {
     std::ifstream in(file);
