@@ -17,10 +17,9 @@ enum class Stage {
   recover,       // F_C to φ and stresses
   check,         // the method's own estimate of its error, refinement
 };
-inline constexpr std::array<Stage, 7> all_stages = {Stage::order,    Stage::precondition,
-                                                    Stage::factor,   Stage::condense,
-                                                    Stage::contact,  Stage::recover,
-                                                    Stage::check};
+inline constexpr std::array<Stage, 7> all_stages = {
+    Stage::order,   Stage::precondition, Stage::factor, Stage::condense,
+    Stage::contact, Stage::recover,      Stage::check};
 std::string_view name_of(Stage stage);  // "factor"
 
 // Wall-clock seconds by stage. Empty: the method has no such stage, or the scene does not need it.
