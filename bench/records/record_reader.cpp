@@ -113,6 +113,7 @@ class Keys {
 
 std::string CaseRecord::name() const {
   std::string text = fmt::format("{}/{}/{}", mesh, scene, method);
+  if (!study.empty()) text += fmt::format("/study={}", study);
   if (!knob.empty()) text += fmt::format("/{}", knob);
   if (knob_value) text += fmt::format("={}", *knob_value);
   if (stop == "paper") text += "/stop=paper";

@@ -41,7 +41,8 @@ struct CaseRecord {
       heap_allocated_bytes, instructions;
   std::map<std::string, std::string> context;  // of the run: cpu, compiler, libraries
 
-  // What makes a case: "Mesh0/default/3STEPD"; "/tolerance=0.01", "/stop=paper" where there is one.
+  // What makes a case: "Mesh0/default/3STEPD", and where there is one "/study=error",
+  // "/tolerance=0.01", "/stop=paper".
   std::string name() const;
 };
 
