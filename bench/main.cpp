@@ -12,6 +12,8 @@
 #include "bench/records/merge_command.hpp"
 #include "bench/replay_command.hpp"
 #include "bench/run_command.hpp"
+#include "bench/tracking/compare_command.hpp"
+#include "bench/tracking/track_command.hpp"
 
 namespace {
 
@@ -20,9 +22,11 @@ using Command = int (*)(int argc, const char* const* argv);
 // `bench WORD …`; without such a word it is a run.
 const std::map<std::string_view, Command> commands = {
     {"claims", airybench::claims_command},
+    {"compare", airybench::compare_command},
     {"export", airybench::export_command},
     {"merge", airybench::merge_command},
     {"replay", airybench::replay_command},
+    {"track", airybench::track_command},
 };
 
 }  // namespace

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/statistics/robust.hpp"
+
 namespace airybench {
 
 std::string show_seconds(double seconds) {

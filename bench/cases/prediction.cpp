@@ -99,7 +99,7 @@ class Past {
     for (const bool of_studies : {true, false})  // the second replaces the first
       for (const CaseRecord& r : records)
         if (r.n_phi > 0 && r.study.empty() != of_studies)
-          latest[{variant_of(r.method, r.stop, r.knob, r.knob_value), r.scene, r.mesh, r.n_phi}] =
+          latest[{variant_of(r.method, r.stop, r.knob, r.knob_value), r.scene, r.mesh, *r.n_phi}] =
               &r;
     for (const auto& [key, record] : latest) variants_[std::get<Variant>(key)].push_back(record);
   }
@@ -141,7 +141,8 @@ class Past {
   static std::vector<SizedValue> points(const RecordList& records, Quantity quantity) {
     std::vector<SizedValue> result;
     for (const CaseRecord* record : records)
-      if (const auto value = quantity(*record)) result.push_back({record->n_phi, *value});
+      if (const auto value = quantity(*record))
+        result.push_back({static_cast<int>(*record->n_phi), *value});
     return result;
   }
   static bool has_two_sizes(const RecordList& records) {
@@ -219,14 +220,14 @@ PastRecords read_past_records(const std::vector<std::filesystem::path>& folders)
     std::error_code error;
     if (!std::filesystem::exists(file, error)) continue;
     try {
-      std::vector<CaseRecord> records = read_records(file, StudyRecords::kept);
+      std::vector<CaseRecord> records = read_records(file, Studies::include);
       std::move(records.begin(), records.end(), std::back_inserter(past.records));
     } catch (const RecordError& unusable) {
       past.passed_over.push_back(unusable.what());
     }
   }
   std::stable_sort(past.records.begin(), past.records.end(),
-                   [](const CaseRecord& a, const CaseRecord& b) { return a.date < b.date; });
+                   [](const CaseRecord& a, const CaseRecord& b) { return a.date() < b.date(); });
   return past;
 }
 

@@ -26,10 +26,6 @@ std::string remark(const CaseRecord& record) {
 
 }  // namespace
 
-bool has_answer(const CaseRecord& record) {
-  return record.status == Status::ok || record.status == Status::inaccurate;
-}
-
 std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh,
                                  const std::string& method, std::string& why) {
   const CaseRecord* record = cases.find(mesh, method);

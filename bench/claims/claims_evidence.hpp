@@ -23,8 +23,6 @@ struct ShownRatio {
   std::string text;  // "12.3 s/6 s = 2.05"
 };
 
-bool has_answer(const CaseRecord& record);  // ok or inaccurate
-
 // Empty when the case cannot support anything; `why` then says so: "no record".
 std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh,
                                  const std::string& method, std::string& why);

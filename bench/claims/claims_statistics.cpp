@@ -3,35 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <random>
-
-#include "bench/records/record.hpp"
 
 namespace airybench {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The engine's numbers are the standard's own, a distribution's are not: the same on every machine.
-double resampled_median(const std::vector<double>& samples, std::mt19937& engine) {
-  std::vector<double> drawn;
-  for (std::size_t i = 0; i < samples.size(); ++i)
-    drawn.push_back(samples[engine() % samples.size()]);
-  return median(std::move(drawn));
-}
-
-Interval bootstrap(const std::vector<double>& numerator, const std::vector<double>& denominator) {
-  constexpr int resamples = 2000;
-  std::mt19937 engine(1);
-  std::vector<double> ratios;
-  for (int i = 0; i < resamples; ++i) {
-    const double above = resampled_median(numerator, engine);
-    ratios.push_back(above / resampled_median(denominator, engine));
-  }
-  std::sort(ratios.begin(), ratios.end());
-  constexpr int tail = resamples / 40;  // 2.5 %
-  return {ratios[tail], ratios[resamples - 1 - tail]};
-}
 
 }  // namespace
 
@@ -78,13 +54,15 @@ Ratio ratio_of(const CaseTime& numerator, const CaseTime& denominator) {
   ratio.figure = numerator.figure_s / denominator.figure_s;
   ratio.estimated = numerator.timed_out() || denominator.timed_out();
   if (!ratio.estimated)
-    ratio.interval = bootstrap(numerator.samples_s, denominator.samples_s);
+    ratio.interval = bootstrap_ratio_of_medians(numerator.samples_s, denominator.samples_s);
   else if (numerator.timed_out() && denominator.timed_out())
     ratio.interval = {0, infinity};
   else if (numerator.timed_out())  // at_least / the denominator's upper end
-    ratio.interval = {bootstrap({numerator.at_least_s}, denominator.samples_s).low, infinity};
+    ratio.interval = {bootstrap_ratio_of_medians({numerator.at_least_s}, denominator.samples_s).low,
+                      infinity};
   else
-    ratio.interval = {0, bootstrap(numerator.samples_s, {denominator.at_least_s}).high};
+    ratio.interval = {
+        0, bootstrap_ratio_of_medians(numerator.samples_s, {denominator.at_least_s}).high};
   return ratio;
 }
 

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/statistics/bootstrap.hpp"
+
 namespace airybench {
 
 enum class Verdict { reproduced, not_reproduced, undecided };
@@ -13,10 +15,6 @@ std::string_view name_of(Verdict verdict);
 Verdict opposite(Verdict verdict);                     // of an undecided one: undecided
 Verdict both(Verdict first, Verdict second);           // one that is not reproduced is enough
 Verdict all_of(const std::vector<Verdict>& verdicts);  // of none: reproduced
-
-struct Interval {
-  double low = 0, high = 0;  // high may be infinite
-};
 
 // Is the quantity > threshold? Undecided: low ≤ threshold < high.
 Verdict is_above(const Interval& interval, double threshold);

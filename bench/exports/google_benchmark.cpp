@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "bench/records/record.hpp"
+#include "bench/statistics/robust.hpp"
 
 namespace airybench {
 namespace {

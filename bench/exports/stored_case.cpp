@@ -9,6 +9,7 @@
 #include "bench/cases/study.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/statistics/robust.hpp"
 
 namespace airybench {
 namespace {

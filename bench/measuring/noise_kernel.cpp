@@ -6,7 +6,7 @@
 #include <array>
 #include <chrono>
 
-#include "bench/records/record.hpp"
+#include "bench/statistics/robust.hpp"
 
 namespace airybench {
 namespace {

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "bench/statistics/robust.hpp"
 
 #include "bench/records/answer_hash.hpp"
 
@@ -79,22 +80,6 @@ std::string outcome_of(const Record& record) {
     return record.verification && record.verification->error_stress ? "wrong_success"
                                                                     : "unverified";
   return std::string(name_of(record.status));
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  const std::size_t middle = values.size() / 2;
-  std::nth_element(values.begin(), values.begin() + middle, values.end());
-  const double upper = values[middle];
-  if (values.size() % 2 == 1) return upper;
-  return (*std::max_element(values.begin(), values.begin() + middle) + upper) / 2;
-}
-
-double median_absolute_deviation(const std::vector<double>& values) {
-  const double centre = median(values);
-  std::vector<double> deviations;
-  for (const double value : values) deviations.push_back(std::abs(value - centre));
-  return median(std::move(deviations));
 }
 
 std::string column_of(Stage stage) { return "stage_" + std::string(name_of(stage)) + "_s"; }

@@ -82,9 +82,6 @@ bool is_measured(const Record& record);
 // the verifier disagrees; `unverified` where it has no reference to say.
 std::string outcome_of(const Record& record);
 
-double median(std::vector<double> values);  // NaN when empty
-double median_absolute_deviation(const std::vector<double>& values);
-
 std::string column_of(Stage stage);  // "stage_factor_s"
 
 // Of the grid's combinations: iterations of the best; median and largest of those that converged or

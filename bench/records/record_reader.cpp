@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -11,16 +12,20 @@ namespace {
 
 using Json = nlohmann::json;
 
-class Line {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Json parsed(const std::string& text, const std::string& place) {
+  try {
+    return Json::parse(text);
+  } catch (const Json::exception& wrong) {
+    const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
+    throw RecordError(fmt::format("{}: not JSON: {}", place, what.substr(what.find("] ") + 2)));
+  }
+}
+
+class Keys {
  public:
-  Line(const std::string& file, int number, const std::string& text)
-      : place_(fmt::format("{}:{}", file, number)) {
-    try {
-      json_ = Json::parse(text);
-    } catch (const Json::exception& wrong) {
-      const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
-      throw RecordError(fmt::format("{}: not JSON: {}", place_, what.substr(what.find("] ") + 2)));
-    }
+  Keys(const Json& json, const std::string& place) : json_(json), place_(place) {
     if (!json_.is_object())
       throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place_, json_.dump()));
   }
@@ -45,7 +50,19 @@ class Line {
     if (value != "target" && value != "paper") fail("stop", value, "target, paper, null");
     return value.get<std::string>();
   }
-  // Null and a missing key are the same: does not apply.
+  std::string text(const char* key) const {
+    const Json& value = this->value(key);
+    if (!value.is_null() && !value.is_string()) fail(key, value, "a text, null");
+    return value.is_null() ? "" : value.get<std::string>();
+  }
+  std::map<std::string, std::string> texts(const char* key) const {
+    const Json& value = this->value(key);
+    if (value.is_null()) return {};
+    if (!value.is_object()) fail(key, value, "an object of texts");
+    for (const Json& text : value)
+      if (!text.is_string()) fail(key, text, "texts");
+    return value.get<std::map<std::string, std::string>>();
+  }
   std::optional<double> number(const char* key, double most) const {
     const Json& value = this->value(key);
     if (value.is_null()) return {};
@@ -60,28 +77,14 @@ class Line {
     if (seconds == 0.0) fail(key, value(key), "a number > 0, null");
     return seconds;
   }
-  std::optional<std::int64_t> whole(const char* key, int power_of_two) const {
+  std::optional<std::int64_t> count(const char* key) const {
+    constexpr double most = std::int64_t{1} << 60;
     const Json& value = this->value(key);
     if (value.is_null()) return {};
-    if (!value.is_number_integer() || value < 0 || value > std::int64_t{1} << power_of_two)
-      fail(key, value, fmt::format("a whole number from 0 to 2^{}, null", power_of_two));
+    const double number = value.is_number() ? value.get<double>() : -1;
+    if (!(number >= 0 && number <= most && number == std::floor(number)))
+      fail(key, value, "a whole number from 0 to 2^60, null");
     return value.get<std::int64_t>();
-  }
-  std::optional<std::int64_t> bytes(const char* key) const { return whole(key, 60); }
-  std::string text(const char* key) const {  // empty: null or missing
-    const Json& value = this->value(key);
-    if (value.is_null()) return "";
-    if (!value.is_string()) fail(key, value, "a text, null");
-    return value.get<std::string>();
-  }
-  std::string date() const {
-    const Json& context = value("context");
-    if (context.is_null()) return "";
-    if (!context.is_object()) fail("context", context, "a JSON object, null");
-    const auto found = context.find("date");
-    if (found == context.end()) return "";
-    if (!found->is_string()) fail("context: date", *found, "a text");
-    return found->get<std::string>();
   }
   std::vector<double> times(const char* key) const {
     const Json& value = this->value(key);
@@ -102,37 +105,52 @@ class Line {
     throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place_, key, value.dump(), allowed));
   }
 
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  std::string place_;
-  Json json_;
+  const Json& json_;
+  const std::string& place_;
 };
-
-CaseRecord from(const Line& line) {
-  CaseRecord record;
-  record.mesh = line.name("mesh");
-  record.scene = line.name("scene");
-  record.method = line.name("method");
-  record.status = line.status();
-  record.stop = line.stop();
-  record.samples_s = line.times("samples_s");
-  record.time_s = line.time("time_s");
-  record.tuning_s = line.number("tuning_s", std::numeric_limits<double>::infinity());
-  record.stage_contact_s = line.number("stage_contact_s", std::numeric_limits<double>::infinity());
-  record.peak_heap_bytes = line.bytes("peak_heap_bytes");
-  record.storage_bytes = line.bytes("storage_bytes");
-  record.done_fraction = line.number("done_fraction", 1);
-  record.extrapolated_time_s = line.time("extrapolated_time_s");
-  record.n_phi = static_cast<int>(line.whole("n_phi", 30).value_or(0));
-  record.study = line.text("study");
-  record.knob = line.text("knob");
-  record.knob_value = line.number("knob_value", std::numeric_limits<double>::infinity());
-  record.date = line.date();
-  return record;
-}
 
 }  // namespace
 
-std::vector<CaseRecord> read_records(const std::filesystem::path& file, StudyRecords of_studies) {
+std::string CaseRecord::name() const {
+  std::string text = fmt::format("{}/{}/{}", mesh, scene, method);
+  if (!study.empty()) text += fmt::format("/study={}", study);
+  if (!knob.empty()) text += fmt::format("/{}", knob);
+  if (knob_value) text += fmt::format("={}", *knob_value);
+  if (stop == "paper") text += "/stop=paper";
+  return text;
+}
+
+std::string CaseRecord::date() const {
+  const auto found = context.find("date");
+  return found == context.end() ? "" : found->second;
+}
+
+CaseRecord case_record(const Json& json, const std::string& place) {
+  const Keys keys(json, place);
+  CaseRecord record;
+  record.mesh = keys.name("mesh");
+  record.scene = keys.name("scene");
+  record.method = keys.name("method");
+  record.status = keys.status();
+  record.stop = keys.stop();
+  record.study = keys.text("study");
+  record.knob = keys.text("knob");
+  record.knob_value = keys.number("knob_value", infinity);
+  record.samples_s = keys.times("samples_s");
+  record.time_s = keys.time("time_s");
+  record.noise_kernel_s = keys.time("noise_kernel_s");
+  record.tuning_s = keys.number("tuning_s", infinity);
+  record.stage_contact_s = keys.number("stage_contact_s", infinity);
+  record.done_fraction = keys.number("done_fraction", 1);
+  record.extrapolated_time_s = keys.time("extrapolated_time_s");
+  for (const auto& [key, member] : count_members) record.*member = keys.count(key);
+  for (const auto& [key, member] : error_members) record.*member = keys.number(key, infinity);
+  record.answer_hash = keys.text("answer_hash");
+  record.context = keys.texts("context");
+  return record;
+}
+
+std::vector<CaseRecord> read_records(const std::filesystem::path& file, Studies studies) {
   std::error_code error;
   std::ifstream in(file, std::ios::binary);
   if (!in || std::filesystem::is_directory(file, error))
@@ -140,13 +158,16 @@ std::vector<CaseRecord> read_records(const std::filesystem::path& file, StudyRec
   std::vector<CaseRecord> records;
   int number = 0;
   for (std::string text; std::getline(in, text);) {
-    const Line line(file.string(), ++number, text);
-    CaseRecord record = from(line);
-    if (of_studies == StudyRecords::kept || record.study.empty())
-      records.push_back(std::move(record));
+    const std::string place = fmt::format("{}:{}", file.string(), ++number);
+    CaseRecord record = case_record(parsed(text, place), place);
+    if (studies == Studies::include || record.study.empty()) records.push_back(std::move(record));
   }
   if (in.bad()) throw RecordError(file.string() + ": cannot be read");
   return records;
+}
+
+bool has_answer(const CaseRecord& record) {
+  return record.status == Status::ok || record.status == Status::inaccurate;
 }
 
 }  // namespace airybench

@@ -283,8 +283,9 @@ TEST_P(CommittedRecords, DirectMethodsArePredictedFromSmallerMeshes) {
     if (!is_direct(general_name(held_out.method)) || held_out.mesh < "Mesh5") continue;
     std::vector<CaseRecord> smaller = past.records;
     std::erase_if(smaller, [&](const CaseRecord& r) { return r.n_phi >= held_out.n_phi; });
-    const Prediction p =
-        predict_one({held_out.mesh, held_out.scene, held_out.method, held_out.n_phi}, smaller);
+    const Prediction p = predict_one({held_out.mesh, held_out.scene, held_out.method,
+                                      static_cast<int>(held_out.n_phi.value_or(0))},
+                                     smaller);
     ASSERT_TRUE(p.time_s && p.peak_heap_bytes);
     const double factor = p.time_s->value / *held_out.time_s;
     const double heap_factor =

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <set>
 
 #include "bench/records/record_files.hpp"
@@ -10,14 +9,6 @@
 
 namespace airybench {
 namespace {
-
-TEST(Statistics, MedianAndItsDeviation) {
-  EXPECT_TRUE(std::isnan(median({})));
-  EXPECT_EQ(median({3}), 3);
-  EXPECT_EQ(median({3, 1, 2}), 2);
-  EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
-  EXPECT_EQ(median_absolute_deviation({1, 2, 3, 4, 100}), 1);
-}
 
 TEST(Record, HasExactlyTheDocumentedColumns) {
   const std::set<std::string> documented = {"mesh",

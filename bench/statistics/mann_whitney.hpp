@@ -1,0 +1,34 @@
+// The Mann-Whitney (Wilcoxon rank sum) test: is one of two samples shifted against the other?
+//
+//   U = #{(i, j): a_i < b_j} + ½ #{(i, j): a_i = b_j},   0 <= U <= m n,   E U = m n / 2
+//
+// It asks nothing of the distribution but that it be the same on both sides when nothing changed.
+// Mann, Whitney, Ann. Math. Statist. 18 (1947) 50-60.
+//
+// Without ties and up to 25 values a side, p is exact: with N(u; m, n) orderings that have U = u,
+//   N(u; m, n) = N(u; m - 1, n) + N(u - m; m, n - 1)
+// (the largest value is of a, or of b and above all m of a). Otherwise U is taken as normal, with
+//   Var U = m n / 12 [ N + 1 - Σ (t³ - t) / (N (N - 1)) ],   N = m + n, t: sizes of the ties,
+// and a continuity correction of 1/2. Lehmann, "Nonparametrics", 1975, section 1.5.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace airybench {
+
+struct MannWhitney {
+  double u = 0;  // above m n / 2: b is the larger
+  double p = 1;  // two-sided
+  bool exact = false;
+};
+
+// Two empty or constant samples: p = 1.
+MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>& b);
+
+// 2 / C(m + n, m): the least p that so many values can give.
+double least_mann_whitney_p(std::size_t m, std::size_t n);
+// The least number of values on both sides with which p <= level is possible; 0 < level <= 1.
+std::size_t values_needed_for(double level);
+
+}  // namespace airybench

@@ -1,0 +1,10 @@
+// `bench compare A B`: two results folders, case by case.
+#pragma once
+
+namespace airybench {
+
+// argv[0] is "compare". Prints, and writes --out where asked. 0, or 1 for a regression. Throws
+// HelpRequested, UsageError, RecordError, std::runtime_error (a file that cannot be written).
+int compare_command(int argc, const char* const* argv);
+
+}  // namespace airybench

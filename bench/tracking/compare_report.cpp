@@ -1,0 +1,154 @@
+#include "bench/tracking/compare_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "bench/statistics/robust.hpp"
+#include "bench/terminal.hpp"
+#include "bench/tracking/judge_counters.hpp"
+
+namespace airybench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Status, errors, memory, iterations: what is not equal.
+std::vector<std::string> other_changes(const ComparedCase& one) {
+  std::vector<std::string> changes;
+  const std::string name = one.a.name();
+  if (one.a.status != one.b.status)
+    changes.push_back(
+        fmt::format("{}: status {} → {}", name, name_of(one.a.status), name_of(one.b.status)));
+  for (const auto& [key, member] : error_members)
+    if (one.a.*member && one.b.*member &&
+        (error_grew(*(one.a.*member), *(one.b.*member)) ||
+         error_grew(*(one.b.*member), *(one.a.*member))))
+      changes.push_back(
+          fmt::format("{}: {} {:.3g} → {:.3g}", name, key, *(one.a.*member), *(one.b.*member)));
+  for (const auto& [key, member] : count_members)
+    if (one.a.*member && one.b.*member && *(one.a.*member) != *(one.b.*member))
+      changes.push_back(
+          fmt::format("{}: {} {} → {}", name, key, *(one.a.*member), *(one.b.*member)));
+  return changes;
+}
+
+std::string interval_text(const Interval& interval) {
+  return fmt::format("[{:.3g}, {:.3g}]", interval.low, interval.high);
+}
+
+// The cells of a row; those of a case without times say so.
+std::vector<std::string> row(const ComparedCase& one) {
+  if (!one.timed)
+    return {one.a.name(),
+            "",
+            "",
+            "",
+            "",
+            "",
+            "",
+            fmt::format("no times: {}, {}", name_of(one.a.status), name_of(one.b.status))};
+  return {one.a.name(),
+          show_seconds(median(one.a.samples_s)),
+          show_seconds(median(one.b.samples_s)),
+          fmt::format("{:.3g}", one.ratio),
+          interval_text(one.interval),
+          fmt::format("{:.3g}", one.corrected),
+          fmt::format("{:.2g}", one.p),
+          std::string(name_of(one.verdict))};
+}
+const std::vector<std::string> header = {"case", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"};
+
+std::vector<std::string> summary(const Comparison& comparison) {
+  std::vector<std::string> lines;
+  if (comparison.timed > 0)
+    lines.push_back(fmt::format(
+        "geometric mean of B/A over {} cases: {:.4g} {}; by the drift {:.4g}", comparison.timed,
+        comparison.mean_ratio, interval_text(comparison.mean_interval),
+        comparison.mean_ratio / comparison.drift.value_or(1)));
+  lines.push_back(
+      comparison.drift
+          ? fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A)",
+                        *comparison.drift)
+          : "drift of the machine: not known (no noise_kernel_s in both)");
+  if (std::any_of(comparison.cases.begin(), comparison.cases.end(), [](const ComparedCase& one) {
+        return one.timed && one.verdict == TimeVerdict::too_few_samples;
+      }))
+    lines.push_back(
+        fmt::format("too few samples: with {} cases {} repetitions on both sides would do",
+                    comparison.timed, comparison.repetitions_needed));
+  for (const std::string& name : comparison.only_a) lines.push_back("only in A: " + name);
+  for (const std::string& name : comparison.only_b) lines.push_back("only in B: " + name);
+  for (const ComparedCase& one : comparison.cases)
+    for (std::string& change : other_changes(one)) lines.push_back(std::move(change));
+  return lines;
+}
+
+// "µ" and "→" are one column but two bytes and more.
+std::size_t columns_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
+}  // namespace
+
+std::string comparison_text(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows = {header};
+  for (const ComparedCase& one : comparison.cases) rows.push_back(row(one));
+  std::vector<std::size_t> widths(header.size(), 0);
+  for (const auto& cells : rows)
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      widths[i] = std::max(widths[i], columns_of(cells[i]));
+  std::string text;
+  for (const auto& cells : rows) {
+    std::string line;
+    for (std::size_t i = 0; i + 1 < cells.size(); ++i)
+      line += cells[i] + std::string(widths[i] - columns_of(cells[i]) + 2, ' ');
+    text += line + cells.back() + "\n";
+  }
+  text += "\n";
+  for (const std::string& line : summary(comparison)) text += line + "\n";
+  return text;
+}
+
+std::string comparison_markdown(const Comparison& comparison) {
+  std::string text =
+      fmt::format("| {} |\n|{}\n", fmt::join(header, " | "), "---|---|---|---|---|---|---|---|");
+  for (const ComparedCase& one : comparison.cases)
+    text += fmt::format("| {} |\n", fmt::join(row(one), " | "));
+  text += "\n";
+  for (const std::string& line : summary(comparison)) text += fmt::format("- {}\n", line);
+  return text;
+}
+
+Json comparison_json(const Comparison& comparison) {
+  Json cases = Json::array();
+  for (const ComparedCase& one : comparison.cases) {
+    Json json = {{"case", one.a.name()},
+                 {"status_a", name_of(one.a.status)},
+                 {"status_b", name_of(one.b.status)},
+                 {"other_changes", other_changes(one)}};
+    if (one.timed)
+      json.update(Json{{"ratio", one.ratio},
+                       {"low", one.interval.low},
+                       {"high", one.interval.high},
+                       {"ratio_by_drift", one.corrected},
+                       {"p_holm", one.p},
+                       {"verdict", name_of(one.verdict)}});
+    cases.push_back(std::move(json));
+  }
+  return {{"drift", comparison.drift ? Json(*comparison.drift) : Json()},
+          {"minimum_effect", comparison.rules.minimum_effect},
+          {"geometric_mean", comparison.timed == 0 ? Json()
+                                                   : Json{{"cases", comparison.timed},
+                                                          {"ratio", comparison.mean_ratio},
+                                                          {"low", comparison.mean_interval.low},
+                                                          {"high", comparison.mean_interval.high}}},
+          {"cases", cases},
+          {"only_in_a", comparison.only_a},
+          {"only_in_b", comparison.only_b},
+          {"regression", comparison.has_regression()}};
+}
+
+}  // namespace airybench

@@ -1,0 +1,237 @@
+#include "bench/tracking/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <tuple>
+
+#include "assembly/atomic_file.hpp"
+#include "bench/statistics/bootstrap.hpp"
+#include "bench/statistics/robust.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+using OrderedJson = nlohmann::ordered_json;
+
+constexpr const char* format_name = "airybench-night-1";
+constexpr std::array lanes = {Lane::status, Lane::counters, Lane::errors, Lane::times};
+constexpr std::array kinds = {Kind::worse, Kind::better, Kind::changed};
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+OrderedJson to_json(const CaseRecord& record) {
+  OrderedJson json = {{"mesh", record.mesh},
+                      {"scene", record.scene},
+                      {"method", record.method},
+                      {"stop", or_null(record.stop)},
+                      {"study", or_null(record.study)},
+                      {"knob", or_null(record.knob)},
+                      {"knob_value", or_null(record.knob_value)},
+                      {"status", name_of(record.status)},
+                      {"samples_s", record.samples_s},
+                      {"time_s", or_null(record.time_s)},
+                      {"time_low_s", nullptr},
+                      {"time_high_s", nullptr},
+                      {"noise_kernel_s", or_null(record.noise_kernel_s)},
+                      {"answer_hash", or_null(record.answer_hash)}};
+  if (!record.samples_s.empty()) {
+    const Interval interval = bootstrap_median(record.samples_s);
+    json["time_low_s"] = interval.low;
+    json["time_high_s"] = interval.high;
+  }
+  for (const auto& [key, member] : count_members) json[key] = or_null(record.*member);
+  for (const auto& [key, member] : error_members) json[key] = or_null(record.*member);
+  return json;
+}
+
+OrderedJson to_json(const Finding& finding) {
+  return {{"case", finding.case_name},    {"lane", name_of(finding.lane)},
+          {"quantity", finding.quantity}, {"before", finding.before},
+          {"after", finding.after},       {"kind", name_of(finding.kind)},
+          {"since", finding.since},       {"ratio", or_null(finding.ratio)},
+          {"low", or_null(finding.low)},  {"high", or_null(finding.high)},
+          {"sentence", finding.sentence}};
+}
+
+template <typename Enum, std::size_t size>
+Enum named(const std::array<Enum, size>& values, const std::string& name) {
+  for (const Enum value : values)
+    if (name_of(value) == name) return value;
+  throw RecordError(fmt::format("verdicts: {}: not known", name));
+}
+
+std::optional<double> number_at(const Json& json, const char* key) {
+  return json.at(key).is_null() ? std::optional<double>() : json.at(key).get<double>();
+}
+
+Finding finding_of(const Json& json) {
+  return {json.at("case").get<std::string>(),
+          named(lanes, json.at("lane").get<std::string>()),
+          json.at("quantity").get<std::string>(),
+          json.at("before"),
+          json.at("after"),
+          named(kinds, json.at("kind").get<std::string>()),
+          json.at("since").get<std::string>(),
+          number_at(json, "ratio"),
+          number_at(json, "low"),
+          number_at(json, "high"),
+          json.at("sentence").get<std::string>()};
+}
+
+// 2026-11-21T03:00:00Z
+bool is_date(const std::string& text) {
+  const std::string_view pattern = "dddd-dd-ddTdd:dd:ddZ";
+  return text.size() == pattern.size() &&
+         std::equal(text.begin(), text.end(), pattern.begin(), [](char c, char expected) {
+           return expected == 'd' ? c >= '0' && c <= '9' : c == expected;
+         });
+}
+
+std::string without_prefix(const Json::exception& wrong) {
+  const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
+  return what.substr(what.find("] ") + 2);
+}
+
+Night read_night(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in.good() && !in.eof()) throw RecordError(file.string() + ": cannot be read");
+  try {
+    const Json json = Json::parse(text);
+    if (json.at("format") != format_name)
+      throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
+                                    json.at("format").dump(), format_name));
+    Night night;
+    night.file = file;
+    night.date = json.at("date").get<std::string>();
+    if (!is_date(night.date))
+      throw RecordError(fmt::format("{}: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
+                                    file.string(), night.date));
+    night.context = json.at("context").get<std::map<std::string, std::string>>();
+    night.noise_samples_s = json.at("noise").at("samples_s").get<std::vector<double>>();
+    for (const Json& one : json.at("cases"))
+      night.cases.push_back(
+          case_record(one, fmt::format("{}: case {}", file.string(), night.cases.size() + 1)));
+    for (const Json& one : json.at("verdicts")) night.findings.push_back(finding_of(one));
+    night.failed = json.at("failed").get<bool>();
+    return night;
+  } catch (const Json::exception& wrong) {
+    throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)",
+                                  file.string(), without_prefix(wrong)));
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(Lane lane) {
+  constexpr std::array<std::string_view, 4> names = {"status", "counters", "errors", "times"};
+  return names[static_cast<std::size_t>(lane)];
+}
+
+std::string_view name_of(Kind kind) {
+  constexpr std::array<std::string_view, 3> names = {"worse", "better", "changed"};
+  return names[static_cast<std::size_t>(kind)];
+}
+
+const CaseRecord* Night::find(const std::string& case_name) const {
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const CaseRecord& record) {
+    return record.name() == case_name;
+  });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+std::string Night::context_value(const std::string& key) const {
+  const auto found = context.find(key);
+  return found == context.end() ? "" : found->second;
+}
+
+std::string Night::machine() const {
+  return fmt::format("{}, {} processors, {} threads", context_value("cpu"), context_value("cpus"),
+                     context_value("threads"));
+}
+
+Night night_of(std::vector<CaseRecord> records, const std::string& source) {
+  if (records.empty()) throw RecordError(source + ": no records (a night needs some)");
+  Night night;
+  night.context = records.front().context;
+  night.date = night.context_value("date");
+  if (!is_date(night.date))
+    throw RecordError(fmt::format("{}:1: context: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
+                                  source, night.date));
+  for (const CaseRecord& record : records)
+    if (record.noise_kernel_s) night.noise_samples_s.push_back(*record.noise_kernel_s);
+  night.cases = std::move(records);
+  return night;
+}
+
+std::vector<Night> read_history(const fs::path& folder) {
+  std::vector<Night> nights;
+  const fs::path files = folder / "nights";
+  std::error_code error;
+  if (!fs::exists(files, error)) return nights;
+  if (!fs::is_directory(files, error)) throw RecordError(files.string() + ": not a folder");
+  for (const auto& entry : fs::directory_iterator(files))
+    if (entry.path().extension() == ".json") nights.push_back(read_night(entry.path()));
+  std::sort(nights.begin(), nights.end(), [](const Night& a, const Night& b) {
+    return std::tie(a.date, a.file) < std::tie(b.date, b.file);
+  });
+  return nights;
+}
+
+fs::path file_for(const Night& night, const fs::path& folder, const std::vector<Night>& history) {
+  int of_this_second = 0;
+  for (const Night& other : history) {
+    if (other.date != night.date) continue;
+    ++of_this_second;
+    if (std::equal(
+            night.cases.begin(), night.cases.end(), other.cases.begin(), other.cases.end(),
+            [](const CaseRecord& a, const CaseRecord& b) { return to_json(a) == to_json(b); }))
+      throw RecordError(
+          fmt::format("{}: these records are already in the history", other.file.string()));
+  }
+  std::string name = night.date;
+  std::erase(name, ':');
+  if (of_this_second > 0) name += fmt::format("-{}", of_this_second + 1);
+  return folder / "nights" / (name + ".json");
+}
+
+void write_night(const Night& night) {
+  const auto finite = [](double value) {
+    return std::isfinite(value) ? OrderedJson(value) : OrderedJson();
+  };
+  OrderedJson cases = OrderedJson::array(), verdicts = OrderedJson::array();
+  for (const CaseRecord& record : night.cases) cases.push_back(to_json(record));
+  for (const Finding& finding : night.findings) verdicts.push_back(to_json(finding));
+  const OrderedJson json = {{"format", format_name},
+                            {"date", night.date},
+                            {"context", night.context},
+                            {"noise",
+                             {{"median_s", finite(median(night.noise_samples_s))},
+                              {"mad_s", finite(median_absolute_deviation(night.noise_samples_s))},
+                              {"samples_s", night.noise_samples_s}}},
+                            {"cases", cases},
+                            {"verdicts", verdicts},
+                            {"failed", night.failed}};
+  std::error_code error;
+  const fs::path folder = night.file.parent_path();
+  fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  write_file_atomically(night.file,
+                        json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
+}
+
+}  // namespace airybench

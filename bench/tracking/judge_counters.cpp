@@ -1,0 +1,175 @@
+#include "bench/tracking/judge_counters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <nlohmann/json.hpp>
+
+namespace airybench {
+namespace {
+
+constexpr double error_growth = 1.01;
+constexpr double rounding = 1e-11;
+
+struct JudgedCount {
+  const char* name;
+  std::optional<std::int64_t> CaseRecord::*member;
+  bool of_libraries = false;
+  double tolerated_growth = 1;
+};
+constexpr std::array<JudgedCount, 10> judged_counts = {{
+    {"linear_iterations", &CaseRecord::linear_iterations},
+    {"contact_iterations", &CaseRecord::contact_iterations},
+    {"uzawa_iterations", &CaseRecord::uzawa_iterations},
+    {"factor_entries", &CaseRecord::factor_entries},
+    {"factor_flops", &CaseRecord::factor_flops},
+    {"storage_bytes", &CaseRecord::storage_bytes},
+    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true},
+    {"heap_allocations", &CaseRecord::heap_allocations, true},
+    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true},
+    {"instructions", &CaseRecord::instructions, true, 1.01},
+}};
+
+constexpr std::array library_keys = {"compiler", "compiler_flags", "build_type",
+                                     "eigen",    "cholmod",        "mumps",
+                                     "blas",     "blas_core",      "heap_probe"};
+
+bool same_libraries(const Night& a, const Night& b) {
+  return std::all_of(library_keys.begin(), library_keys.end(),
+                     [&](const char* key) { return a.context_value(key) == b.context_value(key); });
+}
+
+// The newest night's cases beside the earlier nights.
+class Comparison {
+ public:
+  explicit Comparison(const std::vector<Night>& nights) : nights_(nights) {}
+
+  const Night& newest() const { return nights_.back(); }
+
+  // The case in the last earlier night where has(night, record).
+  template <typename Has>
+  const CaseRecord* earlier(const std::string& name, const Has& has) const {
+    for (auto night = nights_.rbegin() + 1; night != nights_.rend(); ++night)
+      if (const CaseRecord* record = night->find(name); record != nullptr && has(*night, *record))
+        return record;
+    return nullptr;
+  }
+
+  template <typename Value>
+  void add(const std::string& name, Lane lane, const char* quantity, const Value& before,
+           const Value& after, Kind kind) {
+    Finding finding{name, lane, quantity, before, after, kind, newest().date, {}, {}, {}, ""};
+    if constexpr (std::is_arithmetic_v<Value>)
+      if (before > 0) finding.ratio = static_cast<double>(after) / static_cast<double>(before);
+    finding.sentence = fmt::format("{}: {} was {} and is {}{}.", name, quantity, before, after,
+                                   kind == Kind::worse    ? ": worse"
+                                   : kind == Kind::better ? ": better"
+                                                          : "");
+    findings.push_back(std::move(finding));
+  }
+
+  std::vector<Finding> findings;
+
+ private:
+  const std::vector<Night>& nights_;
+};
+
+void compare_status(Comparison& comparison, const CaseRecord& now) {
+  const CaseRecord* before =
+      comparison.earlier(now.name(), [](const Night&, const CaseRecord&) { return true; });
+  if (before == nullptr || before->status == now.status) return;
+  const Kind kind = before->status == Status::ok ? Kind::worse
+                    : now.status == Status::ok   ? Kind::better
+                                                 : Kind::changed;
+  comparison.add(now.name(), Lane::status, "status", name_of(before->status), name_of(now.status),
+                 kind);
+}
+
+void compare_counts(Comparison& comparison, const CaseRecord& now) {
+  for (const JudgedCount& count : judged_counts) {
+    if (!(now.*count.member)) continue;
+    const CaseRecord* record =
+        comparison.earlier(now.name(), [&](const Night& night, const CaseRecord& earlier) {
+          return earlier.*count.member &&
+                 (!count.of_libraries || same_libraries(night, comparison.newest()));
+        });
+    if (record == nullptr) continue;
+    const std::int64_t before = *(record->*count.member), after = *(now.*count.member);
+    const auto from = static_cast<double>(before), to = static_cast<double>(after);
+    if (to > from * count.tolerated_growth)
+      comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::worse);
+    else if (to * count.tolerated_growth < from)
+      comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::better);
+  }
+}
+
+void compare_errors(Comparison& comparison, const CaseRecord& now) {
+  const std::size_t found = comparison.findings.size();
+  for (const auto& [name, member] : error_members) {
+    if (!(now.*member)) continue;
+    const CaseRecord* record =
+        comparison.earlier(now.name(), [&, m = member](const Night&, const CaseRecord& earlier) {
+          return (earlier.*m).has_value();
+        });
+    if (record == nullptr) continue;
+    const double before = *(record->*member), after = *(now.*member);
+    if (error_grew(before, after))
+      comparison.add(now.name(), Lane::errors, name, before, after, Kind::worse);
+    else if (error_grew(after, before))
+      comparison.add(now.name(), Lane::errors, name, before, after, Kind::better);
+  }
+  if (comparison.findings.size() > found || now.answer_hash.empty()) return;
+  const CaseRecord* record = comparison.earlier(
+      now.name(),
+      [](const Night&, const CaseRecord& earlier) { return !earlier.answer_hash.empty(); });
+  if (record != nullptr && record->answer_hash != now.answer_hash)
+    comparison.add(now.name(), Lane::errors, "answer_hash", record->answer_hash, now.answer_hash,
+                   Kind::changed);
+}
+
+// What the selection of the last night had and this one has not, and libraries that changed.
+void compare_contexts(Comparison& comparison, const Night& before) {
+  const Night& now = comparison.newest();
+  for (const CaseRecord& record : before.cases)
+    if (now.find(record.name()) == nullptr)
+      comparison.add(record.name(), Lane::status, "status", name_of(record.status),
+                     std::string_view("not run"), Kind::changed);
+  std::string changes;
+  for (const char* key : library_keys)
+    if (before.context_value(key) != now.context_value(key))
+      changes += fmt::format("{}{}: {} → {}", changes.empty() ? "" : "; ", key,
+                             before.context_value(key), now.context_value(key));
+  if (changes.empty()) return;
+  Finding finding{"all cases", Lane::counters,
+                  "libraries", nullptr,
+                  nullptr,     Kind::changed,
+                  now.date,    {},
+                  {},          {},
+                  ""};
+  finding.sentence = fmt::format(
+      "all cases: new baseline for heap figures and instructions, as compiler or libraries changed "
+      "({}).",
+      changes);
+  comparison.findings.push_back(std::move(finding));
+}
+
+}  // namespace
+
+bool error_grew(double before, double after) {
+  return after > error_growth * before && after - before > rounding;
+}
+
+std::vector<Finding> judge_counters(const std::vector<Night>& nights) {
+  if (nights.size() < 2) return {};
+  Comparison comparison(nights);
+  compare_contexts(comparison, nights[nights.size() - 2]);
+  for (const CaseRecord& now : comparison.newest().cases) {
+    compare_status(comparison, now);
+    compare_counts(comparison, now);
+    compare_errors(comparison, now);
+  }
+  return std::move(comparison.findings);
+}
+
+}  // namespace airybench

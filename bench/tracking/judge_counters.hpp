@@ -1,0 +1,29 @@
+// What does not scatter: status, counters and errors of a night against an earlier one. Any
+// worsening counts at once.
+//
+//   status     ok → anything else is worse
+//   counters   iterations, factor entries, flops, storage: any growth is worse. Heap figures and
+//              instructions depend on the libraries as well: they are compared only with a night of
+//              the same compiler and libraries. Instructions, which the kernel's interrupts
+//              disturb, may vary by 1 %.
+//   errors     growth by more than 1 % and by more than 1e-11 is worse. What stays below is
+//              rounding: the errors of direct methods are 1e-12 to 1e-10, and another order of
+//              summation moves them by their own size; at 1e-11 a hundred thousandth of the target
+//              error is still not reached.
+//   answer     another answer_hash where no error has changed: changed, no failure
+#pragma once
+
+#include <vector>
+
+#include "bench/tracking/history.hpp"
+
+namespace airybench {
+
+// The findings on the newest of `nights`, which are of one machine, in the order of dates: of each
+// value against the last earlier night that has it.
+std::vector<Finding> judge_counters(const std::vector<Night>& nights);
+
+// By more than 1 % and by more than 1e-11.
+bool error_grew(double before, double after);
+
+}  // namespace airybench

@@ -1,0 +1,132 @@
+// `bench compare` and `bench track` as a user calls them.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+class TrackingCommand : public ::testing::Test {
+ protected:
+  struct Result {
+    int code;
+    std::string out, err;
+  };
+  Result run(const std::string& arguments) {
+    std::string command = "cd '";
+    command += folder_.path().string();
+    command += "' && '" BENCH_EXECUTABLE "' ";
+    command += arguments;
+    command += " > out.txt 2> err.txt";
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), testing::text_of(folder_ / "out.txt"),
+            testing::text_of(folder_ / "err.txt")};
+  }
+  // A results folder with one case.
+  void write_run(const std::string& name, double time_s, const std::string& date,
+                 int iterations = 10) {
+    Json samples = Json::array();
+    for (int i = 0; i < 9; ++i) samples.push_back(time_s * (1 + 0.001 * i));
+    const Json json = {
+        {"mesh", "Mesh0"},
+        {"scene", "default"},
+        {"method", "ALM"},
+        {"stop", "target"},
+        {"status", "ok"},
+        {"samples_s", samples},
+        {"time_s", samples[4]},
+        {"linear_iterations", iterations},
+        {"context", {{"cpu", "C"}, {"cpus", "2"}, {"threads", "1"}, {"date", date}}}};
+    fs::create_directories(folder_ / name);
+    testing::write_text(folder_ / name / "records.jsonl", json.dump() + "\n");
+  }
+  void expect_refused(const std::string& arguments, const std::string& part) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+
+  const testing::TemporaryFolder folder_;
+};
+
+TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  write_run("b", 1.2, "2026-11-22T03:00:00Z");
+  const Result worse = run("compare a b --out=c.json");
+  EXPECT_EQ(worse.code, 1) << worse.err;
+  EXPECT_NE(worse.out.find("slower"), std::string::npos) << worse.out;
+  EXPECT_EQ(Json::parse(testing::text_of(folder_ / "c.json"))["cases"][0]["verdict"], "slower");
+  EXPECT_EQ(run("compare b a").code, 0);
+  EXPECT_EQ(run("compare a b --minimum-effect=30").code, 0);
+  EXPECT_EQ(run("compare a a --out=c.md").code, 0);
+  EXPECT_NE(testing::text_of(folder_ / "c.md").find("| not separated |"), std::string::npos);
+}
+
+TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  expect_refused("compare a none", "none/records.jsonl: cannot be opened");
+  expect_refused("compare a", "B");
+  expect_refused("compare a a --out=c.txt", "allowed: a name that ends in .md or .json");
+  expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
+  fs::create_directories(folder_ / "empty");
+  testing::write_text(folder_ / "empty/records.jsonl", "");
+  expect_refused("compare a empty", "no case is in both");
+}
+
+TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  const Result first = run("track --history=h --from=a");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("nothing is worse"), std::string::npos) << first.out;
+  EXPECT_TRUE(fs::exists(folder_ / "h/nights/2026-11-21T030000Z.json"));
+  expect_refused("track --history=h --from=a", "already in the history");
+  write_run("b", 1, "2026-11-22T03:00:00Z", 12);
+  const Result second = run("track --history=h --from=b");
+  EXPECT_EQ(second.code, 1);
+  EXPECT_NE(second.out.find("worse    Mesh0/default/ALM: linear_iterations was 10 and is 12"),
+            std::string::npos)
+      << second.out;
+  const std::string night = testing::text_of(folder_ / "h/nights/2026-11-22T030000Z.json");
+  EXPECT_EQ(Json::parse(night)["failed"], true);
+  EXPECT_EQ(run("track --history=h --judge-only").code, 1);
+  EXPECT_EQ(testing::text_of(folder_ / "h/nights/2026-11-22T030000Z.json"), night);
+}
+
+TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
+  write_run("a", 1, "yesterday");
+  expect_refused("track --history=h --judge-only", "h: no nights");
+  expect_refused("track --history=h --from=a", "a/records.jsonl:1: context: date: \"yesterday\"");
+  expect_refused("track --history=h --from=none", "none/records.jsonl: cannot be opened");
+  expect_refused("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
+  expect_refused("track --history=h --out=x", "--out: not with bench track");
+  EXPECT_FALSE(fs::exists(folder_ / "h"));
+  fs::create_directories(folder_ / "h/nights");
+  testing::write_text(folder_ / "h/nights/2026-11-21T030000Z.json", "{\"format\"");
+  expect_refused("track --history=h --from=a", "2026-11-21T030000Z.json: not a whole night");
+}
+
+TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
+  const Result result = run("track --history=h --mesh=Mesh0 --method=HYBRID --repetitions=2");
+  EXPECT_EQ(result.code, 0) << result.err;
+  ASSERT_TRUE(fs::exists(folder_ / "h/nights"));
+  const Json night =
+      Json::parse(testing::text_of(fs::directory_iterator(folder_ / "h/nights")->path()));
+  EXPECT_EQ(night["format"], "airybench-night-1");
+  EXPECT_EQ(night["cases"][0]["method"], "HYBRID");
+  EXPECT_EQ(night["cases"][0]["samples_s"].size(), 2u);
+  EXPECT_EQ(night["failed"], false);
+}
+
+}  // namespace
+}  // namespace airybench
