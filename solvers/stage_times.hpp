@@ -17,10 +17,9 @@ enum class Stage {
   recover,       // F_C to φ and stresses
   check,         // the method's own estimate of its error, refinement
 };
-inline constexpr std::array<Stage, 7> all_stages = {Stage::order,    Stage::precondition,
-                                                    Stage::factor,   Stage::condense,
-                                                    Stage::contact,  Stage::recover,
-                                                    Stage::check};
+inline constexpr std::array<Stage, 7> all_stages = {
+    Stage::order,   Stage::precondition, Stage::factor, Stage::condense,
+    Stage::contact, Stage::recover,      Stage::check};
 std::string_view name_of(Stage stage);  // "factor"
 
 // Wall-clock seconds by stage. Empty: the method has no such stage, or the scene does not need it.
@@ -44,16 +43,18 @@ class StageObserver {
   virtual void ends(Stage stage) = 0;
 };
 
-// The process's observer for the scope of the object; the one before it is back afterwards.
+// Has an observer told for the scope of the object, after those of the scopes inside it.
 class ObservedStages {
  public:
   explicit ObservedStages(StageObserver* observer);
   ~ObservedStages();
   ObservedStages(const ObservedStages&) = delete;
   ObservedStages& operator=(const ObservedStages&) = delete;
+  static void tell(void (StageObserver::*what)(Stage), Stage stage);  // all of them
 
  private:
-  StageObserver* before_;
+  StageObserver* observer_;
+  const ObservedStages* outer_;
 };
 
 // Measures one stage: adds the time from construction to destruction.

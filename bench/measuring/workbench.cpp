@@ -9,6 +9,7 @@
 #include <new>
 
 #include "bench/measuring/heap_probe.hpp"
+#include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/rss_probe.hpp"
 #include "bench/records/fields.hpp"
 
@@ -37,6 +38,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
+    const OwnerScope scope(MemoryOwner::blocks);
     blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
     blocks.samples_s.push_back(seconds_since(start));
     blocks.heap_bytes = if_probed(heap::live_bytes() - before);
@@ -109,22 +111,25 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
-  heap::reset_peak();
-  const std::int64_t before = heap::live_bytes();
+  const std::int64_t of_blocks = blocks.heap_bytes.value_or(0);
+  const MemoryWatch watch(of_blocks);
+  const std::int64_t limit_base = heap::live_bytes() - of_blocks;
   const auto start = std::chrono::steady_clock::now();
   Run result;
   bool refused = false;
   try {
     std::optional<heap::Limit> limit;
-    if (options_.memory_limit_bytes)
-      limit.emplace(before - blocks.heap_bytes.value_or(0) + *options_.memory_limit_bytes);
+    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
     result.solution = run(choice.solve, *blocks.system, control);
     refused = limit && limit->exceeded();
   } catch (const std::bad_alloc&) {  // so little that not even a message could be written
     refused = true;
   }
   result.time_s = seconds_since(start);
-  result.peak_heap_bytes = if_probed(heap::peak_bytes() - before + blocks.heap_bytes.value_or(0));
+  if (heap::is_active()) {
+    result.peak_heap_bytes = watch.peak_bytes();
+    result.memory = watch.split(result.solution, blocks.system->bytes());
+  }
   if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
   if (refused) {
     result.solution = Solution();
@@ -258,7 +263,10 @@ Workbench::Examination Workbench::examine(const Method& method,
   record.claimed_status = solution.status;
   record.error_estimate = solution.error_estimate;
   record.condition_estimate = solution.condition_estimate;
-  record.storage_bytes = solution.storage_bytes;
+  record.storage_bytes = matrix_bytes(solution);
+  record.library_bytes = solution.library_bytes;
+  record.factor_entries = solution.factor_entries;
+  record.factor_flops = solution.factor_flops;
   record.linear_iterations = solution.linear_iterations;
   record.contact_iterations = solution.contact_iterations;
   record.uzawa_iterations = solution.uzawa_iterations;
@@ -298,6 +306,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(solution.times);
     record.peak_heap_bytes = run.peak_heap_bytes;
+    record.memory = run.memory;
     record.peak_rss_bytes = run.peak_rss_bytes;
     record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
   }
@@ -308,6 +317,7 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   malloc_trim(0);
   const Run run = solve(choice, blocks(method.blocks), false);
   record.peak_heap_bytes = run.peak_heap_bytes;
+  record.memory = run.memory;
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
 }
@@ -320,6 +330,7 @@ double Workbench::measure_time(const Method& method, const Choice& choice, Recor
     record.samples_s.clear();
     record.stage_samples.clear();
     record.peak_heap_bytes.reset();
+    record.memory.reset();
     record.peak_rss_bytes.reset();
     return run.time_s;  // the time of a failure is no sample
   }

@@ -157,6 +157,12 @@ Columns columns(const Record& r) {
       {"knob", r.knob.empty() ? Json() : Json(r.knob)},
       {"knob_value", or_null(r.knob_value)},
       {"scene_group", r.scene_group.empty() ? Json() : Json(r.scene_group)},
+      {"factor_entries", or_null(r.factor_entries)},
+      {"factor_flops", or_null(r.factor_flops)},
+      {"library_bytes", or_null(r.library_bytes)},
+      {"memory_count_ratio", r.memory ? or_null(count_ratio(*r.memory)) : Json()},
+      {"heap_allocations", r.memory ? Json(r.memory->allocations) : Json()},
+      {"heap_allocated_bytes", r.memory ? Json(r.memory->allocated_bytes) : Json()},
   };
   result.insert(result.end(), measures.begin(), measures.end());
   return result;
@@ -172,6 +178,9 @@ nlohmann::ordered_json to_json(const Record& r) {
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
   json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);
+  json["memory_by_owner"] = r.memory ? by_owner(*r.memory) : OrderedJson();
+  json["memory_by_stage"] = r.memory ? by_stage(*r.memory) : OrderedJson();
+  json["memory_counts_differ"] = r.memory ? OrderedJson(counts_differ(*r.memory)) : OrderedJson();
   OrderedJson run = OrderedJson::array(), left_out = OrderedJson::object();
   for (const StageDecision& decision : r.stages) {
     if (decision.run)

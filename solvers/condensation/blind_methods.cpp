@@ -1,8 +1,7 @@
 #include "solvers/condensation/blind.hpp"
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/direct/condition.hpp"
-#include "solvers/direct/mumps.hpp"
-#include "solvers/direct/skyline.hpp"
+#include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
 namespace {
@@ -23,13 +22,15 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   CondensedSystem condensed;
   if (system.n_c() > 0) {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense_blindly(system, blind, solve, columns_at_once);
   }
-  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
+    const OwnerScope scope(MemoryOwner::answer);
     Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
     solve(x);
     answer = recover(system, blind, x, solution);
@@ -58,7 +59,8 @@ BlindSystem factorise(const DualSystem& system, const RunControl& control, int t
   }
   control.deadline.check("MUMPS's factorisation");
   check_inertia(factor.negative_pivots(), system.n_f() + system.n_c() - trailing);
-  solution.storage_bytes = factor.bytes();
+  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  count_factor(factor, solution);
   return blind;
 }
 
@@ -85,13 +87,15 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   CondensedSystem condensed;
   if (n_c > 0) {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense_blindly(factor.schur(), factor.reduce(load));
   }
-  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
+    const OwnerScope scope(MemoryOwner::answer);
     Eigen::VectorXd x = load;
     if (n_c > 0)
       x = factor.expand(condensed.G - condensed.D * solution.F_C);
@@ -118,16 +122,19 @@ Solution solve_blind_skyline(const DualSystem& system, const RunControl& control
   {
     const StageTimer timer(solution.times, Stage::order);
     blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    const OwnerScope scope(MemoryOwner::factor);
     profile = analyse_skyline(blind.lower);
   }
   SkylineFactor factor;
   {
     const StageTimer timer(solution.times, Stage::factor);
+    const OwnerScope scope(MemoryOwner::factor);
     factor = factor_ldlt(std::move(profile), blind.lower, control.deadline);
   }
   check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),
                 system.n_f() + system.n_c());
-  solution.storage_bytes = factor.bytes();
+  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  count_factor(factor, solution);
   condense_and_solve(
       system, blind, control,
       [&](Eigen::Ref<Eigen::MatrixXd> X) {

@@ -1,5 +1,7 @@
 #include "solvers/condensation/stiffness_condensation.hpp"
 
+#include "solvers/direct/factor_counts.hpp"
+
 namespace airybench {
 
 CondensedSystem condense(const StiffnessFactor& factor) {
@@ -31,10 +33,11 @@ CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
   {
     const StageTimer timer(solution.times, Stage::condense);
     factor.y = factor.cholesky.forward(b);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense(factor);
   }
-  solution.storage_bytes +=
-      factor.cholesky.bytes() + static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  count_factor(factor.cholesky, solution);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   return condensed;
 }
 

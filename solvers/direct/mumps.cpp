@@ -66,6 +66,7 @@ MumpsFactor::~MumpsFactor() {
 }
 
 void MumpsFactor::call(int job, const char* doing) {
+  const OwnerScope scope(MemoryOwner::factor);
   for (int& extra = mumps_.icntl[no(14)];; extra *= 2) {  // workspace beyond the estimate, per cent
     mumps_.job = job;
     dmumps_c(&mumps_);
@@ -85,6 +86,7 @@ void MumpsFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing
   const int n = static_cast<int>(lower.rows());
   if (n == 0) return;  // nothing to solve
   require_finite(lower);
+  const OwnerScope scope(MemoryOwner::factor);
   const auto entries = static_cast<std::size_t>(lower.nonZeros());
   rows_.reserve(entries);
   columns_.reserve(entries);
@@ -151,8 +153,20 @@ Eigen::VectorXd MumpsFactor::expand(const Eigen::VectorXd& x_C) {
 int MumpsFactor::negative_pivots() const { return mumps_.infog[no(12)]; }
 
 std::size_t MumpsFactor::bytes() const {
-  return large(mumps_.infog[no(9)]) * sizeof(double) + large(mumps_.infog[no(10)]) * sizeof(int);
+  return large(mumps_.infog[no(9)]) * sizeof(double) + large(mumps_.infog[no(10)]) * sizeof(int) +
+         (rows_.size() + columns_.size()) * sizeof(int) +
+         static_cast<std::size_t>(schur_.size()) * sizeof(double);
 }
+
+std::size_t MumpsFactor::library_bytes() const {
+  return static_cast<std::size_t>(mumps_.infog[no(19)]) * 1000000;
+}
+
+std::int64_t MumpsFactor::entries() const {
+  return static_cast<std::int64_t>(large(mumps_.infog[no(29)]));
+}
+
+double MumpsFactor::flops() const { return mumps_.rinfog[no(3)]; }
 
 void MumpsFactor::solve(int kind, Eigen::Ref<Eigen::MatrixXd> X) {
   if (mumps_.n == 0) return;

@@ -297,7 +297,7 @@ TEST_P(EveryKindOfMethod, TooFewSweepsIsNotConverged) {
   EXPECT_EQ(solve(posed({}), control).status, Status::ok);
 }
 
-TEST_P(EveryKindOfMethod, CountsItsStorage) { EXPECT_GT(solve(posed({})).storage_bytes, 0u); }
+TEST_P(EveryKindOfMethod, CountsItsStorage) { EXPECT_GT(matrix_bytes(solve(posed({}))), 0u); }
 
 TEST(Methods, SelectionByNamesAndGlobs) {
   EXPECT_EQ(select_methods("3STEPD").size(), 1u);

@@ -83,7 +83,13 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "study",
                                             "knob",
                                             "knob_value",
-                                            "scene_group"};
+                                            "scene_group",
+                                            "factor_entries",
+                                            "factor_flops",
+                                            "library_bytes",
+                                            "memory_count_ratio",
+                                            "heap_allocations",
+                                            "heap_allocated_bytes"};
   std::set<std::string> names;
   for (const auto& [name, value] : columns(Record{}))
     EXPECT_TRUE(names.insert(name).second) << name;
