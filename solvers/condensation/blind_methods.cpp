@@ -9,6 +9,7 @@ namespace {
 SaddleVector recover(const DualSystem& system, const BlindSystem& blind, const Eigen::VectorXd& x,
                      Solution& solution) {
   SaddleVector answer = by_blocks(system, blind, x);
+  const OwnerScope scope(MemoryOwner::answer);
   solution.phi = airy_function(system, answer.x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   return answer;
@@ -30,7 +31,6 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
     Eigen::VectorXd x = blind_right_hand_side(system, blind, solution.F_C);
     solve(x);
     answer = recover(system, blind, x, solution);
@@ -43,13 +43,18 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   check_airy_answer(system, condensed.D.diagonal(), solve_saddle, answer, control, solution);
 }
 
+// Made where it stays: Eigen's sparse matrices are copied when they are assigned.
+BlindSystem timed_system(const DualSystem& system, BlindNumbering numbering, Solution& solution) {
+  const StageTimer timer(solution.times, Stage::order);
+  return make_blind_system(system, numbering);
+}
+
 // M₁₁ and its factor; the last `trailing` unknowns are left to the Schur complement.
 BlindSystem factorise(const DualSystem& system, const RunControl& control, int trailing,
                       MumpsFactor& factor, Solution& solution) {
-  BlindSystem blind;
+  BlindSystem blind = timed_system(system, BlindNumbering::multipliers_last, solution);
   {
     const StageTimer timer(solution.times, Stage::order);
-    blind = make_blind_system(system, BlindNumbering::multipliers_last);
     factor.analyse(blind.lower, trailing);
   }
   control.deadline.check("MUMPS's analysis");
@@ -95,7 +100,6 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
     Eigen::VectorXd x = load;
     if (n_c > 0)
       x = factor.expand(condensed.G - condensed.D * solution.F_C);
@@ -117,11 +121,11 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
 
 Solution solve_blind_skyline(const DualSystem& system, const RunControl& control) {
   Solution solution;
-  BlindSystem blind;
+  const BlindSystem blind =
+      timed_system(system, BlindNumbering::multipliers_after_unknowns, solution);
   SkylineProfile profile;
   {
     const StageTimer timer(solution.times, Stage::order);
-    blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     const OwnerScope scope(MemoryOwner::factor);
     profile = analyse_skyline(blind.lower);
   }

@@ -32,11 +32,14 @@ CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
   CondensedSystem condensed;
   {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope_of_y(MemoryOwner::factor);
     factor.y = factor.cholesky.forward(b);
     const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense(factor);
   }
   count_factor(factor.cholesky, solution);
+  solution.storage[MemoryOwner::factor] +=
+      static_cast<std::size_t>(factor.y.size()) * sizeof(double);
   solution.storage[MemoryOwner::condensed] = condensed.bytes();
   return condensed;
 }

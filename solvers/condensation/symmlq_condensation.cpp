@@ -209,11 +209,11 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
     answer = solve_one([&](LaneColumn b) {
       load(b);
       if (n_c > 0) b.tail(n_c) += solution.F_C;
     });
+    const OwnerScope scope(MemoryOwner::answer);
     solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

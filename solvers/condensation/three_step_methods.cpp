@@ -24,8 +24,8 @@ void condense_and_solve(const DualSystem& system, const RunControl& control, con
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
     answer = recover_airy_unknowns(steps, system, solution.F_C, solve_S);
+    const OwnerScope scope(MemoryOwner::answer);
     solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

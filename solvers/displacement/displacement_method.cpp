@@ -21,9 +21,9 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   Eigen::VectorXd contact, u;
   {
     const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
     if (system.n_c() > 0) contact = condensed.D * solution.F_C - condensed.G;
     u = all_displacements(factor, contact);
+    const OwnerScope scope(MemoryOwner::answer);
     solution.displacement = displacement_field(system, u);
     solution.stress = stress_of_displacement(problem, solution.displacement);
   }

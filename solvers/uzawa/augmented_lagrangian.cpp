@@ -143,7 +143,7 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
 }
 
 std::size_t uzawa_bytes(const DualSystem& system, int count) {
-  return static_cast<std::size_t>(count * (system.n() + 3 * system.n_f() + 4 * system.n_c())) *
+  return static_cast<std::size_t>(count * (2 * system.n() + 4 * system.n_f() + 6 * system.n_c())) *
          sizeof(double);
 }
 

@@ -59,7 +59,7 @@ struct UzawaResult {
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
-// Of the iterates of so many ρ.
+// Of the iterates of so many ρ, and of their results.
 std::size_t uzawa_bytes(const DualSystem& system, int count);
 
 // One iteration for every ρ, side by side: they share the reading of the factor. race: the others
