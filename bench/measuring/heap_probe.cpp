@@ -73,18 +73,26 @@ void add(MemoryOwner owner, std::int64_t bytes) {
   if (raise(peak, now)) copy_at_peak(now);
 }
 
-std::int64_t size_of(void* block) { return static_cast<std::int64_t>(malloc_usable_size(block)); }
-
-// A block's owner stands in the last byte that it has. So one byte more is asked for.
+// A block's tag stands in the last byte that it has, so one byte more is asked for: its owner, and
+// whether glibc, whose blocks end 8 bytes after a multiple of 16, gave 16 bytes more for that.
+// These are the probe's own and do not count.
+constexpr unsigned char enlarged = 0x80;
+constexpr std::int64_t enlargement_bytes = 16;
 constexpr std::size_t with_tag(std::size_t bytes) {
   return bytes == std::numeric_limits<std::size_t>::max() ? bytes : bytes + 1;
 }
+constexpr bool fills_a_block(std::size_t bytes) { return bytes >= 24 && bytes % 16 == 8; }
+
 unsigned char& tag_of(void* block) {
   return static_cast<unsigned char*>(block)[malloc_usable_size(block) - 1];
 }
 MemoryOwner owner_of(void* block) {
-  const unsigned char tag = tag_of(block);
-  return tag < all_memory_owners.size() ? static_cast<MemoryOwner>(tag) : MemoryOwner::other;
+  const unsigned char owner = tag_of(block) & ~enlarged;
+  return owner < all_memory_owners.size() ? static_cast<MemoryOwner>(owner) : MemoryOwner::other;
+}
+std::int64_t size_of(void* block) {
+  const auto usable = static_cast<std::int64_t>(malloc_usable_size(block));
+  return usable - ((tag_of(block) & enlarged) != 0 ? enlargement_bytes : 0);
 }
 
 bool too_much(std::size_t bytes) {
@@ -102,13 +110,13 @@ void* refused() {
   return nullptr;
 }
 
-void* counted(void* block, MemoryOwner owner = current_memory_owner) {
+// block: given for so many bytes and the tag, or null.
+void* counted(void* block, std::size_t bytes, MemoryOwner owner = current_memory_owner) {
   if (block != nullptr) {
-    tag_of(block) = static_cast<unsigned char>(owner);
-    const std::int64_t bytes = size_of(block);
-    add(owner, bytes);
+    tag_of(block) = static_cast<unsigned char>(owner) | (fills_a_block(bytes) ? enlarged : 0);
+    add(owner, size_of(block));
     count.fetch_add(1, std::memory_order_relaxed);
-    given_out.fetch_add(bytes, std::memory_order_relaxed);
+    given_out.fetch_add(size_of(block), std::memory_order_relaxed);
   }
   return block;
 }
@@ -118,13 +126,13 @@ void* counted(void* block, MemoryOwner owner = current_memory_owner) {
 extern "C" {
 
 void* malloc(std::size_t bytes) {
-  return too_much(bytes) ? refused() : counted(__libc_malloc(with_tag(bytes)));
+  return too_much(bytes) ? refused() : counted(__libc_malloc(with_tag(bytes)), bytes);
 }
 
 void* calloc(std::size_t n, std::size_t size) {
   std::size_t bytes = 0;
   if (__builtin_mul_overflow(n, size, &bytes) || too_much(bytes)) return refused();
-  return counted(__libc_calloc(1, with_tag(bytes)));
+  return counted(__libc_calloc(1, with_tag(bytes)), bytes);
 }
 
 void free(void* block) {
@@ -147,11 +155,11 @@ void* realloc(void* block, std::size_t bytes) {
   void* moved = __libc_realloc(block, with_tag(bytes));
   if (moved == nullptr) return nullptr;  // the old block is still there
   add(owner, -before);
-  return counted(moved, owner);
+  return counted(moved, bytes, owner);
 }
 
 void* memalign(std::size_t alignment, std::size_t bytes) {
-  return too_much(bytes) ? refused() : counted(__libc_memalign(alignment, with_tag(bytes)));
+  return too_much(bytes) ? refused() : counted(__libc_memalign(alignment, with_tag(bytes)), bytes);
 }
 
 void* aligned_alloc(std::size_t alignment, std::size_t bytes) { return memalign(alignment, bytes); }

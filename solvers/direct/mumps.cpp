@@ -34,7 +34,7 @@ void require_finite(const Eigen::SparseMatrix<double>& matrix) {
     throw Breakdown("MUMPS: the matrix is not finite");
 }
 
-// INFOG's large numbers: in millions where negative.
+// Large numbers of INFO and INFOG: in millions where negative.
 std::size_t large(int value) {
   return value < 0 ? static_cast<std::size_t>(-std::int64_t{value}) * 1000000
                    : static_cast<std::size_t>(value);
@@ -155,8 +155,10 @@ int MumpsFactor::negative_pivots() const { return mumps_.infog[no(12)]; }
 std::size_t MumpsFactor::bytes() const {
   // Trees, orderings and scaling that the analysis leaves: 23 to 29 integers per unknown.
   constexpr std::size_t of_analysis = 24;
-  const std::size_t integers = large(mumps_.info[no(19)]) + rows_.size() + columns_.size() +
-                               of_analysis * static_cast<std::size_t>(mumps_.n);
+  // INFO(7): integer workspace by the analysis, before ICNTL(14) is added; INFO(39): real one.
+  const std::size_t integers =
+      large(mumps_.info[no(7)]) * static_cast<std::size_t>(100 + mumps_.icntl[no(14)]) / 100 +
+      of_analysis * static_cast<std::size_t>(mumps_.n) + rows_.size() + columns_.size();
   const std::size_t doubles = large(mumps_.info[no(39)]) + static_cast<std::size_t>(schur_.size());
   return doubles * sizeof(double) + integers * sizeof(int);
 }

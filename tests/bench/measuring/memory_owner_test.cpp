@@ -111,6 +111,25 @@ TEST(MemoryOwner, ABlockMayBeWrittenWholeWithoutLosingItsOwner) {
     }
 }
 
+// 24, 40, 56 … bytes fill glibc's blocks: the tag makes them larger, and that does not count.
+TEST(MemoryOwner, TheTagItselfDoesNotCount) {
+  std::array<void*, 1000> blocks{};
+  for (const std::size_t bytes : {24, 40, 56}) {
+    const Gained gained;
+    const auto held = [&] { return static_cast<double>(gained(MemoryOwner::factor)); };
+    {
+      const OwnerScope scope(MemoryOwner::factor);
+      for (void*& block : blocks) block = used(std::malloc(bytes));
+    }
+    const double expected = 1000.0 * static_cast<double>(bytes);
+    EXPECT_NEAR(held(), expected, 4000) << bytes;  // not 16000 more
+    for (void*& block : blocks) block = used(std::realloc(block, bytes + 160));
+    EXPECT_NEAR(held(), expected + 160'000, 4000) << bytes;
+    for (void* block : blocks) std::free(block);
+    EXPECT_EQ(held(), 0) << bytes;
+  }
+}
+
 TEST(MemoryOwner, ABlockThatGrowsOrShrinksKeepsItsOwner) {
   const Gained gained;
   void* block = nullptr;
