@@ -2,6 +2,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
+#include "assembly/sparse_bytes.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench {
@@ -147,11 +148,6 @@ void build_load(DualSystem& system) {
         if (dofs[k] != DofNumbering::gauge) system.q(dofs[k]) -= load(k) * system.scale(dofs[k]);
     }
   }
-}
-
-std::size_t bytes_of(const auto& sparse) {
-  return static_cast<std::size_t>(sparse.nonZeros()) * (sizeof(double) + sizeof(int)) +
-         static_cast<std::size_t>(sparse.outerSize() + 1) * sizeof(int);
 }
 
 }  // namespace

@@ -68,7 +68,7 @@ class Row:
             f"{text}, {percent:.1g}\u00a0% done"
 
 
-def scene_of(rows: list[Row]) -> str:
+def scene_of(rows: list) -> str:
     """The scene to draw where there is room for one."""
     scenes = sorted({row.scene for row in rows})
     return "default" if "default" in scenes else scenes[0]

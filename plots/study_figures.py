@@ -9,8 +9,9 @@ pareto               total error against time and memory, over all meshes
 convergence          discretisation error against the mesh size, with rates; bounds of the energy
 stability_MESH       outcome of each method in each scene
 size_to_limit        time, memory and error over n_phi, of a run beyond the paper's meshes
+memory_by_owner      peak heap of each method by whose it is, on the largest mesh; from records.jsonl
 
-All as .png. The error study and the size limit are of one scene, `default` if it is there. A line
+All as .png. All but the stability study are of one scene, `default` if it is there. A line
 on stdout says of each what was written, or why not where the folder has rows for it. Exit 2: wrong
 input; one line says which, and nothing is written.
 """
@@ -29,16 +30,19 @@ from matplotlib.figure import Figure
 import atlas_figure
 import convergence_figure
 import limit_figure
+import memory_figure
 import pareto_figure
 import stop_figure
 import work_precision_figure
 from figure_files import replace_all, write_small_png
 from figure_parts import STYLE
+from memory_records import Split, read_splits
 from results_table import ResultsError, Row, read_results, scene_of
 
 DPI, COLOURS = 120, 128
 
-Drawing = tuple[str, Callable[[list[Row]], "Figure | str"], list[Row]]  # name, how, of what
+# Name, how, of what.
+Drawing = tuple[str, Callable[[list], "Figure | str"], list[Row] | list[Split]]
 
 
 def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
@@ -53,7 +57,7 @@ def file_name(stem: str, mesh: str) -> str:
     return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
 
 
-def drawings_of(rows: list[Row]) -> list[Drawing]:
+def drawings_of(rows: list[Row], splits: list[Split]) -> list[Drawing]:
     studies = {study: [row for row in rows if row.study == study]
                for study in ("", "error", "stability")}
     drawings: list[Drawing] = []
@@ -72,12 +76,16 @@ def drawings_of(rows: list[Row]) -> list[Drawing]:
         scene = scene_of(sizes)
         drawings.append(("size_to_limit", limit_figure.draw,
                          [row for row in sizes if row.scene == scene]))
+    if splits:
+        scene = scene_of(splits)
+        drawings.append(("memory_by_owner", memory_figure.draw,
+                         [split for split in splits if split.scene == scene]))
     return drawings
 
 
-def draw_all(rows: list[Row], out: Path) -> None:
+def draw_all(rows: list[Row], splits: list[Split], out: Path) -> None:
     report, writers = [], {}
-    for name, draw, own in drawings_of(rows):
+    for name, draw, own in drawings_of(rows, splits):
         result = draw(own)
         if isinstance(result, str):
             old = f"; an earlier {name}.png stays" if (out / f"{name}.png").exists() else ""
@@ -105,7 +113,8 @@ def main() -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
     try:
-        draw_all(read_results(args.results / "results.csv"), args.out or args.results / "figures")
+        draw_all(read_results(args.results / "results.csv"),
+                 read_splits(args.results / "records.jsonl"), args.out or args.results / "figures")
     except ResultsError as error:
         fail(error)
     except OSError as error:

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "assembly/memory_owner.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -67,7 +68,8 @@ void in_parallel(int threads, int count, const std::function<void(int begin, int
                       static_cast<int>(std::int64_t{count} * (t + 1) / threads), nullptr});
   std::vector<std::jthread> workers;
   for (Range& range : ranges)
-    workers.emplace_back([&range, &work] {
+    workers.emplace_back([&range, &work, owner = current_memory_owner] {
+      const OwnerScope scope(owner);
       try {
         work(range.begin, range.end);
       } catch (...) {

@@ -9,4 +9,8 @@ std::string_view name_of(Status status) {
   return names[static_cast<std::size_t>(status)];
 }
 
+std::size_t matrix_bytes(const Solution& solution) {
+  return solution.storage.sum() - solution.storage[MemoryOwner::iteration] + solution.file_bytes;
+}
+
 }  // namespace airybench

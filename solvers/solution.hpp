@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "assembly/memory_owner.hpp"
 #include "assembly/stress_field.hpp"
 #include "solvers/stage_times.hpp"
 
@@ -47,7 +48,15 @@ struct Solution {
   // Displacement methods only: Bernstein coefficients, mm; columns: every vertex, then every edge.
   Eigen::Matrix2Xd displacement;
   StageTimes times;
-  std::size_t storage_bytes = 0;  // the method's matrices by its own count, without the blocks
+  // By the method's own count, entries × size: what it holds from one stage to the next, and the
+  // vectors of its iteration. Without the blocks.
+  ByOwner<std::size_t> storage;
+  std::size_t file_bytes = 0;                 // more of its matrices, in a file
+  std::optional<std::int64_t> library_bytes;  // CHOLMOD, MUMPS: what they say that they hold
+  // Of its factor or preconditioner: non-zeros, and the additions and multiplications of the
+  // numeric factorisation.
+  std::optional<std::int64_t> factor_entries;
+  std::optional<double> factor_flops;
   std::optional<std::int64_t> linear_iterations;  // of all right-hand sides
   std::optional<int> contact_iterations;
   std::optional<int> uzawa_iterations;
@@ -59,6 +68,9 @@ struct Solution {
   std::optional<double> error_estimate;
   std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm
 };
+
+// The storage of its matrices, wherever they are: without the vectors of an iteration.
+std::size_t matrix_bytes(const Solution& solution);
 
 // Thrown when time is up; the runner of methods turns it into Status::timeout.
 struct TimeoutReached : std::runtime_error {

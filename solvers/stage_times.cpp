@@ -3,7 +3,7 @@
 namespace airybench {
 namespace {
 
-StageObserver* observer = nullptr;
+const ObservedStages* innermost = nullptr;
 
 }  // namespace
 
@@ -13,18 +13,25 @@ std::string_view name_of(Stage stage) {
   return names[static_cast<int>(stage)];
 }
 
-ObservedStages::ObservedStages(StageObserver* told) : before_(observer) { observer = told; }
-ObservedStages::~ObservedStages() { observer = before_; }
+ObservedStages::ObservedStages(StageObserver* observer) : observer_(observer), outer_(innermost) {
+  innermost = this;
+}
+ObservedStages::~ObservedStages() { innermost = outer_; }
+
+void ObservedStages::tell(void (StageObserver::*what)(Stage), Stage stage) {
+  for (const ObservedStages* scope = innermost; scope != nullptr; scope = scope->outer_)
+    if (scope->observer_ != nullptr) (scope->observer_->*what)(stage);
+}
 
 StageTimer::StageTimer(StageTimes& times, Stage stage) : seconds_(times[stage]), stage_(stage) {
-  if (observer != nullptr) observer->begins(stage_);
+  ObservedStages::tell(&StageObserver::begins, stage_);
   start_ = std::chrono::steady_clock::now();
 }
 
 StageTimer::~StageTimer() {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
   seconds_ = seconds_.value_or(0) + spent.count();
-  if (observer != nullptr) observer->ends(stage_);
+  ObservedStages::tell(&StageObserver::ends, stage_);
 }
 
 }  // namespace airybench

@@ -43,16 +43,18 @@ class StageObserver {
   virtual void ends(Stage stage) = 0;
 };
 
-// The process's observer for the scope of the object; the one before it is back afterwards.
+// Has an observer told for the scope of the object, after those of the scopes inside it.
 class ObservedStages {
  public:
   explicit ObservedStages(StageObserver* observer);
   ~ObservedStages();
   ObservedStages(const ObservedStages&) = delete;
   ObservedStages& operator=(const ObservedStages&) = delete;
+  static void tell(void (StageObserver::*what)(Stage), Stage stage);  // all of them
 
  private:
-  StageObserver* before_;
+  StageObserver* observer_;
+  const ObservedStages* outer_;
 };
 
 // Measures one stage: adds the time from construction to destruction.

@@ -2,9 +2,10 @@
 //
 // heap_probe.cpp replaces malloc, calloc, realloc, free and the aligned family for the whole
 // process, so the libraries' allocations (Eigen, CHOLMOD, METIS, LAPACK) are counted as well as
-// ours; operator new goes through malloc. A block counts with its usable size. Memory that is
-// mapped without the allocator is not heap: OpenBLAS maps one packing buffer per thread at its
-// first call, which shows in the resident set only.
+// ours; operator new goes through malloc. A block counts with its usable size, for the owner that
+// its thread had named (memory_owner.hpp); a library's blocks are for whom it was called. Memory
+// that is mapped without the allocator is not heap: OpenBLAS maps one packing buffer per thread at
+// its first call, which shows in the resident set only.
 //
 // Where the probe cannot be (sanitizers bring their own allocator), heap_probe_off.cpp stands in
 // and is_active() says so.
@@ -13,6 +14,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "assembly/memory_owner.hpp"
+
 namespace airybench::heap {
 
 bool is_active();
@@ -20,7 +23,17 @@ std::int64_t live_bytes();
 std::int64_t peak_bytes();       // highest live_bytes() since reset_peak()
 std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
 std::int64_t allocations();      // calls that returned a block, since the start
-void reset_peak();               // the peak is then what is live now
+std::int64_t allocated_bytes();  // of these blocks together, whether freed or not
+void reset_peak();               // the peaks are then what is live now
+
+// By owner. The live bytes sum to live_bytes().
+ByOwner<std::int64_t> live_by_owner();
+ByOwner<std::int64_t> peak_by_owner();     // live at peak_bytes(), to a thousandth of it
+ByOwner<std::int64_t> highest_by_owner();  // each owner's own highest since reset_peak()
+
+// A second peak for parts of what the first one covers.
+std::int64_t lap_peak_bytes();  // highest live_bytes() since reset_lap_peak()
+void reset_lap_peak();
 
 // Allocations that would lift live_bytes() above the limit fail, as on a full machine, for the
 // scope of the object. Blocks below 64 KiB are granted all the same, because libraries (OpenBLAS,

@@ -10,6 +10,7 @@
 
 #include "bench/measuring/heap_probe.hpp"
 #include "bench/measuring/instruction_counter.hpp"
+#include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/rss_probe.hpp"
 #include "bench/records/blank_record.hpp"
 #include "bench/records/fields.hpp"
@@ -43,6 +44,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
+    const OwnerScope scope(MemoryOwner::blocks);
     blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
     blocks.samples_s.push_back(seconds_since(start));
     blocks.heap_bytes = if_probed(heap::live_bytes() - before);
@@ -137,16 +139,16 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
-  heap::reset_peak();
-  const std::int64_t before = heap::live_bytes();
+  const std::int64_t of_blocks = blocks.heap_bytes.value_or(0);
+  const MemoryWatch watch(of_blocks);
+  const std::int64_t limit_base = heap::live_bytes() - of_blocks;
   const auto start = std::chrono::steady_clock::now();
   Run result;
   bool refused = false;
   const InstructionCounter counter;
   try {
     std::optional<heap::Limit> limit;
-    if (options_.memory_limit_bytes)
-      limit.emplace(before - blocks.heap_bytes.value_or(0) + *options_.memory_limit_bytes);
+    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
     result.solution = run(choice.solve, *blocks.system, control);
     refused = limit && limit->exceeded();
   } catch (const std::bad_alloc&) {  // so little that not even a message could be written
@@ -154,7 +156,10 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   }
   result.time_s = seconds_since(start);
   result.instructions = counter.count();
-  result.peak_heap_bytes = if_probed(heap::peak_bytes() - before + blocks.heap_bytes.value_or(0));
+  if (heap::is_active()) {
+    result.peak_heap_bytes = watch.peak_bytes();
+    result.memory = watch.split(result.solution, blocks.system->bytes());
+  }
   if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
   if (refused) {
     result.solution = Solution();
@@ -279,7 +284,10 @@ Workbench::Examination Workbench::examine(const Method& method,
   record.claimed_status = solution.status;
   record.error_estimate = solution.error_estimate;
   record.condition_estimate = solution.condition_estimate;
-  record.storage_bytes = solution.storage_bytes;
+  record.storage_bytes = matrix_bytes(solution);
+  record.library_bytes = solution.library_bytes;
+  record.factor_entries = solution.factor_entries;
+  record.factor_flops = solution.factor_flops;
   record.linear_iterations = solution.linear_iterations;
   record.contact_iterations = solution.contact_iterations;
   record.uzawa_iterations = solution.uzawa_iterations;
@@ -319,6 +327,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(solution.times);
     record.peak_heap_bytes = run.peak_heap_bytes;
+    record.memory = run.memory;
     record.peak_rss_bytes = run.peak_rss_bytes;
     record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
   }
@@ -329,6 +338,7 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   malloc_trim(0);
   const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
   record.peak_heap_bytes = run.peak_heap_bytes;
+  record.memory = run.memory;
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
   record.instructions = run.instructions;

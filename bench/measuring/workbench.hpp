@@ -63,6 +63,7 @@ class Workbench {
     Solution solution;
     double time_s = 0;
     std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes, instructions;
+    std::optional<MemorySplit> memory;
     std::optional<Verification> verification;  // where it has been asked for
   };
   const AssembledBlocks& blocks(Blocks which);

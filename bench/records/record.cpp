@@ -6,6 +6,7 @@
 #include "bench/statistics/robust.hpp"
 
 #include "bench/records/answer_hash.hpp"
+#include "bench/statistics/bootstrap.hpp"
 
 namespace airybench {
 namespace {
@@ -67,6 +68,7 @@ void add_run(const TimedRun& run, Record& record) {
   record.samples_s.clear();
   record.stage_samples.clear();
   record.peak_heap_bytes.reset();
+  record.memory.reset();
   record.peak_rss_bytes.reset();
 }
 
@@ -104,6 +106,7 @@ GridSummary summary_of(const std::vector<GridPoint>& grid) {
 }
 
 Columns columns(const Record& r) {
+  const Interval interval = r.samples_s.size() > 1 ? bootstrap_median(r.samples_s) : Interval{};
   const auto smallest = std::min_element(r.samples_s.begin(), r.samples_s.end());
   Columns result = {
       {"mesh", r.mesh},
@@ -119,6 +122,8 @@ Columns columns(const Record& r) {
       {"time_s", number_or_null(median(r.samples_s))},
       {"time_min_s", smallest == r.samples_s.end() ? Json() : Json(*smallest)},
       {"time_mad_s", number_or_null(median_absolute_deviation(r.samples_s))},
+      {"time_low_s", interval.low > 0 ? Json(interval.low) : Json()},
+      {"time_high_s", interval.low > 0 ? Json(interval.high) : Json()},
       {"assembly_s", number_or_null(median(r.assembly_samples_s))},
   };
   for (const Stage stage : all_stages)
@@ -176,6 +181,12 @@ Columns columns(const Record& r) {
       {"runs_s", or_null(r.runs_s)},
       {"wall_s", or_null(r.wall_s)},
       {"noise_kernel_s", number_or_null(median(r.noise_kernel_samples_s))},
+      {"factor_entries", or_null(r.factor_entries)},
+      {"factor_flops", or_null(r.factor_flops)},
+      {"library_bytes", or_null(r.library_bytes)},
+      {"memory_count_ratio", r.memory ? or_null(count_ratio(*r.memory)) : Json()},
+      {"heap_allocations", r.memory ? Json(r.memory->allocations) : Json()},
+      {"heap_allocated_bytes", r.memory ? Json(r.memory->allocated_bytes) : Json()},
   };
   result.insert(result.end(), measures.begin(), measures.end());
   return result;
@@ -205,6 +216,9 @@ nlohmann::ordered_json to_json(const Record& r) {
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
   json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);
+  json["memory_by_owner"] = r.memory ? by_owner(*r.memory) : OrderedJson();
+  json["memory_by_stage"] = r.memory ? by_stage(*r.memory) : OrderedJson();
+  json["memory_counts_differ"] = r.memory ? OrderedJson(counts_differ(*r.memory)) : OrderedJson();
   OrderedJson run = OrderedJson::array(), left_out = OrderedJson::object();
   for (const StageDecision& decision : r.stages) {
     if (decision.run)

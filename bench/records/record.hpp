@@ -10,6 +10,7 @@
 #include "assembly/mesh.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/judging/verifier.hpp"
+#include "bench/records/memory_split.hpp"
 #include "solvers/method.hpp"
 #include "solvers/solution.hpp"
 
@@ -39,6 +40,9 @@ struct Record {
   std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during assembly
   std::optional<std::int64_t> process_peak_heap_bytes;   // highest of the process so far
   std::size_t storage_bytes = 0;
+  std::optional<std::int64_t> library_bytes, factor_entries;  // see Solution
+  std::optional<double> factor_flops;
+  std::optional<MemorySplit> memory;  // of the memory run
   std::optional<std::int64_t> linear_iterations;
   std::optional<int> contact_iterations, uzawa_iterations;
   Stop stop = Stop::target;

@@ -97,6 +97,14 @@ void read_measures(const Json& json, Record& r) {
   read(json, "assembly_peak_heap_bytes", r.assembly_peak_heap_bytes);
   read(json, "process_peak_heap_bytes", r.process_peak_heap_bytes);
   read(json, "storage_bytes", r.storage_bytes);
+  read(json, "factor_entries", r.factor_entries);
+  read(json, "factor_flops", r.factor_flops);
+  read(json, "library_bytes", r.library_bytes);
+  if (has(json, "memory_by_owner")) {
+    r.memory = memory_split_from(json["memory_by_owner"], json["memory_by_stage"]);
+    read(json, "heap_allocations", r.memory->allocations);
+    read(json, "heap_allocated_bytes", r.memory->allocated_bytes);
+  }
   read(json, "linear_iterations", r.linear_iterations);
   read(json, "contact_iterations", r.contact_iterations);
   read(json, "uzawa_iterations", r.uzawa_iterations);

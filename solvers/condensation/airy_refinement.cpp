@@ -65,6 +65,7 @@ void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagon
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution) {
   const StageTimer timer(solution.times, Stage::check);
+  const OwnerScope scope(MemoryOwner::check);
   judge_by_own_estimate(correction(system, D_diagonal, load_scale(*system.problem), solve,
                                    in_long(answer), solution.F_C)
                             .estimate,
@@ -76,6 +77,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
   const StageTimer timer(solution.times, Stage::check);
+  const OwnerScope scope(MemoryOwner::check);
   const Eigen::VectorXd D_diagonal = D.diagonal();
   const LoadScale scale = load_scale(*system.problem);
   LongSaddleVector trial = in_long(answer), best = trial;
@@ -102,6 +104,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
     solution.F_C = F;
     if (slow) break;
   }
+  const OwnerScope scope_of_answer(MemoryOwner::answer);
   solution.phi = airy_function(system, best.x.cast<double>());
   solution.stress = airy_stress(system, best.x);
   judge_by_own_estimate(estimate, control, solution);

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <string>
 
+#include "assembly/sparse_bytes.hpp"
+
 namespace airybench {
 namespace {
 
@@ -57,7 +59,13 @@ std::vector<int> contact_positions(const DualSystem& system, const BlindSystem& 
 
 }  // namespace
 
+std::size_t BlindSystem::bytes() const {
+  return bytes_of(lower) + static_cast<std::size_t>(load.size()) * sizeof(double) +
+         position.size() * sizeof(int);
+}
+
 BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering) {
+  const OwnerScope scope(MemoryOwner::system_matrix);
   BlindSystem blind;
   blind.position = positions(system, numbering);
   Entries entries;

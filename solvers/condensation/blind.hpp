@@ -30,6 +30,7 @@ struct BlindSystem {
   Eigen::SparseMatrix<double> lower;  // M₁₁, lower triangle
   Eigen::VectorXd load;               // b; empty: zero
   std::vector<int> position;          // of φ, λ, λ' in them
+  std::size_t bytes() const;
 };
 
 // Positions of φ, λ, λ': in this order, or every multiplier right after the last of its unknowns,

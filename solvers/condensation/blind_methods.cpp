@@ -1,8 +1,7 @@
 #include "solvers/condensation/blind.hpp"
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/direct/condition.hpp"
-#include "solvers/direct/mumps.hpp"
-#include "solvers/direct/skyline.hpp"
+#include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
 namespace {
@@ -10,6 +9,7 @@ namespace {
 SaddleVector recover(const DualSystem& system, const BlindSystem& blind, const Eigen::VectorXd& x,
                      Solution& solution) {
   SaddleVector answer = by_blocks(system, blind, x);
+  const OwnerScope scope(MemoryOwner::answer);
   solution.phi = airy_function(system, answer.x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   return answer;
@@ -23,9 +23,10 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   CondensedSystem condensed;
   if (system.n_c() > 0) {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense_blindly(system, blind, solve, columns_at_once);
   }
-  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
@@ -42,13 +43,18 @@ void condense_and_solve(const DualSystem& system, const BlindSystem& blind,
   check_airy_answer(system, condensed.D.diagonal(), solve_saddle, answer, control, solution);
 }
 
+// Made where it stays: Eigen's sparse matrices are copied when they are assigned.
+BlindSystem timed_system(const DualSystem& system, BlindNumbering numbering, Solution& solution) {
+  const StageTimer timer(solution.times, Stage::order);
+  return make_blind_system(system, numbering);
+}
+
 // M₁₁ and its factor; the last `trailing` unknowns are left to the Schur complement.
 BlindSystem factorise(const DualSystem& system, const RunControl& control, int trailing,
                       MumpsFactor& factor, Solution& solution) {
-  BlindSystem blind;
+  BlindSystem blind = timed_system(system, BlindNumbering::multipliers_last, solution);
   {
     const StageTimer timer(solution.times, Stage::order);
-    blind = make_blind_system(system, BlindNumbering::multipliers_last);
     factor.analyse(blind.lower, trailing);
   }
   control.deadline.check("MUMPS's analysis");
@@ -58,7 +64,8 @@ BlindSystem factorise(const DualSystem& system, const RunControl& control, int t
   }
   control.deadline.check("MUMPS's factorisation");
   check_inertia(factor.negative_pivots(), system.n_f() + system.n_c() - trailing);
-  solution.storage_bytes = factor.bytes();
+  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  count_factor(factor, solution);
   return blind;
 }
 
@@ -85,9 +92,10 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   CondensedSystem condensed;
   if (n_c > 0) {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense_blindly(factor.schur(), factor.reduce(load));
   }
-  solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   solve_condensed_contact(condensed, system.contact, control, solution);
   SaddleVector answer;
   {
@@ -113,21 +121,24 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
 
 Solution solve_blind_skyline(const DualSystem& system, const RunControl& control) {
   Solution solution;
-  BlindSystem blind;
+  const BlindSystem blind =
+      timed_system(system, BlindNumbering::multipliers_after_unknowns, solution);
   SkylineProfile profile;
   {
     const StageTimer timer(solution.times, Stage::order);
-    blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    const OwnerScope scope(MemoryOwner::factor);
     profile = analyse_skyline(blind.lower);
   }
   SkylineFactor factor;
   {
     const StageTimer timer(solution.times, Stage::factor);
+    const OwnerScope scope(MemoryOwner::factor);
     factor = factor_ldlt(std::move(profile), blind.lower, control.deadline);
   }
   check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),
                 system.n_f() + system.n_c());
-  solution.storage_bytes = factor.bytes();
+  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  count_factor(factor, solution);
   condense_and_solve(
       system, blind, control,
       [&](Eigen::Ref<Eigen::MatrixXd> X) {

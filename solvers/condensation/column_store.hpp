@@ -32,6 +32,7 @@ class ColumnStore {
   Eigen::Map<Eigen::MatrixXd> matrix() { return {data(), rows_, columns_}; }
   Eigen::Map<const Eigen::MatrixXd> matrix() const { return {data(), rows_, columns_}; }
   std::size_t bytes() const { return static_cast<std::size_t>(rows_ * columns_) * sizeof(double); }
+  std::size_t heap_bytes() const { return file_ ? 0 : bytes(); }
 
  private:
   double* data() const {

@@ -42,7 +42,7 @@ KrylovOptions krylov_options(const RunControl& control, int lanes);
 // Iterations, history and, when the tolerance was not met, status and message of a Krylov solver.
 void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
                  const RunControl& control, Solution& solution);
-// The shift that a preconditioner needed, as a parameter of the solution.
-void note_shift(const Preconditioner& preconditioner, Solution& solution);
+// The shift that a preconditioner needed, as a parameter of the solution, and what it counts.
+void note_preconditioner(const Preconditioner& preconditioner, Solution& solution);
 
 }  // namespace airybench

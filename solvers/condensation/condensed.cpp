@@ -18,6 +18,7 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   solution.message.clear();
   if (contact.size() == 0) return;
   const StageTimer timer(solution.times, Stage::contact);
+  const OwnerScope scope(MemoryOwner::condensed);
   ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
   if (!result.converged && control.active_sets)
     finish_by_active_set(condensed, contact, control, result);
@@ -61,7 +62,10 @@ void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovO
   solution.message = message.str();
 }
 
-void note_shift(const Preconditioner& preconditioner, Solution& solution) {
+void note_preconditioner(const Preconditioner& preconditioner, Solution& solution) {
+  solution.storage[MemoryOwner::preconditioner] = preconditioner.bytes;
+  if (preconditioner.bytes > 0) solution.factor_entries = preconditioner.entries;
+  solution.factor_flops = preconditioner.flops;
   if (preconditioner.shift == 0) return;
   std::ostringstream text;
   text << "shift=" << preconditioner.shift;

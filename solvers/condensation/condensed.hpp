@@ -14,6 +14,9 @@ namespace airybench {
 struct CondensedSystem {
   Eigen::MatrixXd D;
   Eigen::VectorXd G;
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(D.size() + G.size()) * sizeof(double);
+  }
 };
 
 // Of a dense block. Throws Breakdown naming it when it is not positive definite to rounding.

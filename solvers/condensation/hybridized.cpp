@@ -4,6 +4,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/quad.hpp"
+#include "assembly/sparse_bytes.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
 
 namespace airybench {
@@ -90,10 +91,8 @@ std::array<int, 12> element_unknowns(const Problem& problem, const EdgeUnknowns&
 
 template <typename Scalar>
 std::size_t HybridizedSystemIn<Scalar>::bytes() const {
-  return static_cast<std::size_t>(K.nonZeros()) * (sizeof(Scalar) + sizeof(int)) +
-         static_cast<std::size_t>(K.cols() + 1) * sizeof(int) +
-         static_cast<std::size_t>(b.size()) * sizeof(Scalar) + unknown.size() * sizeof(unknown[0]) +
-         displacement.size() * sizeof(Eigen::Vector4d);
+  return bytes_of(K) + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
+         unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
 }
 
 template <typename Scalar>

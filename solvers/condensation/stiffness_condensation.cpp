@@ -1,5 +1,7 @@
 #include "solvers/condensation/stiffness_condensation.hpp"
 
+#include "solvers/direct/factor_counts.hpp"
+
 namespace airybench {
 
 CondensedSystem condense(const StiffnessFactor& factor) {
@@ -30,11 +32,15 @@ CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
   CondensedSystem condensed;
   {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope_of_y(MemoryOwner::factor);
     factor.y = factor.cholesky.forward(b);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed = condense(factor);
   }
-  solution.storage_bytes +=
-      factor.cholesky.bytes() + static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+  count_factor(factor.cholesky, solution);
+  solution.storage[MemoryOwner::factor] +=
+      static_cast<std::size_t>(factor.y.size()) * sizeof(double);
+  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   return condensed;
 }
 

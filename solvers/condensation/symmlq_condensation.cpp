@@ -59,6 +59,9 @@ struct SchurFactor {
   std::size_t bytes() const {
     return static_cast<std::size_t>(dense.size()) * sizeof(double) + sparse.bytes();
   }
+  std::int64_t entries() const {  // the dense one's lower triangle
+    return dense.rows() * (dense.rows() + 1) / 2 + static_cast<std::int64_t>(sparse.entries());
+  }
 };
 
 SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star, SchurBlock schur,
@@ -132,7 +135,12 @@ Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditio
       }
     };
   };
-  return {applier, S_star.bytes + factor->bytes(), S_star.shift};
+  Preconditioner result = S_star;
+  result.applier = applier;
+  result.bytes += factor->bytes();
+  result.entries += factor->entries();
+  result.workspace_rows += n + 2 * m;
+  return result;
 }
 
 Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
@@ -142,13 +150,15 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   Solution solution;
   const Preconditioner preconditioner = [&] {
     const StageTimer timer(solution.times, Stage::precondition);
+    const OwnerScope scope(MemoryOwner::preconditioner);
     return saddle_preconditioner(system, make(system.S, control.deadline), schur, lanes,
                                  control.threads, control.deadline);
   }();
-  note_shift(preconditioner, solution);
-  solution.storage_bytes = preconditioner.bytes;
+  note_preconditioner(preconditioner, solution);
   const KrylovOptions options = krylov_options(control, lanes);
   const SymmetricOperator A = saddle_operator(system);
+  solution.storage[MemoryOwner::iteration] =
+      iteration_bytes(options, n_c + 1, symmlq_vectors * A.n + preconditioner.workspace_rows);
   const auto load = [&](LaneColumn b) {
     if (system.q.size() > 0) b.head(n) = system.q;
     if (system.F.size() > 0) b.segment(n, n_f) = system.F;
@@ -159,6 +169,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
   KrylovSummary all;
   if (n_c > 0) {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::condensed);
     condensed.D.resize(n_c, n_c);
     condensed.G.resize(n_c);
     const RightHandSides sides = {n_c + 1,
@@ -176,7 +187,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
                                   }};
     all.add(solve_by_symmlq(A, preconditioner, sides, options, control.deadline));
     condensed.D = ((condensed.D + condensed.D.transpose()) / 2).eval();
-    solution.storage_bytes += static_cast<std::size_t>(condensed.D.size()) * sizeof(double);
+    solution.storage[MemoryOwner::condensed] = condensed.bytes();
   }
   solve_condensed_contact(condensed, system.contact, control, solution);
   const auto solve_one = [&](const std::function<void(LaneColumn)>& make_load) {
@@ -202,6 +213,7 @@ Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& c
       load(b);
       if (n_c > 0) b.tail(n_c) += solution.F_C;
     });
+    const OwnerScope scope(MemoryOwner::answer);
     solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

@@ -61,13 +61,15 @@ Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
 }  // namespace
 
 std::size_t ThreeStep::bytes() const {
-  return X.bytes() + static_cast<std::size_t>(x.size() + (K_FF ? K_FF->matrixLLT().size() : 0) +
-                                              K_FF_inverse_K_FC.size() + condensed.D.size()) *
-                         sizeof(double);
+  return X.heap_bytes() + row_of_column.size() * sizeof(int) +
+         static_cast<std::size_t>(x.size() + lambda_0.size() + K_FF_inverse_K_FC.size() +
+                                  (K_FF ? K_FF->matrixLLT().size() : 0)) *
+             sizeof(double);
 }
 
 ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
                                   const KeepX& keep) {
+  const OwnerScope scope(MemoryOwner::intermediate);
   const int n_f = system.n_f(), n_c = system.n_c();
   ThreeStep steps;
 
@@ -99,6 +101,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
     if (system.F0.size() > 0) g += system.F0;
     if (n_f > 0) W.noalias() -= K_CF * steps.K_FF_inverse_K_FC;
     if (steps.lambda_0.size() > 0) g.noalias() -= K_CF * steps.lambda_0;
+    const OwnerScope scope_of_D(MemoryOwner::condensed);
     const auto llt = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
     const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(n_c, n_c));
     steps.condensed.D = (inverse + inverse.transpose()) / 2;

@@ -41,7 +41,7 @@ struct ThreeStep {
   std::optional<Eigen::LLT<Eigen::MatrixXd>> K_FF;  // factorised; none without force rows
   Eigen::VectorXd lambda_0;                         // K_FF⁻¹ (C_F x − F); empty: zero
 
-  std::size_t bytes() const;
+  std::size_t bytes() const;  // on the heap, without D and G
 };
 
 // Throws Breakdown when K_FF or W is not positive definite to rounding.

@@ -2,9 +2,8 @@
 
 #include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/condensation/three_step.hpp"
-#include "solvers/direct/cholmod.hpp"
 #include "solvers/direct/condition.hpp"
-#include "solvers/direct/skyline.hpp"
+#include "solvers/direct/factor_counts.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
 
 namespace airybench {
@@ -18,12 +17,15 @@ void condense_and_solve(const DualSystem& system, const RunControl& control, con
     const StageTimer timer(solution.times, Stage::condense);
     steps = condense_in_three_steps(system, solve_S, keep);
   }
-  solution.storage_bytes += steps.bytes();
+  solution.storage[MemoryOwner::intermediate] = steps.bytes();
+  solution.storage[MemoryOwner::condensed] = steps.condensed.bytes();
+  solution.file_bytes = steps.X.bytes() - steps.X.heap_bytes();
   solve_condensed_contact(steps.condensed, system.contact, control, solution);
   SaddleVector answer;
   {
     const StageTimer timer(solution.times, Stage::recover);
     answer = recover_airy_unknowns(steps, system, solution.F_C, solve_S);
+    const OwnerScope scope(MemoryOwner::answer);
     solution.phi = airy_function(system, answer.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }
@@ -40,14 +42,16 @@ Solution solve_three_step_skyline(const DualSystem& system, const RunControl& co
   SkylineProfile profile;
   {
     const StageTimer timer(solution.times, Stage::order);
+    const OwnerScope scope(MemoryOwner::factor);
     profile = analyse_skyline(system.S);
   }
   SkylineFactor factor;
   {
     const StageTimer timer(solution.times, Stage::factor);
+    const OwnerScope scope(MemoryOwner::factor);
     factor = factor_ldlt(std::move(profile), system.S, control.deadline);
   }
-  solution.storage_bytes = factor.bytes();
+  count_factor(factor, solution);
   const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
     solve_in_place(factor, X, control.deadline, control.threads);
   };
@@ -68,12 +72,12 @@ Solution solve_three_step_cholmod(const DualSystem& system, const RunControl& co
     const StageTimer timer(solution.times, Stage::factor);
     factor.factor(system.S);
   }
-  solution.storage_bytes = factor.bytes();
   const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
     factor.solve_in_place(X, control.deadline);
   };
   if (control.condition) solution.condition_estimate = estimate_condition(system.S, solve_S);
   condense_and_solve(system, control, {}, Refine::no, solve_S, solution);
+  count_factor(factor, solution);
   return solution;
 }
 
@@ -82,11 +86,14 @@ Solution solve_three_step_cg(const DualSystem& system, const RunControl& control
   Solution solution;
   const Preconditioner preconditioner = [&] {
     const StageTimer timer(solution.times, Stage::precondition);
+    const OwnerScope scope(MemoryOwner::preconditioner);
     return make(system.S, control.deadline);
   }();
-  note_shift(preconditioner, solution);
-  solution.storage_bytes = preconditioner.bytes;
+  note_preconditioner(preconditioner, solution);
   const KrylovOptions options = krylov_options(control, lanes);
+  solution.storage[MemoryOwner::iteration] =
+      iteration_bytes(options, system.n_f() + system.n_c(),
+                      conjugate_gradient_vectors * system.n() + preconditioner.workspace_rows);
   KrylovSummary all;
   const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) {
     KrylovOptions used = options;

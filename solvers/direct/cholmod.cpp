@@ -20,6 +20,7 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
 }  // namespace
 
 CholmodFactor::CholmodFactor() {
+  const OwnerScope scope(MemoryOwner::factor);
   cholmod_start(&common_);
   common_.print = 0;
   common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -34,6 +35,7 @@ CholmodFactor::~CholmodFactor() {
 }
 
 void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing) {
+  const OwnerScope scope(MemoryOwner::factor);
   trailing_ = trailing;
   if (lower.rows() == 0) return;  // nothing to solve
   cholmod_sparse whole = view_of(lower);
@@ -62,6 +64,7 @@ void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int traili
 }
 
 void CholmodFactor::factor(const Eigen::SparseMatrix<double>& lower) {
+  const OwnerScope scope(MemoryOwner::factor);
   if (factor_ == nullptr) return;
   cholmod_sparse whole = view_of(lower);
   cholmod_factorize(&whole, factor_, &common_);
@@ -114,11 +117,25 @@ Eigen::MatrixXd CholmodFactor::trailing_factor() const {
 }
 
 std::size_t CholmodFactor::bytes() const {
-  return factor_ == nullptr ? 0 : factor_->xsize * sizeof(double);
+  if (factor_ == nullptr) return 0;
+  std::size_t doubles = factor_->xsize + common_.xworksize;
+  for (const cholmod_dense* workspace : {solution_, permuted_, gathered_})
+    if (workspace != nullptr) doubles += workspace->nzmax;
+  // Rows and starts of the supernodes; permutation and column counts; CHOLMOD's workspace.
+  const std::size_t integers = factor_->ssize + 3 * (factor_->nsuper + 1) + 2 * factor_->n +
+                               common_.iworksize + 2 * common_.nrow;
+  return doubles * sizeof(double) + integers * sizeof(int);
 }
+
+std::size_t CholmodFactor::library_bytes() const { return common_.memory_inuse; }
+
+std::int64_t CholmodFactor::entries() const { return static_cast<std::int64_t>(common_.lnz); }
+
+double CholmodFactor::flops() const { return common_.fl; }
 
 void CholmodFactor::solve(int system, Eigen::Ref<Eigen::MatrixXd> X) {
   if (factor_ == nullptr) return;
+  const OwnerScope scope(MemoryOwner::factor);
   // Workspace is made here and kept: cholmod_solve2 does not survive an allocation of its own that
   // fails (CHOLMOD 3.0.14).
   const auto n = factor_->n, columns = static_cast<std::size_t>(X.cols());

@@ -41,7 +41,10 @@ class CholmodFactor {
   Eigen::VectorXd backward(const Eigen::VectorXd& z);
   Eigen::MatrixXd trailing_factor() const;  // L_CC, lower triangular
 
-  std::size_t bytes() const;  // of L as it is stored
+  std::size_t bytes() const;          // of L as it is stored, its permutation and the workspace
+  std::size_t library_bytes() const;  // the same by CHOLMOD's own count of its allocations
+  std::int64_t entries() const;       // of L, without the supernodes' padding
+  double flops() const;               // of the numeric factorisation
 
  private:
   void solve(int system, Eigen::Ref<Eigen::MatrixXd> X);

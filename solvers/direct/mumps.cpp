@@ -34,7 +34,7 @@ void require_finite(const Eigen::SparseMatrix<double>& matrix) {
     throw Breakdown("MUMPS: the matrix is not finite");
 }
 
-// INFOG's large numbers: in millions where negative.
+// Large numbers of INFO and INFOG: in millions where negative.
 std::size_t large(int value) {
   return value < 0 ? static_cast<std::size_t>(-std::int64_t{value}) * 1000000
                    : static_cast<std::size_t>(value);
@@ -66,6 +66,7 @@ MumpsFactor::~MumpsFactor() {
 }
 
 void MumpsFactor::call(int job, const char* doing) {
+  const OwnerScope scope(MemoryOwner::factor);
   for (int& extra = mumps_.icntl[no(14)];; extra *= 2) {  // workspace beyond the estimate, per cent
     mumps_.job = job;
     dmumps_c(&mumps_);
@@ -85,6 +86,7 @@ void MumpsFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing
   const int n = static_cast<int>(lower.rows());
   if (n == 0) return;  // nothing to solve
   require_finite(lower);
+  const OwnerScope scope(MemoryOwner::factor);
   const auto entries = static_cast<std::size_t>(lower.nonZeros());
   rows_.reserve(entries);
   columns_.reserve(entries);
@@ -151,8 +153,25 @@ Eigen::VectorXd MumpsFactor::expand(const Eigen::VectorXd& x_C) {
 int MumpsFactor::negative_pivots() const { return mumps_.infog[no(12)]; }
 
 std::size_t MumpsFactor::bytes() const {
-  return large(mumps_.infog[no(9)]) * sizeof(double) + large(mumps_.infog[no(10)]) * sizeof(int);
+  // Trees, orderings and scaling that the analysis leaves: 23 to 29 integers per unknown.
+  constexpr std::size_t of_analysis = 24;
+  // INFO(7): integer workspace by the analysis, before ICNTL(14) is added; INFO(39): real one.
+  const std::size_t integers =
+      large(mumps_.info[no(7)]) * static_cast<std::size_t>(100 + mumps_.icntl[no(14)]) / 100 +
+      of_analysis * static_cast<std::size_t>(mumps_.n) + rows_.size() + columns_.size();
+  const std::size_t doubles = large(mumps_.info[no(39)]) + static_cast<std::size_t>(schur_.size());
+  return doubles * sizeof(double) + integers * sizeof(int);
 }
+
+std::size_t MumpsFactor::library_bytes() const {
+  return static_cast<std::size_t>(mumps_.infog[no(19)]) * 1000000;
+}
+
+std::int64_t MumpsFactor::entries() const {
+  return static_cast<std::int64_t>(large(mumps_.infog[no(29)]));
+}
+
+double MumpsFactor::flops() const { return mumps_.rinfog[no(3)]; }
 
 void MumpsFactor::solve(int kind, Eigen::Ref<Eigen::MatrixXd> X) {
   if (mumps_.n == 0) return;

@@ -300,8 +300,8 @@ SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<doub
   return factor;
 }
 
-void visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
-                     const Deadline& deadline) {
+double visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
+                       const Deadline& deadline) {
   SkylineFactor factor{analyse_skyline(lower, 48, PanelOrder::as_numbered), {}, {}};
   const std::vector<SkylinePanel>& panels = factor.profile.panels;
   // The first panel that any panel from k on reaches.
@@ -323,6 +323,7 @@ void visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& v
     for (; forgotten < needed[k + 1]; ++forgotten)
       std::vector<double>().swap(factor.values[forgotten]);
   });
+  return factor.profile.factor_flops;
 }
 
 void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,

@@ -50,7 +50,11 @@ struct SkylineProfile {
   std::int64_t profile = 0;  // Σ_i h_i, h_i = i − first column of row i + 1: the classical skyline
   std::int64_t stored = 0;  // entries of all panels, ≥ profile
   // Additions and multiplications that the skyline itself needs, padding not counted.
-  double factor_flops = 0;                                                   // Σ_i h_i²
+  double factor_flops = 0;     // Σ_i h_i²
+  std::size_t bytes() const {  // of the analysis itself
+    return panels.size() * sizeof(SkylinePanel) +
+           (panel_of_row.size() + position.size()) * sizeof(int);
+  }
   double solve_flops() const { return 4.0 * static_cast<double>(profile); }  // per dense column
 };
 
@@ -69,7 +73,8 @@ struct SkylineFactor {
   std::vector<std::vector<double>> values;  // L, the three blocks of each panel
   Eigen::VectorXd diagonal;                 // D, in the panels' order
   std::size_t bytes() const {
-    return static_cast<std::size_t>(profile.stored + diagonal.size()) * sizeof(double);
+    return static_cast<std::size_t>(profile.stored + diagonal.size()) * sizeof(double) +
+           profile.bytes();
   }
 };
 
@@ -80,9 +85,10 @@ SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<doub
 // Row by row and without keeping the whole: calls visit(i, j, l, d) for every row i in order, with
 // l = L_ij, L_i,j+1, …, L_i,i−1 and d = D_j, …, D_i, both valid during the call only. What no later
 // row needs is forgotten, so the memory is that of the rows within a band. Rows are as numbered.
+// Returns SkylineProfile::factor_flops.
 using VisitRow = std::function<void(int i, int j, const double* l, const double* d)>;
-void visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
-                     const Deadline& deadline = {});
+double visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow& visit,
+                       const Deadline& deadline = {});
 
 // X ← S⁻¹ X for n × k right-hand sides, in parallel by columns. Panels above the first non-zero of
 // a block of columns are skipped in the forward sweep, so neighbouring columns should begin alike.

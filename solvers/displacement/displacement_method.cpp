@@ -10,10 +10,11 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   Solution solution;
   const QuadraticDisplacements system = [&] {
     const StageTimer timer(solution.times, Stage::condense);
+    const OwnerScope scope(MemoryOwner::system_matrix);
     return assemble_quadratic_displacements(problem);
   }();
   StiffnessFactor factor;
-  solution.storage_bytes = system.bytes();
+  solution.storage[MemoryOwner::system_matrix] = system.bytes();
   const CondensedSystem condensed = factorise_and_condense(
       system.K, system.b, system.n_c(), "displacement system", control, factor, solution);
   solve_condensed_contact(condensed, system.control.law, control, solution);
@@ -22,10 +23,12 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
     const StageTimer timer(solution.times, Stage::recover);
     if (system.n_c() > 0) contact = condensed.D * solution.F_C - condensed.G;
     u = all_displacements(factor, contact);
+    const OwnerScope scope(MemoryOwner::answer);
     solution.displacement = displacement_field(system, u);
     solution.stress = stress_of_displacement(problem, solution.displacement);
   }
   const StageTimer timer(solution.times, Stage::check);
+  const OwnerScope scope(MemoryOwner::check);
   UnbalancedForces unbalanced;
   unbalanced.r = system.b - system.K.selfadjointView<Eigen::Lower>() * u;
   unbalanced.r.tail(system.n_c()) += solution.F_C;

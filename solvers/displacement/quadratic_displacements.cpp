@@ -1,5 +1,7 @@
 #include "solvers/displacement/quadratic_displacements.hpp"
 
+#include "assembly/sparse_bytes.hpp"
+
 namespace airybench {
 namespace {
 
@@ -47,9 +49,7 @@ void add_nodal_loads(const Problem& problem, const std::vector<int>& point,
 }  // namespace
 
 std::size_t QuadraticDisplacements::bytes() const {
-  return static_cast<std::size_t>(K.nonZeros()) * (sizeof(double) + sizeof(int)) +
-         static_cast<std::size_t>(K.cols() + 1) * sizeof(int) +
-         static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
+  return bytes_of(K) + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
          unknown.size() * sizeof(unknown[0]);
 }
 

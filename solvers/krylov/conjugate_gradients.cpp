@@ -18,6 +18,7 @@ template <int lanes>
 KrylovSummary solve_range(const SparseColumns& lower, const Preconditioner& preconditioner,
                           const RightHandSides& sides, int begin, int end,
                           const KrylovOptions& options, const Deadline& deadline) {
+  const OwnerScope scope(MemoryOwner::iteration);
   const Eigen::Index n = lower.rows();
   const Apply apply = preconditioner.applier(lanes);
   KrylovSummary summary;

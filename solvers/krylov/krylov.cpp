@@ -11,6 +11,12 @@ RightHandSides columns_of(Eigen::Ref<Eigen::MatrixXd> X) {
           [X](int k, const LaneColumn& x) mutable { X.col(k) = x; }};
 }
 
+std::size_t iteration_bytes(const KrylovOptions& options, int count, Eigen::Index rows) {
+  return static_cast<std::size_t>(std::clamp(options.threads, 1, std::max(count, 1)) *
+                                  options.lanes * rows) *
+         sizeof(double);
+}
+
 void KrylovSummary::add(const KrylovSummary& other) {
   converged = converged && other.converged;
   iterations += other.iterations;

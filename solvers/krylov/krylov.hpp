@@ -37,6 +37,10 @@ struct KrylovOptions {
   int threads = 1;               // each with lanes of its own
 };
 
+// Of the vectors of a solve for so many right-hand sides, with so many rows per lane; those of the
+// preconditioner's operators counted.
+std::size_t iteration_bytes(const KrylovOptions& options, int count, Eigen::Index rows);
+
 struct KrylovSummary {
   bool converged = true;        // every right-hand side met the tolerance
   std::int64_t iterations = 0;  // of all right-hand sides together

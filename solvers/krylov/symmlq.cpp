@@ -61,6 +61,7 @@ template <int lanes>
 KrylovSummary solve_range(const SymmetricOperator& A, const Preconditioner& preconditioner,
                           const RightHandSides& sides, int begin, int end,
                           const KrylovOptions& options, const Deadline& deadline) {
+  const OwnerScope scope(MemoryOwner::iteration);
   const Eigen::Index n = A.n;
   const Apply apply = preconditioner.applier(lanes);
   KrylovSummary summary;

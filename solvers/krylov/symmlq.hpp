@@ -16,6 +16,8 @@
 
 namespace airybench {
 
+inline constexpr int symmlq_vectors = 6;  // per lane: x, w, v, and three of the Lanczos recurrence
+
 // A symmetric operator of order n: Y ← A X. Allocates nothing.
 struct SymmetricOperator {
   Eigen::Index n = 0;

@@ -21,7 +21,7 @@ IncompleteFactor drop_tolerance_factor(const SparseColumns& lower, double tolera
     growing.column.clear();
     growing.value.clear();
   };
-  visit_ldlt_rows(
+  factor.flops = visit_ldlt_rows(
       lower,
       [&](int i, int j, const double* l, const double* d) {
         if (!(d[i - j] > 0))
@@ -49,7 +49,12 @@ Preconditioner drop_tolerance_preconditioner(const SparseColumns& lower, double 
   const auto applier = [factor](int) -> Apply {
     return [factor](LaneBlock& X) { solve_in_place(*factor, X); };
   };
-  return {applier, factor->bytes(), 0};
+  Preconditioner result;
+  result.applier = applier;
+  result.bytes = factor->bytes();
+  result.entries = static_cast<std::int64_t>(factor->entries());
+  result.flops = factor->flops;
+  return result;
 }
 
 }  // namespace airybench

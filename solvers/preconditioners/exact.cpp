@@ -18,7 +18,13 @@ Preconditioner exact_preconditioner(const SparseColumns& lower, const Deadline& 
       X = columns;
     };
   };
-  return {applier, factor->bytes(), 0};
+  Preconditioner result;
+  result.applier = applier;
+  result.bytes = factor->bytes();
+  result.entries = factor->profile.profile;
+  result.flops = factor->profile.factor_flops;
+  result.workspace_rows = factor->profile.n;
+  return result;
 }
 
 }  // namespace airybench

@@ -53,6 +53,7 @@ bool numeric(const SparseRows& lower, double shift, IncompleteFactor& factor,
              std::vector<double>& row, const Deadline& deadline) {
   constexpr double smallest_pivot = 1e-10;  // of an equilibrated matrix
   FactorRows& L = factor.parts.front();
+  factor.flops = 0;
   for (int i = 0; i < static_cast<int>(lower.rows()); ++i) {
     if (i % 1024 == 0) deadline.check("the factorisation by level of fill");
     double pivot = 0;
@@ -66,6 +67,7 @@ bool numeric(const SparseRows& lower, double shift, IncompleteFactor& factor,
       const int j = L.column[e];
       double value = row[j];
       for (int f = L.start[j]; f < L.start[j + 1]; ++f) value -= L.value[f] * row[L.column[f]];
+      factor.flops += 2 * (L.start[j + 1] - L.start[j]) + 3;
       row[j] = L.value[e] = value * factor.inverse_diagonal[j];
       pivot -= row[j] * row[j];
     }
@@ -104,7 +106,13 @@ Preconditioner fill_level_preconditioner(const SparseColumns& lower, int level,
   const auto applier = [made](int) -> Apply {
     return [made](LaneBlock& X) { solve_in_place(made->factor, X); };
   };
-  return {applier, made->factor.bytes(), made->shift};
+  Preconditioner result;
+  result.applier = applier;
+  result.bytes = made->factor.bytes();
+  result.entries = static_cast<std::int64_t>(made->factor.entries());
+  result.flops = made->factor.flops;
+  result.shift = made->shift;
+  return result;
 }
 
 }  // namespace airybench

@@ -6,7 +6,9 @@
 namespace airybench {
 
 inline Preconditioner identity_preconditioner(const SparseColumns&, const Deadline&) {
-  return {[](int) { return [](LaneBlock&) {}; }, 0, 0};
+  Preconditioner result;
+  result.applier = [](int) { return [](LaneBlock&) {}; };
+  return result;
 }
 
 }  // namespace airybench

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +22,11 @@ using Apply = std::function<void(LaneBlock& X)>;
 struct Preconditioner {
   // Gives an operator with a workspace of its own for blocks of so many lanes: one for each thread.
   std::function<Apply(int lanes)> applier;
-  std::size_t bytes = 0;  // of what it stores
-  double shift = 0;       // added to the diagonal of S so that the factorisation did not break down
+  std::size_t bytes = 0;            // of what it stores
+  std::int64_t entries = 0;         // of its triangular factors, as far as it has its own
+  std::optional<double> flops;      // that made them
+  Eigen::Index workspace_rows = 0;  // of every operator, per lane
+  double shift = 0;  // added to the diagonal of S so that the factorisation did not break down
 };
 
 // Builds one from the lower triangle of S, equilibrated. Throws Breakdown, TimeoutReached.

@@ -46,7 +46,9 @@ Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega) {
       with_lanes(X.cols(), [&](auto lanes) { apply<lanes>(lower, omega, X.data()); });
     };
   };
-  return {applier, 0, 0};
+  Preconditioner result;
+  result.applier = applier;
+  return result;
 }
 
 }  // namespace airybench

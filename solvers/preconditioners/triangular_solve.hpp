@@ -19,6 +19,7 @@ struct FactorRows {
 struct IncompleteFactor {
   std::vector<FactorRows> parts;  // in order
   std::vector<double> inverse_diagonal;
+  double flops = 0;             // additions and multiplications that made it
   std::size_t entries() const;  // with the diagonal
   std::size_t bytes() const;
 };

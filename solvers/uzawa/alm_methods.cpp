@@ -4,6 +4,8 @@
 #include <array>
 #include <sstream>
 
+#include "solvers/direct/factor_counts.hpp"
+
 namespace airybench {
 namespace {
 
@@ -77,9 +79,11 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
   Solution solution;
   const AugmentedFactor augmented = [&] {
     const StageTimer timer(solution.times, Stage::factor);
+    const OwnerScope scope(MemoryOwner::factor);
     return factor_augmented(system, r, control.deadline);
   }();
-  solution.storage_bytes = augmented.factor.bytes();
+  count_factor(augmented.factor, solution);
+  solution.storage[MemoryOwner::iteration] = uzawa_bytes(system, 1);
   const UzawaOptions options = options_of(control);
   UzawaResult result = [&] {
     // Without contact the iteration only finds the multipliers of the prescribed forces.
@@ -91,6 +95,7 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
   solution.F_C = std::move(result.F_C);
   {
     const StageTimer timer(solution.times, Stage::recover);
+    const OwnerScope scope(MemoryOwner::answer);
     solution.phi = airy_function(system, result.x);
     solution.stress = stress_of_airy_function(*system.problem, solution.phi);
   }

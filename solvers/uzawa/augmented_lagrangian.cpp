@@ -142,11 +142,17 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
   return result;
 }
 
+std::size_t uzawa_bytes(const DualSystem& system, int count) {
+  return static_cast<std::size_t>(count * (2 * system.n() + 4 * system.n_f() + 6 * system.n_c())) *
+         sizeof(double);
+}
+
 std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const AugmentedFactor& augmented,
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race, const Deadline& deadline) {
   // A residual that has grown so much, or is not finite, does not come back.
   constexpr double diverges = 1e6;
+  const OwnerScope scope(MemoryOwner::iteration);
   Iterates it(system, rhos);
   std::vector<UzawaResult> results(rhos.size());
   for (std::size_t k = 0; k < rhos.size(); ++k) results[k].rho = rhos[k];

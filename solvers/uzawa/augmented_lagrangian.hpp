@@ -59,6 +59,9 @@ struct UzawaResult {
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
+// Of the iterates of so many ρ, and of their results.
+std::size_t uzawa_bytes(const DualSystem& system, int count);
+
 // One iteration for every ρ, side by side: they share the reading of the factor. race: the others
 // are given up when the first converges, and no solutions and histories are kept. Nothing is
 // allocated inside an iteration, but for histories. Throws TimeoutReached.

@@ -33,6 +33,16 @@ def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
     return row | cells
 
 
+def split(mesh: str, method: str, **owners: tuple[float, float | None]) -> dict[str, object]:
+    """A line of records.jsonl; owners: MiB at the peak and counted, beside 2 of the blocks."""
+    by_owner = {owner: {"peak_bytes": int(peak * 2**20), "held_bytes": int(peak * 2**20),
+                        "counted_bytes": None if counted is None else int(counted * 2**20)}
+                for owner, (peak, counted) in ({"blocks": (2, 2)} | owners).items()}
+    return {"mesh": mesh, "scene": "default", "method": method, "n_phi": SIZES[mesh].n_phi,
+            "threads": 1, "stop": "target", "status": "ok", "study": None,
+            "memory_by_owner": by_owner, "memory_counts_differ": False}
+
+
 def discretisation(mesh: str) -> float:
     """Relative; first order in h from 20 %, the rack starting anew."""
     first = SIZES["Mesh0" if SIZES[mesh].teeth == 1 else "Mesh4"].n_phi

@@ -1,6 +1,7 @@
 """plots/study_figures.py on made-up studies.  /usr/bin/python3 -m unittest FILE"""
 import contextlib
 import io
+import json
 import shutil
 import struct
 import sys
@@ -25,6 +26,8 @@ import convergence_figure  # noqa: E402
 import direct_labels  # noqa: E402
 import figure_parts  # noqa: E402
 import limit_figure  # noqa: E402
+import memory_figure  # noqa: E402
+import memory_records  # noqa: E402
 import paper_figures  # noqa: E402
 import pareto_figure  # noqa: E402
 import results_table  # noqa: E402
@@ -285,6 +288,62 @@ class AtlasTest(StudiesTest):
                 box = text.get_window_extent(renderer)
                 self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
                                 and box.y1 <= figure.bbox.y1, text)
+
+
+class MemoryFigureTest(StudiesTest):
+    def write_records(self, *records: dict) -> None:
+        lines = "".join(json.dumps(record) + "\n" for record in records)
+        (self.results / "records.jsonl").write_text(lines, encoding="utf-8")
+
+    def splits(self, *records: dict) -> list[memory_records.Split]:
+        self.write_records(*records)
+        return memory_records.read_splits(self.results / "records.jsonl")
+
+    def test_bars_of_the_largest_mesh_by_their_peaks(self) -> None:
+        splits = self.splits(made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID"),
+                             made_up.split("Mesh1", "SSKY", preconditioner=(9, 9)),
+                             made_up.split("Mesh1", "BLIND", factor=(30, 10), other=(1, None)),
+                             made_up.split("Mesh1", "SYMMLQ:FLIC2"),  # not among the compared
+                             made_up.split("Mesh2", "3STEPD"))        # alone
+        figure = memory_figure.draw(splits)
+        axes, = figure.axes
+        self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["SSKY", "BLIND"])
+        ends = [max(bar.get_x() + bar.get_width() for bar in axes.patches
+                    if abs(bar.get_y() + bar.get_height() / 2 - place) < 0.1) for place in (0, 1)]
+        np.testing.assert_allclose(ends, [11, 33])  # MiB, with 2 of the blocks
+        count, = (line for line in axes.lines if line.get_label() == "the method's own count")
+        np.testing.assert_allclose(count.get_xdata(), [11, 12])
+        words = words_of(figure)
+        self.assertIn("Mesh1", words)
+        self.assertIn("33 MiB, counted 12 MiB", words)
+        self.assertIn("preconditioner", words)
+        self.assertNotIn("answer", words)
+        self.assertNotIn("differs", words)
+
+    def test_a_count_that_differs_is_named(self) -> None:
+        record = made_up.split("Mesh0", "3STEPD") | {"memory_counts_differ": True}
+        words = words_of(memory_figure.draw(self.splits(record, made_up.split("Mesh0", "HYBRID"))))
+        self.assertIn("differs from the heap by more than 10 %: 3STEPD.", words)
+
+    def test_other_records_are_passed_over(self) -> None:
+        other = made_up.split("Mesh0", "3STEPD")
+        splits = self.splits(other | {"study": "error"}, other | {"stop": "paper"},
+                             other | {"status": "timeout"}, other | {"memory_by_owner": None})
+        self.assertEqual(splits, [])
+        self.assertIsInstance(memory_figure.draw(splits), str)
+
+    def test_is_drawn_from_the_folder_and_bad_lines_are_refused(self) -> None:
+        made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD"), made_up.case("Mesh0", "HYBRID")])
+        good = [made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID")]
+        self.write_records(*good)
+        status, out, err = self.run_script()
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("memory_by_owner.png: 2 records", out)
+        shutil.rmtree(self.figures)
+        self.write_records(*good, made_up.split("Mesh0", "P2", wings=(1, 1)))
+        self.assert_refused("records.jsonl:3", "memory_by_owner", "wings", "blocks")
+        (self.results / "records.jsonl").write_text("no JSON\n", encoding="utf-8")
+        self.assert_refused("records.jsonl:1", "not a record")
 
 
 class OtherFiguresTest(StudiesTest):

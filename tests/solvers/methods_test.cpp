@@ -297,7 +297,52 @@ TEST_P(EveryKindOfMethod, TooFewSweepsIsNotConverged) {
   EXPECT_EQ(solve(posed({}), control).status, Status::ok);
 }
 
-TEST_P(EveryKindOfMethod, CountsItsStorage) { EXPECT_GT(solve(posed({})).storage_bytes, 0u); }
+TEST_P(EveryKindOfMethod, CountsItsStorage) { EXPECT_GT(matrix_bytes(solve(posed({}))), 0u); }
+
+// Entries and flops of the factor or preconditioner; none where there is none.
+TEST(WorkCounts, AreThoseOfTheFactor) {
+  const DualSystem system = assemble(posed({}));
+  const auto counted = [&](const char* name) {
+    return run(select_methods(name).front(), system, {});
+  };
+  const SkylineProfile profile = analyse_skyline(system.S);
+  for (const char* name : {"3STEPD", "3STEPCG:SKY"}) {
+    EXPECT_EQ(counted(name).factor_entries, profile.profile) << name;
+    EXPECT_EQ(counted(name).factor_flops, profile.factor_flops) << name;
+  }
+  EXPECT_EQ(counted("3STEPCG:DTIC3").factor_flops, profile.factor_flops);  // then dropped
+  EXPECT_LT(counted("3STEPCG:DTIC3").factor_entries, profile.profile);
+  EXPECT_LT(counted("3STEPCG:FLIC1").factor_flops, counted("3STEPCG:FLIC3").factor_flops);
+  for (const char* name : {"3STEPD:CHOLMOD", "HYBRID", "BLIND"}) {
+    const Solution solution = counted(name);
+    EXPECT_GT(solution.factor_flops.value(), static_cast<double>(*solution.factor_entries)) << name;
+    EXPECT_TRUE(solution.library_bytes) << name;  // MUMPS's: in units of 10⁶, here 0
+  }
+  EXPECT_GT(counted("HYBRID").library_bytes, 8 * *counted("HYBRID").factor_entries);
+  EXPECT_FALSE(counted("3STEPCG:NONE").factor_entries);
+  EXPECT_FALSE(counted("3STEPCG:SSOR1.0").factor_flops);
+  EXPECT_FALSE(counted("3STEPD").library_bytes);
+}
+
+TEST(StageObservers, OfAllScopesAreToldInsideOut) {
+  struct Noting : StageObserver {
+    Noting(std::string name, std::string& seen) : name_(std::move(name)), seen_(seen) {}
+    void begins(Stage) override { seen_ += name_ + "("; }
+    void ends(Stage) override { seen_ += name_ + ")"; }
+    std::string name_;
+    std::string& seen_;
+  };
+  std::string seen;
+  Noting outer("o", seen), inner("i", seen);
+  StageTimes times;
+  const ObservedStages observed(&outer);
+  {
+    const ObservedStages too(&inner);
+    const StageTimer timer(times, Stage::factor);
+  }
+  const StageTimer timer(times, Stage::check);
+  EXPECT_EQ(seen, "i(o(i)o)o(");
+}
 
 TEST(Methods, SelectionByNamesAndGlobs) {
   EXPECT_EQ(select_methods("3STEPD").size(), 1u);

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "solvers/krylov/symmlq.hpp"
+#include "solvers/preconditioners/identity.hpp"
 
 namespace airybench::testing {
 
@@ -59,13 +60,14 @@ inline SparseColumns lower_of(const Eigen::MatrixXd& A) {
 
 // M⁻¹ as a dense matrix.
 inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
-  return {[inverse](int) -> Apply { return [inverse](LaneBlock& X) { X = (inverse * X).eval(); }; },
-          0, 0};
+  Preconditioner result;
+  result.applier = [inverse](int) -> Apply {
+    return [inverse](LaneBlock& X) { X = (inverse * X).eval(); };
+  };
+  return result;
 }
 
-inline Preconditioner no_preconditioner() {
-  return {[](int) -> Apply { return [](LaneBlock&) {}; }, 0, 0};
-}
+inline Preconditioner no_preconditioner() { return identity_preconditioner({}, {}); }
 
 // ‖R‖_M⁻¹ of every column.
 inline Eigen::VectorXd norms(const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& R) {

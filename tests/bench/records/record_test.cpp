@@ -74,7 +74,13 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "study",
                                             "knob",
                                             "knob_value",
-                                            "scene_group"};
+                                            "scene_group",
+                                            "factor_entries",
+                                            "factor_flops",
+                                            "library_bytes",
+                                            "memory_count_ratio",
+                                            "heap_allocations",
+                                            "heap_allocated_bytes"};
   std::set<std::string> names;
   for (const auto& [name, value] : columns(Record{}))
     EXPECT_TRUE(names.insert(name).second) << name;
@@ -127,6 +133,57 @@ TEST(Record, JsonKeepsSamplesAndWhatWasLeftOut) {
   EXPECT_TRUE(json["stage_contact_s"].is_null());
   EXPECT_EQ(json["stages_left_out"]["contact"], "no contact boundary");
   EXPECT_EQ(json["stages_run"][0], "order");
+}
+
+MemorySplit made_up_memory() {
+  MemorySplit memory;
+  memory.at_peak[MemoryOwner::factor] = 9'000'000;
+  memory.held[MemoryOwner::factor] = memory.counted[MemoryOwner::factor] = 8'000'000;
+  memory.held[MemoryOwner::blocks] = 5;  // is not the method's
+  memory.counted[MemoryOwner::blocks] = 4'000;
+  memory.held[MemoryOwner::other] = 700;
+  memory.stage_peak[static_cast<int>(Stage::factor)] = 9'100'000;
+  memory.allocations = 12;
+  memory.allocated_bytes = 10'000'000;
+  return memory;
+}
+
+TEST(MemorySplit, IsInTheRecordByOwnerAndByStage) {
+  Record record = filled();
+  EXPECT_TRUE(to_json(record)["memory_by_owner"].is_null());
+  EXPECT_TRUE(to_json(record)["memory_counts_differ"].is_null());
+  EXPECT_TRUE(to_json(record)["memory_count_ratio"].is_null());
+  record.memory = made_up_memory();
+  record.factor_entries = 42;
+  record.factor_flops = 1.5e6;
+  const nlohmann::ordered_json json = to_json(record);
+  EXPECT_EQ(json["memory_by_owner"]["factor"].dump(),
+            R"({"peak_bytes":9000000,"held_bytes":8000000,"counted_bytes":8000000})");
+  EXPECT_TRUE(json["memory_by_owner"]["other"]["counted_bytes"].is_null());
+  EXPECT_FALSE(json["memory_by_owner"].contains("answer"));
+  EXPECT_EQ(json["memory_by_stage"].dump(), R"({"factor":9100000})");
+  EXPECT_EQ(json["memory_counts_differ"], false);
+  EXPECT_EQ(json["memory_count_ratio"], 1.0);
+  EXPECT_EQ(json["heap_allocations"], 12);
+  EXPECT_EQ(json["heap_allocated_bytes"], 10'000'000);
+  EXPECT_EQ(json["factor_entries"], 42);
+  EXPECT_EQ(json["factor_flops"], 1.5e6);
+}
+
+TEST(MemorySplit, DiffersBeyondATenthAndTheSlackInEitherDirection) {
+  MemorySplit memory = made_up_memory();
+  EXPECT_FALSE(counts_differ(memory));
+  for (const std::int64_t held : {7'190'000, 8'810'000}) {
+    memory.held[MemoryOwner::factor] = held;
+    EXPECT_TRUE(counts_differ(memory)) << held;
+  }
+  memory = made_up_memory();
+  memory.counted[MemoryOwner::answer] = 1;  // small: within the slack
+  memory.held[MemoryOwner::answer] = 60'000;
+  EXPECT_FALSE(counts_differ(memory));
+  memory.held[MemoryOwner::answer] = 70'000;
+  EXPECT_TRUE(counts_differ(memory));
+  EXPECT_FALSE(count_ratio(MemorySplit{}).has_value());
 }
 
 TEST(Terminal, ShowsUnitsAPersonReads) {

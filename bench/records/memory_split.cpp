@@ -1,0 +1,67 @@
+#include "bench/records/memory_split.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace airybench {
+
+std::optional<double> count_ratio(const MemorySplit& memory) {
+  std::int64_t held = 0, counted = 0;
+  for (const MemoryOwner owner : all_memory_owners) {
+    if (owner == MemoryOwner::blocks || memory.counted[owner] == 0) continue;
+    held += memory.held[owner];
+    counted += memory.counted[owner];
+  }
+  if (counted == 0) return {};
+  return static_cast<double>(held) / static_cast<double>(counted);
+}
+
+bool counts_differ(const MemorySplit& memory) {
+  constexpr std::int64_t slack_bytes = 64 * 1024;
+  return std::any_of(all_memory_owners.begin(), all_memory_owners.end(), [&](MemoryOwner owner) {
+    const std::int64_t counted = memory.counted[owner];
+    return counted > 0 &&
+           std::abs(memory.held[owner] - counted) > std::max(counted / 10, slack_bytes);
+  });
+}
+
+nlohmann::ordered_json by_owner(const MemorySplit& memory) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const MemoryOwner owner : all_memory_owners) {
+    const std::int64_t peak = memory.at_peak[owner], held = memory.held[owner],
+                       counted = memory.counted[owner];
+    if (peak == 0 && held == 0 && counted == 0) continue;
+    json[std::string(name_of(owner))] = {
+        {"peak_bytes", peak},
+        {"held_bytes", held},
+        {"counted_bytes", counted > 0 ? nlohmann::ordered_json(counted) : nullptr}};
+  }
+  return json;
+}
+
+nlohmann::ordered_json by_stage(const MemorySplit& memory) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const Stage stage : all_stages)
+    if (const auto& bytes = memory.stage_peak[static_cast<std::size_t>(stage)])
+      json[std::string(name_of(stage))] = *bytes;
+  return json;
+}
+
+MemorySplit memory_split_from(const nlohmann::ordered_json& by_owner,
+                              const nlohmann::ordered_json& by_stage) {
+  MemorySplit memory;
+  for (const MemoryOwner owner : all_memory_owners) {
+    const auto found = by_owner.find(std::string(name_of(owner)));
+    if (found == by_owner.end()) continue;
+    memory.at_peak[owner] = found->at("peak_bytes").get<std::int64_t>();
+    memory.held[owner] = found->at("held_bytes").get<std::int64_t>();
+    if (const auto& counted = found->at("counted_bytes"); !counted.is_null())
+      memory.counted[owner] = counted.get<std::int64_t>();
+  }
+  for (const Stage stage : all_stages)
+    if (const auto found = by_stage.find(std::string(name_of(stage))); found != by_stage.end())
+      memory.stage_peak[static_cast<std::size_t>(stage)] = found->get<std::int64_t>();
+  return memory;
+}
+
+}  // namespace airybench
