@@ -25,9 +25,9 @@ constexpr std::array<JudgedCount, 10> judged_counts = {{
     {"factor_entries", &CaseRecord::factor_entries},
     {"factor_flops", &CaseRecord::factor_flops},
     {"storage_bytes", &CaseRecord::storage_bytes},
-    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true},
+    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true, 1.001},
     {"heap_allocations", &CaseRecord::heap_allocations, true},
-    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true},
+    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true, 1.001},
     {"instructions", &CaseRecord::instructions, true, 1.01},
 }};
 

@@ -4,12 +4,13 @@
 //   status     ok → anything else is worse
 //   counters   iterations, factor entries, flops, storage: any growth is worse. Heap figures and
 //              instructions depend on the libraries as well: they are compared only with a night of
-//              the same compiler and libraries. Instructions, which the kernel's interrupts
-//              disturb, may vary by 1 %.
+//              the same compiler and libraries. Bytes of heap may vary by 0.1 % (how far a block is
+//              rounded up depends on what is free: tens of bytes), instructions by 1 %
+//              (interrupts).
 //   errors     growth by more than 1 % and by more than 1e-11 is worse. What stays below is
 //              rounding: the errors of direct methods are 1e-12 to 1e-10, and another order of
-//              summation moves them by their own size; at 1e-11 a hundred thousandth of the target
-//              error is still not reached.
+//              summation moves them by their own size; at 1e-11 what is reached is a hundred
+//              thousandth of the target error.
 //   answer     another answer_hash where no error has changed: changed, no failure
 #pragma once
 
