@@ -27,10 +27,12 @@ std::vector<std::string> other_changes(const ComparedCase& one) {
          error_grew(*(one.b.*member), *(one.a.*member))))
       changes.push_back(
           fmt::format("{}: {} {:.3g} → {:.3g}", name, key, *(one.a.*member), *(one.b.*member)));
-  for (const auto& [key, member] : count_members)
-    if (one.a.*member && one.b.*member && *(one.a.*member) != *(one.b.*member))
-      changes.push_back(
-          fmt::format("{}: {} {} → {}", name, key, *(one.a.*member), *(one.b.*member)));
+  for (const JudgedCount& count : judged_counts) {
+    const auto before = one.a.*count.member, after = one.b.*count.member;
+    if (before && after &&
+        (count_grew(count, *before, *after) || count_grew(count, *after, *before)))
+      changes.push_back(fmt::format("{}: {} {} → {}", name, count.name, *before, *after));
+  }
   return changes;
 }
 

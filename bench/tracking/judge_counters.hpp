@@ -14,11 +14,34 @@
 //   answer     another answer_hash where no error has changed: changed, no failure
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bench/tracking/history.hpp"
 
 namespace airybench {
+
+struct JudgedCount {
+  const char* name;
+  std::optional<std::int64_t> CaseRecord::*member;
+  bool of_libraries = false;
+  double tolerated_growth = 1;
+};
+inline constexpr std::array<JudgedCount, 10> judged_counts = {{
+    {"linear_iterations", &CaseRecord::linear_iterations},
+    {"contact_iterations", &CaseRecord::contact_iterations},
+    {"uzawa_iterations", &CaseRecord::uzawa_iterations},
+    {"factor_entries", &CaseRecord::factor_entries},
+    {"factor_flops", &CaseRecord::factor_flops},
+    {"storage_bytes", &CaseRecord::storage_bytes},
+    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true, 1.001},
+    {"heap_allocations", &CaseRecord::heap_allocations, true},
+    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true, 1.001},
+    {"instructions", &CaseRecord::instructions, true, 1.01},
+}};
+bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t after);
 
 // The findings on the newest of `nights`, which are of one machine, in the order of dates: of each
 // value against the last earlier night that has it.
