@@ -14,8 +14,8 @@ constexpr double outlier_scale = 0.25;   // ω
 constexpr double least_scale = 0.005;    // clocks and caches scatter at least so much
 constexpr double common_weight = 10;     // nights that the common scale counts for
 constexpr double agreeing_share = 0.75;  // of the nights after a change
-constexpr double standard_errors = 1;    // by which the effect must be above the least one
-constexpr int iterations = 10;           // of expectation maximisation: the third digit stands
+constexpr double standard_errors = 1.1;  // by which the effect must be above the least one
+constexpr int iterations = 6;  // of expectation maximisation: levels stand to a tenth of σ/√n
 
 // φ(e; s) without the factor (2 π)^-1/2, which cancels everywhere.
 double bell(double e, double s) { return std::exp(-e * e / (2 * s * s)) / s; }
@@ -50,15 +50,11 @@ Level level_of(const std::vector<double>& values, double scale, bool scale_is_kn
   return level;
 }
 
-// The robust start keeps outliers from being taken for the scale.
-double own_scale(const std::vector<double>& values, double least_start) {
-  const double start = std::max(least_start, robust_standard_deviation(values));
-  return level_of(values, start, false).scale;
-}
-
 // Between the series' own scale and the common one, by the nights that each rests on.
 Level level_before(const std::vector<double>& before, double common_scale) {
-  const double own = own_scale(before, std::max(least_scale, common_scale / 2));
+  // The robust start keeps outliers from being taken for the scale.
+  const double start = std::max({least_scale, common_scale / 2, robust_standard_deviation(before)});
+  const double own = level_of(before, start, false).scale;
   const auto weight = static_cast<double>(before.size());
   const double variance =
       (weight * own * own + common_weight * common_scale * common_scale) / (weight + common_weight);
@@ -96,7 +92,8 @@ Series measured(const std::vector<double>& series) {
 
 double scale_of(const std::vector<double>& series) {
   const std::vector<double> values = measured(series).values;
-  return values.size() < 2 ? std::nan("") : own_scale(values, least_scale);
+  return values.size() < 2 ? std::nan("")
+                           : std::max(least_scale, robust_standard_deviation(values));
 }
 
 std::optional<Change> find_change(const std::vector<double>& series, double common_scale,
@@ -113,7 +110,7 @@ std::optional<Change> find_change(const std::vector<double>& series, double comm
     const std::vector<double> before(values.begin(), values.end() - n);
     const std::vector<double> after(values.end() - n, values.end());
     // Most nights end here; a median is not far from the level.
-    if (std::abs(median(after) - median(before)) < least_shift / 2) continue;
+    if (std::abs(median(after) - median(before)) < 0.8 * least_shift) continue;
     const Level old_level = level_before(before, common_scale);
     const Level new_level = level_of(after, old_level.scale, true);
     const double shift = new_level.value - old_level.value;

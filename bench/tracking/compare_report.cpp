@@ -27,10 +27,12 @@ std::vector<std::string> other_changes(const ComparedCase& one) {
          error_grew(*(one.b.*member), *(one.a.*member))))
       changes.push_back(
           fmt::format("{}: {} {:.3g} → {:.3g}", name, key, *(one.a.*member), *(one.b.*member)));
-  for (const auto& [key, member] : count_members)
-    if (one.a.*member && one.b.*member && *(one.a.*member) != *(one.b.*member))
-      changes.push_back(
-          fmt::format("{}: {} {} → {}", name, key, *(one.a.*member), *(one.b.*member)));
+  for (const JudgedCount& count : judged_counts) {
+    const auto before = one.a.*count.member, after = one.b.*count.member;
+    if (before && after &&
+        (count_grew(count, *before, *after) || count_grew(count, *after, *before)))
+      changes.push_back(fmt::format("{}: {} {} → {}", name, count.name, *before, *after));
+  }
   return changes;
 }
 
@@ -39,7 +41,7 @@ std::string interval_text(const Interval& interval) {
 }
 
 // The cells of a row; those of a case without times say so.
-std::vector<std::string> row(const ComparedCase& one) {
+std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
   if (!one.timed)
     return {one.a.name(),
             "",
@@ -54,7 +56,7 @@ std::vector<std::string> row(const ComparedCase& one) {
           show_seconds(median(one.b.samples_s)),
           fmt::format("{:.3g}", one.ratio),
           interval_text(one.interval),
-          fmt::format("{:.3g}", one.corrected),
+          drift_is_known ? fmt::format("{:.3g}", one.corrected) : "-",
           fmt::format("{:.2g}", one.p),
           std::string(name_of(one.verdict))};
 }
@@ -63,15 +65,15 @@ const std::vector<std::string> header = {"case", "A", "B", "B/A", "95 %", "/drif
 std::vector<std::string> summary(const Comparison& comparison) {
   std::vector<std::string> lines;
   if (comparison.timed > 0)
-    lines.push_back(fmt::format(
-        "geometric mean of B/A over {} cases: {:.4g} {}; by the drift {:.4g}", comparison.timed,
-        comparison.mean_ratio, interval_text(comparison.mean_interval),
-        comparison.mean_ratio / comparison.drift.value_or(1)));
-  lines.push_back(
-      comparison.drift
-          ? fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A)",
-                        *comparison.drift)
-          : "drift of the machine: not known (no noise_kernel_s in both)");
+    lines.push_back(fmt::format("geometric mean of B/A over {} cases: {:.4g} {}", comparison.timed,
+                                comparison.mean_ratio, interval_text(comparison.mean_interval)));
+  if (comparison.drift)
+    lines.push_back(
+        fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A); the mean by "
+                    "it {:.4g}",
+                    *comparison.drift, comparison.mean_ratio / *comparison.drift));
+  else
+    lines.push_back("drift of the machine: not known (no noise_kernel_s in both)");
   if (std::any_of(comparison.cases.begin(), comparison.cases.end(), [](const ComparedCase& one) {
         return one.timed && one.verdict == TimeVerdict::too_few_samples;
       }))
@@ -95,7 +97,8 @@ std::size_t columns_of(const std::string& text) {
 
 std::string comparison_text(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows = {header};
-  for (const ComparedCase& one : comparison.cases) rows.push_back(row(one));
+  for (const ComparedCase& one : comparison.cases)
+    rows.push_back(row(one, comparison.drift.has_value()));
   std::vector<std::size_t> widths(header.size(), 0);
   for (const auto& cells : rows)
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -116,7 +119,7 @@ std::string comparison_markdown(const Comparison& comparison) {
   std::string text =
       fmt::format("| {} |\n|{}\n", fmt::join(header, " | "), "---|---|---|---|---|---|---|---|");
   for (const ComparedCase& one : comparison.cases)
-    text += fmt::format("| {} |\n", fmt::join(row(one), " | "));
+    text += fmt::format("| {} |\n", fmt::join(row(one, comparison.drift.has_value()), " | "));
   text += "\n";
   for (const std::string& line : summary(comparison)) text += fmt::format("- {}\n", line);
   return text;

@@ -12,25 +12,6 @@ namespace {
 constexpr double error_growth = 1.01;
 constexpr double rounding = 1e-11;
 
-struct JudgedCount {
-  const char* name;
-  std::optional<std::int64_t> CaseRecord::*member;
-  bool of_libraries = false;
-  double tolerated_growth = 1;
-};
-constexpr std::array<JudgedCount, 10> judged_counts = {{
-    {"linear_iterations", &CaseRecord::linear_iterations},
-    {"contact_iterations", &CaseRecord::contact_iterations},
-    {"uzawa_iterations", &CaseRecord::uzawa_iterations},
-    {"factor_entries", &CaseRecord::factor_entries},
-    {"factor_flops", &CaseRecord::factor_flops},
-    {"storage_bytes", &CaseRecord::storage_bytes},
-    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true},
-    {"heap_allocations", &CaseRecord::heap_allocations, true},
-    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true},
-    {"instructions", &CaseRecord::instructions, true, 1.01},
-}};
-
 constexpr std::array library_keys = {"compiler", "compiler_flags", "build_type",
                                      "eigen",    "cholmod",        "mumps",
                                      "blas",     "blas_core",      "heap_probe"};
@@ -96,10 +77,9 @@ void compare_counts(Comparison& comparison, const CaseRecord& now) {
         });
     if (record == nullptr) continue;
     const std::int64_t before = *(record->*count.member), after = *(now.*count.member);
-    const auto from = static_cast<double>(before), to = static_cast<double>(after);
-    if (to > from * count.tolerated_growth)
+    if (count_grew(count, before, after))
       comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::worse);
-    else if (to * count.tolerated_growth < from)
+    else if (count_grew(count, after, before))
       comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::better);
   }
 }
@@ -158,6 +138,10 @@ void compare_contexts(Comparison& comparison, const Night& before) {
 
 bool error_grew(double before, double after) {
   return after > error_growth * before && after - before > rounding;
+}
+
+bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t after) {
+  return static_cast<double>(after) > static_cast<double>(before) * count.tolerated_growth;
 }
 
 std::vector<Finding> judge_counters(const std::vector<Night>& nights) {

@@ -4,20 +4,44 @@
 //   status     ok → anything else is worse
 //   counters   iterations, factor entries, flops, storage: any growth is worse. Heap figures and
 //              instructions depend on the libraries as well: they are compared only with a night of
-//              the same compiler and libraries. Instructions, which the kernel's interrupts
-//              disturb, may vary by 1 %.
+//              the same compiler and libraries. Bytes of heap may vary by 0.1 % (how far a block is
+//              rounded up depends on what is free: tens of bytes), instructions by 1 %
+//              (interrupts).
 //   errors     growth by more than 1 % and by more than 1e-11 is worse. What stays below is
 //              rounding: the errors of direct methods are 1e-12 to 1e-10, and another order of
-//              summation moves them by their own size; at 1e-11 a hundred thousandth of the target
-//              error is still not reached.
+//              summation moves them by their own size; at 1e-11 what is reached is a hundred
+//              thousandth of the target error.
 //   answer     another answer_hash where no error has changed: changed, no failure
 #pragma once
 
+#include <array>
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "bench/tracking/history.hpp"
 
 namespace airybench {
+
+struct JudgedCount {
+  const char* name;
+  std::optional<std::int64_t> CaseRecord::*member;
+  bool of_libraries = false;
+  double tolerated_growth = 1;
+};
+inline constexpr std::array<JudgedCount, 10> judged_counts = {{
+    {"linear_iterations", &CaseRecord::linear_iterations},
+    {"contact_iterations", &CaseRecord::contact_iterations},
+    {"uzawa_iterations", &CaseRecord::uzawa_iterations},
+    {"factor_entries", &CaseRecord::factor_entries},
+    {"factor_flops", &CaseRecord::factor_flops},
+    {"storage_bytes", &CaseRecord::storage_bytes},
+    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true, 1.001},
+    {"heap_allocations", &CaseRecord::heap_allocations, true},
+    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true, 1.001},
+    {"instructions", &CaseRecord::instructions, true, 1.01},
+}};
+bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t after);
 
 // The findings on the newest of `nights`, which are of one machine, in the order of dates: of each
 // value against the last earlier night that has it.

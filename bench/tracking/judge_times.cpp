@@ -18,7 +18,7 @@ double median_of_finite(std::vector<double> values) {
 // Rows: cases, of which the nights that do not count are NaN.
 std::vector<double> common_factor(const std::vector<std::vector<double>>& rows,
                                   std::size_t nights) {
-  constexpr int sweeps = 4;  // changes are below a tenth of a per cent then
+  constexpr int sweeps = 3;  // changes are below a tenth of a per cent then
   std::vector<double> factor(nights, 0.0), levels(rows.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t c = 0; c < rows.size(); ++c) {

@@ -21,9 +21,10 @@
 
 namespace airybench {
 
-// False alarms by simulation, with the noise of tests/bench/tracking/synthetic_history.hpp: see
-// simulation_test.cpp, which states and checks them. Four nights, not three: three outliers in a
-// row that agree are most of the false alarms otherwise.
+// Simulated with 50 cases of 2 to 4 % scatter, 5 % outliers and drift (simulation_test.cpp): 0.98
+// false alarms in 100 nights over all cases (95 %: 0.7 to 1.3); a slowdown of one case by 10 % is
+// found within five nights in 95 % of the runs after 60 nights of history, in 93 % after 20. Four
+// nights, not three: three outliers in a row that agree are most of the false alarms otherwise.
 struct TimeRules {
   double minimum_effect = 0.05;
   std::size_t least_nights_after = 4;

@@ -72,7 +72,7 @@ TEST(ChangePoint, PassesOverNightsThatWereNotMeasured) {
 TEST(ChangePoint, TheScaleIsNotThatOfOutliers) {
   std::vector<double> series = flat(60, 0.02, 9);
   for (const std::size_t t : {5, 15, 25}) series[t] += 0.4;
-  EXPECT_NEAR(scale_of(series), 0.02, 0.006);
+  EXPECT_NEAR(scale_of(series), 0.02, 0.01);             // the standard deviation is 0.09
   EXPECT_GT(scale_of(std::vector<double>(10, 1.0)), 0);  // equal values are not without scatter
 }
 

@@ -25,6 +25,7 @@ CaseRecord record(const std::string& method, double time_s) {
   result.time_s = time_s;
   result.linear_iterations = 100;
   result.heap_allocations = 50;
+  result.peak_heap_bytes = 1000000;
   result.error_force = 1e-7;
   result.answer_hash = "abc";
   result.noise_kernel_s = 0.1;
@@ -87,6 +88,10 @@ INSTANTIATE_TEST_SUITE_P(
                              "linear_iterations", Lane::counters, Kind::better},
                       Change{"allocations", [](CaseRecord& r) { r.heap_allocations = 51; },
                              "heap_allocations", Lane::counters, Kind::worse},
+                      Change{"rounded_blocks", [](CaseRecord& r) { r.peak_heap_bytes = 1000900; },
+                             nullptr, Lane::counters, Kind::changed},
+                      Change{"heap", [](CaseRecord& r) { r.peak_heap_bytes = 1001100; },
+                             "peak_heap_bytes", Lane::counters, Kind::worse},
                       Change{"unknown", [](CaseRecord& r) { r.linear_iterations.reset(); }, nullptr,
                              Lane::counters, Kind::changed},
                       Change{"error", [](CaseRecord& r) { r.error_force = 1.02e-7; }, "error_force",
