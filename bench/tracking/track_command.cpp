@@ -148,6 +148,7 @@ std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
     arguments.emplace_back(
         "--method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6");
   if (!has("--repetitions")) arguments.emplace_back("--repetitions=9");
+  if (!has("--interleave")) arguments.emplace_back("--interleave");
   arguments.insert(arguments.end(), own.begin(), own.end());
   return arguments;
 }

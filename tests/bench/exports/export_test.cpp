@@ -15,6 +15,7 @@
 #include "bench/exports/tracker_formats.hpp"
 #include "bench/records/record.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/statistics/robust.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench {

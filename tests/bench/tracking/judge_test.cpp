@@ -239,10 +239,10 @@ TEST(History, NamesAFileThatIsNoNight) {
 TEST(Track, TheUsersArgumentsReplaceTheSelection) {
   const auto plain = nightly_arguments({}, "h/latest");
   EXPECT_EQ(plain.front(), "--out=h/latest");
-  EXPECT_EQ(plain.size(), 4u);
+  EXPECT_EQ(plain.size(), 5u);
   const auto own = nightly_arguments({"--mesh", "Mesh0", "--method=P2"}, "h/latest");
-  EXPECT_EQ(own, (std::vector<std::string>{"--out=h/latest", "--repetitions=9", "--mesh", "Mesh0",
-                                           "--method=P2"}));
+  EXPECT_EQ(own, (std::vector<std::string>{"--out=h/latest", "--repetitions=9", "--interleave",
+                                           "--mesh", "Mesh0", "--method=P2"}));
 }
 
 }  // namespace

@@ -57,8 +57,8 @@ TEST(Simulation, FalseAlarmsAreBelowOneInAHundredNights) {
       "faster {}, in {} nights\n",
       alarms / hundreds, low, high, slower, faster, histories * nights);
   if (part == 1) {
-    EXPECT_LE(alarms / hundreds, 1.1);  // 0.98 here; another libm moves a few alarms
-    EXPECT_GT(alarms, 0);               // else the threshold is far from what is stated
+    EXPECT_LE(alarms / hundreds, 1);  // 0.66 here
+    EXPECT_GT(alarms, 0);             // else the threshold is far from what is stated
   }
   EXPECT_LE(low, 1);
 }
@@ -92,7 +92,7 @@ TEST(Simulation, ASlowdownOfOneCaseIsFoundWithinFiveNights) {
   const int found = found_in_time(
       runs, 60, 10000, [](SyntheticHistory& history) { history.slow_down(7, slowdown); },
       [](const TimeChange& change) { return change.series == 7u; });
-  EXPECT_GE(found, (part == 1 ? 0.94 : 0.8) * runs);
+  EXPECT_GE(found, (part == 1 ? 0.93 : 0.8) * runs);
 }
 
 TEST(Simulation, AlsoAfterAShortHistory) {
