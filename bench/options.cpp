@@ -10,18 +10,28 @@ namespace airybench {
 namespace {
 
 constexpr const char* footer = R"(
-"bench claims DIR" checks the paper's sentences against a results folder (bench claims --help).
+Other commands (each has --help)
+  bench claims DIR       the paper's sentences, checked against a results folder
+  bench compare A B      two runs, case by case: faster, slower, or not separated
+  bench track            a night's run, added to a history and judged
+  bench export DIR       records for Google Benchmark's tools, trackers, JUnit
+  bench merge DIR...     the shards of a run, joined
+  bench replay RECORD    one recorded case, run again
+
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
              1  some case is not
              2  wrong usage, or a file that cannot be used or written: one line on standard error
+         128+n  ended by signal n (Ctrl-C: 130); what was measured is in the folder
 
 Examples
   bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
   bench --figure=3 --out=results/figure3
   bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
   bench --study=stability --out=results/stability
+  bench --mesh=Mesh0..Mesh7 --out=results/night --resume
+  bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
 #include "bench/records/record_files.hpp"
+#include "bench/records/record_json.hpp"
 #include "bench/terminal.hpp"
 
 namespace airybench {
@@ -80,7 +82,17 @@ TEST(Record, HasExactlyTheDocumentedColumns) {
                                             "library_bytes",
                                             "memory_count_ratio",
                                             "heap_allocations",
-                                            "heap_allocated_bytes"};
+                                            "heap_allocated_bytes",
+                                            "time_low_s",
+                                            "time_high_s",
+                                            "signal",
+                                            "ended_in",
+                                            "time_so_far_s",
+                                            "instructions",
+                                            "answer_hash",
+                                            "runs_s",
+                                            "wall_s",
+                                            "noise_kernel_s"};
   std::set<std::string> names;
   for (const auto& [name, value] : columns(Record{}))
     EXPECT_TRUE(names.insert(name).second) << name;
@@ -208,6 +220,64 @@ TEST(Terminal, TableNamesWhatWentWrong) {
   const std::string table = results_table({record});
   EXPECT_NE(table.find("Mesh0 default 3STEPD: timeout: time limit reached during"),
             std::string::npos);
+}
+
+// Every key that a record can have comes back from JSON.
+TEST(Record, ComesBackFromJson) {
+  const char* const lines[] = {COMMITTED_RESULTS "/paper/records.jsonl",
+                               COMMITTED_RESULTS "/error/records.jsonl",
+                               COMMITTED_RESULTS "/stability/records.jsonl"};
+  for (const char* file : lines) {
+    std::ifstream in(file);
+    int compared = 0;
+    for (std::string line; std::getline(in, line) && compared < 200; ++compared) {
+      const auto json = nlohmann::ordered_json::parse(line);
+      const auto once = to_json(record_from_json(json));
+      EXPECT_EQ(to_json(record_from_json(once)), once) << file << ":" << compared + 1;
+      // These were written before some keys were there: what they have is kept.
+      for (const auto& [key, value] : json.items())
+        if (once.contains(key) && key != "stages_left_out") {
+          EXPECT_EQ(once[key], value) << key;
+        }
+    }
+    EXPECT_GT(compared, 50) << file;
+  }
+}
+
+TEST(Record, WithAllThatANewOneHasComesBackFromJson) {
+  Record record;
+  record.mesh_file = "m.msh";
+  record.scene_definition = R"({"friction":0})";
+  record.case_number = 7;
+  record.signal = "SIGSEGV";
+  record.ended_in = "timed run, factor";
+  record.time_so_far_s = 1.5;
+  record.samples_s = {1, 2, 3};
+  record.stage_samples.resize(3);
+  for (StageTimes& times : record.stage_samples) times[Stage::check] = 0.5;
+  record.noise_kernel_samples_s = {1e-3, 2e-3};
+  record.instructions = 12;
+  record.runs_s = 3;
+  record.wall_s = 4;
+  record.factor_entries = 5;
+  record.factor_flops = 6;
+  record.library_bytes = 7;
+  record.memory.emplace();
+  record.memory->at_peak[MemoryOwner::factor] = 100;
+  record.memory->held[MemoryOwner::factor] = 90;
+  record.memory->counted[MemoryOwner::factor] = 80;
+  record.memory->stage_peak[static_cast<std::size_t>(Stage::factor)] = 110;
+  record.memory->allocations = 3;
+  record.memory->allocated_bytes = 200;
+  record.verification.emplace();
+  record.verification->equilibrium_residual = 1e-12;
+  record.histories.push_back({"residual", {1, 0.1}});
+  record.grid.push_back({20, 30, 12, "converged"});
+  const auto json = to_json(record);
+  EXPECT_EQ(json["memory_by_owner"]["factor"]["counted_bytes"], 80);
+  EXPECT_EQ(json["stage_samples"][2]["check"], 0.5);
+  EXPECT_GT(json["time_high_s"], json["time_low_s"]);
+  EXPECT_EQ(to_json(record_from_json(json)), json);
 }
 
 }  // namespace
