@@ -82,9 +82,14 @@ void read_what_was_solved(const Json& json, Record& r) {
 
 void read_measures(const Json& json, Record& r) {
   read(json, "samples_s", r.samples_s);
-  if (has(json, "stage_samples"))
+  if (has(json, "stage_samples")) {
     for (const Json& times : json["stage_samples"])
       r.stage_samples.push_back(stage_times_of(times));
+  } else {  // older records have the medians alone
+    StageTimes medians;
+    for (const Stage stage : all_stages) read(json, column_of(stage).c_str(), medians[stage]);
+    r.stage_samples.push_back(medians);
+  }
   read(json, "assembly_samples_s", r.assembly_samples_s);
   read(json, "noise_kernel_samples_s", r.noise_kernel_samples_s);
   read(json, "instructions", r.instructions);
