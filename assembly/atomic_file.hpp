@@ -6,8 +6,8 @@
 
 namespace airybench {
 
-// Writes beside the file, then renames. Throws std::runtime_error "file: why"; the file that was
-// there is untouched then.
+// Writes beside the file, then renames; a device or a pipe is written to as it is. Throws
+// std::runtime_error "file: why"; the file that was there is untouched then.
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace airybench

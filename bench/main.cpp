@@ -21,12 +21,9 @@ using Command = int (*)(int argc, const char* const* argv);
 
 // `bench WORD …`; without such a word it is a run.
 const std::map<std::string_view, Command> commands = {
-    {"claims", airybench::claims_command},
-    {"compare", airybench::compare_command},
-    {"export", airybench::export_command},
-    {"merge", airybench::merge_command},
-    {"replay", airybench::replay_command},
-    {"track", airybench::track_command},
+    {"claims", airybench::claims_command}, {"compare", airybench::compare_command},
+    {"export", airybench::export_command}, {"merge", airybench::merge_command},
+    {"replay", airybench::replay_command}, {"track", airybench::track_command},
 };
 
 }  // namespace
@@ -40,7 +37,8 @@ int main(int argc, char** argv) {
     fmt::print("{}", help.what());
     return airybench::all_ok;
   } catch (const airybench::Interrupted& interrupted) {
-    fmt::print(stderr, "bench: {}: what was measured is in the output folder; --resume goes on\n",
+    fmt::print(stderr,
+               "bench: {}: what was measured by then is in the output folder; --resume goes on\n",
                interrupted.what());
     return 128 + interrupted.signal;
   } catch (const std::exception& error) {

@@ -88,10 +88,14 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   options.out = std::move(out);
   options.threads = record.threads;
   options.target_error = record.target_error;
-  options.stop = record.stop;
-  if (record.study == name_of(Study::error)) options.study = Study::error;
+  if (record.study == name_of(Study::error))
+    options.study = Study::error;  // whose points have stops of their own
+  else
+    options.stop = record.stop;
   if (record.study == name_of(Study::stability)) options.study = Study::stability;
   options.repetitions = static_cast<int>(number_in(context, "repetitions", options.repetitions));
+  const auto interleaved = context.find("interleaved");
+  options.interleave = interleaved != context.end() && interleaved->second == "yes";
   options.timeout_s = number_in(context, "timeout_s", options.timeout_s);
   options.long_case_s = number_in(context, "long_case_s", options.long_case_s);
   if (const double limit = number_in(context, "memory_limit_bytes", 0); limit > 0)
@@ -157,7 +161,17 @@ int replay_command(int argc, const char* const* argv) {
   const Context recorded = context_of(before);
   const Options options = options_of(record, recorded, asked.out);
   set_threads(options.threads);
-  const Context context = context_of_run(options);
+  Context context = context_of_run(options);
+  for (const auto& [key, value] : recorded)  // what that run said of itself
+    if (context.count(key) == 0) context[key] = value;
+  const std::filesystem::path folder = asked.record.substr(0, asked.record.find(':'));
+  std::error_code error;
+  if (std::filesystem::equivalent(folder, asked.out, error))
+    throw UsageError(
+        fmt::format("--out: {} (allowed: another folder than the record's)", asked.out.string()));
+  if (before.find("scene_definition") == before.end() && record.scene != Scene().name)
+    throw OutputError(
+        fmt::format("{}: does not say what its scene {} is", asked.record, record.scene));
   const std::string differs = differences(recorded, context, Sameness::same_program);
   if (!differs.empty() && !asked.other_program)
     throw OutputError(

@@ -159,6 +159,7 @@ int run_command(int argc, const char* const* argv) {
   catch_interrupts();
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
+  context["plan_sha256"] = fingerprint(whole, options.stop);
   const RunResult result = run_cases(plan, options, context);
   fmt::print("\n{}\n", results_table(result.records));
   if (result.earlier > 0)

@@ -29,7 +29,7 @@ COLUMNS = (("mesh", "mesh"), ("scene", "scene"), ("method", "method"), ("stop", 
            ("status", "status"), ("n_phi", "n_phi"), ("time_s", "time"), ("time_mad_s", "±"),
            *((key, head) for key, _, head, _ in QUANTITIES if key != "time_s"))
 # Different in every night, so that a difference says nothing.
-ALWAYS_NEW = {"date", "load_1min_at_start"}
+ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
 def case_name(case: dict) -> str:
@@ -78,12 +78,10 @@ def series(nights: list[Night]) -> list[dict]:
 
 def marks(nights: list[Night]) -> list[dict]:
     """Every change once, as the latest night that tells of it has it, with its night's number."""
-    names = {case_name(case) for night in nights for case in night.cases}
     latest = {}
     for night in nights:
         for verdict in night.verdicts:
-            name = verdict["case"]  # mesh, scene and method, of whatever stop
-            name = name if name in names else f"{name}/stop=paper"
+            name = verdict["case"]
             latest[name, verdict["quantity"], moment(verdict["since"])] = verdict
     found = []
     for (name, _, since), verdict in latest.items():

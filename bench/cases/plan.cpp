@@ -9,6 +9,8 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "assembly/sha256.hpp"
+
 namespace airybench {
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
@@ -26,6 +28,13 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
       else
         add(scene, method, {});
   return cases;
+}
+
+std::string fingerprint(const std::vector<Case>& plan, Stop stop) {
+  std::string text = stop == Stop::paper ? "paper\n" : "target\n";
+  for (const Case& c : plan)
+    text += fmt::format("{} {} {}\n", c.name(), c.posed.mesh_sha256, c.posed.scene_definition);
+  return sha256_hex(text);
 }
 
 std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }

@@ -33,6 +33,9 @@ struct Case {
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study = Study::none);
 
+// SHA-256 of the cases' names, meshes, scenes, study and stop: two machines have the same plan.
+std::string fingerprint(const std::vector<Case>& plan, Stop stop);
+
 // One of `count` parts of a plan, for as many machines: the cases index, index + count, …, so that
 // each has cases of every size.
 struct Shard {

@@ -105,7 +105,10 @@ void ChildProcess::finish(int patience_ms) {
   if (pid_ < 0) return;
   int status = 0;
   for (int waited_ms = 0;; ++waited_ms) {
-    if (waited_ms >= patience_ms) kill(pid_, SIGKILL);
+    if (waited_ms >= patience_ms) {
+      kill(pid_, SIGKILL);
+      end_.lingered = patience_ms > 0;
+    }
     const pid_t reaped = waitpid(pid_, &status, waited_ms >= patience_ms ? 0 : WNOHANG);
     if (reaped == pid_ || (reaped < 0 && errno != EINTR)) break;
     usleep(1000);

@@ -37,6 +37,7 @@ struct ChildEnd {
   int exit_code = -1;     // of one that ended by itself
   int signal = 0;         // that ended it
   bool given_up = false;  // receive()'s give_up ended it
+  bool lingered = false;  // it closed the line and did not end: it was killed
 };
 std::string signal_name(int signal);  // "SIGSEGV"
 
@@ -53,7 +54,6 @@ class ChildProcess {
   std::optional<std::string> ask(const std::string& line,
                                  const std::function<bool()>& give_up = {});
   const ChildEnd& end() const { return end_; }
-  pid_t pid() const { return pid_; }
 
  private:
   void finish(int patience_ms);  // reaps; kills after so long

@@ -43,13 +43,23 @@ bool IsolatedScene::overdue() const {
   return interrupting_signal != 0 || is_overdue(board_, options_);
 }
 
+// All before the first case: a scene's process that breaks takes its cases' processes along.
+void IsolatedScene::prepare_all() {
+  if (prepared_ && process_ != nullptr) return;
+  const auto start = std::chrono::steady_clock::now();
+  for (std::size_t k = 0; k < cases_.size(); ++k) prepare(k);
+  prepared_ = true;
+  preparation_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 void IsolatedScene::prepare(std::size_t k) {
   constexpr int most_attempts = 4;  // assembly, reference and discretisation error may each break
-  const auto start = std::chrono::steady_clock::now();
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    if (process_ == nullptr)
+    if (process_ == nullptr) {
+      ++generation_;
       process_ = std::make_unique<ChildProcess>(
           [this](Channel& channel) { serve_scene(channel, cases_, options_, board_, left_out_); });
+    }
     if (process_->ask(fmt::format("prepare {}", k), [this] { return overdue(); })) break;
     throw_if_interrupted();
     const std::string why = obituary_of(process_->end(), board_, options_).sentence;
@@ -60,17 +70,20 @@ void IsolatedScene::prepare(std::size_t k) {
       case Activity::discretisation:
         left_out_.discretisation = why;
         break;
-      default:
+      case Activity::reference:
         left_out_.reference = "no reference: " + why;
+        break;
+      default:  // ended from outside: once more
+        break;
     }
     board_.ends();
     process_.reset();
   }
-  preparation_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 Record IsolatedScene::examine(std::size_t k) {
-  prepare(k);
+  prepare_all();
+  examined_in_[k] = generation_;
   std::optional<std::string> answer;
   if (process_ != nullptr)
     answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
@@ -84,10 +97,11 @@ Record IsolatedScene::examine(std::size_t k) {
 
 TimedRun IsolatedScene::measure_time(std::size_t k) {
   std::optional<std::string> answer;
-  if (process_ != nullptr)
+  if (process_ != nullptr && examined_in_[k] == generation_)
     answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
   if (answer) return timed_run_from_json(nlohmann::ordered_json::parse(*answer));
+  if (examined_in_[k] == generation_) process_.reset();
   TimedRun run;
   run.message = "the process of its scene ended";
   return run;

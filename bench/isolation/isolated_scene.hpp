@@ -24,7 +24,7 @@
 
 namespace airybench {
 
-// Ctrl-C, SIGTERM or SIGHUP: what() says which. What has been measured is on disk.
+// Ctrl-C, SIGTERM or SIGHUP: what() says which. What has been measured by then is on disk.
 struct Interrupted : std::runtime_error {
   explicit Interrupted(int number);
   int signal;
@@ -45,6 +45,7 @@ class IsolatedScene {
   double preparation_s() const { return preparation_s_; }  // assembly and reference
 
  private:
+  void prepare_all();
   void prepare(std::size_t k);
   bool overdue() const;
 
@@ -53,6 +54,9 @@ class IsolatedScene {
   ActivityBoard board_;  // of the scene's process
   LeftOut left_out_;     // what broke it
   std::unique_ptr<ChildProcess> process_;
+  int generation_ = 0;  // of the process
+  std::map<std::size_t, int> examined_in_;
+  bool prepared_ = false;  // what all cases share, in this generation
   double preparation_s_ = 0;
 };
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <map>
 #include <sstream>
@@ -69,7 +70,10 @@ struct CaseProcess {
 }  // namespace
 
 bool is_overdue(const ActivityBoard& board, const Options& options) {
-  return board.seconds() > 1.1 * options.timeout_s + 2;
+  constexpr double least_for_others_s = 900;
+  const double limit_s = is_run(board.activity()) ? options.timeout_s
+                                                  : std::max(options.timeout_s, least_for_others_s);
+  return board.seconds() > 1.1 * limit_s + 2;
 }
 
 Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
@@ -87,7 +91,7 @@ Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
     obituary.sentence = fmt::format("its process was ended {}: it passed the memory limit", place);
   } else if (end.signal != 0) {
     obituary.signal = signal_name(end.signal);
-    const bool killed = end.signal == SIGKILL;  // not by us
+    const bool killed = end.signal == SIGKILL && !end.lingered;
     if (killed) obituary.status = Status::out_of_memory;
     obituary.sentence = fmt::format("its process was ended {} by {}{}", place, obituary.signal,
                                     killed ? ", as the kernel does when memory runs out" : "");

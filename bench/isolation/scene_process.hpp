@@ -17,8 +17,8 @@ namespace airybench {
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
                  ActivityBoard& board, const LeftOut& left_out);
 
-// An activity that takes longer than --timeout and a grace in which a method can end by itself, and
-// say how far it came.
+// A run that takes longer than --timeout and a grace in which a method can end by itself, and say
+// how far it came; assembly, reference and verification have a quarter of an hour at least.
 bool is_overdue(const ActivityBoard& board, const Options& options);
 
 // What became of a process that ended without an answer, in a sentence; with status and signal.

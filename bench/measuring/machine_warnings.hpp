@@ -1,4 +1,4 @@
-// What makes the figures of a run less certain than they look, said before it begins.
+// What makes the figures of a run less certain than they look, said when it ends.
 #pragma once
 
 #include <map>

@@ -58,9 +58,15 @@ class SceneRunner {
     record.noise_kernel_samples_s = noise_before_[k];
     note_noise(record.noise_kernel_samples_s);
     record.wall_s = wall_s_[k];
-    files_.append(record);
-    std::cerr << progress_.line(record) << std::flush;
-    finished_.push_back(k);
+    finished_.insert(k);
+    if (!options_.interleave) write(record);
+  }
+
+  // Interleaved cases end in random order, but all at about the same time: their records are kept
+  // in the plan's.
+  void finish_interleaved() {
+    if (!options_.interleave) return;
+    for (const std::size_t k : finished_) write(*records_[k]);
   }
 
   std::vector<Record> records() const {
@@ -71,6 +77,10 @@ class SceneRunner {
   double preparation_s() const { return scene_.preparation_s(); }
 
  private:
+  void write(const Record& record) {
+    files_.append(record);
+    std::cerr << progress_.line(record) << std::flush;
+  }
   // The time of one repetition. A long case has its only one from its detail run.
   double next_sample(std::size_t k, Record& record, benchmark::State& state) {
     const double so_far = std::accumulate(record.samples_s.begin(), record.samples_s.end(), 0.0);
@@ -100,7 +110,7 @@ class SceneRunner {
   std::vector<std::optional<Record>> records_;
   std::map<std::size_t, std::vector<double>> noise_before_;
   std::map<std::size_t, double> wall_s_;
-  std::vector<std::size_t> finished_;
+  std::set<std::size_t> finished_;
   std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
 };
 
@@ -174,6 +184,7 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
     SceneRunner run(cases, options, files, progress);
     try {
       run_scene(cases, options, run);
+      run.finish_interleaved();
     } catch (const Interrupted&) {
       files.finish();
       throw;

@@ -12,6 +12,7 @@
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/rss_probe.hpp"
+#include "bench/records/answer_hash.hpp"
 #include "bench/records/blank_record.hpp"
 #include "bench/records/fields.hpp"
 
@@ -142,10 +143,11 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   const std::int64_t of_blocks = blocks.heap_bytes.value_or(0);
   const MemoryWatch watch(of_blocks);
   const std::int64_t limit_base = heap::live_bytes() - of_blocks;
+  std::optional<InstructionCounter> counter;
+  if (what == Activity::memory_run) counter.emplace();
   const auto start = std::chrono::steady_clock::now();
   Run result;
   bool refused = false;
-  const InstructionCounter counter;
   try {
     std::optional<heap::Limit> limit;
     if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
@@ -155,7 +157,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     refused = true;
   }
   result.time_s = seconds_since(start);
-  result.instructions = counter.count();
+  if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
     result.memory = watch.split(result.solution, blocks.system->bytes());
@@ -243,6 +245,7 @@ void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
 
 void Workbench::judge(const Method& method, const Verification& verification, Record& record) {
   record.verification = verification;
+  record.answer_hash = answer_hash(verification);
   if (record.status != Status::ok) return;
   const WorstMeasure worst = worst_measure(*record.verification);
   if (!(worst.value <= options_.target_error)) {

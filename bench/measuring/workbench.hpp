@@ -38,8 +38,6 @@ class Workbench {
   // Blocks, reference, and what else cases of this method share.
   void prepare(const Method& method);
 
-  const Problem& problem() const { return *problem_; }
-
   // How a method is run on this problem, found in its detail run.
   struct Choice {
     Solve solve;

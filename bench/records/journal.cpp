@@ -54,9 +54,10 @@ JournalLines read_journal(const std::filesystem::path& file) {
   JournalLines result;
   std::error_code error;
   if (!std::filesystem::exists(file, error) && !error) return result;
+  if (error || !std::filesystem::is_regular_file(file))
+    throw OutputError(file.string() + ": is not a file of records");
   std::ifstream in(file, std::ios::binary);
-  if (error || !in.is_open() || std::filesystem::is_directory(file))
-    throw OutputError(file.string() + ": cannot be read");
+  if (!in.is_open()) throw OutputError(file.string() + ": cannot be read");
   std::ostringstream bytes;
   bytes << in.rdbuf();
   const std::string text = bytes.str();

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* footer = R"(
 The records must be of the same kind of machine (CPU model and number), of the same sources, compiler,
-libraries, threads, tolerances and limits; each case may be there once, and every case of the plan must be
+libraries, threads, tolerances and limits, and of one plan; each case may be there once, and every case of the plan must be
 there. What is refused is named, and nothing is written then.
 
 Exit status  0  joined
@@ -97,18 +97,6 @@ std::map<int, const Placed*> by_number(const std::vector<Placed>& all) {
   return cases;
 }
 
-int planned(const std::vector<Placed>& all) {
-  const auto number_in = [](const Placed& placed) {
-    return context_of(placed.record)["cases_planned"];
-  };
-  for (const Placed& placed : all)
-    if (number_in(placed) != number_in(all.front()))
-      throw OutputError(fmt::format("{} and {} are parts of different plans, of {} and {} cases",
-                                    all.front().place, placed.place, number_in(all.front()),
-                                    number_in(placed)));
-  return std::atoi(number_in(all.front()).c_str());
-}
-
 }  // namespace
 
 int merge_command(int argc, const char* const* argv) {
@@ -116,7 +104,8 @@ int merge_command(int argc, const char* const* argv) {
   const std::vector<Placed> all = read_all(options.folders);
   refuse_mixtures(all);
   const std::map<int, const Placed*> cases = by_number(all);
-  const int plan = planned(all);
+  // The same in all, or they would have been refused.
+  const int plan = std::atoi(context_of(all.front().record)["cases_planned"].c_str());
   std::string missing;
   int count = 0;
   for (int number = 1; number <= plan; ++number)

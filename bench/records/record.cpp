@@ -5,7 +5,6 @@
 
 #include "bench/statistics/robust.hpp"
 
-#include "bench/records/answer_hash.hpp"
 #include "bench/statistics/bootstrap.hpp"
 
 namespace airybench {
@@ -35,11 +34,6 @@ Json verified(const Record& record, std::optional<T> Verification::*value) {
 }
 Json verified(const Record& record, double Verification::*value) {
   return record.verification ? number_or_null(*record.verification.*value) : Json();
-}
-
-Json answer_hash_of(const Record& record) {
-  const std::string hash = record.verification ? answer_hash(*record.verification) : "";
-  return hash.empty() ? Json() : Json(hash);
 }
 
 // Algebraic and discretisation error together, relative, in the energy norm. A displacement method
@@ -177,7 +171,7 @@ Columns columns(const Record& r) {
       {"ended_in", r.ended_in.empty() ? Json() : Json(r.ended_in)},
       {"time_so_far_s", or_null(r.time_so_far_s)},
       {"instructions", or_null(r.instructions)},
-      {"answer_hash", answer_hash_of(r)},
+      {"answer_hash", r.answer_hash.empty() ? Json() : Json(r.answer_hash)},
       {"runs_s", or_null(r.runs_s)},
       {"wall_s", or_null(r.wall_s)},
       {"noise_kernel_s", number_or_null(median(r.noise_kernel_samples_s))},

@@ -54,6 +54,7 @@ struct Record {
   std::optional<double> done_fraction, extrapolated_time_s, error_so_far;  // on timeout
   bool measured_once = false;  // detail, memory and time are of one and the same run
   std::optional<Verification> verification;
+  std::string answer_hash;                                   // see answer_hash.hpp
   std::optional<Status> claimed_status;                      // what the method said itself
   std::optional<double> error_estimate, condition_estimate;  // see Solution
   // Of the mesh, see discretisation_error.hpp; the bounds where they are guaranteed.

@@ -9,6 +9,7 @@
 #include "assembly/atomic_file.hpp"
 #include "bench/exports/google_benchmark.hpp"
 #include "bench/records/record_json.hpp"
+#include "bench/records/record_reader.hpp"
 
 namespace airybench {
 
@@ -121,12 +122,7 @@ bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b)
 }
 
 std::string case_name(const nlohmann::ordered_json& record) {
-  std::string name = fmt::format("{}/{}/{}", record.value("mesh", ""), record.value("scene", ""),
-                                 record.value("method", ""));
-  if (const auto value = record.find("knob_value"); value != record.end() && value->is_number())
-    name += fmt::format("/{}={}", record.value("knob", ""), value->get<double>());
-  if (record.value("stop", "target") == "paper") name += "/stop=paper";
-  return name;
+  return case_record(record, "record").name();
 }
 
 void write_records(const std::filesystem::path& folder,
@@ -148,6 +144,9 @@ RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep kee
   if (error)
     throw OutputError(
         fmt::format("{}: cannot be made a folder: {}", folder_.string(), error.message()));
+  for (const char* name : {"records.jsonl", "results.csv", "results.json"})
+    if (std::filesystem::is_directory(folder_ / name))
+      throw OutputError(fmt::format("{}: is a folder", (folder_ / name).string()));
   if (keep_ == Keep::none) return;
   const JournalLines journal = read_journal(records_file());
   records_ = parsed(journal, records_file());
@@ -194,6 +193,9 @@ void RecordFiles::append(const Record& record) {
   records_.push_back(std::move(json));
 }
 
-void RecordFiles::finish() const { write_summaries(folder_, records_); }
+void RecordFiles::finish() const {
+  if (keep_ == Keep::none && records_.empty()) return;  // an earlier run's files stay
+  write_summaries(folder_, records_);
+}
 
 }  // namespace airybench

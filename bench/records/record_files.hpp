@@ -57,15 +57,12 @@ Context context_of(const nlohmann::ordered_json& record);
 
 // Same mesh, scene, method, stop, study and knob?
 bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
-// "Mesh0/default/SSKY/tolerance=0.01", as the run called it.
+// "Mesh0/default/SSKY/study=error/tolerance=0.01", see CaseRecord::name().
 std::string case_name(const nlohmann::ordered_json& record);
 
 // records.jsonl, results.csv and results.json of these records; each file whole or not at all.
 void write_records(const std::filesystem::path& folder,
                    const std::vector<nlohmann::ordered_json>& records);
-
-// A field as RFC 4180 has it.
-std::string csv_field(const nlohmann::ordered_json& value);
 
 // results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
 // 4180.

@@ -25,6 +25,15 @@ void read_finite(const Json& json, const char* key, double& value, double otherw
   value = has(json, key) ? json[key].get<double>() : otherwise;
 }
 
+// Numbers, those that are not finite being null.
+std::vector<double> numbers_of(const Json& list) {
+  std::vector<double> numbers;
+  for (const Json& number : list)
+    numbers.push_back(number.is_null() ? std::numeric_limits<double>::quiet_NaN()
+                                       : number.get<double>());
+  return numbers;
+}
+
 Status status_of(const std::string& name) {
   for (int i = 0; i <= static_cast<int>(Status::skipped); ++i)
     if (name_of(static_cast<Status>(i)) == name) return static_cast<Status>(i);
@@ -124,6 +133,7 @@ void read_outcome(const Json& json, Record& r) {
   read(json, "time_so_far_s", r.time_so_far_s);
   if (has(json, "claimed_status"))
     r.claimed_status = status_of(json["claimed_status"].get<std::string>());
+  read(json, "answer_hash", r.answer_hash);
   read(json, "tolerance", r.tolerance);
   read(json, "parameters", r.parameters);
   read(json, "tuning_s", r.tuning_s);
@@ -152,7 +162,7 @@ void read_lists(const Json& json, Record& r) {
                         point["iterations"].get<int>(), point["outcome"].get<std::string>()});
   if (has(json, "histories"))
     for (const auto& [what, residual] : json["histories"].items())
-      r.histories.push_back({what, residual.get<std::vector<double>>()});
+      r.histories.push_back({what, numbers_of(residual)});
 }
 
 }  // namespace

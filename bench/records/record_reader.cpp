@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+
+#include "bench/records/journal.hpp"
 
 namespace airybench {
 namespace {
@@ -152,17 +153,21 @@ CaseRecord case_record(const Json& json, const std::string& place) {
 
 std::vector<CaseRecord> read_records(const std::filesystem::path& file, Studies studies) {
   std::error_code error;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || std::filesystem::is_directory(file, error))
+  if (!std::filesystem::is_regular_file(file, error))
     throw RecordError(file.string() + ": cannot be opened as a file of records");
+  JournalLines journal;
+  try {
+    journal = read_journal(file);
+  } catch (const OutputError& unreadable) {
+    throw RecordError(unreadable.what());
+  }
   std::vector<CaseRecord> records;
   int number = 0;
-  for (std::string text; std::getline(in, text);) {
+  for (const std::string& text : journal.lines) {
     const std::string place = fmt::format("{}:{}", file.string(), ++number);
     CaseRecord record = case_record(parsed(text, place), place);
     if (studies == Studies::include || record.study.empty()) records.push_back(std::move(record));
   }
-  if (in.bad()) throw RecordError(file.string() + ": cannot be read");
   return records;
 }
 

@@ -74,7 +74,7 @@ inline constexpr std::array<ErrorMember, 3> error_members = {{
 CaseRecord case_record(const nlohmann::json& json, const std::string& place);
 
 enum class Studies { leave_out, include };
-// In the order of the lines. Throws RecordError.
+// In the order of the lines; one that is half written is none. Throws RecordError.
 std::vector<CaseRecord> read_records(const std::filesystem::path& file,
                                      Studies studies = Studies::leave_out);
 

@@ -2,9 +2,7 @@
 // build, threads and tolerances.
 #pragma once
 
-#include <filesystem>
 #include <map>
-#include <optional>
 #include <string>
 
 #include "bench/options.hpp"

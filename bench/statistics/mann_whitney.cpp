@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/special_functions/binomial.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -76,8 +76,11 @@ MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>
 }
 
 double least_mann_whitney_p(std::size_t m, std::size_t n) {
-  return std::min(1.0, 2 / boost::math::binomial_coefficient<double>(static_cast<unsigned>(m + n),
-                                                                     static_cast<unsigned>(m)));
+  // 2 / (m + n over m); by logarithms, as the coefficient overflows from about a thousand on.
+  const auto log_factorial = [](std::size_t k) {
+    return boost::math::lgamma(static_cast<double>(k) + 1);
+  };
+  return std::min(1.0, 2 * std::exp(log_factorial(m) + log_factorial(n) - log_factorial(m + n)));
 }
 
 std::size_t values_needed_for(double level) {

@@ -11,7 +11,7 @@
 //   λ_k = n_b / (n_b + n_a) Σ_{t >= k} log [ g(x_t - a - δ) / g(x_t - a) ]
 // where n_b and n_a count the nights that are no outliers, and the factor is for the uncertainty of
 // a. Where nothing changed, ±sqrt(2 λ_k) is about standard normal (Wilks). A change is confirmed
-// when this is above the normal quantile of the false-alarm level, |δ| less its standard error is
+// when this is above the normal quantile of the false-alarm level, |δ| less 1.1 standard errors is
 // above the minimum effect, and enough nights after it, most of them, agree. Of several k that with
 // the largest λ_k is the change. Lai, "Sequential changepoint detection in quality control and
 // dynamical systems", J. R. Statist. Soc. B 57 (1995): window-limited generalised likelihood ratio.
@@ -24,7 +24,7 @@
 namespace airybench {
 
 struct ChangePointRules {
-  double minimum_effect = 0.05;  // |δ| - standard error >= log(1 + this)
+  double minimum_effect = 0.05;  // |δ| - 1.1 standard errors >= log(1 + this)
   std::size_t least_before = 8;  // nights before a change
   std::size_t least_after = 4;   // nights after it that agree
   std::size_t most_after = 14;   // older changes are not looked for
@@ -37,8 +37,8 @@ struct Change {
   double shift = 0, low = 0, high = 0;  // δ and its 95 % interval
 };
 
-// Standard deviation about the level, by maximum likelihood under g; NaN where fewer than two
-// values are. The common scale of several series is the median of theirs.
+// Standard deviation about the median, robustly (1.4826 MAD), at least that of clocks and caches;
+// NaN where fewer than two values are. The common scale of several series is the median of theirs.
 double scale_of(const std::vector<double>& series);
 
 std::optional<Change> find_change(const std::vector<double>& series, double common_scale,

@@ -14,7 +14,7 @@ function headline() {
                         "Passed, nothing has changed";
   const sentences = verdicts.map((verdict) => {
     const link = element(
-        "a", {href: fragment({...state, filter: `${verdict.case}/`, quantity: verdict.quantity})},
+        "a", {href: fragment({...state, filter: verdict.case === "all cases" ? "" : `${verdict.case}/`, quantity: verdict.quantity})},
         verdict.sentence);
     link.addEventListener("click", () => byId("history").scrollIntoView());
     return element(

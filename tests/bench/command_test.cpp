@@ -1,6 +1,5 @@
 // The bench command from outside: exit codes, one-line complaints, output files.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <array>
 #include <cstdio>
@@ -12,24 +11,16 @@
 #include <sstream>
 
 #include "solvers/methods.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bench_command.hpp"
 
 namespace airybench {
 namespace {
 
 namespace fs = std::filesystem;
 
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
+using Result = testing::CommandResult;
 
-std::string content(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
+std::string content(const fs::path& file) { return testing::text_of(file); }
 
 std::vector<std::string> lines_of(const std::string& text) {
   std::istringstream stream(text);
@@ -41,14 +32,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 class Command : public ::testing::Test {
  protected:
   Result bench(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.string() + "' && '" BENCH_EXECUTABLE "' " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
-    Result result;
-    const int status = std::system(command.c_str());
-    result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    result.out = content(folder_ / "out.txt");
-    result.err = content(folder_ / "err.txt");
-    return result;
+    return testing::run_bench(folder_, arguments);
   }
   // Wrong usage: exit code 2, one line, no output folder.
   void expect_usage_error(const std::string& arguments, const std::string& line) const {

@@ -1,6 +1,5 @@
 // `bench claims` on records made up for each verdict, and the statistics behind the verdicts.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,7 +9,7 @@
 
 #include "bench/claims/claims_cases.hpp"
 #include "bench/claims/claims_statistics.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bench_command.hpp"
 
 namespace airybench {
 namespace {
@@ -89,10 +88,7 @@ TEST(ClaimsCases, ThePapersNamesAreGeneralOnes) {
   EXPECT_EQ(general_name("3STEPD:LEAN"), "3STEPD:LEAN");
 }
 
-struct Result {
-  int code = -1;
-  std::string out, err;
-};
+using Result = testing::CommandResult;
 
 class Claims : public ::testing::Test {
  protected:
@@ -133,11 +129,7 @@ class Claims : public ::testing::Test {
   }
 
   Result run(const std::string& arguments) const {
-    const std::string command = "cd '" + folder_.path().string() + "' && '" BENCH_EXECUTABLE "' " +
-                                arguments + " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, testing::text_of(folder_ / "out.txt"),
-            testing::text_of(folder_ / "err.txt")};
+    return testing::run_bench(folder_.path(), arguments);
   }
   Result claims(const std::string& arguments = "") const {
     std::string lines;

@@ -1,6 +1,5 @@
 // `bench export`: every format is read back, from records made up for what could break it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <boost/property_tree/ptree.hpp>
 #include <boost/property_tree/xml_parser.hpp>
@@ -16,7 +15,7 @@
 #include "bench/records/record.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/statistics/robust.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bench_command.hpp"
 
 namespace airybench {
 namespace {
@@ -244,13 +243,10 @@ TEST(Junit, StatusesBecomeOutcomes) {
 class ExportCommand : public ::testing::Test {
  protected:
   int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path().string() +
-                                "' && '" BENCH_EXECUTABLE "' export " + arguments +
-                                " >out.txt 2>err.txt </dev/null";
-    const int status = std::system(command.c_str());
-    out_ = testing::text_of(folder_ / "out.txt");
-    err_ = testing::text_of(folder_ / "err.txt");
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    const testing::CommandResult result = testing::run_bench(folder_.path(), "export " + arguments);
+    out_ = result.out;
+    err_ = result.err;
+    return result.code;
   }
   const TemporaryFolder folder_;
   std::string out_, err_;

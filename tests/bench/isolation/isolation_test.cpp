@@ -196,6 +196,7 @@ TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
   });
   EXPECT_FALSE(child.ask("are you there"));
   EXPECT_EQ(child.end().signal, SIGKILL);
+  EXPECT_TRUE(child.end().lingered);
 }
 
 }  // namespace

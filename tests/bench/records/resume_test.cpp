@@ -211,6 +211,17 @@ TEST(Interrupt, LeavesWhatWasMeasuredAndNoProcess) {
   }
 }
 
+TEST(Interrupt, BeforeTheFirstRecordLeavesTheEarlierRun) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o").code, 0);
+  const std::string before = bench.content("o/results.csv");
+  Background run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --out=o");
+  wait_for([&] { return descendants(run.pid()).size() >= 2; });
+  run.end(SIGINT);
+  EXPECT_EQ(bench.content("o/results.csv"), before);
+  EXPECT_EQ(bench.records().size(), 1u);
+}
+
 TEST(Shards, JoinToTheWhole) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(six + "--out=whole").code, 0);
@@ -241,7 +252,14 @@ TEST(Shards, JoinToTheWhole) {
   refused("part1 other part3", "do not mix: target_error: 1e-06 and 1e-05");
   ASSERT_EQ(
       bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --shard=2/2 --out=other").code, 0);
-  refused("part1 other", "are parts of different plans, of 6 and 2 cases");
+  refused("part1 other", "do not mix: cases_planned: 6 and 2; plan_sha256: ");
+  ASSERT_EQ(
+      bench
+          .run("--mesh=Mesh0 --method=3STEPD,BLIND,BLIND:SCHUR,3STEPD:CHOLMOD,HYBRID,BLIND:SKY "
+               "--repetitions=1 --shard=2/3 --out=other")
+          .code,
+      0);
+  refused("part1 other part3", "do not mix: plan_sha256: ");
 }
 
 TEST(Shards, AreRefusedWhenTheyAreNone) {
@@ -256,7 +274,11 @@ TEST(Shards, AreRefusedWhenTheyAreNone) {
 
 TEST(Replay, RunsOneRecordedCaseAgain) {
   const BenchCommand bench;
-  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=2 --out=o").code, 0);
+  ASSERT_EQ(bench
+                .run("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=2 --interleave --out=o "
+                     "-- --benchmark_context=lab=cellar")
+                .code,
+            0);
   for (const char* record : {"o:2", "o:Mesh0/default/HYBRID"}) {
     const CommandResult result = bench.run(std::string("replay ") + record + " --out=again");
     EXPECT_EQ(result.code, 0) << result.err << result.out;
@@ -283,6 +305,10 @@ TEST(Replay, RunsOneRecordedCaseAgain) {
   EXPECT_EQ(result.code, 2);
   EXPECT_NE(result.err.find("program_sha256: 0123 and "), std::string::npos) << result.err;
   EXPECT_EQ(bench.run("replay c:1 --other-program --out=again2").code, 0);
+  result = bench.run("replay o:1 --out=./o");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_NE(result.err.find("allowed: another folder than the record's"), std::string::npos);
+  EXPECT_EQ(bench.records().size(), 2u);
 }
 
 TEST(Replay, KeepsSceneAndKnob) {

@@ -1,6 +1,5 @@
 // bench --study from outside: exit codes, records, one-line complaints.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,33 +10,17 @@
 #include <sstream>
 #include <vector>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bench_command.hpp"
 
 namespace airybench {
 namespace {
 
 class StudyCommand : public ::testing::Test {
  protected:
-  int bench(const std::string& arguments) const {
-    const int status =
-        std::system(("cd '" + folder_.path().string() + "' && '" BENCH_EXECUTABLE "' " + arguments +
-                     " >out.txt 2>err.txt </dev/null")
-                        .c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  std::string content(const std::string& name) const {
-    std::ostringstream text;
-    text << std::ifstream(folder_.path() / name).rdbuf();
-    return text.str();
-  }
-  std::vector<nlohmann::json> records() const {
-    std::vector<nlohmann::json> result;
-    std::istringstream lines(content("o/records.jsonl"));
-    for (std::string line; std::getline(lines, line);)
-      result.push_back(nlohmann::json::parse(line));
-    return result;
-  }
-  const testing::TemporaryFolder folder_;
+  int bench(const std::string& arguments) const { return bench_.run(arguments).code; }
+  std::string content(const std::string& name) const { return bench_.content(name); }
+  std::vector<nlohmann::json> records() const { return bench_.records(); }
+  const testing::BenchCommand bench_;
 };
 
 TEST_F(StudyCommand, StabilityIsOneRecordMeasuredOnce) {
@@ -88,7 +71,7 @@ TEST_F(StudyCommand, RefusesWhatItCannotStudy) {
     EXPECT_TRUE(complaint.starts_with("bench: ")) << complaint;
     EXPECT_NE(complaint.find("--st"), std::string::npos) << complaint;
     EXPECT_EQ(std::count(complaint.begin(), complaint.end(), '\n'), 1) << complaint;
-    EXPECT_FALSE(std::filesystem::exists(folder_.path() / "o")) << arguments;
+    EXPECT_FALSE(std::filesystem::exists(bench_.path("o"))) << arguments;
   }
 }
 

@@ -1,13 +1,12 @@
 // `bench compare` and `bench track` as a user calls them.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/bench_command.hpp"
 
 namespace airybench {
 namespace {
@@ -17,20 +16,8 @@ using Json = nlohmann::json;
 
 class TrackingCommand : public ::testing::Test {
  protected:
-  struct Result {
-    int code;
-    std::string out, err;
-  };
-  Result run(const std::string& arguments) {
-    std::string command = "cd '";
-    command += folder_.path().string();
-    command += "' && '" BENCH_EXECUTABLE "' ";
-    command += arguments;
-    command += " > out.txt 2> err.txt";
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), testing::text_of(folder_ / "out.txt"),
-            testing::text_of(folder_ / "err.txt")};
-  }
+  using Result = testing::CommandResult;
+  Result run(const std::string& arguments) { return testing::run_bench(folder_.path(), arguments); }
   // A results folder with one case.
   void write_run(const std::string& name, double time_s, const std::string& date,
                  int iterations = 10) {
