@@ -249,7 +249,7 @@ TEST(PastRecords, MissingFoldersArePassedOverAndTheLatestComesLast) {
   };
   write_text(folder / "new/records.jsonl", line("A", "2026-11-21T11:28:12Z"));
   write_text(folder / "old/records.jsonl", line("B", "2026-10-01T00:00:00Z"));
-  write_text(folder / "broken/records.jsonl", "{\"mesh\":");
+  write_text(folder / "broken/records.jsonl", "{\"mesh\":\n");
   const PastRecords past =
       read_past_records({folder / "new", folder / "missing", folder / "old", folder / "broken"});
   ASSERT_EQ(past.records.size(), 2u);
@@ -267,7 +267,7 @@ TEST(PastRecords, ValuesThatCannotBeAreRefused) {
   for (const char* wrong : {R"("n_phi":-1)", R"("n_phi":2.5)", R"("knob":3)", R"("knob_value":-1)",
                             R"("context":3)", R"("context":{"date":3})"}) {
     write_text(folder / "records.jsonl",
-               std::string(R"({"mesh":"M","scene":"s","method":"m","status":"ok",)") + wrong + "}");
+               std::string(R"({"mesh":"M","scene":"s","method":"m","status":"ok",)") + wrong + "}\n");
     EXPECT_EQ(read_past_records({folder.path()}).passed_over.size(), 1u) << wrong;
   }
 }

@@ -464,12 +464,17 @@ TEST_F(Claims, MalformedRecordsAreNamedByLineKeyAndValue) {
   expect_bad("storage_bytes", 0.5, ": 0.5 (allowed: a whole number from 0 to 2^60, null)");
   expect_bad("peak_heap_bytes", -1, ": -1 (allowed: a whole number from 0 to 2^60, null)");
   expect_refused(good.dump() + "\n[1]\n", ":2: [1] (allowed: a JSON object)");
-  const std::string cut = good.dump().substr(0, 40);  // a run that was ended while it wrote
-  testing::write_text(folder_ / "records.jsonl", good.dump() + "\n" + cut);
-  const Result result = run("claims .");
+  const std::string cut = good.dump().substr(0, 40);
+  testing::write_text(folder_ / "records.jsonl", good.dump() + "\n" + cut + "\n");
+  Result result = run("claims .");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err.rfind("bench: ./records.jsonl:2: not JSON: ", 0), 0u) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  // The last line of a run that was ended while it wrote.
+  testing::write_text(folder_ / "records.jsonl", good.dump() + "\n" + cut);
+  result = run("claims .");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("1 cases"), std::string::npos) << result.out;
 }
 
 }  // namespace

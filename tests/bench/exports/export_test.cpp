@@ -224,11 +224,11 @@ TEST(Junit, StatusesBecomeOutcomes) {
   ASSERT_EQ(suites.count("testsuite"), 2u);
   const auto& suite = suites.front().second;
   EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), "Mesh0/default");
-  EXPECT_EQ(suite.get<int>("<xmlattr>.tests"), 7);
-  EXPECT_EQ(suite.get<int>("<xmlattr>.failures"), 3);
-  EXPECT_EQ(suite.get<int>("<xmlattr>.errors"), 2);
-  EXPECT_EQ(suite.get<int>("<xmlattr>.skipped"), 1);
-  EXPECT_EQ(suite.get<double>("testcase.<xmlattr>.time"), 2);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.tests")), 7);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.failures")), 3);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.errors")), 2);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.skipped")), 1);
+  EXPECT_EQ(std::stod(suite.get<std::string>("testcase.<xmlattr>.time")), 2);
   const auto& timeout = suites.back().second;
   EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.type"), "timeout");
   EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.message"),
