@@ -123,7 +123,7 @@ void* counted(void* block, std::size_t bytes, MemoryOwner owner = current_memory
     tag_of(block) = static_cast<unsigned char>(owner) | (fills_a_block(bytes) ? enlarged : 0);
     add(owner, size_of(block));
     count.fetch_add(1, std::memory_order_relaxed);
-    given_out.fetch_add(size_of(block), std::memory_order_relaxed);
+    given_out.fetch_add(static_cast<std::int64_t>(bytes), std::memory_order_relaxed);
   }
   return block;
 }

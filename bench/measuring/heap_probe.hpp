@@ -23,7 +23,7 @@ std::int64_t live_bytes();
 std::int64_t peak_bytes();       // highest live_bytes() since reset_peak()
 std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
 std::int64_t allocations();      // calls that returned a block, since the start
-std::int64_t allocated_bytes();  // of these blocks together, whether freed or not
+std::int64_t allocated_bytes();  // asked for by these calls together, whether freed or not
 void reset_peak();               // the peaks are then what is live now
 
 // By owner. The live bytes sum to live_bytes().
