@@ -48,10 +48,10 @@ std::vector<std::string> machine_warnings(const MachineState& s) {
                     "{:.0f} %)",
                     100 * *s.noise, 100 * most_noise));
   if (s.repetitions < fewest_repetitions)
-    lines.push_back(
-        fmt::format("--repetitions={}: too few for an interval, and for two methods to differ at "
-                    "p < 0.01 (both from {} on)",
-                    s.repetitions, fewest_repetitions));
+    lines.push_back(fmt::format(
+        "--repetitions={}: too few for a sound interval, and for two methods to differ at "
+        "p < 0.01 (both from {} on)",
+        s.repetitions, fewest_repetitions));
   if (!s.heap_probe) lines.push_back("the heap is not counted: this build has no heap probe");
   if (!s.build_type.empty() && s.build_type != "Release")
     lines.push_back(fmt::format("build type {}: times are those of Release only", s.build_type));
