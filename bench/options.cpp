@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstring>
+
+#include "bench/command_line.hpp"
 
 namespace airybench {
 namespace {
@@ -148,20 +149,7 @@ Options parse_options(int argc, const char* const* argv) {
       for (int k = i + 1; k < argc; ++k) take_benchmark_argument(argv[k], options);
       break;
     }
-  try {
-    app.parse(own, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::CallForVersion&) {
-    throw HelpRequested("airybench " AIRYBENCH_VERSION "\n");
-  } catch (const CLI::ExtrasError& error) {
-    std::string valid;
-    for (const CLI::Option* option : app.get_options())
-      valid += (valid.empty() ? "" : " ") + option->get_name();
-    throw UsageError(fmt::format("{} (valid: {})", error.what(), valid));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, own, argv);
   if (!(options.timeout_s > 0 && options.timeout_s <= 1e9))
     throw UsageError(fmt::format("--timeout: {} (allowed: above 0, up to 1e9)", options.timeout_s));
   if (!(options.long_case_s > 0 && options.long_case_s <= 1e9))

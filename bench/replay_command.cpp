@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 
 #include "assembly/atomic_file.hpp"
@@ -10,6 +9,7 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
 #include "bench/cases/scene_file.hpp"
+#include "bench/command_line.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/runner.hpp"
@@ -47,15 +47,7 @@ ReplayOptions parse(int argc, const char* const* argv) {
   app.add_option("--out", options.out, "folder of the new record")->capture_default_str();
   app.add_flag("--other-program", options.other_program,
                "although program, machine or settings are not the record's");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ExtrasError& error) {
-    throw UsageError(fmt::format("{} (valid: RECORD --out --other-program --help)", error.what()));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, argc, argv);
   return options;
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "assembly/atomic_file.hpp"
 #include "bench/claims/claims_evidence.hpp"
+#include "bench/command_line.hpp"
 #include "bench/options.hpp"
 
 namespace airybench {
@@ -45,15 +45,7 @@ ClaimsOptions parse(int argc, const char* const* argv) {
       ->check(CLI::IsMember({"target", "paper"}))
       ->capture_default_str();
   app.add_option("--out", options.out, "also write the table to this file, *.md");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ExtrasError& error) {
-    throw UsageError(fmt::format("{} (valid: DIR --stop --out --help)", error.what()));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, argc, argv);
   if (!options.out.empty() && options.out.extension() != ".md")
     throw UsageError(
         fmt::format("--out: {} (allowed: a name that ends in .md)", options.out.string()));

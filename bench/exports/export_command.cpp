@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "assembly/atomic_file.hpp"
+#include "bench/command_line.hpp"
 #include "bench/exports/google_benchmark.hpp"
 #include "bench/exports/junit.hpp"
 #include "bench/exports/tracker_formats.hpp"
@@ -47,15 +47,7 @@ ExportOptions parse(int argc, const char* const* argv) {
       ->required()
       ->check(CLI::IsMember({"google-benchmark", "github-action", "bencher", "csv", "junit"}));
   app.add_option("--out", options.out, "file to write; default: standard output");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ExtrasError& error) {
-    throw UsageError(fmt::format("{} (valid: DIR --format --out --help)", error.what()));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, argc, argv);
   return options;
 }
 

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <map>
 
+#include "bench/command_line.hpp"
 #include "bench/options.hpp"
 #include "bench/records/record_files.hpp"
 
@@ -39,15 +39,7 @@ MergeOptions parse(int argc, const char* const* argv) {
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
   app.add_option("--out", options.out, "folder of the whole")->required();
   app.add_flag("--incomplete", options.incomplete, "also when cases of the plan are missing");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ExtrasError& error) {
-    throw UsageError(fmt::format("{} (valid: DIR --out --incomplete --help)", error.what()));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, argc, argv);
   return options;
 }
 

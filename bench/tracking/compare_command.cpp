@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "assembly/atomic_file.hpp"
+#include "bench/command_line.hpp"
 #include "bench/options.hpp"
 #include "bench/tracking/compare_report.hpp"
 
@@ -44,15 +44,7 @@ CompareOptions parse(int argc, const char* const* argv) {
       ->check(CLI::Range(0.0, 1000.0))
       ->capture_default_str();
   app.add_option("--out", options.out, "also write the comparison to this file, *.md or *.json");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ExtrasError& error) {
-    throw UsageError(fmt::format("{} (valid: A B --minimum-effect --out --help)", error.what()));
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, argc, argv);
   const std::filesystem::path extension = options.out.extension();
   if (!options.out.empty() && extension != ".md" && extension != ".json")
     throw UsageError(

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "bench/command_line.hpp"
 #include "bench/options.hpp"
 #include "bench/run_command.hpp"
 #include "bench/tracking/judge.hpp"
@@ -77,13 +77,7 @@ TrackOptions parse(int argc, const char* const* argv) {
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(
       argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
-  try {
-    app.parse(static_cast<int>(separator - argv), argv);
-  } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
-  } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
-  }
+  parse_command_line(app, static_cast<int>(separator - argv), argv);
   options.run = app.remaining();
   for (const std::string& argument : options.run)
     for (const char* name : refused)

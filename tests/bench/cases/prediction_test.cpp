@@ -266,8 +266,9 @@ TEST(PastRecords, ValuesThatCannotBeAreRefused) {
   const TemporaryFolder folder;
   for (const char* wrong : {R"("n_phi":-1)", R"("n_phi":2.5)", R"("knob":3)", R"("knob_value":-1)",
                             R"("context":3)", R"("context":{"date":3})"}) {
-    write_text(folder / "records.jsonl",
-               std::string(R"({"mesh":"M","scene":"s","method":"m","status":"ok",)") + wrong + "}\n");
+    write_text(
+        folder / "records.jsonl",
+        std::string(R"({"mesh":"M","scene":"s","method":"m","status":"ok",)") + wrong + "}\n");
     EXPECT_EQ(read_past_records({folder.path()}).passed_over.size(), 1u) << wrong;
   }
 }
