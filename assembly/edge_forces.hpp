@@ -10,7 +10,7 @@
 // of φ, normal part the edge's own degree of freedom — and R = [0 1; −1 0]:
 //   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
 //
-// Templates are instantiated for double, long double and Quad (quad.hpp). Coordinates are doubles
+// Templates are instantiated for double and long double. Coordinates are doubles
 // and exact; their differences are taken in the scalar.
 #pragma once
 

@@ -15,9 +15,9 @@
 // Clough & Tocher 1965; Bernadou & Hassan, Int. J. Numer. Methods Eng. 17 (1981), 784–789,
 // doi:10.1002/nme.1620170510; Lai & Schumaker, Spline Functions on Triangulations, ch. 6 (2007).
 //
-// The functions are templates over the scalar they compute in, instantiated for double, long double
-// and Quad (quad.hpp); without an argument it is double. Coordinates are doubles and exact: the
-// first thing formed are their differences, in the scalar.
+// The functions are templates over the scalar they compute in, instantiated for double and long
+// double (for others: hct_templates.hpp); without an argument it is double. Coordinates are doubles
+// and exact: the first thing formed are their differences, in the scalar.
 #pragma once
 
 #include <Eigen/Core>

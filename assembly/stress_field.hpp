@@ -3,7 +3,7 @@
 // The energies of φ are computed from here and not as ½φᵀSφ: φ is large where the stress is not,
 // and its affine part cancels (measured on a rack: 4e-8 relative lost for a constant stress).
 //
-// Templates over the scalar are instantiated for double, long double and Quad (quad.hpp).
+// Templates over the scalar are instantiated for double and long double.
 #pragma once
 
 #include <vector>

@@ -6,11 +6,12 @@
 #include <cstring>
 
 #include "bench/command_line.hpp"
+#include "bench/measuring/build_info.hpp"
 
 namespace airybench {
 namespace {
 
-constexpr const char* footer = R"(
+constexpr const char* run_footer = R"(
 Other commands (each has --help)
   bench claims DIR       the paper's sentences, checked against a results folder
   bench compare A B      two runs, case by case: faster, slower, or not separated
@@ -68,8 +69,8 @@ Options parse_options(int argc, const char* const* argv) {
       "Time, memory and error of methods for stress-formulated contact with friction, for every "
       "mesh, scene and method chosen.",
       "bench");
-  app.footer(footer);
-  app.set_version_flag("--version", "airybench " AIRYBENCH_VERSION);
+  app.footer(run_footer);
+  app.set_version_flag("--version", std::string("airybench ") + build_info.version);
   std::int64_t limit_MiB = 0;
   app.add_option("--mesh", options.meshes,
                  "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files")

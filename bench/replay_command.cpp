@@ -4,8 +4,6 @@
 
 #include <charconv>
 
-#include "assembly/atomic_file.hpp"
-#include "assembly/sha256.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
 #include "bench/cases/scene_file.hpp"
@@ -13,18 +11,19 @@
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/runner.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_json.hpp"
 #include "bench/run_command.hpp"
 #include "bench/terminal.hpp"
 #include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr const char* footer = R"(
+constexpr const char* replay_footer = R"(
 RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD. The mesh must be the
 file that the record was measured on, and this program the one that measured it.
 
@@ -39,10 +38,10 @@ struct ReplayOptions {
   bool other_program = false;
 };
 
-ReplayOptions parse(int argc, const char* const* argv) {
+ReplayOptions parse_replay(int argc, const char* const* argv) {
   ReplayOptions options;
   CLI::App app("Runs one recorded case again, as it was run then.", "bench replay");
-  app.footer(footer);
+  app.footer(replay_footer);
   app.add_option("RECORD", options.record, "which")->required();
   app.add_option("--out", options.out, "folder of the new record")->capture_default_str();
   app.add_flag("--other-program", options.other_program,
@@ -96,9 +95,10 @@ Options options_of(const Record& record, const Context& context, std::filesystem
 }
 
 MeshFile mesh_of(const Record& record) {
-  const auto here = mesh_directory() / (record.mesh + ".msh");
-  const std::filesystem::path file =
-      std::filesystem::exists(record.mesh_file) ? std::filesystem::path(record.mesh_file) : here;
+  const std::filesystem::path recorded = record.mesh_file;
+  const std::filesystem::path file = recorded.is_absolute() && std::filesystem::exists(recorded)
+                                         ? recorded
+                                         : mesh_directory() / (record.mesh + ".msh");
   MeshFile mesh = std::move(read_meshes(file.string()).front());
   if (mesh.sha256 != record.mesh_sha256)
     throw OutputError(fmt::format("{}: is not the mesh of the record: its SHA-256 is {}, not {}",
@@ -108,7 +108,7 @@ MeshFile mesh_of(const Record& record) {
 
 Case case_of(const Record& record, const Options& options) {
   MeshFile mesh = mesh_of(record);
-  PosedScene posed{record.scene, record.scene_group,      mesh.path.string(),
+  PosedScene posed{record.scene, record.scene_group,      record.mesh_file,
                    mesh.sha256,  record.scene_definition, nullptr};
   Scene scene;
   if (record.scene_definition != "{}") {
@@ -147,7 +147,7 @@ constexpr std::array<const char*, 4> measured = {"time_s", "peak_heap_bytes", "e
 }  // namespace
 
 int replay_command(int argc, const char* const* argv) {
-  const ReplayOptions asked = parse(argc, argv);
+  const ReplayOptions asked = parse_replay(argc, argv);
   const Json before = find_record(asked.record);
   const Record record = record_from_json(before);
   const Context recorded = context_of(before);

@@ -17,8 +17,10 @@
 #include "bench/measuring/noise_kernel.hpp"
 #include "bench/measuring/runner.hpp"
 #include "bench/options.hpp"
+#include "bench/records/json.hpp"
 #include "bench/terminal.hpp"
 #include "solvers/methods.hpp"
+#include "support/data_folder.hpp"
 
 namespace airybench {
 namespace {
@@ -46,7 +48,15 @@ void print_list() {
 std::string definition_of(const Scene& scene) {
   if (scene.source == Scene().source) return "{}";
   std::ifstream file(scene.source);
-  return nlohmann::ordered_json::parse(file).dump();
+  return Json::parse(file).dump();
+}
+
+// How a record names the mesh's file: one of the catalogue's by its name alone.
+std::string recorded_path(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored)
+             ? file.filename().string()
+             : std::filesystem::absolute(file).string();
 }
 
 std::vector<PosedScene> pose_all(const Options& options) {
@@ -63,8 +73,8 @@ std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<PosedScene> posed;
   for (const MeshFile& file : read_meshes(options.meshes))
     for (const Scene& scene : scenes)
-      posed.push_back({scene.name, scene.group, std::filesystem::absolute(file.path).string(),
-                       file.sha256, definition_of(scene),
+      posed.push_back({scene.name, scene.group, recorded_path(file.path), file.sha256,
+                       definition_of(scene),
                        std::make_shared<const Problem>(pose(scene, file.mesh))});
   return posed;
 }
@@ -96,7 +106,7 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
     planned.push_back({c.posed.problem->mesh.name, c.posed.scene_name, c.method.name,
                        mesh_sizes(c.posed.problem->mesh).n_phi, c.knob.stop.value_or(options.stop),
                        c.knob.name, c.knob.value});
-  const std::filesystem::path committed = AIRYBENCH_COMMITTED_RESULTS;
+  const std::filesystem::path committed = data_folder("results");
   const PastRecords past = read_past_records(
       {committed / "paper", committed / "direct", committed / "stability", options.out});
   for (const std::string& why : past.passed_over) fmt::print(stderr, "{}\n", why);

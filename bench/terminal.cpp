@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/measuring/seconds_since.hpp"
+
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {
@@ -88,8 +90,7 @@ Progress::Progress(std::vector<int> n_phi_of_cases) : cases_(n_phi_of_cases.size
 
 std::string Progress::line(const Record& r) {
   done_ += cost(r.n_phi);
-  const double elapsed =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  const double elapsed = seconds_since(start_);
   const std::optional<double> error = r.verification ? r.verification->error_force : std::nullopt;
   return fmt::format("[{}/{}] {} {} {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n",
                      ++ended_, cases_, r.mesh, r.scene, r.method, name_of(r.status),

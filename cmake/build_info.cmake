@@ -1,4 +1,4 @@
-# Writes bench/build_info.hpp at every build; it changes only when its content does.
+# Writes build_info.cpp at every build; it changes only when its content does.
 execute_process(COMMAND git -C "${SOURCE_DIR}" rev-parse HEAD
                 OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET
                 RESULT_VARIABLE no_git)
@@ -15,16 +15,19 @@ else()
   endif()
 endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[// Made by cmake/build_info.cmake.
-#pragma once
+#include "bench/measuring/build_info.hpp"
 
-namespace airybench::build_info {
+namespace airybench {
 
-inline constexpr const char* git_revision = "@revision@";
-inline constexpr const char* git_dirty = "@dirty@";
-inline constexpr const char* build_type = "@BUILD_TYPE@";
-inline constexpr const char* compiler = "@COMPILER@";
-inline constexpr const char* compiler_flags = "@FLAGS@";
-inline constexpr const char* benchmark_version = "@BENCHMARK_VERSION@";
+const BuildInfo build_info = {
+    .version = "@VERSION@",
+    .git_revision = "@revision@",
+    .git_dirty = "@dirty@",
+    .build_type = "@BUILD_TYPE@",
+    .compiler = "@COMPILER@",
+    .compiler_flags = "@FLAGS@",
+    .benchmark_version = "@BENCHMARK_VERSION@",
+};
 
-}  // namespace airybench::build_info
+}  // namespace airybench
 ]])

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "assembly/msh_format.hpp"
-#include "assembly/sha256.hpp"
 #include "meshgen/checksums.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <stdexcept>
 
-#include "assembly/sha256.hpp"
 #include "meshgen/catalogue.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 

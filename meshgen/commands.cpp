@@ -4,16 +4,16 @@
 
 #include <sstream>
 
-#include "assembly/atomic_file.hpp"
 #include "assembly/mesh_selection.hpp"
 #include "assembly/msh_format.hpp"
-#include "assembly/sha256.hpp"
 #include "meshgen/catalogue.hpp"
 #include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/convert.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/tooth_mesh.hpp"
+#include "support/atomic_file.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 namespace {

@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "meshgen/commands.hpp"
+#include "support/data_folder.hpp"
 
 namespace {
 
@@ -17,7 +18,7 @@ constexpr int exit_failure = 1, exit_usage = 2;
 struct Arguments {
   std::string selection, model, to_modify, out;
   bool check = false, tooth = false;
-  std::string repository = AIRYBENCH_MESH_DIR;
+  std::string repository = airybench::data_folder("meshes");
   airybench::ToothDimensions dimensions;
   airybench::EdgeCounts edges;
   int vertices = 0;

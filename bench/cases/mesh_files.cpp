@@ -5,13 +5,14 @@
 
 #include "assembly/mesh_selection.hpp"
 #include "assembly/msh_format.hpp"
-#include "assembly/sha256.hpp"
+#include "support/data_folder.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 
 std::filesystem::path mesh_directory() {
   const char* own = std::getenv("AIRYBENCH_MESH_DIR");
-  return own != nullptr && *own != '\0' ? own : AIRYBENCH_DEFAULT_MESH_DIR;
+  return own != nullptr && *own != '\0' ? own : data_folder("meshes");
 }
 
 std::vector<MeshFile> read_meshes(const std::string& selection) {

@@ -15,7 +15,7 @@ struct MeshFile {
   Mesh mesh;
 };
 
-// The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one this program was built with.
+// The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one that comes with this program.
 std::filesystem::path mesh_directory();
 
 // Reads all that mesh_selection.hpp's expand_mesh_selection() names. Throws MeshError,

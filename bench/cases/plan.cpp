@@ -9,7 +9,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "assembly/sha256.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 

@@ -5,14 +5,13 @@
 #include <fstream>
 #include <functional>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <vector>
 
+#include "bench/records/json.hpp"
+
 namespace airybench {
 namespace {
-
-using Json = nlohmann::json;
 
 class Reader {
  public:

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "solvers/methods.hpp"
+#include "support/data_folder.hpp"
 
 namespace airybench {
 namespace {
@@ -120,7 +121,7 @@ std::string default_methods(Study study) {
 }
 
 std::vector<std::filesystem::path> stability_scenes() {
-  const std::filesystem::path folder = AIRYBENCH_STABILITY_SCENES;
+  const std::filesystem::path folder = data_folder("scenes/stability");
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))

@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "assembly/atomic_file.hpp"
 #include "bench/claims/claims_evidence.hpp"
 #include "bench/command_line.hpp"
 #include "bench/options.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 namespace {

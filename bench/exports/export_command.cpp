@@ -5,12 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "assembly/atomic_file.hpp"
 #include "bench/command_line.hpp"
 #include "bench/exports/google_benchmark.hpp"
 #include "bench/exports/junit.hpp"
 #include "bench/exports/tracker_formats.hpp"
 #include "bench/options.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 namespace {

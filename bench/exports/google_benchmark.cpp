@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "bench/records/json.hpp"
 #include "bench/records/record.hpp"
 #include "bench/statistics/robust.hpp"
 
@@ -91,21 +92,21 @@ std::vector<Run> runs_of(const StoredCase& stored, std::size_t family) {
 }
 
 // The keys that the library writes, as far as a record knows them, and then the record's own.
-nlohmann::ordered_json context_of(const std::vector<StoredCase>& cases) {
+Json context_of(const std::vector<StoredCase>& cases) {
   const std::map<std::string, std::string> known =
       cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
   const auto number = [&](const char* key) {
     const auto found = known.find(key);
     return found == known.end() ? 0.0 : std::strtod(found->second.c_str(), nullptr);
   };
-  nlohmann::ordered_json context = {
+  Json context = {
       {"date", known.contains("date") ? known.at("date") : ""},
       {"host_name", ""},
       {"executable", "bench"},
       {"num_cpus", std::lround(number("cpus"))},
       {"mhz_per_cpu", 0},
       {"cpu_scaling_enabled", false},
-      {"caches", nlohmann::ordered_json::array()},
+      {"caches", Json::array()},
       {"load_avg", {number("load_1min_at_start")}},
       {"library_build_type", "release"},
   };
@@ -123,12 +124,12 @@ std::string google_benchmark_json(const std::vector<StoredCase>& cases) {
   reporter.SetOutputStream(&text);
   for (std::size_t k = 0; k < cases.size(); ++k) reporter.ReportRuns(runs_of(cases[k], k));
   reporter.Finalize();
-  if (!nlohmann::json::accept(text.str()))
+  if (!Json::accept(text.str()))
     throw std::runtime_error("Google Benchmark's reporter wrote what is not JSON");
   return text.str();
 }
 
-std::string google_benchmark_json(const std::vector<nlohmann::ordered_json>& records) {
+std::string google_benchmark_json(const std::vector<Json>& records) {
   std::vector<StoredCase> cases;
   for (const auto& record : records)
     cases.push_back(stored_case(record, fmt::format("record {}", cases.size() + 1)));

@@ -2,11 +2,11 @@
 // writes the runs, so the schema is the library's.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "bench/exports/stored_case.hpp"
+#include "bench/records/json.hpp"
 
 namespace airybench {
 
@@ -19,6 +19,6 @@ namespace airybench {
 std::string google_benchmark_json(const std::vector<StoredCase>& cases);
 
 // The same from lines of records.jsonl; throws RecordError too.
-std::string google_benchmark_json(const std::vector<nlohmann::ordered_json>& records);
+std::string google_benchmark_json(const std::vector<Json>& records);
 
 }  // namespace airybench

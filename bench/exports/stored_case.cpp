@@ -7,14 +7,13 @@
 #include <fstream>
 
 #include "bench/cases/study.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 const Json& value_of(const Json& object, const char* key) {
   static const Json null;

@@ -3,11 +3,12 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "bench/records/json.hpp"
 
 namespace airybench {
 
@@ -28,7 +29,7 @@ struct StoredCase {
 };
 
 // `place` is for messages: "records.jsonl:3". Throws RecordError.
-StoredCase stored_case(const nlohmann::ordered_json& record, const std::string& place);
+StoredCase stored_case(const Json& record, const std::string& place);
 
 // The cases of DIR/records.jsonl. Throws RecordError, OutputError.
 std::vector<StoredCase> stored_run(const std::filesystem::path& folder);

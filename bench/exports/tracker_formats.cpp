@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 
 namespace airybench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 std::string context_word(const StoredCase& stored, const char* key) {
   const auto found = stored.context.find(key);

@@ -6,7 +6,9 @@
 #include <csignal>
 
 #include "bench/isolation/scene_process.hpp"
+#include "bench/measuring/seconds_since.hpp"
 #include "bench/records/blank_record.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_json.hpp"
 
 namespace airybench {
@@ -49,7 +51,7 @@ void IsolatedScene::prepare_all() {
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < cases_.size(); ++k) prepare(k);
   prepared_ = true;
-  preparation_s_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  preparation_s_ += seconds_since(start);
 }
 
 void IsolatedScene::prepare(std::size_t k) {
@@ -62,7 +64,7 @@ void IsolatedScene::prepare(std::size_t k) {
     }
     if (process_->ask(fmt::format("prepare {}", k), [this] { return overdue(); })) break;
     throw_if_interrupted();
-    const std::string why = obituary_of(process_->end(), board_, options_).sentence;
+    const std::string why = obituary_of(process_->end(), board_, options_).message;
     switch (board_.activity()) {
       case Activity::assembly:
         left_out_.blocks[cases_[k]->method.blocks] = why;
@@ -88,7 +90,7 @@ Record IsolatedScene::examine(std::size_t k) {
   if (process_ != nullptr)
     answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return record_from_json(nlohmann::ordered_json::parse(*answer));
+  if (answer) return record_from_json(Json::parse(*answer));
   Record record = blank_record(*cases_[k], options_);
   record.status_reason = "the process of its scene ended";
   process_.reset();
@@ -100,7 +102,7 @@ TimedRun IsolatedScene::measure_time(std::size_t k) {
   if (process_ != nullptr && examined_in_[k] == generation_)
     answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return timed_run_from_json(nlohmann::ordered_json::parse(*answer));
+  if (answer) return timed_run_from_json(Json::parse(*answer));
   if (examined_in_[k] == generation_) process_.reset();
   TimedRun run;
   run.message = "the process of its scene ended";

@@ -10,13 +10,12 @@
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/heap_probe.hpp"
 #include "bench/records/blank_record.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_json.hpp"
 #include "bench/terminal.hpp"
 
 namespace airybench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 struct Command {
   std::string verb;
@@ -42,7 +41,8 @@ std::filesystem::path fields_of(const Case& c, const Options& options) {
 }
 
 // The case's own process.
-void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench) {
+void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
+                const ActivityBoard& board) {
   set_threads(options.threads);
   const heap::Backstop backstop(options.memory_limit_bytes);
   Record record;
@@ -55,11 +55,21 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       identify(c, options, record);
       if (is_measured(record) && !record.measured_once)
         bench.measure_memory(c.method, choice, record);
+      record.runs_s = board.seconds_in_runs();
       channel.send(text_of(to_json(record)));
     } else {
-      channel.send(text_of(to_json(bench.measure_time(c.method, choice))));
+      TimedRun run = bench.measure_time(c.method, choice);
+      run.runs_s = board.seconds_in_runs();
+      channel.send(text_of(to_json(run)));
     }
   }
+}
+
+// What an activity may take, before the grace.
+double limit_s(const ActivityBoard& board, const Options& options) {
+  constexpr double least_for_others_s = 900;
+  return is_run(board.activity()) ? options.timeout_s
+                                  : std::max(options.timeout_s, least_for_others_s);
 }
 
 struct CaseProcess {
@@ -70,35 +80,32 @@ struct CaseProcess {
 }  // namespace
 
 bool is_overdue(const ActivityBoard& board, const Options& options) {
-  constexpr double least_for_others_s = 900;
-  const double limit_s = is_run(board.activity()) ? options.timeout_s
-                                                  : std::max(options.timeout_s, least_for_others_s);
-  return board.seconds() > 1.1 * limit_s + 2;
+  return board.seconds() > 1.1 * limit_s(board, options) + 2;
 }
 
-Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
-  Obituary obituary;
-  obituary.ended_in = board.where();
-  obituary.time_so_far_s = board.seconds();
-  const std::string place =
-      fmt::format("in {} after {}", obituary.ended_in, show_seconds(obituary.time_so_far_s));
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
+  TimedRun run;
+  run.ended_in = board.where();
+  run.time_s = board.seconds();
+  run.runs_s = board.seconds_in_runs();
+  const std::string place = fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
   if (end.given_up) {
-    obituary.status = Status::timeout;
-    obituary.sentence =
-        fmt::format("its process was ended {}: the limit is {} s", place, options.timeout_s);
+    run.status = Status::timeout;
+    run.message =
+        fmt::format("its process was ended {}: the limit is {} s", place, limit_s(board, options));
   } else if (end.exit_code == heap::backstop_exit_code) {
-    obituary.status = Status::out_of_memory;
-    obituary.sentence = fmt::format("its process was ended {}: it passed the memory limit", place);
+    run.status = Status::out_of_memory;
+    run.message = fmt::format("its process was ended {}: it passed the memory limit", place);
   } else if (end.signal != 0) {
-    obituary.signal = signal_name(end.signal);
+    run.signal = signal_name(end.signal);
     const bool killed = end.signal == SIGKILL && !end.lingered;
-    if (killed) obituary.status = Status::out_of_memory;
-    obituary.sentence = fmt::format("its process was ended {} by {}{}", place, obituary.signal,
-                                    killed ? ", as the kernel does when memory runs out" : "");
+    if (killed) run.status = Status::out_of_memory;
+    run.message = fmt::format("its process was ended {} by {}{}", place, run.signal,
+                              killed ? ", as the kernel does when memory runs out" : "");
   } else {
-    obituary.sentence = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
+    run.message = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
   }
-  return obituary;
+  return run;
 }
 
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
@@ -125,35 +132,26 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
       own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
         bench.show_on(&own.board);
         const ObservedStages observed(&own.board);
-        serve_case(to_scene, c, options, bench);
+        serve_case(to_scene, c, options, bench, own.board);
       });
     const auto answer = own.process->ask(*line, [&] { return is_overdue(own.board, options); });
     if (answer) {
-      Json json = Json::parse(*answer);
-      json["runs_s"] = own.board.seconds_in_runs();
-      channel.send(text_of(json));
+      channel.send(*answer);
       continue;
     }
-    const Obituary obituary = obituary_of(own.process->end(), own.board, options);
-    if (verb == "examine") {
-      Record record = blank_record(c, options);
-      record.status = obituary.status;
-      record.status_reason = obituary.sentence;
-      record.signal = obituary.signal;
-      record.ended_in = obituary.ended_in;
-      record.time_so_far_s = obituary.time_so_far_s;
-      record.runs_s = own.board.seconds_in_runs();
-      channel.send(text_of(to_json(record)));
-    } else {
-      TimedRun run;
-      run.status = obituary.status;
-      run.message = obituary.sentence;
-      run.signal = obituary.signal;
-      run.ended_in = obituary.ended_in;
-      run.time_s = obituary.time_so_far_s;
-      run.runs_s = own.board.seconds_in_runs();
-      channel.send(text_of(to_json(run)));
+    const TimedRun last = obituary_of(own.process->end(), own.board, options);
+    if (verb != "examine") {
+      channel.send(text_of(to_json(last)));
+      continue;
     }
+    Record record = blank_record(c, options);
+    record.status = last.status;
+    record.status_reason = last.message;
+    record.signal = last.signal;
+    record.ended_in = last.ended_in;
+    record.time_so_far_s = last.time_s;
+    record.runs_s = last.runs_s;
+    channel.send(text_of(to_json(record)));
   }
 }
 

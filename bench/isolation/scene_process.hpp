@@ -21,14 +21,8 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
 // how far it came; assembly, reference and verification have a quarter of an hour at least.
 bool is_overdue(const ActivityBoard& board, const Options& options);
 
-// What became of a process that ended without an answer, in a sentence; with status and signal.
-struct Obituary {
-  Status status = Status::crashed;
-  std::string signal;  // "SIGSEGV"; empty: none
-  std::string ended_in;
-  double time_so_far_s = 0;
-  std::string sentence;
-};
-Obituary obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
+// A run of a process that ended without an answer: status, a sentence, signal, where and how long
+// it was there.
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
 
 }  // namespace airybench

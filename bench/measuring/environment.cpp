@@ -13,12 +13,11 @@
 #include <array>
 #include <cstdlib>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "assembly/sha256.hpp"
-#include "bench/build_info.hpp"
+#include "bench/measuring/build_info.hpp"
 #include "bench/measuring/heap_probe.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 namespace {
@@ -55,12 +54,12 @@ std::map<std::string, std::string> describe_environment(int threads) {
   double load[1] = {0};
   if (getloadavg(load, 1) != 1) load[0] = -1;
   return {
-      {"airybench_version", AIRYBENCH_VERSION},
-      {"git_revision", build_info::git_revision},
-      {"git_dirty", build_info::git_dirty},
-      {"build_type", build_info::build_type},
-      {"compiler", build_info::compiler},
-      {"compiler_flags", build_info::compiler_flags},
+      {"airybench_version", build_info.version},
+      {"git_revision", build_info.git_revision},
+      {"git_dirty", build_info.git_dirty},
+      {"build_type", build_info.build_type},
+      {"compiler", build_info.compiler},
+      {"compiler_flags", build_info.compiler_flags},
       {"eigen",
        fmt::format("{}.{}.{}", EIGEN_WORLD_VERSION, EIGEN_MAJOR_VERSION, EIGEN_MINOR_VERSION)},
       {"cholmod",
@@ -69,7 +68,7 @@ std::map<std::string, std::string> describe_environment(int threads) {
       {"blas", openblas_get_config()},
       {"blas_core", openblas_get_corename()},
       {"blas_threads", std::to_string(openblas_get_num_threads())},
-      {"google_benchmark", build_info::benchmark_version},
+      {"google_benchmark", build_info.benchmark_version},
       {"cpu", cpu_model()},
       {"cpus", std::to_string(std::thread::hardware_concurrency())},
       {"cpu_governor", first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor")},

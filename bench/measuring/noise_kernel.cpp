@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 
+#include "bench/measuring/seconds_since.hpp"
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {
@@ -50,7 +51,7 @@ double timed_pass() {
   const auto start = std::chrono::steady_clock::now();
   double checksum = noise_kernel_checksum();
   benchmark::DoNotOptimize(checksum);
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds_since(start);
 }
 
 }  // namespace

@@ -11,16 +11,13 @@
 
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/measuring/noise_kernel.hpp"
+#include "bench/measuring/seconds_since.hpp"
 #include "bench/records/blank_record.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/terminal.hpp"
 
 namespace airybench {
 namespace {
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 // The cases of one scene. Google Benchmark calls measure() once per repetition and the reporter
 // when a case has all of its own.

@@ -12,6 +12,7 @@
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/rss_probe.hpp"
+#include "bench/measuring/seconds_since.hpp"
 #include "bench/records/answer_hash.hpp"
 #include "bench/records/blank_record.hpp"
 #include "bench/records/fields.hpp"
@@ -20,10 +21,6 @@ namespace airybench {
 namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
 
 bool has_answer(const Solution& solution) {
   return solution.status == Status::ok || solution.status == Status::inaccurate;

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "assembly/sha256.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 namespace {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <map>
 
-#include "assembly/atomic_file.hpp"
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "bench/judging/verifier.hpp"
 #include "bench/records/record_files.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 namespace {

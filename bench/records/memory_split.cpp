@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "bench/records/json.hpp"
+
 namespace airybench {
 
 std::optional<double> count_ratio(const MemorySplit& memory) {
@@ -25,30 +27,28 @@ bool counts_differ(const MemorySplit& memory) {
   });
 }
 
-nlohmann::ordered_json by_owner(const MemorySplit& memory) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+Json by_owner(const MemorySplit& memory) {
+  Json json = Json::object();
   for (const MemoryOwner owner : all_memory_owners) {
     const std::int64_t peak = memory.at_peak[owner], held = memory.held[owner],
                        counted = memory.counted[owner];
     if (peak == 0 && held == 0 && counted == 0) continue;
-    json[std::string(name_of(owner))] = {
-        {"peak_bytes", peak},
-        {"held_bytes", held},
-        {"counted_bytes", counted > 0 ? nlohmann::ordered_json(counted) : nullptr}};
+    json[std::string(name_of(owner))] = {{"peak_bytes", peak},
+                                         {"held_bytes", held},
+                                         {"counted_bytes", counted > 0 ? Json(counted) : nullptr}};
   }
   return json;
 }
 
-nlohmann::ordered_json by_stage(const MemorySplit& memory) {
-  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+Json by_stage(const MemorySplit& memory) {
+  Json json = Json::object();
   for (const Stage stage : all_stages)
     if (const auto& bytes = memory.stage_peak[static_cast<std::size_t>(stage)])
       json[std::string(name_of(stage))] = *bytes;
   return json;
 }
 
-MemorySplit memory_split_from(const nlohmann::ordered_json& by_owner,
-                              const nlohmann::ordered_json& by_stage) {
+MemorySplit memory_split_from(const Json& by_owner, const Json& by_stage) {
   MemorySplit memory;
   for (const MemoryOwner owner : all_memory_owners) {
     const auto found = by_owner.find(std::string(name_of(owner)));

@@ -7,9 +7,9 @@
 // iteration live inside a stage, so theirs is the owner's own highest.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <optional>
 
+#include "bench/records/json.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -31,11 +31,10 @@ bool counts_differ(const MemorySplit& memory);
 
 // {"factor": {"peak_bytes": …, "held_bytes": …, "counted_bytes": … or null}, …}; only owners that
 // have something.
-nlohmann::ordered_json by_owner(const MemorySplit& memory);
+Json by_owner(const MemorySplit& memory);
 // {"order": highest heap while it ran, …}; only stages that ran.
-nlohmann::ordered_json by_stage(const MemorySplit& memory);
+Json by_stage(const MemorySplit& memory);
 // The two back; without allocations.
-MemorySplit memory_split_from(const nlohmann::ordered_json& by_owner,
-                              const nlohmann::ordered_json& by_stage);
+MemorySplit memory_split_from(const Json& by_owner, const Json& by_stage);
 
 }  // namespace airybench

@@ -8,6 +8,7 @@
 
 #include "bench/command_line.hpp"
 #include "bench/options.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 
 namespace airybench {
@@ -45,7 +46,7 @@ MergeOptions parse(int argc, const char* const* argv) {
 
 struct Placed {
   std::string place;  // "part1/records.jsonl:3"
-  nlohmann::ordered_json record;
+  Json record;
 };
 
 std::vector<Placed> read_all(const std::vector<std::filesystem::path>& folders) {
@@ -108,7 +109,7 @@ int merge_command(int argc, const char* const* argv) {
         fmt::format("{} of {} cases are missing: {}{} (go on with the shard by "
                     "--resume, or take --incomplete)",
                     count, plan, missing, count > 10 ? ", …" : ""));
-  std::vector<nlohmann::ordered_json> records;
+  std::vector<Json> records;
   for (const auto& [number, placed] : cases) records.push_back(placed->record);
   write_records(options.out, records);
   fmt::print("{} records of {} folders in {}\n", records.size(), options.folders.size(),

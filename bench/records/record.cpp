@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/records/json.hpp"
 #include "bench/statistics/robust.hpp"
 
 #include "bench/statistics/bootstrap.hpp"
 
 namespace airybench {
 namespace {
-
-using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;
 
 template <typename T>
 Json or_null(const std::optional<T>& value) {
@@ -186,18 +184,18 @@ Columns columns(const Record& r) {
   return result;
 }
 
-nlohmann::ordered_json json_of(const StageTimes& times) {
-  OrderedJson json = OrderedJson::object();
+Json json_of(const StageTimes& times) {
+  Json json = Json::object();
   for (const Stage stage : all_stages)
     if (times[stage]) json[std::string(name_of(stage))] = *times[stage];
   return json;
 }
 
-nlohmann::ordered_json to_json(const Record& r) {
-  OrderedJson json;
+Json to_json(const Record& r) {
+  Json json;
   for (const auto& [name, value] : columns(r)) json[name] = value;
   json["samples_s"] = r.samples_s;
-  OrderedJson stage_samples = OrderedJson::array();
+  Json stage_samples = Json::array();
   for (const StageTimes& times : r.stage_samples) stage_samples.push_back(json_of(times));
   json["stage_samples"] = stage_samples;
   json["assembly_samples_s"] = r.assembly_samples_s;
@@ -206,14 +204,14 @@ nlohmann::ordered_json to_json(const Record& r) {
   json["measured_once"] = r.measured_once;
   json["mesh_file"] = r.mesh_file;
   json["mesh_sha256"] = r.mesh_sha256;
-  json["scene_definition"] = OrderedJson::parse(r.scene_definition);
+  json["scene_definition"] = Json::parse(r.scene_definition);
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
   json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);
-  json["memory_by_owner"] = r.memory ? by_owner(*r.memory) : OrderedJson();
-  json["memory_by_stage"] = r.memory ? by_stage(*r.memory) : OrderedJson();
-  json["memory_counts_differ"] = r.memory ? OrderedJson(counts_differ(*r.memory)) : OrderedJson();
-  OrderedJson run = OrderedJson::array(), left_out = OrderedJson::object();
+  json["memory_by_owner"] = r.memory ? by_owner(*r.memory) : Json();
+  json["memory_by_stage"] = r.memory ? by_stage(*r.memory) : Json();
+  json["memory_counts_differ"] = r.memory ? Json(counts_differ(*r.memory)) : Json();
+  Json run = Json::array(), left_out = Json::object();
   for (const StageDecision& decision : r.stages) {
     if (decision.run)
       run.push_back(decision.stage);
@@ -223,7 +221,7 @@ nlohmann::ordered_json to_json(const Record& r) {
   json["stages_run"] = run;
   json["stages_left_out"] = left_out;
   if (!r.grid.empty()) {
-    OrderedJson grid = OrderedJson::array();
+    Json grid = Json::array();
     for (const GridPoint& point : r.grid)
       grid.push_back({{"r", point.r},
                       {"rho", point.rho},
@@ -232,7 +230,7 @@ nlohmann::ordered_json to_json(const Record& r) {
     json["grid"] = grid;
   }
   if (!r.histories.empty()) {
-    OrderedJson histories = OrderedJson::object();
+    Json histories = Json::object();
     for (const IterationHistory& history : r.histories) histories[history.what] = history.residual;
     json["histories"] = histories;
   }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "assembly/mesh.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/judging/verifier.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/memory_split.hpp"
 #include "solvers/method.hpp"
 #include "solvers/solution.hpp"
@@ -97,13 +97,13 @@ struct GridSummary {
 GridSummary summary_of(const std::vector<GridPoint>& grid);
 
 // The flat view: names and values of the columns, in order; null: does not apply.
-using Columns = std::vector<std::pair<std::string, nlohmann::json>>;
+using Columns = std::vector<std::pair<std::string, Json>>;
 Columns columns(const Record& record);
 
 // {"factor": 0.12, …}, of the stages that there are.
-nlohmann::ordered_json json_of(const StageTimes& times);
+Json json_of(const StageTimes& times);
 
 // A line of records.jsonl: the columns, then samples, stages, mesh hash and histories.
-nlohmann::ordered_json to_json(const Record& record);
+Json to_json(const Record& record);
 
 }  // namespace airybench

@@ -6,14 +6,15 @@
 #include <array>
 #include <utility>
 
-#include "assembly/atomic_file.hpp"
 #include "bench/exports/google_benchmark.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_json.hpp"
 #include "bench/records/record_reader.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 
-std::string csv_field(const nlohmann::ordered_json& value) {
+std::string csv_field(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return value.dump();
   std::string text = value.get<std::string>();
@@ -23,7 +24,7 @@ std::string csv_field(const nlohmann::ordered_json& value) {
   return quoted + "\"";
 }
 
-std::string csv_text(const std::vector<nlohmann::ordered_json>& records) {
+std::string csv_text(const std::vector<Json>& records) {
   const Columns header = columns(Record{});
   std::string text;
   for (std::size_t i = 0; i < header.size(); ++i) text += (i > 0 ? "," : "") + header[i].first;
@@ -45,12 +46,26 @@ namespace {
 constexpr std::array<const char*, 4> case_keys = {"mesh", "scene", "method", "stop"};
 constexpr std::array<const char*, 3> study_keys = {"study", "knob", "knob_value"};
 
-// What is not UTF-8, in a file's name say, is replaced.
-std::string line_of(const nlohmann::ordered_json& record) {
-  return record.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+std::string identity_of(const Json& record) {
+  std::string identity;
+  for (const char* key : case_keys) {
+    identity += record.value(key, "target");  // older records have no stop
+    identity += '\n';
+  }
+  for (const char* key : study_keys) {
+    const auto found = record.find(key);
+    identity += found == record.end() ? "null" : found->dump();
+    identity += '\n';
+  }
+  return identity;
 }
 
-std::string lines_of(const std::vector<nlohmann::ordered_json>& records) {
+// What is not UTF-8, in a file's name say, is replaced.
+std::string line_of(const Json& record) {
+  return record.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string lines_of(const std::vector<Json>& records) {
   std::string text;
   for (const auto& record : records) {
     text += line_of(record);
@@ -66,14 +81,13 @@ void remove_summaries(const std::filesystem::path& folder) {
     std::filesystem::remove(folder / stale, ignored);
 }
 
-void write_summaries(const std::filesystem::path& folder,
-                     const std::vector<nlohmann::ordered_json>& records) {
+void write_summaries(const std::filesystem::path& folder, const std::vector<Json>& records) {
   write_file_atomically(folder / "results.csv", csv_text(records));
   write_file_atomically(folder / "results.json", google_benchmark_json(records));
 }
 
-nlohmann::ordered_json parsed(const std::string& line, const std::string& place) {
-  auto record = nlohmann::ordered_json::parse(line, nullptr, false);
+Json parsed(const std::string& line, const std::string& place) {
+  auto record = Json::parse(line, nullptr, false);
   if (!record.is_object())
     throw OutputError(fmt::format("{}: not a record (allowed: a JSON object on a line)", place));
   for (const char* key : case_keys)
@@ -82,9 +96,8 @@ nlohmann::ordered_json parsed(const std::string& line, const std::string& place)
   return record;
 }
 
-std::vector<nlohmann::ordered_json> parsed(const JournalLines& journal,
-                                           const std::filesystem::path& file) {
-  std::vector<nlohmann::ordered_json> records;
+std::vector<Json> parsed(const JournalLines& journal, const std::filesystem::path& file) {
+  std::vector<Json> records;
   for (const std::string& line : journal.lines)
     records.push_back(parsed(line, fmt::format("{}:{}", file.string(), records.size() + 1)));
   return records;
@@ -92,14 +105,14 @@ std::vector<nlohmann::ordered_json> parsed(const JournalLines& journal,
 
 }  // namespace
 
-std::vector<nlohmann::ordered_json> read_record_lines(const std::filesystem::path& folder) {
+std::vector<Json> read_record_lines(const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / "records.jsonl";
   if (!std::filesystem::exists(file))
     throw OutputError(file.string() + ": no such file (a folder that bench --out wrote has it)");
   return parsed(read_journal(file), file);
 }
 
-Context context_of(const nlohmann::ordered_json& record) {
+Context context_of(const Json& record) {
   Context context;
   if (const auto found = record.find("context"); found != record.end() && found->is_object())
     for (const auto& [key, value] : found->items())
@@ -107,26 +120,11 @@ Context context_of(const nlohmann::ordered_json& record) {
   return context;
 }
 
-bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b) {
-  const auto value = [](const nlohmann::ordered_json& record, const char* key) {
-    const auto found = record.find(key);
-    return found == record.end() ? nlohmann::ordered_json() : *found;
-  };
-  return std::all_of(case_keys.begin(), case_keys.end(),
-                     [&](const char* key) {
-                       return a.value(key, "target") ==
-                              b.value(key, "target");  // older records have no stop
-                     }) &&
-         std::all_of(study_keys.begin(), study_keys.end(),
-                     [&](const char* key) { return value(a, key) == value(b, key); });
-}
+bool same_case(const Json& a, const Json& b) { return identity_of(a) == identity_of(b); }
 
-std::string case_name(const nlohmann::ordered_json& record) {
-  return case_record(record, "record").name();
-}
+std::string case_name(const Json& record) { return case_record(record, "record").name(); }
 
-void write_records(const std::filesystem::path& folder,
-                   const std::vector<nlohmann::ordered_json>& records) {
+void write_records(const std::filesystem::path& folder, const std::vector<Json>& records) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)
@@ -158,22 +156,22 @@ RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep kee
       if (!differs.empty())
         throw OutputError(fmt::format("{}:{}: of another run, which does not mix with this one: {}",
                                       records_file().string(), i + 1, differs));
+      finished_.emplace(identity_of(records_[i]), i);
     }
   if (torn_) rewrite();
 }
 
 std::optional<Record> RecordFiles::finished(const Record& blank) const {
   if (keep_ != Keep::finished) return {};
-  const nlohmann::ordered_json wanted = to_json(blank);
-  for (std::size_t i = 0; i < records_.size(); ++i) {
-    if (!same_case(records_[i], wanted)) continue;
-    for (const char* key : {"mesh_sha256", "scene_definition"})
-      if (records_[i].value(key, nlohmann::ordered_json()) != wanted[key])
-        throw OutputError(fmt::format("{}:{}: {}: another than now, for {}",
-                                      records_file().string(), i + 1, key, case_name(wanted)));
-    return record_from_json(records_[i]);
-  }
-  return {};
+  const Json wanted = to_json(blank);
+  const auto found = finished_.find(identity_of(wanted));
+  if (found == finished_.end()) return {};
+  const Json& record = records_[found->second];
+  for (const char* key : {"mesh_sha256", "scene_definition"})
+    if (record.value(key, Json()) != wanted[key])
+      throw OutputError(fmt::format("{}:{}: {}: another than now, for {}", records_file().string(),
+                                    found->second + 1, key, case_name(wanted)));
+  return record_from_json(record);
 }
 
 void RecordFiles::rewrite() {
@@ -184,10 +182,10 @@ void RecordFiles::rewrite() {
 }
 
 void RecordFiles::append(const Record& record) {
-  nlohmann::ordered_json json = to_json(record);
+  Json json = to_json(record);
   json["context"] = context_;
-  const auto replaced = std::erase_if(
-      records_, [&](const nlohmann::ordered_json& other) { return same_case(other, json); });
+  const auto replaced =
+      std::erase_if(records_, [&](const Json& other) { return same_case(other, json); });
   if (!journal_.is_open() || replaced > 0) rewrite();
   journal_.append(line_of(json));
   records_.push_back(std::move(json));

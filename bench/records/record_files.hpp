@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bench/records/journal.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record.hpp"
 #include "bench/records/run_identity.hpp"
 
@@ -46,29 +47,29 @@ class RecordFiles {
   std::filesystem::path folder_;
   Context context_;
   Keep keep_;
-  std::vector<nlohmann::ordered_json> records_;  // those of the folder
+  std::vector<Json> records_;                    // those of the folder
+  std::map<std::string, std::size_t> finished_;  // with Keep::finished: identity → place there
   bool torn_ = false;
   Journal journal_;
 };
 
 // The records of a folder, as they stand there. Throws OutputError: file, line, what is allowed.
-std::vector<nlohmann::ordered_json> read_record_lines(const std::filesystem::path& folder);
-Context context_of(const nlohmann::ordered_json& record);
+std::vector<Json> read_record_lines(const std::filesystem::path& folder);
+Context context_of(const Json& record);
 
 // Same mesh, scene, method, stop, study and knob?
-bool same_case(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
+bool same_case(const Json& a, const Json& b);
 // "Mesh0/default/SSKY/study=error/tolerance=0.01", see CaseRecord::name().
-std::string case_name(const nlohmann::ordered_json& record);
+std::string case_name(const Json& record);
 
 // records.jsonl, results.csv and results.json of these records; each file whole or not at all.
-void write_records(const std::filesystem::path& folder,
-                   const std::vector<nlohmann::ordered_json>& records);
+void write_records(const std::filesystem::path& folder, const std::vector<Json>& records);
 
 // results.csv as text: a header, a row per record as to_json() gives it; empty: does not apply. RFC
 // 4180.
-std::string csv_text(const std::vector<nlohmann::ordered_json>& records);
+std::string csv_text(const std::vector<Json>& records);
 
 // A cell of it: null is empty, a text is quoted where it must be.
-std::string csv_field(const nlohmann::ordered_json& value);
+std::string csv_field(const Json& value);
 
 }  // namespace airybench

@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include "bench/records/json.hpp"
+
 namespace airybench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 bool has(const Json& json, const char* key) {
   const auto found = json.find(key);

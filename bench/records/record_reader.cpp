@@ -4,18 +4,16 @@
 
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "bench/records/journal.hpp"
+#include "bench/records/json.hpp"
 
 namespace airybench {
 namespace {
 
-using Json = nlohmann::json;
-
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-Json parsed(const std::string& text, const std::string& place) {
+Json parsed_line(const std::string& text, const std::string& place) {
   try {
     return Json::parse(text);
   } catch (const Json::exception& wrong) {
@@ -165,7 +163,7 @@ std::vector<CaseRecord> read_records(const std::filesystem::path& file, Studies 
   int number = 0;
   for (const std::string& text : journal.lines) {
     const std::string place = fmt::format("{}:{}", file.string(), ++number);
-    CaseRecord record = case_record(parsed(text, place), place);
+    CaseRecord record = case_record(parsed_line(text, place), place);
     if (studies == Studies::include || record.study.empty()) records.push_back(std::move(record));
   }
   return records;

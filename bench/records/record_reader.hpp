@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "bench/records/json.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {
@@ -71,7 +71,7 @@ inline constexpr std::array<ErrorMember, 3> error_members = {{
 
 // Keys that are not in CaseRecord are passed over; null and a missing key are the same. `place` is
 // what a RecordError begins with.
-CaseRecord case_record(const nlohmann::json& json, const std::string& place);
+CaseRecord case_record(const Json& json, const std::string& place);
 
 enum class Studies { leave_out, include };
 // In the order of the lines; one that is half written is none. Throws RecordError.

@@ -4,17 +4,16 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
-#include "assembly/atomic_file.hpp"
 #include "bench/command_line.hpp"
 #include "bench/options.hpp"
 #include "bench/tracking/compare_report.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 namespace {
 
-constexpr const char* footer = R"(
+constexpr const char* compare_footer = R"(
 Verdicts  faster, slower    p (Mann-Whitney, adjusted by Holm over the cases) is at most 5 %, and the
                             effect is above the minimum one and above the drift of the machine
           not separated     chance or drift can be the reason
@@ -33,10 +32,10 @@ struct CompareOptions {
   double minimum_effect_percent = 3;
 };
 
-CompareOptions parse(int argc, const char* const* argv) {
+CompareOptions parse_compare(int argc, const char* const* argv) {
   CompareOptions options;
   CLI::App app("Two runs of the same cases: which have become slower or faster.", "bench compare");
-  app.footer(footer);
+  app.footer(compare_footer);
   app.add_option("A", options.a, "folder with records.jsonl, before")->required();
   app.add_option("B", options.b, "folder with records.jsonl, after")->required();
   app.add_option("--minimum-effect", options.minimum_effect_percent,
@@ -59,7 +58,7 @@ std::vector<CaseRecord> records_of(const std::filesystem::path& folder) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-  const CompareOptions options = parse(argc, argv);
+  const CompareOptions options = parse_compare(argc, argv);
   CompareRules rules;
   rules.minimum_effect = options.minimum_effect_percent / 100;
   const Comparison comparison = compare(records_of(options.a), records_of(options.b), rules);

@@ -3,16 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "bench/records/json.hpp"
 #include "bench/statistics/robust.hpp"
 #include "bench/terminal.hpp"
 #include "bench/tracking/judge_counters.hpp"
 
 namespace airybench {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 // Status, errors, memory, iterations: what is not equal.
 std::vector<std::string> other_changes(const ComparedCase& one) {
@@ -87,30 +85,13 @@ std::vector<std::string> summary(const Comparison& comparison) {
   return lines;
 }
 
-// "µ" and "→" are one column but two bytes and more.
-std::size_t columns_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
-}
-
 }  // namespace
 
 std::string comparison_text(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows = {header};
   for (const ComparedCase& one : comparison.cases)
     rows.push_back(row(one, comparison.drift.has_value()));
-  std::vector<std::size_t> widths(header.size(), 0);
-  for (const auto& cells : rows)
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      widths[i] = std::max(widths[i], columns_of(cells[i]));
-  std::string text;
-  for (const auto& cells : rows) {
-    std::string line;
-    for (std::size_t i = 0; i + 1 < cells.size(); ++i)
-      line += cells[i] + std::string(widths[i] - columns_of(cells[i]) + 2, ' ');
-    text += line + cells.back() + "\n";
-  }
-  text += "\n";
+  std::string text = aligned_table(rows, header.size()) + "\n";
   for (const std::string& line : summary(comparison)) text += line + "\n";
   return text;
 }

@@ -7,19 +7,17 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
-#include <nlohmann/json.hpp>
 #include <tuple>
 
-#include "assembly/atomic_file.hpp"
+#include "bench/records/json.hpp"
 #include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/robust.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
-using OrderedJson = nlohmann::ordered_json;
 
 constexpr const char* format_name = "airybench-night-1";
 constexpr std::array lanes = {Lane::status, Lane::counters, Lane::errors, Lane::times};
@@ -31,21 +29,21 @@ Json or_null(const std::optional<T>& value) {
 }
 Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
 
-OrderedJson to_json(const CaseRecord& record) {
-  OrderedJson json = {{"mesh", record.mesh},
-                      {"scene", record.scene},
-                      {"method", record.method},
-                      {"stop", or_null(record.stop)},
-                      {"study", or_null(record.study)},
-                      {"knob", or_null(record.knob)},
-                      {"knob_value", or_null(record.knob_value)},
-                      {"status", name_of(record.status)},
-                      {"samples_s", record.samples_s},
-                      {"time_s", or_null(record.time_s)},
-                      {"time_low_s", nullptr},
-                      {"time_high_s", nullptr},
-                      {"noise_kernel_s", or_null(record.noise_kernel_s)},
-                      {"answer_hash", or_null(record.answer_hash)}};
+Json to_json(const CaseRecord& record) {
+  Json json = {{"mesh", record.mesh},
+               {"scene", record.scene},
+               {"method", record.method},
+               {"stop", or_null(record.stop)},
+               {"study", or_null(record.study)},
+               {"knob", or_null(record.knob)},
+               {"knob_value", or_null(record.knob_value)},
+               {"status", name_of(record.status)},
+               {"samples_s", record.samples_s},
+               {"time_s", or_null(record.time_s)},
+               {"time_low_s", nullptr},
+               {"time_high_s", nullptr},
+               {"noise_kernel_s", or_null(record.noise_kernel_s)},
+               {"answer_hash", or_null(record.answer_hash)}};
   if (!record.samples_s.empty()) {
     const Interval interval = bootstrap_median(record.samples_s);
     json["time_low_s"] = interval.low;
@@ -56,7 +54,7 @@ OrderedJson to_json(const CaseRecord& record) {
   return json;
 }
 
-OrderedJson to_json(const Finding& finding) {
+Json to_json(const Finding& finding) {
   return {{"case", finding.case_name},    {"lane", name_of(finding.lane)},
           {"quantity", finding.quantity}, {"before", finding.before},
           {"after", finding.after},       {"kind", name_of(finding.kind)},
@@ -208,22 +206,20 @@ fs::path file_for(const Night& night, const fs::path& folder, const std::vector<
 }
 
 void write_night(const Night& night) {
-  const auto finite = [](double value) {
-    return std::isfinite(value) ? OrderedJson(value) : OrderedJson();
-  };
-  OrderedJson cases = OrderedJson::array(), verdicts = OrderedJson::array();
+  const auto finite = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
+  Json cases = Json::array(), verdicts = Json::array();
   for (const CaseRecord& record : night.cases) cases.push_back(to_json(record));
   for (const Finding& finding : night.findings) verdicts.push_back(to_json(finding));
-  const OrderedJson json = {{"format", format_name},
-                            {"date", night.date},
-                            {"context", night.context},
-                            {"noise",
-                             {{"median_s", finite(median(night.noise_samples_s))},
-                              {"mad_s", finite(median_absolute_deviation(night.noise_samples_s))},
-                              {"samples_s", night.noise_samples_s}}},
-                            {"cases", cases},
-                            {"verdicts", verdicts},
-                            {"failed", night.failed}};
+  const Json json = {{"format", format_name},
+                     {"date", night.date},
+                     {"context", night.context},
+                     {"noise",
+                      {{"median_s", finite(median(night.noise_samples_s))},
+                       {"mad_s", finite(median_absolute_deviation(night.noise_samples_s))},
+                       {"samples_s", night.noise_samples_s}}},
+                     {"cases", cases},
+                     {"verdicts", verdicts},
+                     {"failed", night.failed}};
   std::error_code error;
   const fs::path folder = night.file.parent_path();
   fs::create_directories(folder, error);
@@ -231,7 +227,7 @@ void write_night(const Night& night) {
     throw std::runtime_error(
         fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
   write_file_atomically(night.file,
-                        json.dump(1, ' ', false, OrderedJson::error_handler_t::replace) + "\n");
+                        json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace airybench

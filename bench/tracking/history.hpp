@@ -8,11 +8,11 @@
 
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "bench/records/json.hpp"
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {
@@ -26,8 +26,8 @@ std::string_view name_of(Kind kind);
 struct Finding {
   std::string case_name;  // "Mesh0/default/3STEPD"; "all cases"
   Lane lane = Lane::status;
-  std::string quantity;          // "linear_iterations"
-  nlohmann::json before, after;  // numbers, or texts; null: not known
+  std::string quantity;  // "linear_iterations"
+  Json before, after;    // numbers, or texts; null: not known
   Kind kind = Kind::changed;
   std::string since;                       // date of the first night after the change
   std::optional<double> ratio, low, high;  // after/before; of times with its 95 % interval

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "bench/records/json.hpp"
 #include "bench/statistics/robust.hpp"
 #include "bench/tracking/judge_counters.hpp"
 
@@ -48,11 +48,11 @@ TimeTable time_table(const std::vector<Night>& nights) {
 }
 
 // Median of the measured times before and after the change, in seconds.
-nlohmann::json seconds(const std::vector<double>& log_times, std::size_t first, std::size_t end) {
+Json seconds(const std::vector<double>& log_times, std::size_t first, std::size_t end) {
   std::vector<double> times;
   for (std::size_t t = first; t < end; ++t)
     if (std::isfinite(log_times[t])) times.push_back(std::exp(log_times[t]));
-  return times.empty() ? nlohmann::json() : nlohmann::json(median(std::move(times)));
+  return times.empty() ? Json() : Json(median(std::move(times)));
 }
 
 Finding finding_of(const TimeChange& found, const TimeTable& table,

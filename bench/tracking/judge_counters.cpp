@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <nlohmann/json.hpp>
 
 namespace airybench {
 namespace {
@@ -22,9 +21,9 @@ bool same_libraries(const Night& a, const Night& b) {
 }
 
 // The newest night's cases beside the earlier nights.
-class Comparison {
+class CounterComparison {
  public:
-  explicit Comparison(const std::vector<Night>& nights) : nights_(nights) {}
+  explicit CounterComparison(const std::vector<Night>& nights) : nights_(nights) {}
 
   const Night& newest() const { return nights_.back(); }
 
@@ -56,7 +55,7 @@ class Comparison {
   const std::vector<Night>& nights_;
 };
 
-void compare_status(Comparison& comparison, const CaseRecord& now) {
+void compare_status(CounterComparison& comparison, const CaseRecord& now) {
   const CaseRecord* before =
       comparison.earlier(now.name(), [](const Night&, const CaseRecord&) { return true; });
   if (before == nullptr || before->status == now.status) return;
@@ -67,7 +66,7 @@ void compare_status(Comparison& comparison, const CaseRecord& now) {
                  kind);
 }
 
-void compare_counts(Comparison& comparison, const CaseRecord& now) {
+void compare_counts(CounterComparison& comparison, const CaseRecord& now) {
   for (const JudgedCount& count : judged_counts) {
     if (!(now.*count.member)) continue;
     const CaseRecord* record =
@@ -84,7 +83,7 @@ void compare_counts(Comparison& comparison, const CaseRecord& now) {
   }
 }
 
-void compare_errors(Comparison& comparison, const CaseRecord& now) {
+void compare_errors(CounterComparison& comparison, const CaseRecord& now) {
   const std::size_t found = comparison.findings.size();
   for (const auto& [name, member] : error_members) {
     if (!(now.*member)) continue;
@@ -109,7 +108,7 @@ void compare_errors(Comparison& comparison, const CaseRecord& now) {
 }
 
 // What the selection of the last night had and this one has not, and libraries that changed.
-void compare_contexts(Comparison& comparison, const Night& before) {
+void compare_contexts(CounterComparison& comparison, const Night& before) {
   const Night& now = comparison.newest();
   for (const CaseRecord& record : before.cases)
     if (now.find(record.name()) == nullptr)
@@ -146,7 +145,7 @@ bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t afte
 
 std::vector<Finding> judge_counters(const std::vector<Night>& nights) {
   if (nights.size() < 2) return {};
-  Comparison comparison(nights);
+  CounterComparison comparison(nights);
   compare_contexts(comparison, nights[nights.size() - 2]);
   for (const CaseRecord& now : comparison.newest().cases) {
     compare_status(comparison, now);

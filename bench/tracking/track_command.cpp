@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "bench/command_line.hpp"
 #include "bench/options.hpp"
@@ -19,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* footer = R"(
+constexpr const char* track_footer = R"(
 Every other option is one of a run (bench --help). Without them the nightly selection is measured:
   --mesh=Mesh0..Mesh2 --repetitions=9
   --method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6
@@ -55,11 +54,11 @@ bool is_option(const std::string& argument, const std::string& name) {
   return argument == name || argument.starts_with(name + "=");
 }
 
-TrackOptions parse(int argc, const char* const* argv) {
+TrackOptions parse_track(int argc, const char* const* argv) {
   TrackOptions options;
   CLI::App app("Measures a nightly selection, adds it to a history, and says what has changed.",
                "bench track");
-  app.footer(footer);
+  app.footer(track_footer);
   app.allow_extras();
   app.add_option("--history", options.history, "folder of the history")->capture_default_str();
   auto* from = app.add_option("--from", options.from,
@@ -148,7 +147,7 @@ std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
 }
 
 int track_command(int argc, const char* const* argv) {
-  const TrackOptions options = parse(argc, argv);
+  const TrackOptions options = parse_track(argc, argv);
   std::vector<Night> history = read_history(options.history);  // before hours are spent on a run
   if (options.judge_only) {
     if (history.empty())

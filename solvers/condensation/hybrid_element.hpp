@@ -1,10 +1,10 @@
-// One triangle of the hybridized system (hybridized.hpp), in double, long double or Quad.
+// One triangle of the hybridized system (hybridized.hpp), in double or long double.
 //
 //   S_e φ_e = T_eᵀ ū_e − p_e,   F_e = T_e φ_e + F_p   ⇒   F_e = K_e ū_e + f_e
 //   K_e = T_e S_e⁻¹ T_eᵀ,       f_e = F_p − T_e S_e⁻¹ p_e
 //
 // over the nine unknowns φ_e that are left when vertex 1's three are dropped. Edge components are
-// those of HybridizedSystemIn::unknown. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
+// those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
 // semidefinite to rounding.
 #pragma once
 
@@ -32,7 +32,7 @@ struct HybridElement {
       const Eigen::Matrix<Scalar, 12, 1>& displacement) const;  // the total stress that ū_e makes
 };
 
-// How the components of HybridizedSystemIn::unknown make an element's edge components: x, y at the
+// How the components of EdgeUnknowns make an element's edge components: x, y at the
 // start and at the end of its walk along edge k.
 template <typename Scalar = double>
 Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool is_contact);

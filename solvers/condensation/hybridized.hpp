@@ -16,15 +16,15 @@
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
 //
-// Templates over the scalar are instantiated for double, long double and Quad (quad.hpp): HYBRID
-// works in double, the reference refines in long double (refinement.hpp), tests check both against
-// Quad. The data are doubles in all of them: coordinates, compliances, ū0, forces on Γ_F.
+// Templates over the scalar are instantiated for double and long double: HYBRID works in
+// double, the reference refines in long double (refinement.hpp); tests check both in 128 bits. The
+// data are doubles in all of them: coordinates, compliances, ū0, forces on Γ_F.
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
 #include "solvers/solution.hpp"
@@ -33,11 +33,7 @@ namespace airybench {
 
 template <typename Scalar>
 struct HybridizedSystemIn {
-  static constexpr int prescribed = -1;
-  // Per edge: the numbers of its four unknowns, x and y at its low vertex, x and y at its high one;
-  // on Γ_C normal and tangential at its start and end. Inner unknowns first, then the contact rows
-  // in the order of ContactPoints (without friction the tangential ones are inner unknowns).
-  std::vector<std::array<int, 4>> unknown;
+  EdgeUnknowns unknown;
   std::vector<Eigen::Vector4d> displacement;  // ū0 of displacement edges, else 0; empty: all zero
   Eigen::SparseMatrix<Scalar> K;              // lower triangle, N/mm
   Eigen::VectorX<Scalar> b;                   // N, without the contact forces

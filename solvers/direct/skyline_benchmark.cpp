@@ -18,6 +18,7 @@
 #include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "solvers/direct/skyline.hpp"
+#include "support/data_folder.hpp"
 
 namespace {
 
@@ -48,9 +49,8 @@ const DualSystem& system_of(const std::string& mesh) {
   static std::map<std::string, DualSystem> systems;
   const auto found = systems.find(mesh);
   if (found != systems.end()) return found->second;
-  const std::string folder = AIRYBENCH_DEFAULT_MESH_DIR;
   auto problem = std::make_shared<const Problem>(
-      pose(Scene{}, read_msh(std::filesystem::path(folder) / (mesh + ".msh"))));
+      pose(Scene{}, read_msh(data_folder("meshes") / (mesh + ".msh"))));
   return systems.emplace(mesh, assemble(std::move(problem))).first->second;
 }
 

@@ -9,7 +9,7 @@
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::displacement_field_test {
 namespace {
 
 using testing::small_tooth;
@@ -162,4 +162,4 @@ TEST(ControlPoints, CoefficientsOfAGapMakeTheGap) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::displacement_field_test

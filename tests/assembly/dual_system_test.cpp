@@ -10,9 +10,10 @@
 #include "assembly/scene.hpp"
 #include "assembly/stress_field.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::dual_system_test {
 namespace {
 
 using testing::small_tooth;
@@ -64,8 +65,7 @@ TEST(DualSystem, FlexibilityIsEquilibratedSymmetricPositiveDefinite) {
 
 TEST(DualSystem, ConstraintsHaveFullRank) {
   for (const char* name : {"Mesh0", "Mesh4"}) {
-    const DualSystem system = assemble(
-        posed({}, read_msh(std::filesystem::path(MESH_DIR) / (std::string(name) + ".msh"))));
+    const DualSystem system = assemble(posed({}, testing::catalogue_mesh(name)));
     Eigen::MatrixXd C(system.n_f() + system.n_c(), system.n());
     C << Eigen::MatrixXd(system.C_F), Eigen::MatrixXd(system.C_C);
     EXPECT_EQ(C.transpose().colPivHouseholderQr().rank(), C.rows()) << name;
@@ -165,8 +165,7 @@ TEST(DualSystem, GapIsTheWorkPartnerOfTheNormalForce) {
 
 TEST(StressField, EnergyKeepsItsDigitsWhereTheAiryFunctionIsLarge) {
   // A constant stress on the rack: the energy is known, φ reaches 1e5.
-  const DualSystem system =
-      assemble(posed({}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")));
+  const DualSystem system = assemble(posed({}, testing::catalogue_mesh("Mesh4")));
   const Problem& problem = *system.problem;
   const Eigen::VectorXd x = interpolate(
       system, [](const Eigen::Vector2d& p) { return 50 * p.y() * p.y(); },
@@ -211,4 +210,4 @@ TEST(CuthillMcKee, IsAPermutationThatNarrowsTheSkyline) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::dual_system_test

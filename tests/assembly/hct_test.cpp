@@ -11,7 +11,7 @@
 #include "assembly/elasticity.hpp"
 #include "assembly/mesh.hpp"
 
-namespace airybench {
+namespace airybench::hct_test {
 namespace {
 
 using Dofs = Eigen::Matrix<double, 12, 1>;
@@ -268,4 +268,4 @@ TEST(Elasticity, PlaneStrainAndPlaneStressAreHookesLaw) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::hct_test

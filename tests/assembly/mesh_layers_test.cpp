@@ -6,7 +6,7 @@
 
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::mesh_layers_test {
 namespace {
 
 using testing::small_tooth;
@@ -72,4 +72,4 @@ TEST(MeshLayers, ImpossibleValuesAreNamed) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::mesh_layers_test

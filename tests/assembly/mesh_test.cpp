@@ -6,7 +6,7 @@
 #include <limits>
 #include <set>
 
-namespace airybench {
+namespace airybench::mesh_test {
 namespace {
 
 constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
@@ -291,4 +291,4 @@ TEST(CrossArea, IsTwiceTheSignedArea) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::mesh_test

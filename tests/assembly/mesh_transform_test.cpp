@@ -7,16 +7,13 @@
 #include <numbers>
 
 #include "assembly/msh_format.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::mesh_transform_test {
 namespace {
 
-using testing::small_tooth;
-
-Mesh catalogue_mesh(const std::string& name) {
-  return read_msh(std::filesystem::path(MESH_DIR) / (name + ".msh"));
-}
+using testing::catalogue_mesh, testing::small_tooth;
 
 double area(const Mesh& mesh, int body = -1) {
   double sum = 0;
@@ -281,4 +278,4 @@ TEST(MeshTransform, WhatFlattensATriangleIsNamed) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::mesh_transform_test

@@ -1,4 +1,5 @@
 #include "assembly/msh_format.hpp"
+#include "tests/support/places.hpp"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace airybench {
+namespace airybench::msh_format_test {
 namespace {
 
 // A unit square as Gmsh 4.8.4 wrote it in MSH 2.2: its own numbers of the physical groups.
@@ -234,10 +235,10 @@ TEST(ReadMsh, FileThatCannotBeOpened) {
 
 TEST(ReadMsh, FolderInPlaceOfAFile) {
   try {
-    read_msh(MESH_DIR);
+    read_msh(testing::mesh_folder());
     FAIL() << "read a folder";
   } catch (const MeshError& error) {
-    EXPECT_STREQ(error.what(), MESH_DIR ": a folder, not a mesh file");
+    EXPECT_EQ(error.what(), testing::mesh_folder().string() + ": a folder, not a mesh file");
   }
 }
 
@@ -286,7 +287,7 @@ TEST(WriteMsh, CoordinatesComeBackAsTheSameDoubles) {
 
 TEST(WriteMsh, CatalogueFileComesBackByteForByte) {
   for (const std::string name : {"Mesh0", "Mesh4"}) {
-    const std::filesystem::path file = std::filesystem::path(MESH_DIR) / (name + ".msh");
+    const std::filesystem::path file = testing::mesh_file(name);
     std::ifstream in(file, std::ios::binary);
     const std::string bytes(std::istreambuf_iterator<char>(in), {});
     ASSERT_FALSE(bytes.empty()) << file;
@@ -295,4 +296,4 @@ TEST(WriteMsh, CatalogueFileComesBackByteForByte) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::msh_format_test

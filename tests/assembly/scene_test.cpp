@@ -3,9 +3,10 @@
 #include <gtest/gtest.h>
 
 #include "assembly/msh_format.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::scene_test {
 namespace {
 
 using testing::small_tooth;
@@ -20,8 +21,7 @@ std::string complaint(const Scene& scene, const Mesh& mesh) {
 }
 
 TEST(Scene, CrownIsCentredOnEachToothsAxis) {
-  for (const Mesh& mesh :
-       {small_tooth(4, 4), read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")}) {
+  for (const Mesh& mesh : {small_tooth(4, 4), testing::catalogue_mesh("Mesh4")}) {
     const Problem problem = pose({}, mesh);
     const auto faces = boundary_chains(problem.mesh, BoundaryRole::contact);
     for (std::size_t k = 0; k < faces.size(); ++k) {
@@ -43,7 +43,7 @@ TEST(Scene, GeometryThatTheMeshHasIsAccepted) {
   scene.teeth = 1;
   EXPECT_EQ(complaint(scene, small_tooth(4, 4)), "none");
   scene.teeth = 4;
-  EXPECT_EQ(complaint(scene, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh")), "none");
+  EXPECT_EQ(complaint(scene, testing::catalogue_mesh("Mesh4")), "none");
 }
 
 TEST(Scene, ContradictionsAndImpossibleValuesAreNamed) {
@@ -129,4 +129,4 @@ TEST(Scene, WhatTheMeshCannotBeIsSaidWithTheScene) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::scene_test

@@ -6,14 +6,15 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "bench/records/json.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -55,7 +56,7 @@ TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
   EXPECT_NE(result.err.find("[1/1] Mesh0 default 3STEPD: ok, "), std::string::npos);
   EXPECT_NE(result.out.find("error force"), std::string::npos);
 
-  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["status"], "ok");
   EXPECT_EQ(record["n_phi"], 761);
   EXPECT_EQ(record["n_f"], 96);
@@ -69,7 +70,7 @@ TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
   const std::string csv = content(folder_ / "o/results.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
 
-  const auto google = nlohmann::json::parse(content(folder_ / "o/results.json"));
+  const auto google = Json::parse(content(folder_ / "o/results.json"));
   int iterations = 0;
   for (const auto& run : google["benchmarks"]) {
     if (run["run_type"] != "iteration") continue;
@@ -86,14 +87,14 @@ TEST_F(Command, FailedCasesAreRecordedAndExitWithOne) {
   const Result slow =
       bench("--mesh=Mesh0 --method=3STEPD --timeout=1e-9 --repetitions=2 --out=slow");
   EXPECT_EQ(slow.code, 1);
-  EXPECT_EQ(nlohmann::json::parse(content(folder_ / "slow/records.jsonl"))["status"], "timeout");
+  EXPECT_EQ(Json::parse(content(folder_ / "slow/records.jsonl"))["status"], "timeout");
   EXPECT_TRUE(fs::exists(folder_ / "slow/results.csv"));
   EXPECT_NE(slow.out.find("timeout: time limit reached during"), std::string::npos);
 
   const Result strict =
       bench("--mesh=Mesh0 --method=3STEPD --target-error=1e-16 --repetitions=2 --out=strict");
   EXPECT_EQ(strict.code, 1);
-  const auto record = nlohmann::json::parse(content(folder_ / "strict/records.jsonl"));
+  const auto record = Json::parse(content(folder_ / "strict/records.jsonl"));
   EXPECT_EQ(record["status"], "inaccurate");
   EXPECT_FALSE(record["time_s"].is_null());  // measured all the same, with its error beside it
 }
@@ -110,12 +111,12 @@ TEST_F(Command, WritesFieldsOnRequest) {
 }
 
 TEST_F(Command, TakesAUsersMeshAndScene) {
-  fs::copy_file(fs::path(MESH_DIR) / "Mesh0.msh", folder_ / "mine.msh");
+  fs::copy_file(testing::mesh_file("Mesh0"), folder_ / "mine.msh");
   file("flat.json", R"({"crown_radius_mm": null, "friction": 0})");
   const Result result =
       bench("--mesh=mine.msh --scene=flat.json --method=3STEPD --repetitions=1 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["mesh"], "mine");
   EXPECT_EQ(record["scene"], "flat");
   EXPECT_EQ(record["n_c"], 20);
@@ -185,8 +186,7 @@ TEST_F(Command, HandsTheRestToGoogleBenchmark) {
   const Result result =
       bench("--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- --benchmark_filter=CHOLMOD");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(nlohmann::json::parse(content(folder_ / "o/records.jsonl"))["method"],
-            "3STEPD:CHOLMOD");
+  EXPECT_EQ(Json::parse(content(folder_ / "o/records.jsonl"))["method"], "3STEPD:CHOLMOD");
 }
 
 TEST_F(Command, InterleavedRepetitionsAreAllRecorded) {
@@ -195,9 +195,9 @@ TEST_F(Command, InterleavedRepetitionsAreAllRecorded) {
       "--benchmark_enable_random_interleaving=true");
   ASSERT_EQ(result.code, 0) << result.err;
   std::istringstream lines(content(folder_ / "o/records.jsonl"));
-  std::map<std::string, nlohmann::json> records;
+  std::map<std::string, Json> records;
   for (std::string line; std::getline(lines, line);) {
-    const auto record = nlohmann::json::parse(line);
+    const auto record = Json::parse(line);
     records[record["mesh"]] = record;
   }
   ASSERT_EQ(records.size(), 2u);
@@ -293,7 +293,7 @@ TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
   const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SSOR0.7,schur=sparse",
                                           "3STEPCG:FLIC2,lanes=1"};
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto record = nlohmann::json::parse(lines[k]);
+    const auto record = Json::parse(lines[k]);
     EXPECT_EQ(record["method"], names[k]);
     EXPECT_EQ(record["stop"], "target");
     EXPECT_GT(record["tolerance"], 0);
@@ -302,7 +302,7 @@ TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
     EXPECT_EQ(record["uzawa_iterations"].is_null(), k > 0);
     EXPECT_EQ(record["linear_iterations"].is_null(), k == 0);
   }
-  EXPECT_EQ(nlohmann::json::parse(lines[0])["parameters"], "r=20, rho=32");
+  EXPECT_EQ(Json::parse(lines[0])["parameters"], "r=20, rho=32");
 }
 
 TEST_F(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
@@ -312,13 +312,13 @@ TEST_F(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
   const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
   ASSERT_EQ(lines.size(), 2u);
   for (const std::string& line : lines) {
-    const auto record = nlohmann::json::parse(line);
+    const auto record = Json::parse(line);
     EXPECT_EQ(record["stop"], "paper");
     EXPECT_EQ(record["status"], "inaccurate");
     EXPECT_GT(record["error_force"], 1e-7);
     EXPECT_GT(record["time_s"], 0);
   }
-  const auto alm = nlohmann::json::parse(lines[1]);
+  const auto alm = Json::parse(lines[1]);
   EXPECT_EQ(alm["grid"].size(), 64u);
   EXPECT_EQ(alm["grid_best"], alm["uzawa_iterations"]);
   EXPECT_LE(alm["grid_best"], alm["grid_median"]);
@@ -335,7 +335,7 @@ TEST_F(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
       bench("--mesh=Mesh1 --method=3STEPD --stop=paper --repetitions=1 --out=o --append").code, 0);
   std::vector<std::string> found;
   for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
-    const auto record = nlohmann::json::parse(line);
+    const auto record = Json::parse(line);
     found.push_back(record["mesh"].get<std::string>() + " " + record["method"].get<std::string>() +
                     " " + record["stop"].get<std::string>() + " " +
                     std::to_string(record["samples_s"].size()));
@@ -364,7 +364,7 @@ TEST_F(Command, ATimeoutTellsWhatWasDone) {
   const Result result =
       bench("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 1);
-  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["status"], "timeout");
   EXPECT_TRUE(record["time_s"].is_null());
   EXPECT_GT(record["done_fraction"], 0);
@@ -376,7 +376,7 @@ TEST_F(Command, ATimeoutTellsWhatWasDone) {
 TEST_F(Command, ALongCaseIsMeasuredOnce) {
   ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code,
             0);
-  const auto record = nlohmann::json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["measured_once"], true);
   EXPECT_EQ(record["repetitions"], 1);
   EXPECT_EQ(record["samples_s"].size(), 1u);
@@ -398,7 +398,7 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
         0);
     std::vector<std::string> all;
     for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
-      const auto record = nlohmann::json::parse(line);
+      const auto record = Json::parse(line);
       for (const char* key : keys) all.push_back(record["method"].dump() + record[key].dump());
     }
     return all;
@@ -414,4 +414,4 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::command_test

@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace airybench {
+namespace airybench::apportion_test {
 namespace {
 
 using Counts = std::vector<int>;
@@ -52,4 +52,4 @@ TEST(Apportion, RefusesTooFewEdgesAndBadWeights) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::apportion_test

@@ -6,17 +6,18 @@
 
 #include "assembly/mesh_selection.hpp"
 #include "assembly/msh_format.hpp"
-#include "assembly/sha256.hpp"
 #include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/tooth_mesh.hpp"
+#include "support/sha256.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::catalogue_test {
 namespace {
 
-const std::filesystem::path repository = MESH_DIR;
+const std::filesystem::path repository = testing::mesh_folder();
 
 std::string bytes_of(const Mesh& mesh) {
   std::ostringstream text;
@@ -133,4 +134,4 @@ TEST(Checksums, RefusesOtherLines) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::catalogue_test

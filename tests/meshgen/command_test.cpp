@@ -7,12 +7,13 @@
 #include <string>
 
 #include "assembly/msh_format.hpp"
-#include "assembly/sha256.hpp"
 #include "meshgen/catalogue.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "support/sha256.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::command_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -30,7 +31,8 @@ class Command : public ::testing::Test {
   // Arguments as in a shell, in the folder of this test.
   Outcome run(const std::string& arguments, const std::string& environment = "") const {
     const std::string command = "cd '" + folder.path().string() + "' && " + environment + " '" +
-                                MESHGEN_COMMAND "' " + arguments + " >.out 2>.err";
+                                testing::meshgen_executable().string() + "' " + arguments +
+                                " >.out 2>.err";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".out"),
             text_of(folder / ".err")};
@@ -198,7 +200,7 @@ TEST_F(Command, ModifiesAMesh) {
 
 TEST_F(Command, ModifiedByNothingIsTheSameFile) {
   EXPECT_EQ(run("--modify=Mesh3 --out=same.msh").exit_code, 0);
-  EXPECT_EQ(text_of(folder / "same.msh"), text_of(fs::path(MESH_DIR) / "Mesh3.msh"));
+  EXPECT_EQ(text_of(folder / "same.msh"), text_of(testing::mesh_file("Mesh3")));
 }
 
 TEST_F(Command, CheckOfTheRepositoryPasses) {
@@ -209,7 +211,7 @@ TEST_F(Command, CheckOfTheRepositoryPasses) {
 }
 
 TEST_F(Command, CheckNoticesAnotherMesh) {
-  fs::copy(MESH_DIR, folder / "meshes");
+  fs::copy(testing::mesh_folder(), folder / "meshes");
   fs::copy_file(folder / "meshes/Mesh0.msh", folder / "meshes/Mesh1.msh",
                 fs::copy_options::overwrite_existing);
   const Outcome outcome = run("--check --meshes=meshes");
@@ -219,7 +221,7 @@ TEST_F(Command, CheckNoticesAnotherMesh) {
 }
 
 TEST_F(Command, CheckNoticesAnotherHashAndObeysTheEnvironment) {
-  fs::copy(MESH_DIR, folder / "meshes");
+  fs::copy(testing::mesh_folder(), folder / "meshes");
   write_text(folder / "meshes/Mesh2.msh", text_of(folder / "meshes/Mesh2.msh") + "\n");
   const Outcome outcome = run("--check", "AIRYBENCH_MESH_DIR=meshes");
   EXPECT_EQ(outcome.exit_code, 1);
@@ -229,7 +231,7 @@ TEST_F(Command, CheckNoticesAnotherHashAndObeysTheEnvironment) {
 
 TEST_F(Command, CheckNeedsTheFiles) {
   expect_refusal("--check --meshes=nowhere", 1, {"nowhere/SHA256SUMS: cannot be opened"});
-  fs::copy(MESH_DIR, folder / "meshes");
+  fs::copy(testing::mesh_folder(), folder / "meshes");
   fs::remove(folder / "meshes/Mesh5.msh");
   expect_refusal("--check --meshes=meshes", 1, {"meshes/Mesh5.msh: cannot be opened"});
 }
@@ -240,7 +242,7 @@ TEST_F(Command, RemakesIdenticalFiles) {
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   std::string expected;
   for (const std::string name : {"Mesh0", "Mesh1", "Mesh2"}) {
-    const fs::path file = fs::path(MESH_DIR) / (name + ".msh");
+    const fs::path file = testing::mesh_file(name);
     expected += name + "  " + sha256_of_file(file) + "  identical\n";
     EXPECT_EQ(sha256_of_file(folder / "new" / (name + ".msh")), sha256_of_file(file));
   }
@@ -263,4 +265,4 @@ TEST_F(Command, RemakeNoticesADifferenceAndSaysTheVersions) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::command_test

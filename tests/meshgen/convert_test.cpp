@@ -6,9 +6,10 @@
 
 #include "assembly/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::convert_test {
 namespace {
 
 // Two unit squares side by side. The lines run clockwise around the body.
@@ -222,7 +223,7 @@ TEST_F(Convert, ClockwiseTrianglesAndLinesAreTurnedAndUnusedNodesDropped) {
 }
 
 TEST_F(Convert, OwnFileComesBackUnchanged) {
-  const std::filesystem::path file = std::filesystem::path(MESH_DIR) / "Mesh0.msh";
+  const std::filesystem::path file = testing::mesh_file("Mesh0");
   const Mesh ours = read_msh(file), converted = convert_model(file);
   EXPECT_EQ(converted.vertices, ours.vertices);
   EXPECT_EQ(converted.triangles, ours.triangles);
@@ -389,4 +390,4 @@ TEST_F(Convert, PrintsNothing) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::convert_test

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace airybench {
+namespace airybench::quality_test {
 namespace {
 
 const Eigen::Vector2d origin(0, 0), east(1, 0), apex(0.5, std::sqrt(3.0) / 2), north(0, 1);
@@ -47,4 +47,4 @@ TEST(MeshQuality, WorstAndMeanOfTheTriangles) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::quality_test

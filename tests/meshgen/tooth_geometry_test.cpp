@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-namespace airybench {
+namespace airybench::tooth_geometry_test {
 namespace {
 
 constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
@@ -208,4 +208,4 @@ TEST(BoundaryPolygon, RefusesTooFewEdges) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::tooth_geometry_test

@@ -6,7 +6,7 @@
 
 #include "meshgen/quality.hpp"
 
-namespace airybench {
+namespace airybench::vertex_search_test {
 namespace {
 
 // A stand-in for Gmsh: so many vertices, and one triangle with this smallest angle.
@@ -97,4 +97,4 @@ TEST(VertexSearch, EndsWhenTheCountDoesNotDependOnTheFactor) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::vertex_search_test

@@ -11,7 +11,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::airy_refinement_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -186,4 +186,4 @@ TEST(AiryRefinement, NoLoadIsNoError) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::airy_refinement_test

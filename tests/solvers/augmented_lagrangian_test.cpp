@@ -9,7 +9,7 @@
 #include "solvers/uzawa/alm_methods.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::augmented_lagrangian_test {
 namespace {
 
 DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6, 5)) {
@@ -228,4 +228,4 @@ TEST(AugmentedLagrangian, OutOfTimeIsATimeoutOfTuningToo) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::augmented_lagrangian_test

@@ -9,7 +9,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::blind_test {
 namespace {
 
 DualSystem system_of(double friction = 0.2) {
@@ -124,4 +124,4 @@ TEST(Blind, AWrongNumberOfNegativePivotsIsABreakdown) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::blind_test

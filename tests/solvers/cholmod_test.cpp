@@ -4,7 +4,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace airybench {
+namespace airybench::cholmod_test {
 namespace {
 
 // A grid Laplacian plus a dense coupling of the last unknowns: sparse, positive definite.
@@ -89,4 +89,4 @@ TEST(Cholmod, SolvesAndRefuses) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::cholmod_test

@@ -13,7 +13,7 @@
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::column_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::column_store_test

@@ -9,8 +9,9 @@
 #include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::condition_test {
 namespace {
 
 double exact_condition(const Eigen::MatrixXd& A) {
@@ -80,7 +81,7 @@ TEST(ConditionEstimate, ASingularMatrixIsInfinite) {
 // κ₁ lies between κ₂ and n κ₂. κ₂ by extreme eigenvalues: of S and K with unit diagonal 5.5e5 and
 // about 1e4 on Mesh0 (docs/theory.md, section 16).
 TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
-  const Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh");
+  const Mesh mesh = testing::catalogue_mesh("Mesh0");
   const auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh));
   const DualSystem system = assemble(problem);
   RunControl control;
@@ -103,4 +104,4 @@ TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::condition_test

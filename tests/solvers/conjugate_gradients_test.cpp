@@ -6,7 +6,7 @@
 
 #include "tests/support/krylov_checks.hpp"
 
-namespace airybench {
+namespace airybench::conjugate_gradients_test {
 namespace {
 
 using namespace testing;
@@ -223,4 +223,4 @@ TEST(RightHandSidesInParallel, OneTimeoutSumsUpAllRangesAndAnyOtherFailureWins) 
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::conjugate_gradients_test

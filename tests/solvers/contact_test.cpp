@@ -5,7 +5,7 @@
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
-namespace airybench {
+namespace airybench::contact_test {
 namespace {
 
 // Every clause of the law, to a relative tolerance; scale_N and scale_mm make it dimensionless.
@@ -220,4 +220,4 @@ TEST(NaturalMap, IsZeroExactlyWhereTheLawHolds) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::contact_test

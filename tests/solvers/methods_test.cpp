@@ -19,9 +19,10 @@
 #include "solvers/direct/skyline.hpp"
 #include "solvers/general_names.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/method_names.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::methods_test {
 
 void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
@@ -43,13 +44,6 @@ std::vector<Method> kinds_of_methods() {
                            "3STEPCG:FLIC2", "3STEPCG:SSOR1.0", "3STEPCG:SKY", "3STEPCG:NONE"})
     kinds.push_back(select_methods(name).front());
   return kinds;
-}
-
-std::string readable(const ::testing::TestParamInfo<Method>& info) {
-  std::string name = info.param.name;
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return name;
 }
 
 class EveryKindOfMethod : public ::testing::TestWithParam<Method> {
@@ -87,7 +81,7 @@ class EveryKindOfMethod : public ::testing::TestWithParam<Method> {
   DualSystem system_;
 };
 INSTANTIATE_TEST_SUITE_P(Table, EveryKindOfMethod, ::testing::ValuesIn(kinds_of_methods()),
-                         readable);
+                         testing::readable);
 
 TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
   Mesh mesh = small_tooth(5, 4);
@@ -484,4 +478,4 @@ TEST(Condensation, NotFiniteInputIsABreakdown) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::methods_test

@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <limits>
 
-namespace airybench {
+namespace airybench::mumps_test {
 namespace {
 
 // [A Cᵀ; C 0] with a grid Laplacian A and rows of C that each join two neighbours: indefinite, with
@@ -150,4 +150,4 @@ TEST(Mumps, FactorsLiveBesideEachOther) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::mumps_test

@@ -12,7 +12,7 @@
 #include "tests/support/dense_operators.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::preconditioners_test {
 namespace {
 
 using namespace testing;
@@ -351,4 +351,4 @@ TEST(Preconditioners, AWrongNameIsOneLineWithTheValidOnes) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::preconditioners_test

@@ -12,8 +12,9 @@
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::product_test {
 
 void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
@@ -26,10 +27,8 @@ std::string readable(std::string name) {
 }
 
 DualSystem system_of(const char* mesh, Blocks blocks = Blocks::airy) {
-  return assemble(
-      std::make_shared<const Problem>(
-          pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / (std::string(mesh) + ".msh")))),
-      blocks);
+  return assemble(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh(mesh))),
+                  blocks);
 }
 
 const Solution& reference(const char* mesh) {
@@ -157,4 +156,4 @@ TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::product_test

@@ -10,7 +10,7 @@
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::quadratic_displacements_test {
 namespace {
 
 using testing::small_tooth;
@@ -215,4 +215,4 @@ TEST(QuadraticDisplacements, WhatGoesWrongBecomesAStatus) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::quadratic_displacements_test

@@ -8,8 +8,9 @@
 #include "assembly/dual_system.hpp"
 #include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::skyline_test {
 namespace {
 
 // A random symmetric positive definite matrix whose row i begins at column first(i).
@@ -67,8 +68,7 @@ TEST(Skyline, CountsTheClassicalProfile) {
 }
 
 TEST(Skyline, PaddingOfAFiniteElementMatrixStaysSmall) {
-  const auto problem = std::make_shared<const Problem>(
-      pose({}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh5.msh")));
+  const auto problem = std::make_shared<const Problem>(pose({}, testing::catalogue_mesh("Mesh5")));
   const DualSystem system = assemble(problem);
   const SkylineProfile profile = analyse_skyline(system.S);
   EXPECT_LT(static_cast<double>(profile.stored), 1.4 * static_cast<double>(profile.profile));
@@ -152,4 +152,4 @@ TEST(Skyline, DeadlineEndsFactorAndSolve) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::skyline_test

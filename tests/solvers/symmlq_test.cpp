@@ -9,7 +9,7 @@
 #include "tests/support/krylov_checks.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::symmlq_test {
 namespace {
 
 using namespace testing;
@@ -285,4 +285,4 @@ TEST(SaddlePreconditioner, ExactBlocksLeaveThreeEigenvaluesAndThreeIterations) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::symmlq_test

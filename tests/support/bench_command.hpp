@@ -4,10 +4,11 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <vector>
 
+#include "bench/records/json.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::testing {
@@ -24,7 +25,7 @@ inline CommandResult run_bench(const std::filesystem::path& folder, const std::s
   command += folder.string();
   command += "' && ";
   command += before;
-  command += "'" BENCH_EXECUTABLE "' ";
+  command += "'" + bench_executable().string() + "' ";
   command += arguments;
   command += " >out.txt 2>err.txt </dev/null";
   const int status = std::system(command.c_str());
@@ -40,11 +41,11 @@ class BenchCommand {
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }
   // The whole lines of a records.jsonl.
-  std::vector<nlohmann::json> records(const std::string& folder = "o") const {
-    std::vector<nlohmann::json> result;
+  std::vector<Json> records(const std::string& folder = "o") const {
+    std::vector<Json> result;
     std::istringstream lines(content(folder + "/records.jsonl"));
     for (std::string line; std::getline(lines, line) && !lines.eof();)
-      result.push_back(nlohmann::json::parse(line));
+      result.push_back(Json::parse(line));
     return result;
   }
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-namespace airybench {
+namespace airybench::power_law_test {
 namespace {
 
 std::vector<SizedValue> on_a_law(double factor, double exponent, const std::vector<int>& sizes) {
@@ -61,4 +61,4 @@ TEST(PowerLaw, MethodsShareAnExponentWhateverTheirFactors) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::power_law_test

@@ -7,9 +7,10 @@
 #include <cmath>
 
 #include "bench/records/method_names.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::prediction_test {
 namespace {
 
 using testing::TemporaryFolder;
@@ -277,7 +278,7 @@ TEST(PastRecords, ValuesThatCannotBeAreRefused) {
 class CommittedRecords : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(CommittedRecords, DirectMethodsArePredictedFromSmallerMeshes) {
-  const PastRecords past = read_past_records({std::filesystem::path(RESULTS_DIR) / GetParam()});
+  const PastRecords past = read_past_records({testing::results_folder() / GetParam()});
   ASSERT_TRUE(past.passed_over.empty()) << past.passed_over.front();
   int predicted = 0, within = 0;
   for (const CaseRecord& held_out : past.records) {
@@ -305,4 +306,4 @@ INSTANTIATE_TEST_SUITE_P(Folders, CommittedRecords, ::testing::Values("paper", "
                          [](const auto& folder) { return std::string(folder.param); });
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::prediction_test

@@ -6,7 +6,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::scene_file_test {
 namespace {
 
 class SceneFile : public ::testing::Test {
@@ -151,4 +151,4 @@ TEST_F(SceneFile, AMissingFileIsNamed) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::scene_file_test

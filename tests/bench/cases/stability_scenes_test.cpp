@@ -4,15 +4,14 @@
 #include "assembly/msh_format.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/judging/reference.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::stability_scenes_test {
 namespace {
 
-const std::filesystem::path folder = STABILITY_SCENES;
+const std::filesystem::path folder = testing::stability_scenes_folder();
 
-Mesh catalogue_mesh(const char* name) {
-  return read_msh(std::filesystem::path(MESH_DIR) / (std::string(name) + ".msh"));
-}
+using testing::catalogue_mesh;
 
 TEST(StabilityScenes, AllCanBeReadAndPosed) {
   int count = 0;
@@ -55,4 +54,4 @@ TEST(StabilityScenes, TheSameStateInOtherUnitsGivesTheSameForcesTimesAFactor) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::stability_scenes_test

@@ -8,7 +8,7 @@
 #include "assembly/scene.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::stages_test {
 namespace {
 
 std::map<std::string, std::string> left_out(const Scene& scene, const char* method,
@@ -68,4 +68,4 @@ TEST(Stages, AMethodWithoutAiryFunctionGetsNoAirySystem) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::stages_test

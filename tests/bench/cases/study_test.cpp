@@ -13,16 +13,17 @@
 #include "bench/measuring/workbench.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::study_test {
 namespace {
 
 Method method(const std::string& name) { return select_methods(name).front(); }
 
 std::shared_ptr<const Problem> mesh0() {
-  static const auto problem = std::make_shared<const Problem>(
-      pose(Scene(), read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh")));
+  static const auto problem =
+      std::make_shared<const Problem>(pose(Scene(), testing::catalogue_mesh("Mesh0")));
   return problem;
 }
 
@@ -175,4 +176,4 @@ TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::study_test

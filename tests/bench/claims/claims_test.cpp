@@ -4,18 +4,17 @@
 #include <algorithm>
 #include <cstdlib>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "bench/claims/claims_cases.hpp"
 #include "bench/claims/claims_statistics.hpp"
+#include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
 
-namespace airybench {
+namespace airybench::claims_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -478,4 +477,4 @@ TEST_F(Claims, MalformedRecordsAreNamedByLineKeyAndValue) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::claims_test

@@ -5,23 +5,22 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
 #include "bench/exports/google_benchmark.hpp"
 #include "bench/exports/junit.hpp"
 #include "bench/exports/tracker_formats.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/statistics/robust.hpp"
 #include "tests/support/bench_command.hpp"
 
-namespace airybench {
+namespace airybench::export_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 using testing::TemporaryFolder;
 using testing::write_text;
 
@@ -233,10 +232,10 @@ TEST(Junit, StatusesBecomeOutcomes) {
   EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.type"), "timeout");
   EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.message"),
             "a \"b\" <c> & 'd', e\n\uFFFD\tf\\ é");
-  const std::string strict = "'" PYTHON
-                             "' -c 'import sys, xml.etree.ElementTree as tree; "
-                             "tree.parse(sys.argv[1])' '" +
-                             file.string() + "'";
+  const std::string strict =
+      "python3 -c 'import sys, xml.etree.ElementTree as tree; "
+      "tree.parse(sys.argv[1])' '" +
+      file.string() + "'";
   EXPECT_EQ(std::system(strict.c_str()), 0);
 }
 
@@ -311,4 +310,4 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::export_test

@@ -15,7 +15,7 @@
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::isolation_test {
 namespace {
 
 using Harm = std::function<void(Solution&)>;  // done to HYBRID's answer
@@ -200,4 +200,4 @@ TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::isolation_test

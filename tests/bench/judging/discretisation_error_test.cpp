@@ -11,10 +11,11 @@
 #include "bench/records/fields.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::discretisation_error_test {
 namespace {
 
 // The exact value lies below the finest quadratic solution of tests/data/oracles.csv.
@@ -44,7 +45,7 @@ Scene with_friction(double mu) {
 }
 
 Solved solved_on(const std::string& mesh, const Scene& scene) {
-  return Solved(pose(scene, read_msh(std::filesystem::path(MESH_DIR) / (mesh + ".msh"))));
+  return Solved(pose(scene, testing::catalogue_mesh(mesh)));
 }
 
 std::vector<Scene> scenes() {
@@ -242,4 +243,4 @@ TEST(DisplacementVerifier, FindsWhatIsSpoiled) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::discretisation_error_test

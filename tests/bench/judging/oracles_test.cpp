@@ -10,8 +10,9 @@
 #include "assembly/scene.hpp"
 #include "bench/judging/verifier.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::oracles_test {
 namespace {
 
 struct Oracle {
@@ -20,7 +21,7 @@ struct Oracle {
 
 // The finest solution of a case.
 Oracle finest(const std::string& wanted) {
-  std::ifstream file(std::string(TEST_DATA_DIR) + "/oracles.csv");
+  std::ifstream file(testing::test_data("oracles.csv"));
   std::string line;
   std::getline(file, line);
   Oracle best;
@@ -37,8 +38,7 @@ Oracle finest(const std::string& wanted) {
 }
 
 Verification solved(const std::string& mesh, const Scene& scene, const char* method) {
-  const auto problem = std::make_shared<const Problem>(
-      pose(scene, read_msh(std::filesystem::path(MESH_DIR) / (mesh + ".msh"))));
+  const auto problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh)));
   const DualSystem system = assemble(problem);
   const Solution solution = run(select_methods(method).front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
@@ -46,8 +46,7 @@ Verification solved(const std::string& mesh, const Scene& scene, const char* met
 }
 
 Verification solved_in_displacements(const std::string& mesh, const Scene& scene) {
-  const auto problem = std::make_shared<const Problem>(
-      pose(scene, read_msh(std::filesystem::path(MESH_DIR) / (mesh + ".msh"))));
+  const auto problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh)));
   const DualSystem system = assemble(problem, Blocks::contact_points);
   const Solution solution = run(select_methods("P2").front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
@@ -109,4 +108,4 @@ TEST(Oracles, WithoutFrictionTheEnergiesBoundTheExactOneFromBothSides) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::oracles_test

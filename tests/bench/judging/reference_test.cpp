@@ -12,8 +12,9 @@
 #include "assembly/scene.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/solution.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::reference_test {
 namespace {
 
 // The same mesh with its vertices and triangles in random order, and every triangle begun at a
@@ -42,7 +43,7 @@ Reference reference_of(const Mesh& mesh) {
 
 TEST(Reference, DoesNotDependOnTheNumbering) {
   for (const char* name : {"Mesh0", "Mesh4"}) {
-    const Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / (std::string(name) + ".msh"));
+    const Mesh mesh = testing::catalogue_mesh(name);
     const Reference one = reference_of(mesh), other = reference_of(renumbered(mesh, 5));
     EXPECT_LT((one.F_C - other.F_C).norm(), 1e-14 * one.F_C.norm()) << name;
     EXPECT_LT((one.condensed.D - other.condensed.D).norm(), 1e-11 * one.condensed.D.norm()) << name;
@@ -52,7 +53,7 @@ TEST(Reference, DoesNotDependOnTheNumbering) {
 }
 
 TEST(Reference, KnowsTheDisplacementsOfItsForces) {
-  const Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh");
+  const Mesh mesh = testing::catalogue_mesh("Mesh0");
   const DualSystem system =
       assemble(std::make_shared<const Problem>(pose(Scene{}, mesh)), Blocks::contact_points);
   const Reference reference = compute_reference(system);
@@ -65,7 +66,7 @@ TEST(Reference, KnowsTheDisplacementsOfItsForces) {
 
 TEST(Reference, SaysHowMuchAFlattenedMeshCosts) {
   const auto estimate = [](double height) {
-    Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh");
+    Mesh mesh = testing::catalogue_mesh("Mesh0");
     for (Eigen::Vector2d& v : mesh.vertices) v.y() *= height;
     return reference_of(mesh).error_estimate;
   };
@@ -75,7 +76,7 @@ TEST(Reference, SaysHowMuchAFlattenedMeshCosts) {
 }
 
 TEST(Reference, WithoutAFiniteSolutionThereIsNone) {
-  Problem problem = pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh"));
+  Problem problem = pose(Scene{}, testing::catalogue_mesh("Mesh0"));
   problem.loads.gap_mm = [](const Eigen::Vector2d&, int) { return std::nan(""); };
   EXPECT_THROW(compute_reference(assemble(std::make_shared<const Problem>(std::move(problem)),
                                           Blocks::contact_points)),
@@ -83,4 +84,4 @@ TEST(Reference, WithoutAFiniteSolutionThereIsNone) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::reference_test

@@ -10,8 +10,9 @@
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::refinement_test {
 namespace {
 
 struct Posed {
@@ -28,8 +29,8 @@ struct Posed {
 };
 
 Posed posed(const char* mesh, const Scene& scene) {
-  DualSystem system = assemble(std::make_shared<const Problem>(
-      pose(scene, read_msh(std::filesystem::path(MESH_DIR) / (std::string(mesh) + ".msh")))));
+  DualSystem system =
+      assemble(std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh))));
   Reference reference = compute_reference(system);
   return {std::move(system), std::move(reference)};
 }
@@ -60,4 +61,4 @@ TEST(Refinement, GivesBackTheDigitsThatConditioningTook) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::refinement_test

@@ -7,7 +7,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::verifier_test {
 namespace {
 
 class Verifier : public ::testing::Test {
@@ -137,4 +137,4 @@ TEST_F(Verifier, WithoutAReferenceErrorsAreUnknownNotZero) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::verifier_test

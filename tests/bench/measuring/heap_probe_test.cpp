@@ -19,9 +19,10 @@
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/uzawa/augmented_lagrangian.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::heap_probe_test {
 namespace {
 
 constexpr std::int64_t MiB = 1024 * 1024;
@@ -293,8 +294,8 @@ TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
-  const DualSystem rack = assemble(std::make_shared<const Problem>(
-      pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh4.msh"))));
+  const DualSystem rack =
+      assemble(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh4"))));
   const auto peak = [&](const char* name) {
     heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
@@ -308,8 +309,8 @@ TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
 }
 
 TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {
-  const auto problem = std::make_shared<const Problem>(
-      pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh7.msh")));
+  const auto problem =
+      std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh7")));
   heap::reset_peak();
   const std::int64_t before = heap::live_bytes();
   const DualSystem system = assemble(problem);
@@ -320,4 +321,4 @@ TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::heap_probe_test

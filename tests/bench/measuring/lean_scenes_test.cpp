@@ -16,9 +16,10 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/method_names.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::lean_scenes_test {
 
 void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
@@ -114,15 +115,9 @@ std::vector<Method> kinds_of_methods() {
   return kinds;
 }
 
-std::string readable(const ::testing::TestParamInfo<Method>& info) {
-  std::string name = info.param.name;
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return name;
-}
-
 class LeanScenes : public ::testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Table, LeanScenes, ::testing::ValuesIn(kinds_of_methods()), readable);
+INSTANTIATE_TEST_SUITE_P(Table, LeanScenes, ::testing::ValuesIn(kinds_of_methods()),
+                         testing::readable);
 
 TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
   std::vector<LeanScene> scenes = lean_scenes();
@@ -267,4 +262,4 @@ TEST(CountOfSolves, BlindCondensationSolvesForContactForcesAndALoadOnly) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::lean_scenes_test

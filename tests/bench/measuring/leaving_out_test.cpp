@@ -6,7 +6,7 @@
 #include "bench/measuring/workbench.hpp"
 #include "tests/support/small_meshes.hpp"
 
-namespace airybench {
+namespace airybench::leaving_out_test {
 namespace {
 
 Record measured(const Scene& scene, Mesh mesh, const char* method) {
@@ -74,4 +74,4 @@ TEST(LeavingOut, AMethodWithoutAirySystemHasNoneInMemory) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::leaving_out_test

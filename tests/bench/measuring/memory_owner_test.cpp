@@ -14,8 +14,9 @@
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "solvers/parallel.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::memory_owner_test {
 namespace {
 
 constexpr std::int64_t KiB = 1024, MiB = 1024 * KiB;
@@ -221,8 +222,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, CountedMemory,
 TEST_P(CountedMemory, IsWhatIsMeasured) {
   Options options;
   options.repetitions = 1;
-  Workbench bench(std::make_shared<const Problem>(
-                      pose(Scene{}, read_msh(std::filesystem::path(MESH_DIR) / "Mesh1.msh"))),
+  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh1"))),
                   options);
   const Method method = select_methods(GetParam()).front();
   auto [record, choice] = bench.examine(method, {});
@@ -237,4 +237,4 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::memory_owner_test

@@ -9,7 +9,7 @@
 #include "bench/measuring/machine_warnings.hpp"
 #include "bench/measuring/noise_kernel.hpp"
 
-namespace airybench {
+namespace airybench::noise_test {
 namespace {
 
 TEST(NoiseKernel, DoesTheSameWorkEveryTimeAndAllocatesNothing) {
@@ -124,4 +124,4 @@ TEST(InstructionCounter, CountsTheWorkAndThatOfThreads) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::noise_test

@@ -9,8 +9,9 @@
 #include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::answer_hash_test {
 namespace {
 
 Verification some_answer() {
@@ -28,7 +29,7 @@ TEST(AnswerHash, IsTheSameForMethodsAndDiffersBetweenProblems) {
     for (const double friction : {0.2, 0.1}) {
       Scene scene;
       scene.friction = friction;
-      const Mesh mesh = read_msh(std::filesystem::path(MESH_DIR) / (std::string(name) + ".msh"));
+      const Mesh mesh = testing::catalogue_mesh(name);
       const DualSystem system = assemble(std::make_shared<const Problem>(pose(scene, mesh)));
       std::set<std::string> of_methods;
       for (const Method& method : select_methods("3STEPD,BLIND,HYBRID")) {
@@ -80,4 +81,4 @@ TEST(AnswerHash, ThereIsNoneWhereAllDigitsAreRounding) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::answer_hash_test

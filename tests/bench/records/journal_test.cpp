@@ -5,7 +5,7 @@
 #include "bench/records/run_identity.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::journal_test {
 namespace {
 
 TEST(Journal, KeepsLinesAndDropsAStart) {
@@ -55,4 +55,4 @@ TEST(RunIdentity, NamesWhatDiffersAndPassesOverTheMoment) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::journal_test

@@ -1,4 +1,5 @@
 #include "bench/records/record.hpp"
+#include "bench/records/json.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +9,9 @@
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_json.hpp"
 #include "bench/terminal.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::record_test {
 namespace {
 
 TEST(Record, HasExactlyTheDocumentedColumns) {
@@ -138,7 +140,7 @@ TEST(Record, CsvIsUnroundedQuotedAndEmptyWhereNothingApplies) {
 }
 
 TEST(Record, JsonKeepsSamplesAndWhatWasLeftOut) {
-  const nlohmann::ordered_json json = to_json(filled());
+  const Json json = to_json(filled());
   EXPECT_EQ(json["samples_s"].size(), 3u);
   EXPECT_EQ(json["time_s"], 0.2);
   EXPECT_EQ(json["stage_factor_s"], 0.02);
@@ -168,7 +170,7 @@ TEST(MemorySplit, IsInTheRecordByOwnerAndByStage) {
   record.memory = made_up_memory();
   record.factor_entries = 42;
   record.factor_flops = 1.5e6;
-  const nlohmann::ordered_json json = to_json(record);
+  const Json json = to_json(record);
   EXPECT_EQ(json["memory_by_owner"]["factor"].dump(),
             R"({"peak_bytes":9000000,"held_bytes":8000000,"counted_bytes":8000000})");
   EXPECT_TRUE(json["memory_by_owner"]["other"]["counted_bytes"].is_null());
@@ -224,14 +226,12 @@ TEST(Terminal, TableNamesWhatWentWrong) {
 
 // Every key that a record can have comes back from JSON.
 TEST(Record, ComesBackFromJson) {
-  const char* const lines[] = {COMMITTED_RESULTS "/paper/records.jsonl",
-                               COMMITTED_RESULTS "/error/records.jsonl",
-                               COMMITTED_RESULTS "/stability/records.jsonl"};
-  for (const char* file : lines) {
+  for (const char* run : {"paper", "error", "stability"}) {
+    const std::filesystem::path file = testing::results_folder() / run / "records.jsonl";
     std::ifstream in(file);
     int compared = 0;
     for (std::string line; std::getline(in, line) && compared < 200; ++compared) {
-      const auto json = nlohmann::ordered_json::parse(line);
+      const auto json = Json::parse(line);
       const auto once = to_json(record_from_json(json));
       EXPECT_EQ(to_json(record_from_json(once)), once) << file << ":" << compared + 1;
       // These were written before some keys were there: what they have is kept.
@@ -281,4 +281,4 @@ TEST(Record, WithAllThatANewOneHasComesBackFromJson) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::record_test

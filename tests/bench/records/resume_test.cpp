@@ -12,12 +12,13 @@
 #include <set>
 #include <thread>
 
+#include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::resume_test {
 namespace {
 
-using Json = nlohmann::json;
 using testing::BenchCommand;
 using testing::CommandResult;
 
@@ -52,7 +53,7 @@ class Background {
  public:
   Background(const BenchCommand& folder, const std::string& arguments) {
     std::string command = "cd '" + folder.path("").string();
-    command += "' && exec '" BENCH_EXECUTABLE "' ";
+    command += "' && exec '" + testing::bench_executable().string() + "' ";
     command += arguments;
     command += " >bg_out.txt 2>bg_err.txt </dev/null";
     pid_ = fork();
@@ -334,4 +335,4 @@ TEST(Replay, KeepsSceneAndKnob) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::resume_test

@@ -10,7 +10,7 @@
 #include "bench/statistics/multiple_testing.hpp"
 #include "bench/statistics/robust.hpp"
 
-namespace airybench {
+namespace airybench::statistics_test {
 namespace {
 
 // Samples of m and n different values with U = u.
@@ -163,4 +163,4 @@ TEST(Bootstrap, CoversTheMedian) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::statistics_test

@@ -7,8 +7,9 @@
 #include "bench/cases/study.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "tests/bench/studies/expected_table.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::error_points_test {
 namespace {
 
 using testing::ExpectedTable;
@@ -18,8 +19,7 @@ constexpr const char* update =
 constexpr double rounding = 1e-11;  // errors below are compared as this
 
 ExpectedTable& table() {
-  static auto* const environment =
-      new ExpectedTable(std::string(TEST_DATA_DIR) + "/error_points.csv", 4);
+  static auto* const environment = new ExpectedTable(testing::test_data("error_points.csv"), 4);
   return *environment;
 }
 [[maybe_unused]] const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
@@ -62,8 +62,7 @@ TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
   Options options;
   options.study = Study::error;
   options.repetitions = 1;
-  Workbench bench(std::make_shared<const Problem>(
-                      pose(Scene(), read_msh(std::filesystem::path(MESH_DIR) / (mesh + ".msh")))),
+  Workbench bench(std::make_shared<const Problem>(pose(Scene(), testing::catalogue_mesh(mesh))),
                   options);
   if (testing::updating()) table().forget(mesh);
   for (const Method& method : select_methods("SDTIC6,3STEPCG6,ALM:r=20,rho=20,3STEPD,HYBRID,P2"))
@@ -91,4 +90,4 @@ INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints, ::testing::Values("Mesh0", "Mesh1"))
 #endif
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::error_points_test

@@ -10,8 +10,9 @@
 #include "bench/cases/study.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "tests/bench/studies/expected_table.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::stability_outcomes_test {
 namespace {
 
 using testing::ExpectedTable;
@@ -25,7 +26,7 @@ constexpr double longest_s = 3;  // of a case that is in the table
 // Environments are deleted by GoogleTest.
 ExpectedTable& table() {
   static auto* const environment =
-      new ExpectedTable(std::string(TEST_DATA_DIR) + "/stability_outcomes.csv", 2);
+      new ExpectedTable(testing::test_data("stability_outcomes.csv"), 2);
   return *environment;
 }
 [[maybe_unused]] const auto* const registered = ::testing::AddGlobalTestEnvironment(&table());
@@ -80,8 +81,8 @@ class StabilityOutcomes : public ::testing::TestWithParam<std::string> {};
 TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   const std::string scene_name = GetParam();
   const Scene scene = read_scene(stability_scenes().front().parent_path() / (scene_name + ".json"));
-  const auto problem = std::make_shared<const Problem>(
-      pose(scene, read_msh(std::filesystem::path(MESH_DIR) / "Mesh0.msh")));
+  const auto problem =
+      std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
   Options options;
   options.study = Study::stability;
   options.repetitions = 1;
@@ -126,4 +127,4 @@ TEST(StabilityOutcomesTable, HasOnlyScenesThatExist) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::stability_outcomes_test

@@ -5,27 +5,29 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <vector>
 
+#include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
 
-namespace airybench {
+namespace airybench::study_command_test {
 namespace {
 
 class StudyCommand : public ::testing::Test {
  protected:
   int bench(const std::string& arguments) const { return bench_.run(arguments).code; }
   std::string content(const std::string& name) const { return bench_.content(name); }
-  std::vector<nlohmann::json> records() const { return bench_.records(); }
+  std::vector<Json> records() const { return bench_.records(); }
   const testing::BenchCommand bench_;
 };
 
 TEST_F(StudyCommand, StabilityIsOneRecordMeasuredOnce) {
   ASSERT_EQ(bench("--study=stability --mesh=Mesh0 --method=HYBRID --repetitions=3 --out=o "
-                  "--scene='" STABILITY_SCENES "/friction_0.json'"),
+                  "--scene='" +
+                  (testing::stability_scenes_folder() / "friction_0.json").string() + "'"),
             0)
       << content("err.txt");
   const auto all = records();
@@ -76,4 +78,4 @@ TEST_F(StudyCommand, RefusesWhatItCannotStudy) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::study_command_test

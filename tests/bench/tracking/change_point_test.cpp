@@ -7,7 +7,7 @@
 
 #include "tests/bench/tracking/synthetic_history.hpp"
 
-namespace airybench {
+namespace airybench::change_point_test {
 namespace {
 
 std::vector<double> flat(std::size_t nights, double scatter, unsigned seed) {
@@ -124,4 +124,4 @@ TEST(JudgeTimes, TheCommonFactorIsHeldAgainstTheKernel) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::change_point_test

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
 #include "bench/tracking/compare_report.hpp"
 
-namespace airybench {
+namespace airybench::compare_test {
 namespace {
 
 CaseRecord record(const std::string& method, double time_s, int repetitions = 9) {
@@ -106,4 +104,4 @@ TEST(Compare, TheGeometricMeanIsOverTheTimedCases) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::compare_test

@@ -10,7 +10,7 @@
 #include "tests/bench/tracking/synthetic_history.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench {
+namespace airybench::judge_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -246,4 +246,4 @@ TEST(Track, TheUsersArgumentsReplaceTheSelection) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::judge_test

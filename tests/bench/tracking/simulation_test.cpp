@@ -9,7 +9,7 @@
 
 #include "tests/bench/tracking/synthetic_history.hpp"
 
-namespace airybench {
+namespace airybench::simulation_test {
 namespace {
 
 using boost::math::binomial_distribution;
@@ -113,4 +113,4 @@ TEST(Simulation, ASlowdownOfAllCasesDoesNotVanishWithTheCommonFactor) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::simulation_test

@@ -4,15 +4,14 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
 
-namespace airybench {
+namespace airybench::tracking_command_test {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 class TrackingCommand : public ::testing::Test {
  protected:
@@ -116,4 +115,4 @@ TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
 }
 
 }  // namespace
-}  // namespace airybench
+}  // namespace airybench::tracking_command_test

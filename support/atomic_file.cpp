@@ -1,4 +1,4 @@
-#include "assembly/atomic_file.hpp"
+#include "support/atomic_file.hpp"
 
 #include <unistd.h>
 

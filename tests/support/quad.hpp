@@ -1,5 +1,5 @@
-// 113 bits of mantissa, in software (libquadmath): the tests' yardstick. The element formulas are
-// templates over the scalar, instantiated for double, long double and this.
+// 113 bits of mantissa, in software (libquadmath): the yardstick of the hybridized system, whose
+// templates are instantiated for it in quad.cpp.
 #pragma once
 
 #include <boost/multiprecision/eigen.hpp>

@@ -1,4 +1,4 @@
-#include "assembly/sha256.hpp"
+#include "support/sha256.hpp"
 
 #include <openssl/evp.h>
 

@@ -1,0 +1,146 @@
+// The formulas of hct.hpp, for whoever instantiates them for a scalar of their own.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "assembly/hct.hpp"
+
+namespace airybench {
+namespace hct_formulas {
+
+constexpr int next(int i) { return (i + 1) % 3; }
+
+template <typename Scalar>
+using Corners = Eigen::Matrix<Scalar, 2, 3>;  // columns V1 V2 V3
+
+template <typename Scalar>
+Eigen::Matrix<Scalar, 1, 12> directional_derivative(int vertex,
+                                                    const Eigen::Vector2<Scalar>& direction) {
+  Eigen::Matrix<Scalar, 1, 12> row = Eigen::Matrix<Scalar, 1, 12>::Zero();
+  row(3 * vertex + 1) = direction.x();
+  row(3 * vertex + 2) = direction.y();
+  return row;
+}
+
+// Gradients of the barycentric coordinates of triangle abc (columns), 1/mm.
+template <typename Scalar>
+Corners<Scalar> barycentric_gradients(const Eigen::Vector2<Scalar>& a,
+                                      const Eigen::Vector2<Scalar>& b,
+                                      const Eigen::Vector2<Scalar>& c) {
+  const auto inward = [](const Eigen::Vector2<Scalar>& edge) {  // turned left
+    return Eigen::Vector2<Scalar>(-edge.y(), edge.x());
+  };
+  const Eigen::Vector2<Scalar> ab = b - a, ac = c - a;
+  Corners<Scalar> gradients;
+  gradients << inward(c - b), inward(-ac), inward(ab);
+  return gradients / (ab.x() * ac.y() - ab.y() * ac.x());
+}
+
+// The triangle moved to the origin: far from it, sums of coordinates would lose digits.
+template <typename Scalar>
+Corners<Scalar> at_origin(const TriangleVertices& v) {
+  const Corners<Scalar> corners = v.cast<Scalar>();
+  return corners.colwise() - corners.col(0);
+}
+template <typename Scalar>
+Eigen::Vector2<Scalar> mean(const Corners<Scalar>& v) {
+  return (v.col(0) + v.col(1) + v.col(2)) / Scalar(3);
+}
+
+}  // namespace hct_formulas
+
+template <typename Scalar>
+HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& vertices,
+                                           const EdgeSigns& outward) {
+  using namespace hct_formulas;
+  using Vector = Eigen::Vector2<Scalar>;
+  const Scalar two = 2, three = 3;
+  const Corners<Scalar> v = at_origin<Scalar>(vertices);
+  const Vector centroid = mean(v);
+  HctCoefficientsIn<Scalar> c = HctCoefficientsIn<Scalar>::Zero();
+  for (int i = 0; i < 3; ++i) {
+    c(i, 3 * i) = 1;
+    c.row(9 + i) = c.row(i) + directional_derivative<Scalar>(i, (centroid - v.col(i)) / three);
+  }
+  for (int t = 0; t < 3; ++t) {
+    const int i = t, j = next(t);
+    const Vector edge = v.col(j) - v.col(i);
+    c.row(3 + 2 * t) = c.row(i) + directional_derivative<Scalar>(i, edge / three);
+    c.row(4 + 2 * t) = c.row(j) - directional_derivative<Scalar>(j, edge / three);
+
+    // The derivative along α_i V_i + α_j V_j + α_4 V_4 = n at the edge's middle is
+    // 3/4 Σ_p α_p (c_{200+p} + 2 c_{110+p} + c_{020+p}); solve for c_111, which comes with α_4.
+    const Vector normal = Vector(edge.y(), -edge.x()) / edge.norm();
+    const Eigen::Vector3<Scalar> alpha =
+        barycentric_gradients<Scalar>(v.col(i), v.col(j), centroid).transpose() * normal;
+    auto inner = c.row(12 + t);
+    inner(9 + t) = Scalar(outward[t] * 4) / three;
+    inner -= alpha(0) * (c.row(i) + two * c.row(3 + 2 * t) + c.row(4 + 2 * t));
+    inner -= alpha(1) * (c.row(3 + 2 * t) + two * c.row(4 + 2 * t) + c.row(j));
+    inner -= alpha(2) * (c.row(9 + i) + c.row(9 + j));
+    inner /= two * alpha(2);
+  }
+  for (int i = 0; i < 3; ++i)
+    c.row(15 + i) = (c.row(9 + i) + c.row(12 + i) + c.row(12 + next(next(i)))) / three;
+  c.row(18) = (c.row(15) + c.row(16) + c.row(17)) / three;
+  return c;
+}
+
+template <typename Scalar>
+HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns& outward) {
+  using namespace hct_formulas;
+  const Corners<Scalar> v = at_origin<Scalar>(vertices);
+  // Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
+  // (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
+  constexpr int at[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
+  const HctCoefficientsIn<Scalar> c = hct_coefficients<Scalar>(vertices, outward);
+  const Eigen::Vector2<Scalar> centroid = mean(v);
+  HctStressIn<Scalar> stress;
+  for (int t = 0; t < 3; ++t) {
+    const Corners<Scalar> g = barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid);
+    // Second derivatives at corner m: 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}.
+    Eigen::Matrix<Scalar, 3, 6> weights;  // rows φ,yy  φ,xx  −φ,xy
+    for (int p = 0; p < 3; ++p)
+      weights.col(p) << g(1, p) * g(1, p), g(0, p) * g(0, p), -g(0, p) * g(1, p);
+    for (int k = 0; k < 3; ++k) {
+      const int p = k == 2 ? 1 : 0, q = k == 0 ? 1 : 2;
+      weights.col(3 + k) << 2 * g(1, p) * g(1, q), 2 * g(0, p) * g(0, q),
+          -g(0, p) * g(1, q) - g(0, q) * g(1, p);
+    }
+    weights *= Scalar(6);
+    const std::array<int, 10> third = hct_third(t);
+    for (int m = 0; m < 3; ++m) {
+      Eigen::Matrix<Scalar, 6, 12> near;
+      for (int k = 0; k < 6; ++k) near.row(k) = c.row(third[at[m][k]]);
+      stress.template middleRows<3>(3 * (3 * t + m)) = weights.lazyProduct(near);
+    }
+  }
+  return stress;
+}
+
+template <typename Scalar>
+HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& stress,
+                                         std::type_identity_t<Scalar> area_mm2,
+                                         const Eigen::Matrix3d& compliance) {
+  using std::sqrt;
+  // With compliance = RᵀR the flexibility is MᵀM, where M stacks √(a/12) R σ for the sum and the
+  // three corner values of every third.
+  const Eigen::Matrix3<Scalar> root = compliance.cast<Scalar>().llt().matrixU();
+  const Eigen::Matrix3<Scalar> weight = root * sqrt(area_mm2 / Scalar(36));
+  Eigen::Matrix<Scalar, 36, 12> m;
+  for (int t = 0; t < 3; ++t) {
+    for (int corner = 0; corner < 3; ++corner)
+      m.template middleRows<3>(12 * t + 3 * corner) =
+          weight.lazyProduct(stress.template middleRows<3>(9 * t + 3 * corner));
+    m.template middleRows<3>(12 * t + 9) = m.template middleRows<3>(12 * t) +
+                                           m.template middleRows<3>(12 * t + 3) +
+                                           m.template middleRows<3>(12 * t + 6);
+  }
+  HctFlexibilityIn<Scalar> flexibility;
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i <= j; ++i) flexibility(i, j) = flexibility(j, i) = m.col(i).dot(m.col(j));
+  return flexibility;
+}
+
+}  // namespace airybench

@@ -1,0 +1,94 @@
+// The templates of hybridized.hpp, for whoever instantiates them for a scalar of their own.
+#pragma once
+
+#include "assembly/edge_forces.hpp"
+#include "assembly/sparse_bytes.hpp"
+#include "solvers/condensation/hybrid_element.hpp"
+#include "solvers/condensation/hybridized.hpp"
+
+namespace airybench {
+
+// Adds the prescribed forces on Γ_F to b.
+template <typename Scalar>
+void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::VectorX<Scalar>& b) {
+  if (!problem.loads.traction_MPa) return;
+  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
+    const int edge = problem.edges.of_boundary[row];
+    const auto [start, stop] = problem.mesh.boundary[row].vertices;
+    const EdgeFrame frame = edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[stop]);
+    for (int end = 0; end < 2; ++end) {
+      const auto& at = problem.mesh.vertices[problem.edges.vertices[edge][end]];
+      const Eigen::Vector2d force =
+          frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal);
+      for (int k = 0; k < 2; ++k) b(unknown[edge][2 * end + k]) += force(k);
+    }
+  }
+}
+
+template <typename Scalar>
+std::size_t HybridizedSystemIn<Scalar>::bytes() const {
+  return bytes_of(K) + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
+         unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
+}
+
+template <typename Scalar>
+HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
+                                               const ContactPoints& contact) {
+  HybridizedSystemIn<Scalar> system;
+  system.n_c = contact.size();
+  const int n = number_unknowns(problem, contact, system.unknown) + system.n_c;
+  system.displacement = prescribed_displacements(problem);
+  const std::vector<bool> is_contact = contact_edges(problem);
+  system.b = Eigen::VectorX<Scalar>::Zero(n);
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  entries.reserve(78 * problem.mesh.triangles.size());
+
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const auto element = make_hybrid_element<Scalar>(problem, is_contact, t);
+    const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
+    const Eigen::Matrix<Scalar, 12, 12> K = element.stiffness();
+    Eigen::Matrix<Scalar, 12, 1> f = element.load();  // f_e + K_e ū0
+    if (!system.displacement.empty())
+      for (int k = 0; k < 3; ++k)
+        f += K.template middleCols<4>(4 * k) *
+             system.displacement[problem.edges.of_triangle[t][k]].template cast<Scalar>();
+
+    for (int j = 0; j < 12; ++j) {
+      const int column = unknown[j];
+      if (column == prescribed_unknown) continue;
+      system.b(column) -= f(j);
+      for (int i = 0; i < 12; ++i)
+        if (unknown[i] >= column)  // the lower triangle, and nothing prescribed
+          entries.emplace_back(unknown[i], column, K(i, j));
+    }
+  }
+  add_tractions(problem, system.unknown, system.b);
+  system.K.resize(n, n);
+  system.K.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+template <typename Scalar>
+StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
+                              const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
+  const std::vector<bool> is_contact = contact_edges(problem);
+  StressField field(problem.mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+    const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
+    Eigen::Matrix<Scalar, 12, 1> local;
+    for (int k = 0; k < 12; ++k) {
+      const int edge = problem.edges.of_triangle[t][k / 4];
+      if (unknown[k] != prescribed_unknown)
+        local(k) = u(unknown[k]);
+      else
+        local(k) = system.displacement.empty() ? 0 : system.displacement[edge](k % 4);
+    }
+    field[t] = make_hybrid_element<Scalar>(problem, is_contact, t)
+                   .stress_at(local)
+                   .template cast<double>();
+  }
+  return field;
+}
+
+}  // namespace airybench

@@ -1,0 +1,15 @@
+#include "tests/support/quad.hpp"
+
+#include "assembly/edge_forces_templates.hpp"
+#include "assembly/hct_templates.hpp"
+#include "assembly/stress_field_templates.hpp"
+#include "solvers/condensation/hybrid_element_templates.hpp"
+#include "solvers/condensation/hybridized_templates.hpp"
+
+namespace airybench {
+
+template HybridizedSystemIn<Quad> assemble_hybridized(const Problem&, const ContactPoints&);
+template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<Quad>&,
+                                       const Eigen::VectorX<Quad>&);
+
+}  // namespace airybench
