@@ -1,5 +1,7 @@
-// A committed table of what runs gave, which tests compare with. With AIRYBENCH_UPDATE=1 in the
-// environment tests note what they find instead, and the table is written when the program ends.
+// A committed table of what runs gave, which tests compare with. With AIRYBENCH_UPDATE=anew in the
+// environment tests note what they find instead, with AIRYBENCH_UPDATE=widen they let the table's
+// values include it, and the table is written when the program ends. tests/update_tables.sh does
+// both, under several kernels of OpenBLAS.
 //
 // The file: '#' lines, a header, rows of comma-separated fields; a field with a comma is quoted.
 #pragma once
@@ -11,14 +13,21 @@
 #include <fstream>
 #include <map>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 namespace airybench::testing {
 
-inline bool updating() {
+enum class Update { no, anew, widen };
+
+inline Update update() {
   const char* value = std::getenv("AIRYBENCH_UPDATE");
-  return value != nullptr && std::string(value) == "1";
+  if (value == nullptr) return Update::no;
+  const std::string word = value;
+  if (word == "anew") return Update::anew;
+  if (word == "widen") return Update::widen;
+  throw std::invalid_argument("AIRYBENCH_UPDATE: " + word + " (allowed: anew, widen)");
 }
 
 class ExpectedTable : public ::testing::Environment {
@@ -49,7 +58,7 @@ class ExpectedTable : public ::testing::Environment {
     std::erase_if(rows_, [&](const auto& row) { return row.first.front() == first_key; });
   }
   void TearDown() override {
-    if (!updating()) return;
+    if (update() == Update::no) return;
     std::ofstream out(file_);
     out << head_;
     for (const auto& [key, values] : rows_) {
