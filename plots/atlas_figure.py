@@ -101,9 +101,10 @@ def draw_cells(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
             letter, fill = digits(row), shade(digits(row))
         x, y = columns.index((row.scene_group, row.scene)), methods.index(row.method)
         wrong = row.outcome == "wrong_success"
-        axes.add_patch(Rectangle((x, y), 1, 1, facecolor=fill, zorder=2 + wrong, clip_on=False,
-                                 edgecolor="black" if wrong else "white",
-                                 linewidth=1.6 if wrong else 0.6))
+        # Not add_patch: it measures each for the limits, which are set.
+        axes.add_artist(Rectangle((x, y), 1, 1, facecolor=fill, zorder=2 + wrong, clip_on=False,
+                                  edgecolor="black" if wrong else "white",
+                                  linewidth=1.6 if wrong else 0.6))
         axes.text(x + 0.5, y + 0.53, letter, color=ink, ha="center", va="center",
                   fontsize=SIZE, zorder=4, weight="normal" if row.outcome == "ok" else "bold")
 

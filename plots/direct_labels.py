@@ -80,19 +80,26 @@ class Labels:
         low, high = np.array([[box.x0, box.y0], [box.x1, box.y1]]) * 72 / self.axes.figure.dpi
         around = np.linspace(0, 2 * np.pi, DIRECTIONS, endpoint=False)
         unit = np.column_stack([np.cos(around), np.sin(around)])
-        seen = np.vstack(self.obstacles) if self.obstacles else np.empty((0, 2))
+        # The box's border, not its centre, is so far away.
+        reach = np.sign(np.round(unit, 6)) * half * np.minimum(1, 1.5 * np.abs(unit))
+        seen = np.vstack([np.empty((0, 2)), *self.obstacles])
+        starts, ends = np.split(np.reshape(self.boxes, (-1, 4)), 2, axis=1)
         best = (np.inf, anchors[0], np.clip(anchors[0], low + half, high - half))
         for k, anchor in enumerate(anchors):
             for distance in DISTANCES:
-                # The box's border, not its centre, is so far away.
-                reach = np.sign(np.round(unit, 6)) * half * np.minimum(1, 1.5 * np.abs(unit))
-                for centre in anchor + distance * unit + reach:
-                    if (centre - half < low).any() or (centre + half > high).any():
-                        continue
-                    hidden = (np.abs(seen - centre) < half + 1).all(1).sum()
-                    crossed = sum((np.abs((b[:2] + b[2:]) / 2 - centre)
-                                   < half + (b[2:] - b[:2]) / 2).all() for b in self.boxes)
-                    cost = 1000 * crossed + 12 * hidden + distance + 3 * k
-                    if cost < best[0]:
-                        best = (cost, anchor, centre)
+                nearest = distance + 3 * k
+                if nearest >= best[0]:
+                    break  # what is farther costs more
+                centres = anchor + distance * unit + reach
+                centres = centres[((centres - half >= low) & (centres + half <= high)).all(1)]
+                hidden = count_near(seen, centres, half + 1)
+                crossed = count_near((starts + ends) / 2, centres, half + (ends - starts) / 2)
+                costs = 1000 * crossed + 12 * hidden + nearest
+                if len(costs) and costs.min() < best[0]:
+                    best = (costs.min(), anchor, centres[costs.argmin()])
         return best[1], best[2]
+
+
+def count_near(points: np.ndarray, centres: np.ndarray, reach: np.ndarray) -> np.ndarray:
+    """(m,): how many points (n, 2) are less than reach away, in x and in y, from centres (m, 2)."""
+    return (np.abs(points - centres[:, None]) < reach).all(2).sum(1)

@@ -11,6 +11,9 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+# Of a colour's value: what is left of it in steps of 6.
+STEPS = (255 - (255 - np.arange(256) + 2) // 6 * 6).astype(np.uint8)
+
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
     """Each writer writes its file beside its place; when all are there they are moved to it."""
@@ -27,9 +30,7 @@ def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = 
     figure.set_dpi(dpi)
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
-    pixels = np.asarray(canvas.buffer_rgba())[..., :3].astype(int)
-    rounded = 255 - (255 - pixels + 2) // 6 * 6
-    image = Image.fromarray(rounded.astype(np.uint8))
+    image = Image.fromarray(STEPS[np.asarray(canvas.buffer_rgba())[..., :3]])
     if colours:
         image = image.quantize(colours, dither=Image.Dither.NONE)
     image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))

@@ -75,13 +75,14 @@ class ErrorScale:
         low = max(math.floor(math.log10(min(errors, default=1e-12))), -16)
         high = min(math.ceil(math.log10(max(errors, default=1e-12))), 3)  # beyond: as there
         self.norm = LogNorm(10.0**low, 10.0**max(high, low + 1), clip=True)
+        self.colours = colormaps[COLORMAP]  # a copy
 
     def fill(self, row: Row, mark: str) -> object:
         if mark != "done":
             return "white"
         if row.error_force is None:
             return UNKNOWN
-        return colormaps[COLORMAP](self.norm(max(row.error_force, self.norm.vmin)))
+        return self.colours(self.norm(max(row.error_force, self.norm.vmin)))
 
     def bar(self, figure: Figure, left: float, bottom: float, width: float) -> None:
         size = figure.get_size_inches()

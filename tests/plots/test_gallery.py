@@ -1,11 +1,11 @@
 """plots/gallery.py on a made-up square of two triangles.  /usr/bin/python3 -m unittest FILE"""
 import shutil
 import struct
-import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 
@@ -15,8 +15,11 @@ sys.path.insert(0, str(PLOTS))
 import error_map  # noqa: E402
 import field_drawing  # noqa: E402
 import fields  # noqa: E402
+import gallery  # noqa: E402
+from running import run, run_command  # noqa: E402
 
 CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
+LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
 TRIANGLES = [(0, 1, 2), (0, 2, 3)]
 NAMES = [f"{mesh}-default-3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4")]
 
@@ -33,32 +36,46 @@ def write_shares(folder: Path, name: str, shares: list[object]) -> Path:
     return path
 
 
-def write_solution(folder: Path, name: str, contact: bool = True) -> None:
+def write_solution(folder: Path, name: str, contact: bool = True,
+                   corners: list[tuple[int, int]] = CORNERS) -> None:
     rows = [fields.STRESS]
     for t, vertices in enumerate(TRIANGLES):
-        v = [np.array(CORNERS[i], float) for i in vertices]
+        v = [np.array(corners[i], float) for i in vertices]
         for c in range(9):
             third, corner = divmod(c, 3)
             x, y = sum(v) / 3 if corner == 2 else v[(third + corner) % 3]
             rows.append(",".join(map(str, (t + 1, third + 1, corner + 1, x, y, *stress_at(x, y)))))
     roles = ["force", "contact" if contact else "force", "force", "displacement"]
-    edges = [(*CORNERS[k], *CORNERS[(k + 1) % 4], role) for k, role in enumerate(roles)]
-    points = ["2,0,1,0,2,-30,-6,slip", "2,2,1,0,2,0,0,open"] if contact else []
+    edges = [(*corners[k], *corners[(k + 1) % 4], role) for k, role in enumerate(roles)]
+    (x, y), (_, end) = corners[1:3]
+    points = [f"{x},{y},1,0,{end - y},-30,-6,slip", f"{x},{end},1,0,{end - y},0,0,open"] \
+        if contact else []
     for part, lines in (("stress", rows), ("contact", [fields.CONTACT, *points]),
                         ("boundary", [fields.BOUNDARY, *(",".join(map(str, e)) for e in edges)])):
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
+SMALL = mock.patch.object(gallery, "DPI", 20)
+
+
 class GalleryTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        """The four meshes, drawn by a process of its own, and again with --each and --out."""
+        cls.four = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, cls.four)
+        (cls.four / "fields").mkdir()
+        for name in NAMES:
+            write_solution(cls.four / "fields", name, contact=name == NAMES[3], corners=LOW)
+        cls.out = cls.four / "some" / "where"
+        cls.command = run_command(gallery, cls.four)
+        cls.each = run(gallery, cls.four, "--each", "--out", cls.out)
+
     def setUp(self) -> None:
         self.results = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, self.results)
         self.fields = self.results / "fields"
         self.fields.mkdir()
-
-    def run_gallery(self, *arguments: object) -> subprocess.CompletedProcess:
-        return subprocess.run([sys.executable, PLOTS / "gallery.py", *map(str, arguments)],
-                              capture_output=True, text=True, check=False)
 
     def assert_png(self, path: Path, width: int, most_bytes: int = 1_000_000) -> None:
         data = path.read_bytes()
@@ -66,14 +83,14 @@ class GalleryTest(unittest.TestCase):
         self.assertEqual(struct.unpack(">I", data[16:20])[0], width)
         self.assertLess(len(data), most_bytes)
 
-    def assert_refused(self, *parts: str, arguments: tuple = ()) -> None:
+    def assert_refused(self, *parts: str, arguments: tuple = (),
+                       in_a_process: bool = False) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        done = self.run_gallery(self.results, *arguments)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stdout, "")
-        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
-        for part in parts:
-            self.assertIn(part, done.stderr)
+        for start in (run, run_command) if in_a_process else (run,):
+            status, out, err = start(gallery, self.results, *arguments)
+            self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
+            for part in parts:
+                self.assertIn(part, err)
         self.assertFalse((self.results / "figures").exists())
 
     def edit(self, part: str, change) -> str:
@@ -85,11 +102,8 @@ class GalleryTest(unittest.TestCase):
         return str(path)
 
     def test_the_four_meshes_make_one_picture(self) -> None:
-        for name in NAMES:
-            write_solution(self.fields, name)
-        done = self.run_gallery(self.results)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        figures = self.results / "figures"
+        self.assertEqual((self.command[0], self.command[2]), (0, ""))
+        figures = self.four / "figures"
         self.assertEqual({p.name for p in figures.iterdir()}, {"gallery.png", "gallery.svg"})
         self.assert_png(figures / "gallery.png", 1600)
         svg = (figures / "gallery.svg").read_text()
@@ -97,42 +111,37 @@ class GalleryTest(unittest.TestCase):
         self.assertLess(len(svg), 2_000_000)
 
     def test_each_and_out(self) -> None:
-        for name in NAMES:
-            write_solution(self.fields, name)
-        out = self.results / "some" / "where"
-        self.assertEqual(self.run_gallery(self.results, "--each", "--out", out).returncode, 0)
-        self.assertEqual({p.name for p in out.iterdir()},
+        self.assertEqual(self.each[0], 0)
+        self.assertEqual({p.name for p in self.out.iterdir()},
                          {"gallery.png", "gallery.svg", *(f"fields_{name}.png" for name in NAMES)})
 
     def test_without_the_four_meshes_each_solution_has_its_picture(self) -> None:
-        write_solution(self.fields, NAMES[1], contact=False)
-        self.assertEqual(self.run_gallery(self.results).returncode, 0)
+        write_solution(self.fields, NAMES[1], contact=False, corners=LOW)
+        self.assertEqual(run(gallery, self.results)[0], 0)
         figures = self.results / "figures"
         self.assertEqual([p.name for p in figures.iterdir()], [f"fields_{NAMES[1]}.png"])
         self.assert_png(figures / f"fields_{NAMES[1]}.png", 1600)
 
     def test_the_same_input_gives_the_same_picture(self) -> None:
-        for name in NAMES:
-            write_solution(self.fields, name)
-        for out in ("a", "b"):
-            self.run_gallery(self.results, "--out", self.results / out)
         for name in ("gallery.png", "gallery.svg"):
-            self.assertEqual((self.results / "a" / name).read_bytes(),
-                             (self.results / "b" / name).read_bytes(), name)
+            self.assertEqual((self.four / "figures" / name).read_bytes(),
+                             (self.out / name).read_bytes(), name)
 
     def test_element_map_of_the_error(self) -> None:
-        write_solution(self.fields, NAMES[1])
+        write_solution(self.fields, NAMES[1], contact=False)
         write_shares(self.fields, NAMES[1], [0.25, 0.75])
-        self.assertEqual(self.run_gallery(self.results).returncode, 0)
+        with SMALL:
+            self.assertEqual(run(gallery, self.results)[0], 0)
         picture = self.results / "figures" / f"error_map_{NAMES[1]}.png"
         self.assert_png(picture, 686, most_bytes=300_000)
 
     def test_no_error_no_map(self) -> None:
-        write_solution(self.fields, NAMES[1])
+        write_solution(self.fields, NAMES[1], contact=False)
         write_shares(self.fields, NAMES[1], [0, 0])
-        done = self.run_gallery(self.results)
-        self.assertEqual((done.returncode, done.stderr), (0, ""))
-        self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", done.stdout)
+        with SMALL:
+            status, out, err = run(gallery, self.results)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", out)
 
     def test_element_map_that_cannot_be(self) -> None:
         write_solution(self.fields, NAMES[1])
@@ -154,7 +163,7 @@ class GalleryTest(unittest.TestCase):
     def test_missing_file(self) -> None:
         path = self.edit("contact", lambda lines: lines)
         Path(path).unlink()
-        self.assert_refused(path, "No such file")
+        self.assert_refused(path, "No such file", in_a_process=True)
 
     def test_truncated_row(self) -> None:
         path = self.edit("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]])

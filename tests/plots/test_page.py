@@ -2,16 +2,19 @@
 import json
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
+from collections.abc import Callable
 from pathlib import Path
 
-import made_up_history as made_up
-from browser import CHROMIUM, Element, browse
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
 
-PAGE = Path(__file__).resolve().parents[2] / "plots" / "page.py"
+import made_up_history as made_up  # noqa: E402
+import page as page_program  # noqa: E402
+from browser import CHROMIUM, Browser, Element  # noqa: E402
+from running import run, run_command  # noqa: E402
+
 # A pixel.
 PNG = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010806000000"
                     "1f15c4890000000d49444154789c626001000000ffff03000006000557bfab"
@@ -27,20 +30,24 @@ class PageTest(unittest.TestCase):
             raise AssertionError("no chromium: the page cannot be tested (Debian: chromium)")
         cls.folder = Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder, ignore_errors=True)
-        cls.page = cls.make(made_up.write_history(cls.folder / "history"))
+        cls.page = cls.make(made_up.write_history(cls.folder / "history"), start=run_command)
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
 
     @classmethod
-    def make(cls, *arguments: object, name: str = "page.html") -> Path:
+    def make(cls, *arguments: object, name: str = "page.html",
+             start: Callable = run) -> Path:
         out = cls.folder / name
-        subprocess.run([sys.executable, PAGE, *map(str, arguments), f"--out={out}"], check=True,
-                       capture_output=True, text=True)
+        status, _, err = start(page_program, *arguments, f"--out={out}")
+        if status != 0:
+            raise AssertionError(f"page.py ended with {status}: {err}")
         return out
 
     def shown(self, fragment: str = "", page: Path | None = None) -> Element:
         """Without a complaint and without a request; each view is browsed to once."""
         view = (fragment, page or self.page)
         if view not in self.views:
-            seen = browse(page or self.page, fragment)
+            seen = self.browser.browse(page or self.page, fragment)
             self.assertEqual((seen.console, seen.requests), ([], []))
             self.views[view] = seen.document
         return self.views[view]
@@ -188,13 +195,13 @@ class PageTest(unittest.TestCase):
         """A page with an error and a request, which the policy would forbid."""
         page = self.changed_page("bad.html", ("</body>", "<script>nothing();</script>"
                                               "<img src='http://127.0.0.1:9/x.png'></body>"))
-        seen = browse(page)
+        seen = self.browser.browse(page)
         self.assertEqual(seen.requests, ["http://127.0.0.1:9/x.png"])
         self.assertTrue(any("nothing is not defined" in line for line in seen.console))
         kept = self.folder / "kept.html"
         kept.write_text(self.page.read_text(encoding="utf-8").replace(
             "</body>", "<img src='http://127.0.0.1:9/x.png'></body>"), encoding="utf-8")
-        seen = browse(kept)
+        seen = self.browser.browse(kept)
         self.assertEqual(seen.requests, [])
         self.assertTrue(any("Content Security Policy" in line for line in seen.console))
 
@@ -216,12 +223,11 @@ class WrongInputTest(unittest.TestCase):
         self.history = made_up.write_history(self.folder / "history", nights=2)
         self.file = sorted((self.history / "nights").iterdir())[0]
 
-    def expect(self, line: str, *arguments: object) -> None:
+    def expect(self, line: str, *arguments: object, start: Callable = run) -> None:
         out = self.folder / "page.html"
-        done = subprocess.run([sys.executable, PAGE, *map(str, arguments or [self.history]),
-                               f"--out={out}"], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertEqual(done.stderr, f"page.py: {line}\n")
+        status, _, err = start(page_program, *(arguments or [self.history]), f"--out={out}")
+        self.assertEqual(status, 2, err)
+        self.assertEqual(err, f"page.py: {line}\n")
         self.assertFalse(out.exists())
         self.assertEqual(list(self.folder.glob(".page*")), [])
 
@@ -237,7 +243,8 @@ class WrongInputTest(unittest.TestCase):
 
     def test_folders(self) -> None:
         missing = self.folder / "nowhere"
-        self.expect(f"{missing}/nights: no *.json; expected what bench track writes", missing)
+        self.expect(f"{missing}/nights: no *.json; expected what bench track writes", missing,
+                    start=run_command)
         self.expect(f"{missing}: no such folder; expected the --out of bench", self.history,
                     missing)
 
@@ -275,10 +282,9 @@ class WrongInputTest(unittest.TestCase):
                     results)
 
     def test_a_file_that_cannot_be_written(self) -> None:
-        done = subprocess.run([sys.executable, PAGE, self.history, "--out=/nowhere/page.html"],
-                              capture_output=True, text=True)
-        self.assertEqual(done.returncode, 2)
-        self.assertEqual(len(done.stderr.splitlines()), 1)
+        status, _, err = run(page_program, self.history, "--out=/nowhere/page.html")
+        self.assertEqual(status, 2)
+        self.assertEqual(len(err.splitlines()), 1)
 
 
 if __name__ == "__main__":

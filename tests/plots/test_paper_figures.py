@@ -1,7 +1,5 @@
 """plots/paper_figures.py on made-up results.  /usr/bin/python3 -m unittest FILE"""
-import contextlib
 import csv
-import io
 import shutil
 import subprocess
 import sys
@@ -20,6 +18,7 @@ from matplotlib.transforms import Bbox
 PLOTS = Path(__file__).resolve().parents[2] / "plots"
 sys.path.insert(0, str(PLOTS))
 
+import drawn  # noqa: E402
 import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
 import figure_words  # noqa: E402
@@ -28,6 +27,7 @@ import paper_figures  # noqa: E402
 import results_table  # noqa: E402
 import size_figure  # noqa: E402
 from paper_sizes import SIZES  # noqa: E402
+from running import run  # noqa: E402
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
 POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(method_names.COMPARED)}
@@ -47,6 +47,11 @@ def power_laws(**cells: object) -> list[dict[str, object]]:
     return [case(mesh, method, time_s=1e-7 * size.n_phi**POWER[method],
                  peak_heap_bytes=50 * size.n_phi**1.25, **cells)
             for mesh, size in SIZES.items() for method in method_names.COMPARED]
+
+
+def without_heap(rows: list[dict[str, object]]) -> list[dict[str, object]]:
+    """Figure 5 is left out."""
+    return [row | {"peak_heap_bytes": ""} for row in rows]
 
 
 def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
@@ -69,35 +74,23 @@ class PaperFiguresTest(unittest.TestCase):
             writer.writeheader()
             writer.writerows(rows)
 
-    def run_figures(self, *arguments: object) -> tuple[int, str, str]:
-        """Exit status, stdout, stderr."""
-        out, err, status = io.StringIO(), io.StringIO(), 0
-        words = ["paper_figures.py", *map(str, arguments or (self.results,))]
-        with mock.patch.object(sys, "argv", words), contextlib.redirect_stdout(out), \
-                contextlib.redirect_stderr(err):
-            try:
-                paper_figures.main()
-            except SystemExit as end:
-                status = end.code
-        return status, out.getvalue(), err.getvalue()
-
     def draw(self, rows: list[dict[str, object]]) -> tuple[str, dict[str, str]]:
         """stdout, and the words in each figure; nothing is rendered."""
         self.write(rows)
         words = {}
 
         def keep(figure: Figure, path: Path) -> None:
-            texts = [t.get_text() for t in figure.findobj(lambda a: hasattr(a, "get_text"))]
-            words[path.stem] = " ".join(texts)
+            if path.stem not in words:  # as .svg and .png
+                words[path.stem] = drawn.words_of(figure)
             path.touch()
         with mock.patch.object(paper_figures, "write", keep):
-            status, out, err = self.run_figures()
+            status, out, err = run(paper_figures, self.results)
         self.assertEqual((status, err), (0, ""))
         return out, words
 
     def assert_refused(self, *parts: str) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = self.run_figures()
+        status, out, err = run(paper_figures, self.results)
         self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
         for part in parts:
             self.assertIn(part, err)
@@ -108,9 +101,10 @@ class PaperFiguresTest(unittest.TestCase):
         self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
 
     def test_all_figures_of_both_stops(self) -> None:
-        rows = power_laws() + [row for row in preconditioners() if "DTIC4" in row["method"]]
+        rows = power_laws()[:9] + [row for row in preconditioners() if "DTIC4" in row["method"]]
         self.write(rows + [row | {"stop": "paper"} for row in rows])
-        status, out, err = self.run_figures()
+        with drawn.without_minor_ticks(), mock.patch.object(paper_figures, "DPI", 50):
+            status, out, err = run(paper_figures, self.results)
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
                  for kind in ("svg", "png")} | {"table1.md"}
@@ -121,23 +115,23 @@ class PaperFiguresTest(unittest.TestCase):
             self.assertIn(start, (b"\x89PNG\r\n\x1a\n", b"<?xml ve"), name)
 
     def test_the_same_input_gives_the_same_files(self) -> None:
-        self.write(power_laws()[:9])
+        self.write(without_heap(power_laws()[:9]))
         for out in ("a", "b"):
-            self.assertEqual(self.run_figures(self.results, "--out", self.results / out)[0], 0)
+            self.assertEqual(run(paper_figures, self.results, "--out", self.results / out)[0], 0)
         for name in ("figure4.svg", "figure4.png", "table1.md"):
             self.assertEqual((self.results / "a" / name).read_bytes(),
                              (self.results / "b" / name).read_bytes(), name)
 
     def test_without_rows_of_a_figure_it_is_left_out_and_said(self) -> None:
-        out, words = self.draw(power_laws())
+        out, words = self.draw(power_laws()[:9])
         self.assertEqual(set(words), {"figure4", "figure5"})
         self.assertIn("figure3: left out: no rows of preconditioners beyond those", out)
         self.assertIn("figure4_paper_stop: left out: no rows with stop=paper", out)
         (self.figures / "figure3.svg").touch()
-        self.assertIn("an earlier figure3.svg stays", self.draw(power_laws())[0])
+        self.assertIn("an earlier figure3.svg stays", self.draw(power_laws()[:9])[0])
 
     def test_exponents_of_power_laws(self) -> None:
-        words = self.draw(power_laws())[1]
+        words = self.draw(power_laws()[:27])[1]  # three meshes
         for power in POWER.values():
             self.assertIn(f"$n^{{{power:.2f}}}$", words["figure4"])
         self.assertEqual(words["figure5"].count("$n^{1.25}$"), 9)
@@ -145,7 +139,7 @@ class PaperFiguresTest(unittest.TestCase):
     def test_exponents_need_three_completed_points(self) -> None:
         self.assertIsNone(size_figure.exponent([10, 100], [1, 10]))
         self.assertAlmostEqual(size_figure.exponent([10, 100, 1000], [1, 10, 100]), 1)
-        rows = [row for row in power_laws() if row["method"] == "3STEPD"]
+        rows = [row for row in without_heap(power_laws()) if row["method"] == "3STEPD"]
         for row in rows[2:]:
             row |= UNFINISHED | dict(status="timeout", done_fraction=0.5, extrapolated_time_s=9e9)
         self.assertNotIn("$n^{", self.draw(rows)[1]["figure4"])
@@ -154,7 +148,7 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn(f"$n^{{{POWER['3STEPD']:.2f}}}$", self.draw(rows)[1]["figure4"])
 
     def test_no_case_is_dropped_silently(self) -> None:
-        rows = power_laws()
+        rows = power_laws()[-18:]
         outcomes = [dict(status="timeout", done_fraction=0.12, extrapolated_time_s=5e3),
                     dict(status="timeout", done_fraction=0.001),
                     dict(status="not_converged"), dict(status="breakdown"),
@@ -186,7 +180,8 @@ class PaperFiguresTest(unittest.TestCase):
     def test_heap_that_was_not_counted(self) -> None:
         rows = power_laws()
         rows[0]["peak_heap_bytes"] = ""
-        self.assertIn("no point: SDTIC3 on Mesh0 (heap not counted)", self.draw(rows)[1]["figure5"])
+        words = self.draw(rows[:9])[1]["figure5"]
+        self.assertIn("no point: SDTIC3 on Mesh0 (heap not counted)", words)
         for row in rows:
             row["peak_heap_bytes"] = ""
         out, words = self.draw(rows)
@@ -213,7 +208,7 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn("part, 761 degrees", self.draw(rows)[1]["figure3"])
 
     def test_captions(self) -> None:
-        rows = power_laws(threads=2)
+        rows = without_heap(power_laws(threads=2)[:9])
         rows[0] |= dict(status="inaccurate", repetitions=1, tuning_s=3, error_force=1e-3,
                         status_reason="error_force 1.00e-03 is above the target 1e-06")
         words = self.draw(rows)[1]["figure4"]
@@ -260,7 +255,7 @@ class PaperFiguresTest(unittest.TestCase):
         for arguments, part in ((("--nonsense",), "--nonsense"),
                                 (("--out", self.csv), "expected a folder to write to")):
             with mock.patch.object(paper_figures, "write"):
-                status, _, err = self.run_figures(self.results, *arguments)
+                status, _, err = run(paper_figures, self.results, *arguments)
             self.assertEqual((status, err.count("\n")), (2, 1), err)
             self.assertIn(part, err)
 
@@ -319,20 +314,21 @@ class LayoutTest(unittest.TestCase):
             row |= {key: None for key, value in row.items() if value == ""} | {"status_reason": ""}
         read = [results_table.Row(**row, target_error=None) for row in rows]
         scale = figure_parts.ErrorScale(read)
-        drawn: list[Text] = []
+        painted: list[Text] = []
         paint = Text.draw
 
         def keep(words: Text, renderer: object) -> None:
-            drawn.append(words)
+            painted.append(words)
             paint(words, renderer)
         for draw in paper_figures.FIGURES.values():
-            drawn.clear()
-            with matplotlib.rc_context(figure_parts.STYLE), mock.patch.object(Text, "draw", keep):
+            painted.clear()
+            with matplotlib.rc_context(figure_parts.STYLE), drawn.without_minor_ticks(), \
+                    mock.patch.object(Text, "draw", keep):
                 figure, _ = draw(read, scale=scale)
                 renderer = FigureCanvasAgg(figure).get_renderer()
                 figure.draw(renderer)
             boxes: list[tuple[Text, Bbox]] = []
-            for words in drawn:
+            for words in painted:
                 if not (words.get_visible() and words.get_text()) or words.get_rotation() == 45:
                     continue
                 self.assertGreaterEqual(words.get_fontsize(), 7, words)

@@ -1,6 +1,5 @@
 """plots/study_figures.py on made-up studies.  /usr/bin/python3 -m unittest FILE"""
-import contextlib
-import io
+import functools
 import json
 import shutil
 import struct
@@ -8,12 +7,11 @@ import sys
 import tempfile
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 from unittest import mock
 
 import matplotlib
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
@@ -24,8 +22,9 @@ import made_up_studies as made_up  # noqa: E402; finds plots
 import atlas_figure  # noqa: E402
 import convergence_figure  # noqa: E402
 import direct_labels  # noqa: E402
+import drawn  # noqa: E402
+import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
-import limit_figure  # noqa: E402
 import memory_figure  # noqa: E402
 import memory_records  # noqa: E402
 import paper_figures  # noqa: E402
@@ -36,11 +35,29 @@ import study_figures  # noqa: E402
 import study_parts  # noqa: E402
 import work_precision_figure  # noqa: E402
 from paper_sizes import SIZES, body_of  # noqa: E402
+from running import run  # noqa: E402
 
 
 def words_of(figure: Figure) -> str:
-    texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
-    return " ".join(text.get_text() for text in texts).replace("\u00a0", " ")
+    return drawn.words_of(figure).replace("\u00a0", " ")
+
+
+@functools.cache
+def everything() -> SimpleNamespace:
+    """A folder with all studies, drawn: its folder of figures, the run, the figures by name."""
+    results = Path(tempfile.mkdtemp())
+    unittest.addModuleCleanup(shutil.rmtree, results)
+    few = [row for row in made_up.error_study(["Mesh0"], sweep=False) if not row["knob"]]
+    made_up.write(results / "results.csv", few + made_up.error_study(["Mesh1"])
+                  + made_up.stability_study("Mesh0") + made_up.sizes_to_the_limit())
+    figures = {}
+
+    def keep(figure: Figure, dpi: int, path: Path, colours: int) -> None:
+        figures[path.stem] = figure
+        figure_files.write_small_png(figure, dpi, path, colours)
+    with mock.patch.object(study_figures, "write_small_png", keep), drawn.without_minor_ticks():
+        done = run(study_figures, results)
+    return SimpleNamespace(folder=results / "figures", run=done, figures=figures)
 
 
 class StudiesTest(unittest.TestCase):
@@ -56,20 +73,9 @@ class StudiesTest(unittest.TestCase):
         made_up.write(self.csv, rows)
         return results_table.read_results(self.csv)
 
-    def run_script(self, script=study_figures) -> tuple[int, str, str]:
-        """Exit status, stdout, stderr."""
-        out, err, status = io.StringIO(), io.StringIO(), 0
-        with mock.patch.object(sys, "argv", ["a script", str(self.results)]), \
-                contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            try:
-                script.main()
-            except SystemExit as end:
-                status = end.code
-        return status, out.getvalue(), err.getvalue()
-
     def assert_refused(self, *parts: str) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = self.run_script()
+        status, out, err = run(study_figures, self.results)
         self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
         for part in parts:
             self.assertIn(part, err)
@@ -78,15 +84,13 @@ class StudiesTest(unittest.TestCase):
 
 class StudyFiguresTest(StudiesTest):
     def test_a_folder_with_everything(self) -> None:
-        made_up.write(self.csv, made_up.error_study(["Mesh0", "Mesh1"])
-                      + made_up.stability_study("Mesh0") + made_up.sizes_to_the_limit())
-        status, out, err = self.run_script()
+        figures, (status, out, err) = everything().folder, everything().run
         self.assertEqual((status, err), (0, ""))
         names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
                  "convergence", "stability_Mesh0", "size_to_limit"}
-        self.assertEqual({path.stem for path in self.figures.iterdir()}, names)
+        self.assertEqual({path.stem for path in figures.iterdir()}, names)
         self.assertEqual(out.count("\n"), len(names))
-        for path in self.figures.iterdir():
+        for path in figures.iterdir():
             data = path.read_bytes()
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertLess(len(data), 300_000, path.name)
@@ -100,7 +104,7 @@ class StudyFiguresTest(StudiesTest):
                                lambda figure, dpi, path, colours: path.touch()):
             self.figures.mkdir()
             (self.figures / "pareto.png").touch()
-            out = self.run_script()[1]
+            out = run(study_figures, self.results)[1]
         self.assertIn("pareto: left out: no row has time_s and an error_total up to 1; an earlier "
                       "pareto.png stays", out)
         self.assertIn("convergence: left out: fewer than two meshes", out)
@@ -108,13 +112,13 @@ class StudyFiguresTest(StudiesTest):
 
     def test_an_ordinary_run_of_the_papers_meshes_is_not_for_here(self) -> None:
         made_up.write(self.csv, made_up.sizes_to_the_limit()[:20])
-        self.assertEqual(self.run_script(), (0, "size_to_limit: left out: no mesh is larger than "
-                                                "the paper's\n", ""))
+        out = "size_to_limit: left out: no mesh is larger than the paper's\n"
+        self.assertEqual(run(study_figures, self.results), (0, out, ""))
 
     def test_the_papers_figures_pass_over_studies(self) -> None:
         made_up.write(self.csv, made_up.error_study(["Mesh0"])[:5])
         out = "paper_figures.py: nothing to draw: all rows are of studies\n"
-        self.assertEqual(self.run_script(paper_figures), (0, out, ""))
+        self.assertEqual(run(paper_figures, self.results), (0, out, ""))
 
     def test_wrong_cells(self) -> None:
         for column, cell, allowed in (
@@ -143,7 +147,7 @@ class StudyFiguresTest(StudiesTest):
 
 class WorkPrecisionTest(StudiesTest):
     def test_curves_and_the_papers_stop(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh3"]))
+        rows = self.read(made_up.error_study(["Mesh1"]))
         curves = work_precision_figure.curves_of(rows)
         self.assertEqual(len(curves[("ALM", "uzawa iterations")]), 10)  # without its paper stop
         self.assertEqual(len(curves[("HYBRID", "contact sweeps")]), 6)
@@ -152,24 +156,19 @@ class WorkPrecisionTest(StudiesTest):
         for curve in curves.values():
             values = [row.knob_value or 0 for row in curve]
             self.assertEqual(values, sorted(values))
-        words = words_of(work_precision_figure.draw(rows))
+        words = words_of(everything().figures["work_precision_Mesh1"])
         self.assertIn("ALM with the paper's stop:\nerror 7 %", words)
         for method, _ in curves:
             self.assertIn(method, words)
 
     def test_every_point_is_drawn(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh3"]))
-        drawn = set()
-        plot = Axes.plot
-
-        def keep(axes: Axes, x: object, y: object, *rest: object, **style: object) -> object:
-            drawn.update(zip(np.ravel(x), np.ravel(y)))
-            return plot(axes, x, y, *rest, **style)
-        with mock.patch.object(Axes, "plot", keep):
-            work_precision_figure.draw(rows)
+        rows = self.read(made_up.error_study(["Mesh1"]))
+        figure = everything().figures["work_precision_Mesh1"]
+        points = {tuple(point) for axes in figure.axes for line in axes.lines
+                  for point in line.get_xydata()}
         for row in rows:
             if row.error_force:
-                self.assertIn((row.time_s, row.error_force), drawn, row)
+                self.assertIn((row.time_s, row.error_force), points, row)
 
     def test_a_row_without_an_error_is_named(self) -> None:
         rows = made_up.error_study(["Mesh3"], sweep=False)
@@ -249,9 +248,8 @@ class ConvergenceTest(StudiesTest):
 class AtlasTest(StudiesTest):
     def test_a_cell_per_case(self) -> None:
         rows = self.read(made_up.stability_study())
-        with mock.patch.object(Axes, "add_patch") as patch:
-            figure = atlas_figure.draw(rows)
-        places = [call.args[0].get_xy() for call in patch.call_args_list]
+        figure = everything().figures["stability_Mesh0"]
+        places = [patch.get_xy() for patch in figure.axes[0].patches]
         self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
         words = words_of(figure)
         wrong = sum(row.outcome == "wrong_success" for row in rows)
@@ -262,7 +260,7 @@ class AtlasTest(StudiesTest):
             self.assertIn(row.scene_group, words)
 
     def test_no_wrong_success_is_said_too(self) -> None:
-        rows = [row for row in made_up.stability_study() if row["outcome"] != "wrong_success"]
+        rows = [row for row in made_up.stability_study()[:99] if row["outcome"] != "wrong_success"]
         self.assertIn("is not: 0", words_of(atlas_figure.draw(self.read(rows))))
 
     def test_digits(self) -> None:
@@ -280,9 +278,8 @@ class AtlasTest(StudiesTest):
                          [names[5], names[4], names[1], names[2], names[0], names[3]])
 
     def test_names_do_not_leave_the_sheet(self) -> None:
-        figure = atlas_figure.draw(self.read(made_up.stability_study()))
-        renderer = FigureCanvasAgg(figure).get_renderer()
-        figure.draw(renderer)
+        figure = everything().figures["stability_Mesh0"]
+        renderer = figure.canvas.get_renderer()
         for text in figure.findobj(Text):
             if text.get_text() and text.get_visible():
                 box = text.get_window_extent(renderer)
@@ -336,7 +333,7 @@ class MemoryFigureTest(StudiesTest):
         made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD"), made_up.case("Mesh0", "HYBRID")])
         good = [made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID")]
         self.write_records(*good)
-        status, out, err = self.run_script()
+        status, out, err = run(study_figures, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("memory_by_owner.png: 2 records", out)
         shutil.rmtree(self.figures)
@@ -348,8 +345,7 @@ class MemoryFigureTest(StudiesTest):
 
 class OtherFiguresTest(StudiesTest):
     def test_size_to_limit(self) -> None:
-        rows = self.read(made_up.sizes_to_the_limit())
-        figure = limit_figure.draw(rows)
+        figure = everything().figures["size_to_limit"]
         for axes in figure.axes:
             self.assertGreaterEqual(axes.get_xlim()[1], 1e6)
         words = words_of(figure)

@@ -2,7 +2,9 @@
 // under which it would take many minutes; methods_test.cpp has one of each kind for them.
 #include <gtest/gtest.h>
 
-#include <filesystem>
+#include <cctype>
+#include <cmath>
+#include <map>
 #include <ostream>
 
 #include "assembly/msh_format.hpp"
@@ -13,6 +15,7 @@
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
 
 namespace airybench::product_test {
 
@@ -26,12 +29,23 @@ std::string readable(std::string name) {
   return name;
 }
 
-DualSystem system_of(const char* mesh, Blocks blocks = Blocks::airy) {
-  return assemble(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh(mesh))),
-                  blocks);
+Mesh mesh_named(const std::string& name) {
+  if (name == "SmallTooth") return testing::small_tooth(8, 6);
+  if (name == "SmallRack") return testing::small_rack(4, 8, 6);
+  return testing::catalogue_mesh(name);
 }
 
-const Solution& reference(const char* mesh) {
+// Assembled once.
+const DualSystem& system_of(const std::string& mesh, Blocks blocks = Blocks::airy) {
+  static std::map<std::pair<std::string, Blocks>, DualSystem> systems;
+  const auto key = std::pair(mesh, blocks);
+  if (!systems.contains(key))
+    systems.emplace(
+        key, assemble(std::make_shared<const Problem>(pose(Scene{}, mesh_named(mesh))), blocks));
+  return systems.at(key);
+}
+
+const Solution& reference(const std::string& mesh) {
   static std::map<std::string, Solution> solutions;
   Solution& solution = solutions[mesh];
   if (solution.status != Status::ok)
@@ -39,10 +53,20 @@ const Solution& reference(const char* mesh) {
   return solution;
 }
 
-void expect_reference(const Method& method, const char* mesh, double tolerance) {
-  const DualSystem system = system_of(mesh, method.blocks);
+using MethodOnMesh = std::tuple<std::string, Method>;
+
+class Answer : public ::testing::TestWithParam<MethodOnMesh> {
+ public:
+  static std::string name_of(const ::testing::TestParamInfo<MethodOnMesh>& test) {
+    return readable(std::get<Method>(test.param).name);
+  }
+};
+
+TEST_P(Answer, HasTheReferencesForcesAndStresses) {
+  const auto& [mesh, method] = GetParam();
+  const DualSystem& system = system_of(mesh, method.blocks);
   RunControl control;
-  control.tolerance = tolerance;
+  control.tolerance = 1e-10;
   const Solution solution = run(method, system, control);
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const Solution& other = reference(mesh);
@@ -54,48 +78,74 @@ void expect_reference(const Method& method, const char* mesh, double tolerance) 
   EXPECT_EQ(solution.uzawa_iterations.has_value(), method.name.starts_with("ALM"));
 }
 
-std::vector<Method> all_methods() {
+// Hundreds of iterations for every right-hand side: of each kind one is on Mesh0, the others are on
+// the small tooth.
+bool is_for_the_small_tooth(const Method& method) {
+  const auto has = [&](const char* part) { return method.name.find(part) != std::string::npos; };
+  for (const char* name : {"SYMMLQ:SSOR1.0", "3STEPCG:NONE", "SYMMLQ:FLIC3,schur=sparse"})
+    if (method.name == name) return false;
+  return has("SSOR") || has("NONE") || has("schur=sparse");
+}
+
+std::vector<Method> tooth_methods(bool small) {
   std::vector<Method> all = select_methods("*");
-  std::erase_if(all, [](const Method& method) { return method.in_displacements; });
   for (const std::string& preconditioner : preconditioner_names())
     all.push_back(select_methods("SYMMLQ:" + preconditioner + ",schur=sparse").front());
+  std::erase_if(all, [&](const Method& method) {
+    return method.in_displacements || is_for_the_small_tooth(method) != small;
+  });
   return all;
 }
 
-class OnATooth : public ::testing::TestWithParam<Method> {};
-INSTANTIATE_TEST_SUITE_P(Mesh0, OnATooth, ::testing::ValuesIn(all_methods()),
-                         [](const auto& test) { return readable(test.param.name); });
+// Also on Mesh4, which is five times as large as the small rack and graded.
+const std::string rack_methods =
+    "3STEPD,3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SCHUR,BLIND:SKY,HYBRID,"
+    "3STEPCG:SKY,SYMMLQ:DTIC6,SYMMLQ:SKY,ALM:r=20,rho=20";
+const std::string small_rack_methods =
+    rack_methods + ",3STEPCG:DTIC4,3STEPCG:DTIC5,3STEPCG:DTIC6,SYMMLQ:DTIC4,SYMMLQ:DTIC5";
 
-TEST_P(OnATooth, HasTheReferencesForcesAndStresses) {
-  expect_reference(GetParam(), "Mesh0", 1e-10);
-}
+using ::testing::Combine, ::testing::Values, ::testing::ValuesIn;
+INSTANTIATE_TEST_SUITE_P(Mesh0, Answer, Combine(Values("Mesh0"), ValuesIn(tooth_methods(false))),
+                         Answer::name_of);
+INSTANTIATE_TEST_SUITE_P(SmallTooth, Answer,
+                         Combine(Values("SmallTooth"), ValuesIn(tooth_methods(true))),
+                         Answer::name_of);
+INSTANTIATE_TEST_SUITE_P(Mesh4, Answer,
+                         Combine(Values("Mesh4"), ValuesIn(select_methods(rack_methods))),
+                         Answer::name_of);
+INSTANTIATE_TEST_SUITE_P(SmallRack, Answer,
+                         Combine(Values("SmallRack"), ValuesIn(select_methods(small_rack_methods))),
+                         Answer::name_of);
 
-class OnARack : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Mesh4, OnARack,
-                         ::testing::Values("3STEPCG:DTIC4", "3STEPCG:DTIC5", "3STEPCG:DTIC6",
-                                           "3STEPCG:SKY", "SYMMLQ:DTIC4", "SYMMLQ:DTIC5",
-                                           "SYMMLQ:DTIC6", "SYMMLQ:SKY", "ALM:r=20,rho=20",
-                                           "3STEPD", "3STEPD:FILE", "3STEPD:LEAN", "3STEPD:CHOLMOD",
-                                           "BLIND", "BLIND:SCHUR", "BLIND:SKY", "HYBRID"),
-                         [](const auto& test) { return readable(test.param); });
+using PreconditionerOnMesh = std::tuple<std::string, std::string>;
 
-TEST_P(OnARack, HasTheReferencesForcesAndStresses) {
-  expect_reference(select_methods(GetParam()).front(), "Mesh4", 1e-10);
-}
-
-class KernelsOnARack : public ::testing::TestWithParam<std::string> {
- protected:
-  static const DualSystem& system() {
-    static const DualSystem rack = system_of("Mesh4");
-    return rack;
+class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
+ public:
+  static std::string name_of(const ::testing::TestParamInfo<PreconditionerOnMesh>& test) {
+    return readable(std::get<1>(test.param));
   }
-  static const SkylineFactor& factor() {
-    static const SkylineFactor exact = factor_ldlt(analyse_skyline(system().S), system().S);
-    return exact;
+
+ protected:
+  static const DualSystem& system() { return system_of(std::get<0>(GetParam())); }
+  static const std::string& preconditioner() { return std::get<1>(GetParam()); }
+  // What a direct solver makes of the system, computed once.
+  struct Exact {
+    SkylineFactor factor;
+    CondensedSystem condensed;
+  };
+  static const Exact& exact() {
+    static std::map<std::string, Exact> all;
+    Exact& of_mesh = all[std::get<0>(GetParam())];
+    if (of_mesh.condensed.D.size() == 0) {
+      of_mesh.factor = factor_ldlt(analyse_skyline(system().S), system().S);
+      const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(of_mesh.factor, X); };
+      of_mesh.condensed = condense_in_three_steps(system(), solve).condensed;
+    }
+    return of_mesh;
   }
   // How many right-hand sides: one for the preconditioners that need thousands of iterations.
   static int sides() {
-    return GetParam().starts_with("SSOR") || GetParam() == "NONE" ? 1 : most_lanes;
+    return preconditioner().starts_with("SSOR") || preconditioner() == "NONE" ? 1 : most_lanes;
   }
   // Rows of [C_F; C_C] as right-hand sides, evenly chosen.
   static Eigen::MatrixXd loads() {
@@ -113,43 +163,43 @@ class KernelsOnARack : public ::testing::TestWithParam<std::string> {
     return with;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Mesh4, KernelsOnARack, ::testing::ValuesIn(preconditioner_names()),
-                         [](const auto& test) { return readable(test.param); });
+INSTANTIATE_TEST_SUITE_P(Mesh4, KernelsOnARack,
+                         Combine(Values("Mesh4"),
+                                 Values("DTIC4", "FLIC3", "SSOR1.0", "SKY", "NONE")),
+                         KernelsOnARack::name_of);
+INSTANTIATE_TEST_SUITE_P(SmallRack, KernelsOnARack,
+                         Combine(Values("SmallRack"), ValuesIn(preconditioner_names())),
+                         KernelsOnARack::name_of);
 
 TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
-  const Preconditioner preconditioner = preconditioner_named(GetParam())(system().S, {});
+  const Preconditioner S_star = preconditioner_named(preconditioner())(system().S, {});
   const Eigen::MatrixXd B = loads();
-  Eigen::MatrixXd X = B, exact = B;
-  solve_in_place(factor(), exact);
+  Eigen::MatrixXd X = B, Y = B;
+  solve_in_place(exact().factor, Y);
   const KrylovSummary summary =
-      solve_by_conjugate_gradients(system().S, preconditioner, columns_of(X), options(1e-10));
+      solve_by_conjugate_gradients(system().S, S_star, columns_of(X), options(1e-10));
   EXPECT_TRUE(summary.converged);
   const auto S = system().S.selfadjointView<Eigen::Lower>();
-  const Eigen::MatrixXd difference = X - exact;
+  const Eigen::MatrixXd difference = X - Y;
   for (int l = 0; l < sides(); ++l)  // in the energy norm
-    EXPECT_LT(difference.col(l).dot(S * difference.col(l)),
-              1e-14 * exact.col(l).dot(S * exact.col(l)))
+    EXPECT_LT(difference.col(l).dot(S * difference.col(l)), 1e-14 * Y.col(l).dot(S * Y.col(l)))
         << l;
   RecordProperty("iterations", std::to_string(summary.iterations));
 }
 
 TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
-  const Preconditioner S_star = preconditioner_named(GetParam())(system().S, {});
-  const Preconditioner preconditioner =
+  const Preconditioner S_star = preconditioner_named(preconditioner())(system().S, {});
+  const Preconditioner M =
       saddle_preconditioner(system(), S_star, SchurBlock::dense, most_lanes, 1);
   const int n = system().n(), n_f = system().n_f(), n_c = system().n_c();
-  const CondensedSystem condensed =
-      condense_in_three_steps(system(), [&](Eigen::Ref<Eigen::MatrixXd> X) {
-        solve_in_place(factor(), X);
-      }).condensed;
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n + n_f + n_c, sides()), D(n_c, sides());
   for (int l = 0; l < sides(); ++l) {
     X(n + n_f + l * n_c / sides(), l) = 1;
-    D.col(l) = condensed.D.col(l * n_c / sides());
+    D.col(l) = exact().condensed.D.col(l * n_c / sides());
   }
   // SSOR and NONE leave an error of about 1e-6 at a relative residual of 1e-10.
   const KrylovSummary summary =
-      solve_by_symmlq(saddle_operator(system()), preconditioner, columns_of(X), options(1e-12));
+      solve_by_symmlq(saddle_operator(system()), M, columns_of(X), options(1e-12));
   EXPECT_TRUE(summary.converged);
   EXPECT_LT((X.bottomRows(n_c) + D).norm(), 1e-7 * D.norm());
   RecordProperty("iterations", std::to_string(summary.iterations));

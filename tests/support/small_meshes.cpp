@@ -1,25 +1,36 @@
 #include "tests/support/small_meshes.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace airybench::testing {
+namespace {
 
-Mesh small_tooth(int nx, int ny) {
+// The cells of a grid of columns × rows that are there, two triangles each. Their vertices are
+// place(column, row, shift), with a shift other than zero for inner ones. Roles as for the
+// generated meshes: displacement in the first column, contact behind the last, force elsewhere.
+template <typename IsCell, typename Place>
+Mesh mesh_of_cells(const char* name, int columns, int rows, IsCell is_cell, Place place) {
   Mesh mesh;
-  mesh.name = "small tooth";
+  mesh.name = name;
   mesh.body_names = {"body"};
-  const auto vertex = [&](int i, int j) { return i * (ny + 1) + j; };
-  for (int i = 0; i <= nx; ++i) {
-    for (int j = 0; j <= ny; ++j) {
-      const bool inner = i > 0 && i < nx && j > 0 && j < ny;
-      const double shift = inner ? 0.15 * std::sin(37.0 * vertex(i, j)) : 0;
-      const double x = 10.0 * (i + shift) / nx;
-      const double half_height = 5 - 0.2 * x;
-      mesh.vertices.emplace_back(x, half_height * (2.0 * (j - shift) / ny - 1));
+  const auto is_there = [&](int i, int j) {
+    return i >= 0 && i < columns && j >= 0 && j < rows && is_cell(i, j);
+  };
+  std::vector<int> number(static_cast<std::size_t>((columns + 1) * (rows + 1)), -1);
+  const auto vertex = [&](int i, int j) -> int& { return number[i * (rows + 1) + j]; };
+  for (int i = 0; i <= columns; ++i) {
+    for (int j = 0; j <= rows; ++j) {
+      const int cells =
+          is_there(i - 1, j - 1) + is_there(i - 1, j) + is_there(i, j - 1) + is_there(i, j);
+      if (cells == 0) continue;
+      vertex(i, j) = static_cast<int>(mesh.vertices.size());
+      mesh.vertices.push_back(place(i, j, cells == 4 ? 0.15 * std::sin(37.0 * vertex(i, j)) : 0));
     }
   }
-  for (int i = 0; i < nx; ++i) {
-    for (int j = 0; j < ny; ++j) {
+  for (int i = 0; i < columns; ++i) {
+    for (int j = 0; j < rows; ++j) {
+      if (!is_there(i, j)) continue;
       const int a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
                 d = vertex(i, j + 1);
       if ((i + j) % 2 == 0) {
@@ -29,19 +40,52 @@ Mesh small_tooth(int nx, int ny) {
         mesh.triangles.push_back({a, b, d});
         mesh.triangles.push_back({b, c, d});
       }
+      if (!is_there(i, j - 1)) mesh.boundary.push_back({{a, b}, BoundaryRole::force});
+      if (!is_there(i, j + 1)) mesh.boundary.push_back({{c, d}, BoundaryRole::force});
+    }
+  }
+  for (int j = 0; j < rows; ++j) {
+    for (int i = columns; i >= 0; --i) {
+      if (is_there(i - 1, j) && !is_there(i, j))
+        mesh.boundary.push_back({{vertex(i, j), vertex(i, j + 1)},
+                                 i == columns ? BoundaryRole::contact : BoundaryRole::force});
+      if (!is_there(i - 1, j) && is_there(i, j))
+        mesh.boundary.push_back({{vertex(i, j + 1), vertex(i, j)},
+                                 i == 0 ? BoundaryRole::displacement : BoundaryRole::force});
     }
   }
   mesh.triangle_body.assign(mesh.triangles.size(), 0);
-  for (int i = 0; i < nx; ++i) {
-    mesh.boundary.push_back({{vertex(i, 0), vertex(i + 1, 0)}, BoundaryRole::force});
-    mesh.boundary.push_back({{vertex(i + 1, ny), vertex(i, ny)}, BoundaryRole::force});
-  }
-  for (int j = 0; j < ny; ++j) {
-    mesh.boundary.push_back({{vertex(nx, j), vertex(nx, j + 1)}, BoundaryRole::contact});
-    mesh.boundary.push_back({{vertex(0, j + 1), vertex(0, j)}, BoundaryRole::displacement});
-  }
   validate(mesh);
   return mesh;
+}
+
+double half_height(double x) { return 5 - 0.2 * x; }
+
+}  // namespace
+
+Mesh small_tooth(int nx, int ny) {
+  const auto place = [&](int i, int j, double shift) {
+    const double x = 10.0 * (i + shift) / nx;
+    return Eigen::Vector2d(x, half_height(x) * (2.0 * (j - shift) / ny - 1));
+  };
+  const auto every_cell = [](int, int) { return true; };
+  return mesh_of_cells("small tooth", nx, ny, every_cell, place);
+}
+
+Mesh small_rack(int teeth, int nx, int ny) {
+  const int block = 2, pitch = ny + 2;  // in cells: below and above every tooth's ny is a gap
+  const auto is_cell = [&](int i, int j) {
+    return i < block || (j % pitch > 0 && j % pitch <= ny);
+  };
+  const auto place = [&](int i, int j, double shift) {
+    const double x = i < block ? 3.0 * (i - block) : 10.0 * (i - block) / nx;
+    const double middle = 12.5 * (j / pitch) + 6.25;
+    const double y =
+        j % pitch == 0 ? middle - 6.25
+                       : middle + half_height(std::max(x, 0.0)) * (2.0 * (j % pitch - 1) / ny - 1);
+    return Eigen::Vector2d(x + shift, y - shift);
+  };
+  return mesh_of_cells("small rack", block + nx, teeth * pitch, is_cell, place);
 }
 
 }  // namespace airybench::testing

@@ -9,4 +9,7 @@ namespace airybench::testing {
 // little (deterministically) so that nothing holds by symmetry. Roles as for the generated meshes.
 Mesh small_tooth(int nx, int ny);
 
+// So many of these teeth side by side on a block, as in the documentation's rack.
+Mesh small_rack(int teeth, int nx, int ny);
+
 }  // namespace airybench::testing

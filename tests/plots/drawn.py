@@ -1,0 +1,20 @@
+"""What is in a figure."""
+from __future__ import annotations
+
+from unittest import mock
+
+from matplotlib.axis import Axis
+from matplotlib.figure import Figure
+
+
+def without_minor_ticks() -> object:
+    """A context in which figures are drawn without: they take half of the time."""
+    return mock.patch.object(Axis, "get_minor_ticks", lambda axis, count=None: [])
+
+
+def words_of(figure: Figure) -> str:
+    # Asked for its ticks, an axis would make them all; those without words are not there yet.
+    with mock.patch.multiple(Axis, get_major_ticks=lambda axis: axis.majorTicks,
+                             get_minor_ticks=lambda axis: axis.minorTicks):
+        texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
+    return " ".join(text.get_text() for text in texts)
