@@ -87,14 +87,14 @@ class Labels:
         best = (np.inf, anchors[0], np.clip(anchors[0], low + half, high - half))
         for k, anchor in enumerate(anchors):
             for distance in DISTANCES:
-                nearest = distance + 3 * k
-                if nearest >= best[0]:
+                least = distance + 3 * k
+                if least >= best[0]:
                     break  # what is farther costs more
                 centres = anchor + distance * unit + reach
                 centres = centres[((centres - half >= low) & (centres + half <= high)).all(1)]
                 hidden = count_near(seen, centres, half + 1)
                 crossed = count_near((starts + ends) / 2, centres, half + (ends - starts) / 2)
-                costs = 1000 * crossed + 12 * hidden + nearest
+                costs = 1000 * crossed + 12 * hidden + least
                 if len(costs) and costs.min() < best[0]:
                     best = (costs.min(), anchor, centres[costs.argmin()])
         return best[1], best[2]

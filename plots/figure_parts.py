@@ -75,7 +75,7 @@ class ErrorScale:
         low = max(math.floor(math.log10(min(errors, default=1e-12))), -16)
         high = min(math.ceil(math.log10(max(errors, default=1e-12))), 3)  # beyond: as there
         self.norm = LogNorm(10.0**low, 10.0**max(high, low + 1), clip=True)
-        self.colours = colormaps[COLORMAP]  # a copy
+        self.colours = colormaps[COLORMAP]  # once: it is copied each time
 
     def fill(self, row: Row, mark: str) -> object:
         if mark != "done":

@@ -21,6 +21,7 @@ from running import run, run_command  # noqa: E402
 CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
 LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
 TRIANGLES = [(0, 1, 2), (0, 2, 3)]
+SMALL = mock.patch.object(gallery, "DPI", 20)  # where nobody looks at the picture
 NAMES = [f"{mesh}-default-3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4")]
 
 
@@ -37,7 +38,7 @@ def write_shares(folder: Path, name: str, shares: list[object]) -> Path:
 
 
 def write_solution(folder: Path, name: str, contact: bool = True,
-                   corners: list[tuple[int, int]] = CORNERS) -> None:
+                   corners: list[tuple[float, float]] = CORNERS) -> None:
     rows = [fields.STRESS]
     for t, vertices in enumerate(TRIANGLES):
         v = [np.array(corners[i], float) for i in vertices]
@@ -53,9 +54,6 @@ def write_solution(folder: Path, name: str, contact: bool = True,
     for part, lines in (("stress", rows), ("contact", [fields.CONTACT, *points]),
                         ("boundary", [fields.BOUNDARY, *(",".join(map(str, e)) for e in edges)])):
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-SMALL = mock.patch.object(gallery, "DPI", 20)
 
 
 class GalleryTest(unittest.TestCase):
@@ -84,9 +82,9 @@ class GalleryTest(unittest.TestCase):
         self.assertLess(len(data), most_bytes)
 
     def assert_refused(self, *parts: str, arguments: tuple = (),
-                       in_a_process: bool = False) -> None:
+                       as_command: bool = False) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        for start in (run, run_command) if in_a_process else (run,):
+        for start in (run, run_command) if as_command else (run,):
             status, out, err = start(gallery, self.results, *arguments)
             self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
             for part in parts:
@@ -163,7 +161,7 @@ class GalleryTest(unittest.TestCase):
     def test_missing_file(self) -> None:
         path = self.edit("contact", lambda lines: lines)
         Path(path).unlink()
-        self.assert_refused(path, "No such file", in_a_process=True)
+        self.assert_refused(path, "No such file", as_command=True)
 
     def test_truncated_row(self) -> None:
         path = self.edit("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]])

@@ -322,8 +322,7 @@ class LayoutTest(unittest.TestCase):
             paint(words, renderer)
         for draw in paper_figures.FIGURES.values():
             painted.clear()
-            with matplotlib.rc_context(figure_parts.STYLE), drawn.without_minor_ticks(), \
-                    mock.patch.object(Text, "draw", keep):
+            with matplotlib.rc_context(figure_parts.STYLE), mock.patch.object(Text, "draw", keep):
                 figure, _ = draw(read, scale=scale)
                 renderer = FigureCanvasAgg(figure).get_renderer()
                 figure.draw(renderer)

@@ -6,8 +6,8 @@ import struct
 import sys
 import tempfile
 import unittest
+from dataclasses import dataclass
 from pathlib import Path
-from types import SimpleNamespace
 from unittest import mock
 
 import matplotlib
@@ -42,22 +42,29 @@ def words_of(figure: Figure) -> str:
     return drawn.words_of(figure).replace("\u00a0", " ")
 
 
+@dataclass(frozen=True)
+class Drawn:
+    folder: Path
+    figures: dict[str, Figure]
+    run: tuple[int, str, str]
+
+
 @functools.cache
-def everything() -> SimpleNamespace:
-    """A folder with all studies, drawn: its folder of figures, the run, the figures by name."""
+def everything() -> Drawn:
+    """A results folder with all studies, drawn once for the tests that look at its figures."""
     results = Path(tempfile.mkdtemp())
     unittest.addModuleCleanup(shutil.rmtree, results)
     few = [row for row in made_up.error_study(["Mesh0"], sweep=False) if not row["knob"]]
     made_up.write(results / "results.csv", few + made_up.error_study(["Mesh1"])
                   + made_up.stability_study("Mesh0") + made_up.sizes_to_the_limit())
-    figures = {}
+    figures: dict[str, Figure] = {}
 
     def keep(figure: Figure, dpi: int, path: Path, colours: int) -> None:
         figures[path.stem] = figure
         figure_files.write_small_png(figure, dpi, path, colours)
     with mock.patch.object(study_figures, "write_small_png", keep), drawn.without_minor_ticks():
         done = run(study_figures, results)
-    return SimpleNamespace(folder=results / "figures", run=done, figures=figures)
+    return Drawn(results / "figures", figures, done)
 
 
 class StudiesTest(unittest.TestCase):
