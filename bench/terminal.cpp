@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "bench/measuring/seconds_since.hpp"
-
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {

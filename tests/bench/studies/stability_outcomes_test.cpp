@@ -104,7 +104,7 @@ struct Expected {
   }
   // Between ok and inaccurate: a processor that the table was not made with may decide otherwise.
   bool is_close_call() const {
-    return least && *least<target * margin&& * greatest> target / margin;
+    return least && least.value() < target * margin && greatest.value() > target / margin;
   }
 };
 
