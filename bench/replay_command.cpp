@@ -129,7 +129,7 @@ Case case_of(const Record& record, const Options& options) {
 std::string text_of(const Json& value) {
   if (value.is_null()) return "-";
   if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
-  return value.is_string() ? value.get<std::string>() : value.dump();
+  return value.is_string() ? value.get<std::string>() : json_text(value);
 }
 
 // What must be the same, and what may differ.

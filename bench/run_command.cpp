@@ -21,6 +21,7 @@
 #include "bench/terminal.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -47,8 +48,7 @@ void print_list() {
 // The scene file as it is, on a line.
 std::string definition_of(const Scene& scene) {
   if (scene.source == Scene().source) return "{}";
-  std::ifstream file(scene.source);
-  return Json::parse(file).dump();
+  return json_text(parse_json(file_text(scene.source)));
 }
 
 // How a record names the mesh's file: one of the catalogue's by its name alone.

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws the error study, the stability study and the size limit from results.csv.
+"""Draws the error study, the stability study and all methods of a run from results.csv.
 
     study_figures.py RESULTS_DIR [--out DIR]
 
@@ -8,7 +8,7 @@ stop_and_error       the paper's stop of ALM for given parameters
 pareto               total error against time and memory, over all meshes
 convergence          discretisation error against the mesh size, with rates; bounds of the energy
 stability_MESH       outcome of each method in each scene
-size_to_limit        time, memory and error over n_phi, of a run beyond the paper's meshes
+all_methods          time, memory and error over n_phi, a line per method of two sizes or more
 memory_by_owner      peak heap of each method by whose it is, on the largest mesh; from records.jsonl
 
 All as .png. All but the stability study are of one scene, `default` if it is there. A line
@@ -29,7 +29,7 @@ from matplotlib.figure import Figure
 
 import atlas_figure
 import convergence_figure
-import limit_figure
+import all_methods_figure
 import memory_figure
 import pareto_figure
 import stop_figure
@@ -74,7 +74,7 @@ def drawings_of(rows: list[Row], splits: list[Split]) -> list[Drawing]:
     sizes = [row for row in studies[""] if row.stop == "target"]
     if sizes:
         scene = scene_of(sizes)
-        drawings.append(("size_to_limit", limit_figure.draw,
+        drawings.append(("all_methods", all_methods_figure.draw,
                          [row for row in sizes if row.scene == scene]))
     if splits:
         scene = scene_of(splits)

@@ -3,9 +3,9 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "support/file_text.hpp"
 
 namespace airybench {
 
@@ -24,14 +24,7 @@ std::string sha256_hex(std::string_view bytes) {
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw std::runtime_error(file.string() + ": a folder, not a file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw std::runtime_error(file.string() + ": cannot be opened");
-  const std::string bytes(std::istreambuf_iterator<char>(in), {});
-  if (in.bad()) throw std::runtime_error(file.string() + ": cannot be read");
-  return sha256_hex(bytes);
+  return sha256_hex(file_text(file));
 }
 
 }  // namespace airybench

@@ -61,7 +61,8 @@ class Reader {
     return {value[0].get<double>(), value[1].get<double>()};
   }
   [[noreturn]] void fail(const std::string& key, const Json& value, const char* allowed) const {
-    throw SceneError(fmt::format("{}: {}: {} (allowed: {})", file_, key, value.dump(), allowed));
+    throw SceneError(
+        fmt::format("{}: {}: {} (allowed: {})", file_, key, json_text(value), allowed));
   }
 
  private:
@@ -230,8 +231,7 @@ Scene read_scene(const std::filesystem::path& file) {
   try {
     json = Json::parse(in, watch);
   } catch (const Json::exception& wrong) {
-    const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
-    throw SceneError(file.string() + ": not JSON: " + what.substr(what.find("] ") + 2));
+    throw SceneError(file.string() + ": not JSON: " + without_prefix(wrong));
   }
   Scene scene = from_json(json, file.string());
   scene.name = file.stem().string();

@@ -13,7 +13,7 @@
 namespace airybench {
 namespace {
 
-constexpr const char* footer = R"(
+constexpr const char* claims_footer = R"(
 Verdicts  reproduced
           not reproduced  one part of the claim is contradicted
           undecided       a record is missing or of no use, or an interval straddles the threshold;
@@ -35,11 +35,11 @@ struct ClaimsOptions {
   std::string stop = "target";
 };
 
-ClaimsOptions parse(int argc, const char* const* argv) {
+ClaimsOptions parse_claims(int argc, const char* const* argv) {
   ClaimsOptions options;
   CLI::App app("The paper's sentences on time and memory, held against the records of a run.",
                "bench claims");
-  app.footer(footer);
+  app.footer(claims_footer);
   app.add_option("DIR", options.folder, "folder with records.jsonl")->required();
   app.add_option("--stop", options.stop, "records of which stop of the iterative methods")
       ->check(CLI::IsMember({"target", "paper"}))
@@ -87,7 +87,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
 }
 
 int claims_command(int argc, const char* const* argv) {
-  const ClaimsOptions options = parse(argc, argv);
+  const ClaimsOptions options = parse_claims(argc, argv);
   const std::string file = (options.folder / "records.jsonl").string();
   const CaseTable cases(read_records(file), options.stop, file);
   const std::vector<Claim> claims = check_claims(cases);

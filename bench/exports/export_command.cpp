@@ -15,7 +15,7 @@
 namespace airybench {
 namespace {
 
-constexpr const char* footer = R"(
+constexpr const char* export_footer = R"(
 Formats  google-benchmark  Google Benchmark's JSON, for its compare.py and most trackers
          github-action     github-action-benchmark, tool customSmallerIsBetter
          bencher           Bencher Metric Format, adapter json
@@ -37,10 +37,10 @@ struct ExportOptions {
   std::string format;
 };
 
-ExportOptions parse(int argc, const char* const* argv) {
+ExportOptions parse_export(int argc, const char* const* argv) {
   ExportOptions options;
   CLI::App app("The records of a run in the format of another tool.", "bench export");
-  app.footer(footer);
+  app.footer(export_footer);
   app.add_option("DIR", options.folder, "folder with records.jsonl, or for csv with nights/")
       ->required();
   app.add_option("--format", options.format, "of the formats below")
@@ -62,7 +62,7 @@ std::string exported(const std::string& format, const std::vector<StoredCase>& c
 }  // namespace
 
 int export_command(int argc, const char* const* argv) {
-  const ExportOptions options = parse(argc, argv);
+  const ExportOptions options = parse_export(argc, argv);
   const bool history =
       options.format == "csv" && std::filesystem::is_directory(options.folder / "nights");
   const std::string text = exported(

@@ -119,7 +119,8 @@ Json context_of(const std::vector<StoredCase>& cases) {
 std::string google_benchmark_json(const std::vector<StoredCase>& cases) {
   std::ostringstream text;
   // ReportContext() would describe the machine that exports, and its clock.
-  text << "{\n  \"context\": " << context_of(cases).dump(2) << ",\n  \"benchmarks\": [\n";
+  text << "{\n  \"context\": " << indented_json_text(context_of(cases), 2)
+       << ",\n  \"benchmarks\": [\n";
   benchmark::JSONReporter reporter;
   reporter.SetOutputStream(&text);
   for (std::size_t k = 0; k < cases.size(); ++k) reporter.ReportRuns(runs_of(cases[k], k));

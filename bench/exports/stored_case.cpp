@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "bench/cases/study.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/statistics/robust.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -23,7 +23,7 @@ const Json& value_of(const Json& object, const char* key) {
 
 [[noreturn]] void fail(const std::string& place, const char* key, const Json& value,
                        const char* allowed) {
-  throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place, key, value.dump(), allowed));
+  throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place, key, json_text(value), allowed));
 }
 
 // Null and a missing key: empty.
@@ -75,6 +75,17 @@ std::string suffix_of(const Json& record, const std::string& place, const std::s
   return knob.suffix() + (study.empty() ? "" : "/study=" + study);
 }
 
+// Null where the file is no JSON. Throws RecordError where it cannot be read.
+Json json_of_file(const std::filesystem::path& file) {
+  try {
+    return parse_json(file_text(file));
+  } catch (const Json::exception&) {
+    return {};
+  } catch (const std::runtime_error& unreadable) {
+    throw RecordError(unreadable.what());
+  }
+}
+
 }  // namespace
 
 std::optional<double> StoredCase::quantity(const std::string& key) const {
@@ -85,7 +96,7 @@ std::optional<double> StoredCase::quantity(const std::string& key) const {
 
 StoredCase stored_case(const Json& record, const std::string& place) {
   if (!record.is_object())
-    throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place, record.dump()));
+    throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place, json_text(record)));
   StoredCase stored;
   stored.mesh = name(record, place, "mesh");
   stored.scene = name(record, place, "scene");
@@ -129,9 +140,8 @@ std::vector<StoredCase> stored_history(const std::filesystem::path& folder) {
   std::sort(files.begin(), files.end());
   std::vector<StoredCase> cases;
   for (const auto& file : files) {
-    std::ifstream in(file, std::ios::binary);
-    const Json night = Json::parse(in, nullptr, false);
     const std::string place = file.string();
+    const Json night = json_of_file(file);
     if (!night.is_object() || value_of(night, "format") != "airybench-night-1")
       throw RecordError(place + ": not a night (allowed: a JSON object, format airybench-night-1)");
     if (!value_of(night, "cases").is_array())

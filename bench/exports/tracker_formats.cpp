@@ -38,7 +38,7 @@ std::string github_action_json(const std::vector<StoredCase>& cases) {
     add("error of the stresses", "relative", stored.quantity("error_stress"), "");
     add("error of the contact forces", "relative", stored.quantity("error_force"), "");
   }
-  return entries.dump(2) + "\n";
+  return indented_json_text(entries, 2) + "\n";
 }
 
 std::string bencher_json(const std::vector<StoredCase>& cases) {
@@ -55,7 +55,7 @@ std::string bencher_json(const std::vector<StoredCase>& cases) {
       if (const auto value = stored.quantity(key)) measures[measure] = {{"value", *value}};
     if (!measures.empty()) all[stored.name()] = measures;
   }
-  return all.dump(2) + "\n";
+  return indented_json_text(all, 2) + "\n";
 }
 
 std::string series_csv(const std::vector<StoredCase>& cases) {

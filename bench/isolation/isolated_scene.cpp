@@ -90,7 +90,7 @@ Record IsolatedScene::examine(std::size_t k) {
   if (process_ != nullptr)
     answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return record_from_json(Json::parse(*answer));
+  if (answer) return record_from_json(parse_json(*answer));
   Record record = blank_record(*cases_[k], options_);
   record.status_reason = "the process of its scene ended";
   process_.reset();
@@ -102,7 +102,7 @@ TimedRun IsolatedScene::measure_time(std::size_t k) {
   if (process_ != nullptr && examined_in_[k] == generation_)
     answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return timed_run_from_json(Json::parse(*answer));
+  if (answer) return timed_run_from_json(parse_json(*answer));
   if (examined_in_[k] == generation_) process_.reset();
   TimedRun run;
   run.message = "the process of its scene ended";

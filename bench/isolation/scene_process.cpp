@@ -28,10 +28,6 @@ Command command_of(const std::string& line) {
   return command;
 }
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::filesystem::path fields_of(const Case& c, const Options& options) {
   if (!options.fields) return {};
   std::string name = c.name();
@@ -56,11 +52,11 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       if (is_measured(record) && !record.measured_once)
         bench.measure_memory(c.method, choice, record);
       record.runs_s = board.seconds_in_runs();
-      channel.send(text_of(to_json(record)));
+      channel.send(json_text(to_json(record)));
     } else {
       TimedRun run = bench.measure_time(c.method, choice);
       run.runs_s = board.seconds_in_runs();
-      channel.send(text_of(to_json(run)));
+      channel.send(json_text(to_json(run)));
     }
   }
 }
@@ -141,7 +137,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
     }
     const TimedRun last = obituary_of(own.process->end(), own.board, options);
     if (verb != "examine") {
-      channel.send(text_of(to_json(last)));
+      channel.send(json_text(to_json(last)));
       continue;
     }
     Record record = blank_record(c, options);
@@ -151,7 +147,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
     record.ended_in = last.ended_in;
     record.time_so_far_s = last.time_s;
     record.runs_s = last.runs_s;
-    channel.send(text_of(to_json(record)));
+    channel.send(json_text(to_json(record)));
   }
 }
 

@@ -2,9 +2,21 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace airybench {
 
 using Json = nlohmann::ordered_json;
+
+// Compiled once: reading and writing take the compiler as long as all else that a file does with
+// JSON.
+
+Json parse_json(const std::string& text);  // throws Json::exception
+// On one line; what is not UTF-8, in a file's name say, is replaced.
+std::string json_text(const Json& json);
+std::string indented_json_text(const Json& json, int indent);
+
+// "parse error at line 1, column 2: …" of "[json.exception.parse_error.101] parse error at …".
+std::string without_prefix(const Json::exception& wrong);
 
 }  // namespace airybench

@@ -14,7 +14,7 @@
 namespace airybench {
 namespace {
 
-constexpr const char* footer = R"(
+constexpr const char* merge_footer = R"(
 The records must be of the same kind of machine (CPU model and number), of the same sources, compiler,
 libraries, threads, tolerances and limits, and of one plan; each case may be there once, and every case of the plan must be
 there. What is refused is named, and nothing is written then.
@@ -33,10 +33,10 @@ struct MergeOptions {
   bool incomplete = false;
 };
 
-MergeOptions parse(int argc, const char* const* argv) {
+MergeOptions parse_merge(int argc, const char* const* argv) {
   MergeOptions options;
   CLI::App app("Joins the shards of a run into one results folder.", "bench merge");
-  app.footer(footer);
+  app.footer(merge_footer);
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
   app.add_option("--out", options.out, "folder of the whole")->required();
   app.add_flag("--incomplete", options.incomplete, "also when cases of the plan are missing");
@@ -93,7 +93,7 @@ std::map<int, const Placed*> by_number(const std::vector<Placed>& all) {
 }  // namespace
 
 int merge_command(int argc, const char* const* argv) {
-  const MergeOptions options = parse(argc, argv);
+  const MergeOptions options = parse_merge(argc, argv);
   const std::vector<Placed> all = read_all(options.folders);
   refuse_mixtures(all);
   const std::map<int, const Placed*> cases = by_number(all);

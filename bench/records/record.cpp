@@ -204,7 +204,7 @@ Json to_json(const Record& r) {
   json["measured_once"] = r.measured_once;
   json["mesh_file"] = r.mesh_file;
   json["mesh_sha256"] = r.mesh_sha256;
-  json["scene_definition"] = Json::parse(r.scene_definition);
+  json["scene_definition"] = parse_json(r.scene_definition);
   json["blocks_heap_bytes"] = or_null(r.blocks_heap_bytes);
   json["assembly_peak_heap_bytes"] = or_null(r.assembly_peak_heap_bytes);
   json["process_peak_heap_bytes"] = or_null(r.process_peak_heap_bytes);

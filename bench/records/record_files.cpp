@@ -16,7 +16,7 @@ namespace airybench {
 
 std::string csv_field(const Json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
+  if (!value.is_string()) return json_text(value);
   std::string text = value.get<std::string>();
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";
@@ -54,21 +54,16 @@ std::string identity_of(const Json& record) {
   }
   for (const char* key : study_keys) {
     const auto found = record.find(key);
-    identity += found == record.end() ? "null" : found->dump();
+    identity += found == record.end() ? "null" : json_text(*found);
     identity += '\n';
   }
   return identity;
 }
 
-// What is not UTF-8, in a file's name say, is replaced.
-std::string line_of(const Json& record) {
-  return record.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 std::string lines_of(const std::vector<Json>& records) {
   std::string text;
   for (const auto& record : records) {
-    text += line_of(record);
+    text += json_text(record);
     text += '\n';
   }
   return text;
@@ -87,7 +82,11 @@ void write_summaries(const std::filesystem::path& folder, const std::vector<Json
 }
 
 Json parsed(const std::string& line, const std::string& place) {
-  auto record = Json::parse(line, nullptr, false);
+  Json record;
+  try {
+    record = parse_json(line);
+  } catch (const Json::exception&) {  // is no object, then
+  }
   if (!record.is_object())
     throw OutputError(fmt::format("{}: not a record (allowed: a JSON object on a line)", place));
   for (const char* key : case_keys)
@@ -116,7 +115,7 @@ Context context_of(const Json& record) {
   Context context;
   if (const auto found = record.find("context"); found != record.end() && found->is_object())
     for (const auto& [key, value] : found->items())
-      context[key] = value.is_string() ? value.get<std::string>() : value.dump();
+      context[key] = value.is_string() ? value.get<std::string>() : json_text(value);
   return context;
 }
 
@@ -187,7 +186,7 @@ void RecordFiles::append(const Record& record) {
   const auto replaced =
       std::erase_if(records_, [&](const Json& other) { return same_case(other, json); });
   if (!journal_.is_open() || replaced > 0) rewrite();
-  journal_.append(line_of(json));
+  journal_.append(json_text(json));
   records_.push_back(std::move(json));
 }
 

@@ -75,7 +75,7 @@ void read_what_was_solved(const Json& json, Record& r) {
   read(json, "mesh_sha256", r.mesh_sha256);
   read(json, "scene", r.scene);
   read(json, "scene_group", r.scene_group);
-  if (has(json, "scene_definition")) r.scene_definition = json["scene_definition"].dump();
+  if (has(json, "scene_definition")) r.scene_definition = json_text(json["scene_definition"]);
   read(json, "method", r.method);
   read(json, "case_number", r.case_number);
   read(json, "n_phi", r.n_phi);

@@ -15,10 +15,9 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 Json parsed_line(const std::string& text, const std::string& place) {
   try {
-    return Json::parse(text);
+    return parse_json(text);
   } catch (const Json::exception& wrong) {
-    const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
-    throw RecordError(fmt::format("{}: not JSON: {}", place, what.substr(what.find("] ") + 2)));
+    throw RecordError(fmt::format("{}: not JSON: {}", place, without_prefix(wrong)));
   }
 }
 
@@ -26,7 +25,7 @@ class Keys {
  public:
   Keys(const Json& json, const std::string& place) : json_(json), place_(place) {
     if (!json_.is_object())
-      throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place_, json_.dump()));
+      throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place_, json_text(json_)));
   }
   std::string name(const char* key) const {
     const Json& value = this->value(key);
@@ -101,7 +100,8 @@ class Keys {
     return found == json_.end() ? null : *found;
   }
   [[noreturn]] void fail(const char* key, const Json& value, const std::string& allowed) const {
-    throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place_, key, value.dump(), allowed));
+    throw RecordError(
+        fmt::format("{}: {}: {} (allowed: {})", place_, key, json_text(value), allowed));
   }
 
   const Json& json_;

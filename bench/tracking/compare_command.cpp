@@ -73,7 +73,7 @@ int compare_command(int argc, const char* const* argv) {
     write_file_atomically(options.out, text);
   }
   if (options.out.extension() == ".json")
-    write_file_atomically(options.out, comparison_json(comparison).dump(1) + "\n");
+    write_file_atomically(options.out, indented_json_text(comparison_json(comparison), 1) + "\n");
   fmt::print("{}\n\n{}", title, comparison_text(comparison));
   return comparison.has_regression() ? 1 : 0;
 }

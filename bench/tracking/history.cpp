@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <tuple>
 
 #include "bench/records/json.hpp"
 #include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/robust.hpp"
 #include "support/atomic_file.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -97,20 +96,20 @@ bool is_date(const std::string& text) {
          });
 }
 
-std::string without_prefix(const Json::exception& wrong) {
-  const std::string what = wrong.what();  // "[json.exception.parse_error.101] parse error at …"
-  return what.substr(what.find("] ") + 2);
+std::string text_of_night(const fs::path& file) {
+  try {
+    return file_text(file);
+  } catch (const std::runtime_error& unreadable) {
+    throw RecordError(unreadable.what());
+  }
 }
 
 Night read_night(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in.good() && !in.eof()) throw RecordError(file.string() + ": cannot be read");
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_json(text_of_night(file));
     if (json.at("format") != format_name)
       throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
-                                    json.at("format").dump(), format_name));
+                                    json_text(json.at("format")), format_name));
     Night night;
     night.file = file;
     night.date = json.at("date").get<std::string>();
@@ -226,8 +225,7 @@ void write_night(const Night& night) {
   if (error)
     throw std::runtime_error(
         fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
-  write_file_atomically(night.file,
-                        json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_file_atomically(night.file, indented_json_text(json, 1) + "\n");
 }
 
 }  // namespace airybench

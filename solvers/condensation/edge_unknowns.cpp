@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "assembly/edge_forces.hpp"
+
 namespace airybench {
 
 std::vector<bool> contact_edges(const Problem& problem) {

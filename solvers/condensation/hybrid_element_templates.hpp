@@ -79,15 +79,18 @@ Eigen::Matrix<Scalar, 12, 12> HybridElement<Scalar>::stiffness() const {
 template <typename Scalar>
 Eigen::Matrix<Scalar, 12, 1> HybridElement<Scalar>::load() const {
   Eigen::Matrix<Scalar, 12, 1> f = particular_forces;
-  if (loaded) f -= forces.transpose() * flexibility.solve(particular_load);
+  if (loaded) {
+    const Eigen::Matrix<Scalar, 9, 1> phi = flexibility.solve(particular_load);
+    f -= forces.transpose() * phi;
+  }
   return f;
 }
 
 template <typename Scalar>
 ElementStressIn<Scalar> HybridElement<Scalar>::stress_at(
     const Eigen::Matrix<Scalar, 12, 1>& displacement) const {
-  const Eigen::Matrix<Scalar, 9, 1> phi =
-      flexibility.solve(forces * displacement - particular_load);
+  const Eigen::Matrix<Scalar, 9, 1> right_side = forces * displacement - particular_load;
+  const Eigen::Matrix<Scalar, 9, 1> phi = flexibility.solve(right_side);
   ElementStressIn<Scalar> total;
   total.reshaped() = stress.template rightCols<9>() * phi;
   if (loaded) total += particular;

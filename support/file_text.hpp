@@ -1,0 +1,11 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace airybench {
+
+// All bytes of a file. Throws std::runtime_error "file: why".
+std::string file_text(const std::filesystem::path& file);
+
+}  // namespace airybench
