@@ -53,6 +53,13 @@ class Row:
     uzawa_iterations: float | None = None
     lower_bound_Nmm: float | None = None
     upper_bound_Nmm: float | None = None
+    time_mad_s: float | None = None
+    parameters: str = ""  # chosen: r=20, rho=20
+    assembly_s: float | None = None
+    stage_contact_s: float | None = None
+    stage_check_s: float | None = None
+    linear_iterations: float | None = None
+    memory_count_ratio: float | None = None
 
     @property
     def completed(self) -> bool:
@@ -133,7 +140,11 @@ OPTIONAL = {"target_error": positive, "study": one_of(STUDIES), "outcome": one_o
             "scene_group": text, "knob": text, "knob_value": not_negative,
             "error_stress": not_negative, "error_discretisation": not_negative,
             "error_total": not_negative, "uzawa_iterations": not_negative,
-            "lower_bound_Nmm": finite, "upper_bound_Nmm": finite}
+            "lower_bound_Nmm": finite, "upper_bound_Nmm": finite, "time_mad_s": not_negative,
+            "parameters": text,
+            "assembly_s": not_negative, "stage_contact_s": not_negative,
+            "stage_check_s": not_negative, "linear_iterations": not_negative,
+            "memory_count_ratio": not_negative}
 
 
 def read_results(path: Path) -> list[Row]:

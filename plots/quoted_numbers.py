@@ -1,0 +1,345 @@
+#!/usr/bin/env python3
+"""Holds the numbers quoted in README.md and docs/ against the committed records.
+
+docs/numbers.txt quotes phrases, with {} where a number stands, and says below each phrase what the
+records must give, a line per number:
+
+    [README.md]
+    on Mesh7 {} of 3STEPD's time
+      paper: time_s of Mesh7/HYBRID per 3STEPD
+
+    FOLDER: [at most|at least] [least|greatest] QUANTITY of CASES [per [QUANTITY of] METHODS]
+            [, KEY=VALUE ...] [in UNIT]
+
+FOLDER is one of results/. QUANTITY is `count`, or column names of results.csv with + - * / and
+brackets. CASES is MESH/METHOD; as in a shell * stands for anything, and | separates choices. `per`
+divides by the same (or another) quantity of other methods on the same mesh and scene. KEY=VALUE
+keeps the rows with that value; stop=target and knob= (not a point of a swept knob) hold unless they
+are given. Several cases need `least` or `greatest`. `at most` rounds up, `at least` down, all else
+to nearest, to as many significant digits as are written.
+
+A line `EXPRESSION is NUMBER`, `is below NUMBER` or `is above NUMBER` is a condition for words
+beside the numbers, such as "less than": the phrase has no {} for it.
+
+Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->.
+"""
+from __future__ import annotations
+
+import argparse
+import math
+import re
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+from fnmatch import fnmatchcase
+from pathlib import Path
+
+from results_table import ResultsError, Row, read_results
+
+PROJECT = Path(__file__).resolve().parent.parent
+WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
+NUMBER = r"\d{1,3}(?: \d{3})+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|" + "|".join(rf"\b{w}\b" for w in WORDS)
+UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "MiB": 2**20,
+         "GiB": 2**30}
+ROUNDING = {"at most": ROUND_CEILING, "at least": ROUND_FLOOR, None: ROUND_HALF_EVEN}
+EXPRESSION = re.compile(
+    r"(?P<folder>[\w/]+): (?:(?P<bound>at most|at least) )?(?:(?P<which>least|greatest) )?"
+    r"(?P<quantity>[\w+*/().-]+) of (?P<mesh>[^\s/]+)/(?P<method>\S+?)"
+    r"(?: per (?:(?P<divisor>[\w+*/().-]+) of )?(?P<per>\S+?))?"
+    r"(?P<filters>(?:, \w+=\S*?)*)(?: in (?P<unit>\S+))?")
+CONDITION = re.compile(r"(?P<expression>.+) is (?P<relation>below |above |)(?P<number>\S+)")
+TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
+                   r"(?P<body>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+
+
+class QuoteError(Exception):
+    """A quotation or an expression with which nothing can be done: place and reason."""
+
+
+@dataclass(frozen=True)
+class Quote:
+    place: str  # in docs/numbers.txt
+    file: str
+    phrase: str
+    expressions: list[str]  # in the order of the {}
+    conditions: list[str]
+
+
+@dataclass(frozen=True)
+class Difference:
+    file: str
+    start: int  # where what is written begins and ends in the file
+    end: int
+    line: int
+    written: str
+    records: str
+    source: str
+    replacement: str  # of what stands between start and end
+    words: bool = False  # the numbers are right, the words beside them are not: for an author
+
+    def sentence(self) -> str:
+        return (f"{self.file}:{self.line}: '{self.written}', but the records give "
+                f"'{self.records}' ({self.source})")
+
+
+class Records:
+    """The committed runs, each read once."""
+
+    def __init__(self, results: Path) -> None:
+        self.results = results
+        self.rows: dict[str, list[Row]] = {}
+
+    def of(self, folder: str) -> list[Row]:
+        if folder not in self.rows:
+            self.rows[folder] = read_results(self.results / folder / "results.csv")
+        return self.rows[folder]
+
+
+def fits(value: object, choices: str) -> bool:
+    text = "" if value is None else str(value)
+    return any(fnmatchcase(text, choice) for choice in choices.split("|"))
+
+
+def chosen(rows: list[Row], mesh: str, method: str, filters: dict[str, str]) -> list[Row]:
+    return [row for row in rows
+            if fits(row.mesh, mesh) and fits(row.method, method)
+            and all(fits(getattr(row, key), value) for key, value in filters.items())]
+
+
+def quantity_of(row: Row, quantity: str) -> float | None:
+    """None where one of its columns is empty."""
+    names = set(re.findall(r"[a-z]\w*", quantity))
+    values = {name: getattr(row, name) for name in names}
+    if any(value is None for value in values.values()):
+        return None
+    return eval(quantity, {"__builtins__": {}}, values)  # numbers and + - * / ( ) by EXPRESSION
+
+
+def value_of(expression: str, records: Records) -> tuple[float, str]:
+    """What the records give, and how it is rounded."""
+    match = EXPRESSION.fullmatch(expression)
+    if not match:
+        raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "
+                         "[least|greatest] QUANTITY of MESH/METHOD [per [QUANTITY of] "
+                         "METHODS] [, KEY=VALUE] [in UNIT]")
+    if match["unit"] not in UNITS:
+        raise QuoteError(f"'{expression}': unit '{match['unit']}', expected one of "
+                         f"{', '.join(filter(None, UNITS))}")
+    filters = {"stop": "target", "knob": ""}
+    filters |= dict(pair.split("=", 1) for pair in match["filters"].split(", ")[1:])
+    rows = records.of(match["folder"])
+    names = re.findall(r"[a-z]\w*", f"{match['quantity']} {match['divisor'] or ''}")
+    for name in {*filters, *names} - {"count"}:
+        if name not in Row.__dataclass_fields__:
+            raise QuoteError(f"'{expression}': no column {name}")
+    cases = chosen(rows, match["mesh"], match["method"], filters)
+    if match["quantity"] == "count":
+        return float(len(cases)), ROUNDING[None]
+    values = []
+    for case in cases:
+        value = quantity_of(case, match["quantity"])
+        others = [case] if match["per"] is None else [
+            other for other in chosen(rows, case.mesh, match["per"], filters)
+            if other.scene == case.scene]
+        for other in others:
+            divisor = 1 if match["per"] is None else \
+                quantity_of(other, match["divisor"] or match["quantity"])
+            if value is not None and divisor:
+                values.append(value / divisor)
+    if not values or (match["which"] is None and len(values) > 1):
+        raise QuoteError(f"'{expression}': {len(values) or 'no'} values, expected "
+                         f"{'one' if match['which'] is None else 'some'}")
+    value = max(values) if match["which"] == "greatest" else min(values)
+    return value / UNITS[match["unit"]], ROUNDING[match["bound"]]
+
+
+def shown(value: float, rounding: str, like: str) -> str:
+    """The value in the form of a number as it is written: words, exponent, digits, groups."""
+    if like in WORDS:
+        return WORDS[int(value)] if value in range(len(WORDS)) else f"{value:g}"
+    mantissa, _, exponent = like.partition("e")
+    digits = len(mantissa.replace(".", "").replace(" ", "").lstrip("0")) or 1
+    exact = Decimal(repr(value))
+    if not exact:
+        return "0"
+    last = exact.adjusted() - digits + 1
+    if not exponent:
+        last = min(last, 0)  # never coarser than a whole number
+    rounded = exact.quantize(Decimal(1).scaleb(last), rounding=rounding)
+    if exponent:
+        text, power = f"{rounded:.{digits - 1}e}".split("e")
+        return f"{text}e{int(power)}"
+    return f"{rounded:,f}".replace(",", " ") if " " in like else f"{rounded:f}"
+
+
+def quotes_in(path: Path) -> Iterator[Quote]:
+    file, quote = "", None
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+        place = f"{path}:{number}"
+        if not line.strip() or line.startswith("#"):
+            continue
+        if line.startswith(" "):
+            if quote is None:
+                raise QuoteError(f"{place}: what the records must give without a phrase above it")
+            lines = quote.conditions if CONDITION.fullmatch(line) else quote.expressions
+            lines.append(line.strip())
+            continue
+        if quote:
+            yield quote
+            quote = None
+        if line.startswith("[") and line.endswith("]"):
+            file = line[1:-1]
+        else:
+            quote = Quote(place, file, line, [], [])
+    if quote:
+        yield quote
+
+
+def found(quote: Quote, text: str) -> re.Match:
+    """The one place of the phrase, with a group per number; lines may break at any space."""
+    parts = [r"\s+".join(map(re.escape, re.split(r"\s+", part)))
+             for part in quote.phrase.split("{}")]
+    if len(parts) - 1 != len(quote.expressions):
+        raise QuoteError(f"{quote.place}: {len(parts) - 1} numbers in the phrase, but "
+                         f"{len(quote.expressions)} lines say what the records must give")
+    places = list(re.finditer(rf"({NUMBER})".join(parts), text))
+    if len(places) != 1:
+        raise QuoteError(f"{quote.place}: '{quote.phrase}' stands {len(places)} times in "
+                         f"{quote.file}; expected once")
+    return places[0]
+
+
+def holds(condition: re.Match, value: float) -> bool:
+    number = float(condition["number"])
+    return {"below ": value < number, "above ": value > number, "": value == number}[
+        condition["relation"]]
+
+
+def differences_of(quote: Quote, text: str, records: Records) -> Iterator[Difference]:
+    match = found(quote, text)
+
+    def value(expression: str) -> tuple[float, str]:
+        try:
+            return value_of(expression, records)
+        except QuoteError as error:
+            raise QuoteError(f"{quote.place}: {error}")
+
+    def difference(group: int, right: str, source: str) -> Difference:
+        start, end = match.span(group)
+        return Difference(quote.file, start, end, text.count("\n", 0, start) + 1,
+                          " ".join(match[group].split()), right, source, right, words=group == 0)
+
+    for group, expression in enumerate(quote.expressions, 1):
+        right = shown(*value(expression), match[group])
+        if match[group] != right:
+            yield difference(group, right, expression)
+    for line in quote.conditions:
+        condition = CONDITION.fullmatch(line)
+        number = value(condition["expression"])[0]
+        if not holds(condition, number):
+            yield difference(0, f"{number:.6g}", line)
+
+
+def seconds(value: float) -> str:
+    for unit, size in (("µs", 1e-6), ("ms", 1e-3)):
+        if value < 1000 * size:
+            return f"{value / size:.3g} {unit}"
+    return f"{value:.3g} s"
+
+
+def table(rows: list[Row]) -> str:
+    """As `bench` prints it (bench/terminal.cpp), a line of dots between meshes."""
+    def number(value: float | None, show: str) -> str:
+        return "-" if value is None else format(value, show)
+    cells = [["mesh", "scene", "method", "n_phi", "time", "±", "heap", "error stress",
+              "error force", "status"]]
+    for row in rows:
+        heap = None if row.peak_heap_bytes is None else row.peak_heap_bytes / 2**20
+        cells.append([row.mesh, row.scene, row.method, str(row.n_phi), seconds(row.time_s),
+                      seconds(row.time_mad_s or 0), number(heap, ".1f") + " MiB",
+                      number(row.error_stress, ".1e"), number(row.error_force, ".1e"),
+                      row.status])
+    widths = [max(map(len, column)) for column in zip(*cells)]
+    lines = []
+    for i, line in enumerate(cells):
+        if i > 1 and line[0] != cells[i - 1][0]:
+            lines.append("…")
+        lines.append("  ".join(cell.rjust(width) if 3 <= column < 9 else cell.ljust(width)
+                               for column, (cell, width) in enumerate(zip(line, widths))).rstrip())
+    return "```\n" + "\n".join(lines) + "\n```\n"
+
+
+def differing_tables(file: str, text: str, records: Records) -> Iterator[Difference]:
+    tables = list(TABLE.finditer(text))
+    if len(tables) != text.count("<!-- table"):
+        raise QuoteError(f"{file}: {text.count('<!-- table')} comments begin a table, "
+                         f"{len(tables)} of them can be read; expected <!-- table FOLDER: MESHES / "
+                         "METHODS --> and <!-- end of table -->")
+    for match in tables:
+        rows = [row for mesh in match["mesh"].split("|") for method in match["method"].split("|")
+                for row in chosen(records.of(match["folder"]), mesh, method, {"stop": "target"})
+                if row.completed]
+        right = table(rows)
+        if match["body"] != right:
+            before, after = match["body"].splitlines(), right.splitlines()
+            # The first line that differs tells more than the whole table.
+            i = next((i for i, pair in enumerate(zip(before, after)) if pair[0] != pair[1]),
+                     min(len(before), len(after)))
+            start, end = match.span("body")
+            yield Difference(file, start, end, text.count("\n", 0, start) + 1 + i,
+                             "".join(before[i:i + 1]), "".join(after[i:i + 1]),
+                             match["head"].strip(), right)
+
+
+def differences(project: Path) -> dict[str, list[Difference]]:
+    """By file, in the order of the text."""
+    records = Records(project / "results")
+    by_file: dict[str, list[Difference]] = {}
+    quotes = list(quotes_in(project / "docs" / "numbers.txt"))
+    texts = {quote.file: (project / quote.file).read_text(encoding="utf-8") for quote in quotes}
+    for file, text in texts.items():
+        of_file = list(differing_tables(file, text, records))
+        for quote in quotes:
+            if quote.file == file:
+                of_file += differences_of(quote, text, records)
+        by_file[file] = sorted(of_file, key=lambda d: d.start)
+    return by_file
+
+
+def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
+    for file, of_file in by_file.items():
+        path = project / file
+        text = path.read_text(encoding="utf-8")
+        for difference in reversed(of_file):
+            if not difference.words:
+                text = text[:difference.start] + difference.replacement + text[difference.end:]
+        path.write_text(text, encoding="utf-8")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    what = parser.add_mutually_exclusive_group(required=True)
+    what.add_argument("--check", action="store_true",
+                      help="list the numbers that the records do not give; exit status 1 if any")
+    what.add_argument("--write", action="store_true",
+                      help="rewrite them; exit status 1 if words beside them no longer hold")
+    parser.add_argument("--project", type=Path, default=PROJECT, help="default: this one")
+    arguments = parser.parse_args()
+    try:
+        by_file = differences(arguments.project)
+    except (QuoteError, ResultsError, OSError) as error:
+        print(f"quoted_numbers: {error}", file=sys.stderr)
+        sys.exit(2)
+    for of_file in by_file.values():
+        for difference in of_file:
+            print(difference.sentence())
+    if arguments.write:
+        rewrite(arguments.project, by_file)
+    if any(difference.words or arguments.check
+           for of_file in by_file.values() for difference in of_file):
+        sys.exit(1)
+
+
+if __name__ == "__main__":
+    main()

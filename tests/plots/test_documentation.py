@@ -1,0 +1,47 @@
+"""README.md and docs/: every relative link leads somewhere.  /usr/bin/python3 -m unittest FILE"""
+import re
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+LINK = re.compile(r"\]\(([^()\s]+)\)")
+
+
+def without_code(text: str) -> str:
+    text = re.sub(r"^(?:    |\t).*$", "", re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S),
+                  flags=re.M)
+    return re.sub(r"`[^`\n]*`", lambda code: code[0].replace("](", "] ("), text)
+
+
+def anchors(text: str) -> set[str]:
+    """As GitHub makes them of headings."""
+    headings = re.findall(r"^#+ (.*)$", re.sub(r"^```.*?^```$", "", text, flags=re.M | re.S), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def broken_links(file: Path) -> list[str]:
+    broken = []
+    for link in LINK.findall(without_code(file.read_text(encoding="utf-8"))):
+        if re.match(r"[a-z]+:", link):
+            continue
+        path, _, anchor = link.partition("#")
+        target = (file.parent / path).resolve() if path else file
+        if not target.exists():
+            broken.append(f"{file.relative_to(PROJECT)}: {link}: no such file")
+        elif anchor and anchor not in anchors(target.read_text(encoding="utf-8")):
+            broken.append(f"{file.relative_to(PROJECT)}: {link}: no such heading")
+    return broken
+
+
+class DocumentationTest(unittest.TestCase):
+    def test_links_lead_somewhere(self) -> None:
+        files = [PROJECT / "README.md", *(PROJECT / "docs").glob("*.md"),
+                 *(PROJECT / folder / "README.md" for folder in ("plots", "results"))]
+        self.assertEqual([], [link for file in files for link in broken_links(file)])
+
+    def test_the_readme_is_short_enough_to_be_read(self) -> None:
+        self.assertLessEqual(len((PROJECT / "README.md").read_text(encoding="utf-8").split()), 1500)
+
+
+if __name__ == "__main__":
+    unittest.main()
