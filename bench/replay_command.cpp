@@ -118,10 +118,9 @@ Case case_of(const Record& record, const Options& options) {
     scene = read_scene(file);
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
-  const auto plan = plan_cases({posed}, select_methods(record.method), options.study);
+  const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop);
   for (const Case& c : plan)
-    if (c.knob.name == record.knob && c.knob.value == record.knob_value &&
-        c.knob.stop.value_or(options.stop) == record.stop)
+    if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop)
       return c;
   throw OutputError(fmt::format("{}: this program has no such point of the study", record.method));
 }

@@ -82,7 +82,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
 void print_stages(const std::vector<Case>& plan) {
   for (const Case& c : plan) {
     const MeshSizes sizes = solved_sizes(*c.posed.problem);
-    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", c.number, plan.size(), c.name(),
+    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", c.number, plan.size(), c.name().text(),
                sizes.n_phi, sizes.n_f, sizes.n_c);
     for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
       fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
@@ -104,8 +104,8 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   std::vector<PlannedCase> planned;
   for (const Case& c : plan)
     planned.push_back({c.posed.problem->mesh.name, c.posed.scene_name, c.method.name,
-                       mesh_sizes(c.posed.problem->mesh).n_phi, c.knob.stop.value_or(options.stop),
-                       c.knob.name, c.knob.value});
+                       mesh_sizes(c.posed.problem->mesh).n_phi, c.stop, c.knob.name, c.knob.value,
+                       name_of(c.study)});
   const std::filesystem::path committed = data_folder("results");
   const PastRecords past = read_past_records(
       {committed / "paper", committed / "direct", committed / "stability", options.out});
@@ -130,7 +130,7 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
 std::vector<Case> plan_of(const Options& options) {
   const std::vector<Method> selected =
       select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
-  std::vector<Case> plan = plan_cases(pose_all(options), selected, options.study);
+  std::vector<Case> plan = plan_cases(pose_all(options), selected, options.study, options.stop);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty()) throw UsageError("no case is left: the arguments after -- select none");
   return plan;
@@ -169,7 +169,7 @@ int run_command(int argc, const char* const* argv) {
   catch_interrupts();
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
-  context["plan_sha256"] = fingerprint(whole, options.stop);
+  context["plan_sha256"] = fingerprint(whole);
   const RunResult result = run_cases(plan, options, context);
   fmt::print("\n{}\n", results_table(result.records));
   if (result.earlier > 0)

@@ -57,23 +57,21 @@ std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
 }
 
 std::string results_table(const std::vector<Record>& records) {
-  const std::vector<std::string> header = {"mesh",        "scene", "method", "n_phi",
-                                           "time",        "±",     "heap",   "error stress",
-                                           "error force", "status"};
+  const std::vector<std::string> header = {"case", "n_phi",        "time",        "±",
+                                           "heap", "error stress", "error force", "status"};
   std::vector<std::vector<std::string>> rows = {header};
   for (const Record& r : records) {
     const Verification* v = r.verification ? &*r.verification : nullptr;
-    rows.push_back({r.mesh, r.scene, r.method, std::to_string(r.n_phi),
-                    show_seconds(median(r.samples_s)),
-                    show_seconds(median_absolute_deviation(r.samples_s)),
-                    show_bytes(r.peak_heap_bytes), show_error(v ? v->error_stress : std::nullopt),
-                    show_error(v ? v->error_force : std::nullopt), std::string(name_of(r.status))});
+    rows.push_back(
+        {name_of(r).text(), std::to_string(r.n_phi), show_seconds(median(r.samples_s)),
+         r.samples_s.size() == 1 ? "n=1" : show_seconds(median_absolute_deviation(r.samples_s)),
+         show_bytes(r.peak_heap_bytes), show_error(v ? v->error_stress : std::nullopt),
+         show_error(v ? v->error_force : std::nullopt), std::string(name_of(r.status))});
   }
-  std::string table = aligned_table(rows, 3);
+  std::string table = aligned_table(rows, 1);
   for (const Record& r : records)
     if (r.status != Status::ok)
-      table += fmt::format("{} {} {}: {}: {}\n", r.mesh, r.scene, r.method, name_of(r.status),
-                           r.status_reason);
+      table += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
   return table;
 }
 
@@ -91,8 +89,8 @@ std::string Progress::line(const Record& r) {
   done_ += cost(r.n_phi);
   const double elapsed = seconds_since(start_);
   const std::optional<double> error = r.verification ? r.verification->error_force : std::nullopt;
-  return fmt::format("[{}/{}] {} {} {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n",
-                     ++ended_, cases_, r.mesh, r.scene, r.method, name_of(r.status),
+  return fmt::format("[{}/{}] {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n", ++ended_,
+                     cases_, name_of(r).text(), name_of(r.status),
                      show_seconds(median(r.samples_s)), show_bytes(r.peak_heap_bytes),
                      show_error(error), show_duration(elapsed),
                      show_duration(elapsed * std::max(0.0, total_ - done_) / done_));

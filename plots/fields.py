@@ -6,11 +6,12 @@ T triangles, B boundary edges, P = 2 x (contact edges) contact points.
 from __future__ import annotations
 
 import csv
-import re
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+
+from case_names import case_name, file_of
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
@@ -115,13 +116,13 @@ def read_table(path: Path, header: str,
 
 
 def read_n_phi(results: Path, name: str) -> int | None:
-    """n_phi of the row whose mesh/scene/method gave the file name; None without file or row."""
+    """n_phi of the row whose case gave the file name; None without file or row."""
     if not results.is_file():
         return None
     try:
         with results.open(newline="", encoding="utf-8") as file:
             for row in csv.DictReader(file):
-                if re.sub("[/:]", "-", f"{row['mesh']}/{row['scene']}/{row['method']}") == name:
+                if file_of(case_name(row)) == name:
                     return int(row["n_phi"])
     except (OSError, UnicodeDecodeError, csv.Error, KeyError, ValueError, TypeError) as error:
         raise FieldsError(f"{results}: {error!r}; expected columns mesh, scene, method, n_phi")

@@ -22,6 +22,7 @@ class Night:
     cases: list[dict]          # as in records.jsonl
     verdicts: list[dict]       # case, lane, quantity, kind, since, sentence
     failed: bool
+    times_judged: bool = True  # False: too few nights of this machine
 
     @property
     def revision(self) -> str:
@@ -59,6 +60,7 @@ def read_night(file: Path) -> Night:
         cases = typed(night, "cases", list, "a list")
         verdicts = typed(night, "verdicts", list, "a list", [])
         failed = typed(night, "failed", bool, "true or false")
+        times_judged = typed(night, "times_judged", bool, "true or false", True)
     except ValueError as wrong:
         raise ResultsError(f"{file}: {wrong}")
     for what, items, parse in (("cases", cases, check_case), ("verdicts", verdicts, check_verdict)):
@@ -67,7 +69,7 @@ def read_night(file: Path) -> Night:
                 parse(item)
             except ValueError as wrong:
                 raise ResultsError(f"{file}: {what}[{k}]: {wrong}")
-    return Night(date, context, noise, cases, verdicts, failed)
+    return Night(date, context, noise, cases, verdicts, failed, times_judged)
 
 
 def read_records(file: Path) -> list[dict]:

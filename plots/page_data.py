@@ -1,6 +1,7 @@
 """What the page shows, from the nights of a history: series, marks, the last run, its context."""
 from __future__ import annotations
 
+from case_names import case_name
 from night_history import Night, moment
 
 # Key, name, head of its column in the table, group; the unit is in the key. In the order shown.
@@ -32,11 +33,6 @@ COLUMNS = (("mesh", "mesh"), ("scene", "scene"), ("method", "method"), ("stop", 
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
-def case_name(case: dict) -> str:
-    name = "/".join(case[key] for key in ("mesh", "scene", "method"))
-    return name + ("/stop=paper" if case.get("stop") == "paper" else "")
-
-
 def page_data(nights: list[Night], records: list[dict] | None) -> dict:
     """JSON for the page's script. records: of the run to list; None: the last night's cases."""
     last, before = nights[-1], nights[-2] if len(nights) > 1 else None
@@ -51,7 +47,8 @@ def page_data(nights: list[Night], records: list[dict] | None) -> dict:
                        if any(case.get(key) is not None
                               for night in nights for case in night.cases)],
         "marks": marks(nights),
-        "last": {"failed": last.failed, "verdicts": last.verdicts,
+        "last": {"failed": last.failed, "times_judged": last.times_judged,
+                 "verdicts": last.verdicts,
                  "statuses": [case["status"] for case in last.cases]},
         "columns": columns(run),
         "rows": [{key: case[key] for key in (*dict(COLUMNS), "status_reason")

@@ -14,11 +14,12 @@
 namespace airybench {
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study) {
+                             const std::vector<Method>& methods, Study study, Stop stop) {
   std::vector<Case> cases;
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
-    cases.push_back(
-        {scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1});
+    const Stop own_stop = knob.stop.value_or(stop);
+    cases.push_back({scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1,
+                     study, own_stop});
   };
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
@@ -30,10 +31,21 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   return cases;
 }
 
-std::string fingerprint(const std::vector<Case>& plan, Stop stop) {
-  std::string text = stop == Stop::paper ? "paper\n" : "target\n";
+CaseName Case::name() const {
+  return {posed.problem->mesh.name,
+          posed.scene_name,
+          method.name,
+          name_of(study),
+          knob.name,
+          knob.value,
+          stop};
+}
+
+std::string fingerprint(const std::vector<Case>& plan) {
+  std::string text;
   for (const Case& c : plan)
-    text += fmt::format("{} {} {}\n", c.name(), c.posed.mesh_sha256, c.posed.scene_definition);
+    text +=
+        fmt::format("{} {} {}\n", c.name().text(), c.posed.mesh_sha256, c.posed.scene_definition);
   return sha256_hex(text);
 }
 
@@ -68,7 +80,7 @@ std::vector<Case> matching(const std::vector<Case>& plan, const std::string& exp
   }
   std::vector<Case> found;
   std::copy_if(plan.begin(), plan.end(), std::back_inserter(found), [&](const Case& c) {
-    return (regexec(&compiled, c.name().c_str(), 0, nullptr, 0) == 0) != others;
+    return (regexec(&compiled, c.name().text().c_str(), 0, nullptr, 0) == 0) != others;
   });
   regfree(&compiled);
   return found;

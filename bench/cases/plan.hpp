@@ -8,6 +8,7 @@
 
 #include "assembly/problem.hpp"
 #include "bench/cases/study.hpp"
+#include "bench/records/case_name.hpp"
 #include "solvers/method.hpp"
 
 namespace airybench {
@@ -22,19 +23,20 @@ struct PosedScene {
 struct Case {
   PosedScene posed;
   Method method;
-  Knob knob = {};             // of a study
-  int number = 0;             // in the whole plan, from 1, whatever part of it is run
-  std::string name() const {  // "Mesh0/default/3STEPD", "Mesh0/default/SSKY/tolerance=0.01"
-    return posed.problem->mesh.name + "/" + posed.scene_name + "/" + method.name + knob.suffix();
-  }
+  Knob knob = {};  // of a study
+  int number = 0;  // in the whole plan, from 1, whatever part of it is run
+  Study study = Study::none;
+  Stop stop = Stop::target;  // the knob's, where it has one
+  CaseName name() const;
 };
 
 // Scene by scene, so that methods on the same blocks run after one another.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study = Study::none);
+                             const std::vector<Method>& methods, Study study = Study::none,
+                             Stop stop = Stop::target);
 
-// SHA-256 of the cases' names, meshes, scenes, study and stop: two machines have the same plan.
-std::string fingerprint(const std::vector<Case>& plan, Stop stop);
+// SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
+std::string fingerprint(const std::vector<Case>& plan);
 
 // One of `count` parts of a plan, for as many machines: the cases index, index + count, …, so that
 // each has cases of every size.

@@ -27,6 +27,8 @@ struct PlannedCase {
   Stop stop = Stop::target;
   std::string knob = {};  // of a study
   std::optional<double> knob_value = {};
+  std::string study = {};
+  CaseName name() const { return {mesh, scene, method, study, knob, knob_value, stop}; }
 };
 
 enum class LimitMark { below, may_pass, above };

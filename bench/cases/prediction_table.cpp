@@ -48,14 +48,13 @@ std::string totals(const std::vector<PlannedCase>& cases, const Forecast& foreca
     text += ", without references";
   if (unknown > 0) text += fmt::format(", without {} of {} cases", unknown, cases.size());
   if (most)
-    text += fmt::format("; largest heap {}, {} {} {}", show_heap(most), cases[largest].mesh,
-                        cases[largest].scene, cases[largest].method);
+    text += fmt::format("; largest heap {}, {}", show_heap(most), cases[largest].name().text());
   return text + "\n";
 }
 
 std::string mark_line(const PlannedCase& c, LimitMark mark, const std::string& limit) {
   if (mark == LimitMark::below) return "";
-  return fmt::format("{} {} {}: {} {}\n", c.mesh, c.scene, c.method,
+  return fmt::format("{}: {} {}\n", c.name().text(),
                      mark == LimitMark::above ? "above" : "may pass", limit);
 }
 
@@ -64,16 +63,15 @@ std::string mark_line(const PlannedCase& c, LimitMark mark, const std::string& l
 std::string prediction_table(const std::vector<PlannedCase>& cases, const Forecast& forecast,
                              const Options& options) {
   std::vector<std::vector<std::string>> rows = {
-      {"mesh", "scene", "method", "n_phi", "time", "range", "heap", "in the run", "from"}};
+      {"case", "n_phi", "time", "range", "heap", "in the run", "from"}};
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const PlannedCase& c = cases[k];
     const Prediction& p = forecast.cases[k];
-    const std::string knob = c.knob_value ? fmt::format(" {}={}", c.knob, *c.knob_value) : "";
-    rows.push_back({c.mesh, c.scene, c.method + knob, std::to_string(c.n_phi),
+    rows.push_back({c.name().text(), std::to_string(c.n_phi),
                     p.time_s ? show_time(p.time_s->value) : "-", show_range(p.time_s),
                     show_heap(p.peak_heap_bytes), p.run_s ? show_time(*p.run_s) : "-", p.basis});
   }
-  std::string text = aligned_table(rows, 3) + totals(cases, forecast);
+  std::string text = aligned_table(rows, 1) + totals(cases, forecast);
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const Prediction& p = forecast.cases[k];
     text += mark_line(cases[k], p.timeout, fmt::format("--timeout={}", options.timeout_s));

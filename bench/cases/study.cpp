@@ -65,13 +65,6 @@ std::string name_of(Study study) {
   }
 }
 
-std::string Knob::suffix() const {
-  std::string text = value ? fmt::format("/{}={}", name, *value) : "";
-  if (stop) text += *stop == Stop::paper ? "/stop=paper" : "/stop=target";
-  std::replace(text.begin(), text.end(), ' ', '_');
-  return text;
-}
-
 std::vector<TurnedMethod> error_points(const Method& method) {
   constexpr std::array<double, 6> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
   constexpr std::array<double, 10> iterations = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};

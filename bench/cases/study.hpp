@@ -25,8 +25,6 @@ struct Knob {
   std::string name;  // "tolerance"; empty: nothing is turned
   std::optional<double> value;
   std::optional<Stop> stop;  // another than the run's
-  // "/tolerance=0.01" for the name of a case; empty: nothing is turned.
-  std::string suffix() const;
 };
 
 struct TurnedMethod {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/cases/study.hpp"
+#include "bench/records/case_name.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
@@ -67,12 +67,14 @@ std::map<std::string, std::string> context_of(const Json& record, const std::str
   return context;
 }
 
-// "/uzawa_iterations=10", "/stop=paper", "/study=error": what a method's cases differ in.
-std::string suffix_of(const Json& record, const std::string& place, const std::string& stop) {
-  Knob knob = {text(record, place, "knob"), number(record, place, "knob_value"), {}};
-  if (stop == "paper") knob.stop = Stop::paper;
-  const std::string study = text(record, place, "study");
-  return knob.suffix() + (study.empty() ? "" : "/study=" + study);
+CaseName case_name(const Json& record, const std::string& place, const StoredCase& stored) {
+  return {stored.mesh,
+          stored.scene,
+          name(record, place, "method"),
+          text(record, place, "study"),
+          text(record, place, "knob"),
+          number(record, place, "knob_value"),
+          stored.stop == "paper" ? Stop::paper : Stop::target};
 }
 
 // Null where the file is no JSON. Throws RecordError where it cannot be read.
@@ -102,7 +104,8 @@ StoredCase stored_case(const Json& record, const std::string& place) {
   stored.scene = name(record, place, "scene");
   stored.stop = text(record, place, "stop");
   if (stored.stop.empty()) stored.stop = "target";  // older records have none
-  stored.method = name(record, place, "method") + suffix_of(record, place, stored.stop);
+  const CaseName own = case_name(record, place, stored);
+  stored.method = own.method + own.suffix();
   stored.status = name(record, place, "status");
   stored.status_reason = text(record, place, "status_reason");
   stored.samples_s = samples(record, place);

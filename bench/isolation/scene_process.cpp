@@ -30,10 +30,7 @@ Command command_of(const std::string& line) {
 
 std::filesystem::path fields_of(const Case& c, const Options& options) {
   if (!options.fields) return {};
-  std::string name = c.name();
-  for (char& letter : name)
-    if (letter == '/' || letter == ':') letter = '-';
-  return options.out / "fields" / name;
+  return options.out / "fields" / c.name().file();
 }
 
 // The case's own process.
@@ -48,7 +45,7 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       auto examination = bench.examine(c.method, fields_of(c, options));
       record = std::move(examination.record);
       choice = std::move(examination.choice);
-      identify(c, options, record);
+      identify(c, record);
       if (is_measured(record) && !record.measured_once)
         bench.measure_memory(c.method, choice, record);
       record.runs_s = board.seconds_in_runs();

@@ -95,7 +95,7 @@ class SceneRunner {
   }
   std::size_t index_of(const std::string& case_name) const {
     for (std::size_t k = 0; k < cases_.size(); ++k)
-      if (cases_[k]->name() == case_name) return k;
+      if (cases_[k]->name().text() == case_name) return k;
     throw std::logic_error("no case is named " + case_name);
   }
 
@@ -136,7 +136,7 @@ void initialize_benchmark(const Options& options) {
 
 void run_scene(const std::vector<const Case*>& cases, const Options& options, SceneRunner& run) {
   for (std::size_t k = 0; k < cases.size(); ++k)
-    benchmark::RegisterBenchmark(cases[k]->name().c_str(),
+    benchmark::RegisterBenchmark(cases[k]->name().text().c_str(),
                                  [&run, k](benchmark::State& state) { run.measure(k, state); })
         ->UseManualTime()
         ->Iterations(1)

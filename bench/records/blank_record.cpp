@@ -20,11 +20,11 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
 
 Record blank_record(const Case& planned, const Options& options) {
   Record record = blank_record(*planned.posed.problem, planned.method, options);
-  identify(planned, options, record);
+  identify(planned, record);
   return record;
 }
 
-void identify(const Case& planned, const Options& options, Record& record) {
+void identify(const Case& planned, Record& record) {
   record.scene = planned.posed.scene_name;
   record.scene_group = planned.posed.scene_group;
   record.scene_definition = planned.posed.scene_definition;
@@ -33,7 +33,7 @@ void identify(const Case& planned, const Options& options, Record& record) {
   record.case_number = planned.number;
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
-  record.stop = planned.knob.stop.value_or(options.stop);
+  record.stop = planned.stop;
 }
 
 }  // namespace airybench

@@ -11,6 +11,6 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
 Record blank_record(const Case& planned, const Options& options);
 
 // Scene, mesh file, knob and stop of the case.
-void identify(const Case& planned, const Options& options, Record& record);
+void identify(const Case& planned, Record& record);
 
 }  // namespace airybench

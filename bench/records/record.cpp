@@ -64,6 +64,10 @@ void add_run(const TimedRun& run, Record& record) {
   record.peak_rss_bytes.reset();
 }
 
+CaseName name_of(const Record& r) {
+  return {r.mesh, r.scene, r.method, r.study, r.knob, r.knob_value, r.stop};
+}
+
 bool is_measured(const Record& record) {
   return record.status == Status::ok || record.status == Status::inaccurate ||
          (record.study == "error" && record.status == Status::not_converged && record.verification);

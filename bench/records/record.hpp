@@ -9,6 +9,7 @@
 #include "assembly/mesh.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/judging/verifier.hpp"
+#include "bench/records/case_name.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/memory_split.hpp"
 #include "solvers/method.hpp"
@@ -79,6 +80,8 @@ struct TimedRun {
 // Adds its sample. A run that ended otherwise than the detail run did sets the record's status, and
 // takes the samples away.
 void add_run(const TimedRun& run, Record& record);
+
+CaseName name_of(const Record& record);
 
 // Has it an answer whose time and memory are worth taking? Also one that was cut short on purpose.
 bool is_measured(const Record& record);

@@ -59,7 +59,7 @@ Context context_of(const Json& record);
 
 // Same mesh, scene, method, stop, study and knob?
 bool same_case(const Json& a, const Json& b);
-// "Mesh0/default/SSKY/study=error/tolerance=0.01", see CaseRecord::name().
+// See case_name.hpp.
 std::string case_name(const Json& record);
 
 // records.jsonl, results.csv and results.json of these records; each file whole or not at all.

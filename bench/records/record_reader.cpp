@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/records/case_name.hpp"
 #include "bench/records/journal.hpp"
 #include "bench/records/json.hpp"
 
@@ -111,12 +112,9 @@ class Keys {
 }  // namespace
 
 std::string CaseRecord::name() const {
-  std::string text = fmt::format("{}/{}/{}", mesh, scene, method);
-  if (!study.empty()) text += fmt::format("/study={}", study);
-  if (!knob.empty()) text += fmt::format("/{}", knob);
-  if (knob_value) text += fmt::format("={}", *knob_value);
-  if (stop == "paper") text += "/stop=paper";
-  return text;
+  return CaseName{
+      mesh, scene, method, study, knob, knob_value, stop == "paper" ? Stop::paper : Stop::target}
+      .text();
 }
 
 std::string CaseRecord::date() const {
@@ -138,12 +136,12 @@ CaseRecord case_record(const Json& json, const std::string& place) {
   record.samples_s = keys.times("samples_s");
   record.time_s = keys.time("time_s");
   record.noise_kernel_s = keys.time("noise_kernel_s");
-  record.tuning_s = keys.number("tuning_s", infinity);
   record.stage_contact_s = keys.number("stage_contact_s", infinity);
   record.done_fraction = keys.number("done_fraction", 1);
   record.extrapolated_time_s = keys.time("extrapolated_time_s");
   for (const auto& [key, member] : count_members) record.*member = keys.count(key);
   for (const auto& [key, member] : error_members) record.*member = keys.number(key, infinity);
+  for (const auto& [key, member] : shown_members) record.*member = keys.number(key, infinity);
   record.answer_hash = keys.text("answer_hash");
   record.context = keys.texts("context");
   return record;

@@ -30,7 +30,9 @@ struct CaseRecord {
   std::vector<double> samples_s;         // every timed run
   std::optional<double> time_s;          // their median
   std::optional<double> noise_kernel_s;  // of the fixed kernel that is timed between cases
+  std::optional<double> assembly_s;      // of the blocks, not in time_s
   std::optional<double> tuning_s;        // not in time_s
+  std::optional<double> peak_rss_bytes;
   std::optional<double> stage_contact_s;
   std::optional<double> done_fraction, extrapolated_time_s;  // status timeout only
   std::optional<double> error_stress, error_force, equilibrium_residual;
@@ -41,9 +43,7 @@ struct CaseRecord {
       heap_allocated_bytes, instructions;
   std::map<std::string, std::string> context;  // of the run: cpu, compiler, libraries
 
-  // What makes a case: "Mesh0/default/3STEPD", and where there is one "/study=error",
-  // "/tolerance=0.01", "/stop=paper".
-  std::string name() const;
+  std::string name() const;  // see case_name.hpp
   std::string date() const;  // UTC, "2026-11-21T11:28:12Z"; empty: the line does not say
 };
 
@@ -62,11 +62,17 @@ inline constexpr std::array<CountMember, 11> count_members = {{
     {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes},
     {"instructions", &CaseRecord::instructions},
 }};
-using ErrorMember = std::pair<const char*, std::optional<double> CaseRecord::*>;
-inline constexpr std::array<ErrorMember, 3> error_members = {{
+using NumberMember = std::pair<const char*, std::optional<double> CaseRecord::*>;
+inline constexpr std::array<NumberMember, 3> error_members = {{
     {"error_stress", &CaseRecord::error_stress},
     {"error_force", &CaseRecord::error_force},
     {"equilibrium_residual", &CaseRecord::equilibrium_residual},
+}};
+// Shown over the nights, not judged.
+inline constexpr std::array<NumberMember, 3> shown_members = {{
+    {"assembly_s", &CaseRecord::assembly_s},
+    {"tuning_s", &CaseRecord::tuning_s},
+    {"peak_rss_bytes", &CaseRecord::peak_rss_bytes},
 }};
 
 // Keys that are not in CaseRecord are passed over; null and a missing key are the same. `place` is

@@ -50,6 +50,7 @@ Json to_json(const CaseRecord& record) {
   }
   for (const auto& [key, member] : count_members) json[key] = or_null(record.*member);
   for (const auto& [key, member] : error_members) json[key] = or_null(record.*member);
+  for (const auto& [key, member] : shown_members) json[key] = or_null(record.*member);
   return json;
 }
 
@@ -123,6 +124,7 @@ Night read_night(const fs::path& file) {
           case_record(one, fmt::format("{}: case {}", file.string(), night.cases.size() + 1)));
     for (const Json& one : json.at("verdicts")) night.findings.push_back(finding_of(one));
     night.failed = json.at("failed").get<bool>();
+    night.times_judged = json.value("times_judged", true);  // older nights do not say
     return night;
   } catch (const Json::exception& wrong) {
     throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)",
@@ -218,7 +220,8 @@ void write_night(const Night& night) {
                        {"samples_s", night.noise_samples_s}}},
                      {"cases", cases},
                      {"verdicts", verdicts},
-                     {"failed", night.failed}};
+                     {"failed", night.failed},
+                     {"times_judged", night.times_judged}};
   std::error_code error;
   const fs::path folder = night.file.parent_path();
   fs::create_directories(folder, error);

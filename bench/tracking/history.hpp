@@ -42,6 +42,7 @@ struct Night {
   std::vector<CaseRecord> cases;
   std::vector<Finding> findings;
   bool failed = false;
+  bool times_judged = false;  // there were enough nights of the machine
 
   const CaseRecord* find(const std::string& case_name) const;  // or null
   std::string context_value(const std::string& key) const;     // "" where it has none

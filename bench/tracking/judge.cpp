@@ -91,6 +91,7 @@ void judge_newest(std::vector<Night>& history, const TimeRules& rules) {
   std::vector<Night> nights;
   std::copy_if(history.begin(), history.end(), std::back_inserter(nights),
                [&](const Night& night) { return night.machine() == newest.machine(); });
+  newest.times_judged = nights.size() >= nights_to_judge_times(rules);
   newest.findings = judge_counters(nights);
   const TimeTable table = time_table(nights);
   for (const TimeChange& change : find_time_changes(table, rules))

@@ -37,6 +37,10 @@ std::vector<double> common_factor(const std::vector<std::vector<double>>& rows,
 
 }  // namespace
 
+std::size_t nights_to_judge_times(const TimeRules& rules) {
+  return ChangePointRules{}.least_before + rules.least_nights_after;
+}
+
 std::vector<TimeChange> find_time_changes(const TimeTable& table, const TimeRules& rules) {
   const std::size_t all_nights = table.log_kernel.size();
   const std::size_t window_start = all_nights - std::min(all_nights, time_window);

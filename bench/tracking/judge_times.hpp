@@ -33,6 +33,9 @@ struct TimeRules {
   double level_per_night = 0.012;
 };
 
+// Nights of a machine from which on times are judged.
+std::size_t nights_to_judge_times(const TimeRules& rules);
+
 // NaN: not measured. The newest night is the last.
 struct TimeTable {
   std::vector<std::vector<double>> log_times;  // by case and night

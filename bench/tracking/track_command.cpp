@@ -118,8 +118,8 @@ bool judge_and_print(std::vector<Night>& history, const TrackOptions& options) {
                     [&](const Night& other) { return other.machine() == night.machine(); }));
   fmt::print("{}: {} cases, night {} of this machine ({})\n", night.file.string(),
              night.cases.size(), of_machine, night.machine());
-  const std::size_t needed = ChangePointRules{}.least_before + rules.least_nights_after;
-  if (of_machine < needed) fmt::print("times are judged from night {} on\n", needed);
+  if (!night.times_judged)
+    fmt::print("times are judged from night {} on\n", nights_to_judge_times(rules));
   for (const Kind kind : {Kind::worse, Kind::better, Kind::changed})
     for (const Finding& finding : night.findings)
       if (finding.kind == kind) fmt::print("{:<7}  {}\n", name_of(kind), finding.sentence);

@@ -5,13 +5,14 @@ const byId = (id) => document.getElementById(id);
 let state = readState(data);
 
 function headline() {
-  const {failed, verdicts, statuses} = data.last, night = data.nights[data.nights.length - 1];
+  const {failed, times_judged, verdicts, statuses} = data.last, night = data.nights[data.nights.length - 1];
   const ok = statuses.filter((status) => status === "ok").length;
   const worse = verdicts.filter((verdict) => verdict.kind === "worse").length;
   const words = failed ?
       `Failed${worse ? `: ${worse} ${worse === 1 ? "change" : "changes"} for the worse` : ""}` :
       verdicts.length ? "Passed, with changes" :
-                        "Passed, nothing has changed";
+      times_judged    ? "Passed, nothing has changed" :
+                        "Passed, times are not judged yet";
   const sentences = verdicts.map((verdict) => {
     const link = element(
         "a", {href: fragment({...state, filter: verdict.case === "all cases" ? "" : `${verdict.case}/`, quantity: verdict.quantity})},

@@ -53,7 +53,7 @@ class Command : public ::testing::Test {
 TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
   const Result result = bench("--mesh=Mesh0 --method=3STEPD --repetitions=3 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.err.find("[1/1] Mesh0 default 3STEPD: ok, "), std::string::npos);
+  EXPECT_NE(result.err.find("[1/1] Mesh0/default/3STEPD: ok, "), std::string::npos);
   EXPECT_NE(result.out.find("error force"), std::string::npos);
 
   const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
@@ -129,14 +129,15 @@ TEST_F(Command, ListsPlansAndExplainsWithoutMeasuring) {
   EXPECT_EQ(plan.code, 0);
   int rows = 0;
   for (const std::string& line : lines_of(plan.out))
-    rows += line.starts_with("Mesh") && line.find(" default  ") != line.npos ? 1 : 0;
+    rows += line.starts_with("Mesh") && line.find("/default/") != line.npos &&
+            line.find(": ") == line.npos;  // which would be a limit that is passed
   EXPECT_EQ(rows, static_cast<int>(8 * select_methods("*").size()));
   EXPECT_NE(plan.out.find("\nthe run: "), std::string::npos);
   EXPECT_NE(plan.out.find("no traction, no body force (in "), std::string::npos);
   const Result limits =
       bench("--mesh=Mesh7 --method=3STEPD --memory-limit=500 --timeout=1 --dry-run");
-  EXPECT_NE(limits.out.find("Mesh7 default 3STEPD: above --memory-limit=500"), std::string::npos);
-  EXPECT_NE(limits.out.find("Mesh7 default 3STEPD: above --timeout=1"), std::string::npos);
+  EXPECT_NE(limits.out.find("Mesh7/default/3STEPD: above --memory-limit=500"), std::string::npos);
+  EXPECT_NE(limits.out.find("Mesh7/default/3STEPD: above --timeout=1"), std::string::npos);
   EXPECT_NE(bench("--mesh=Mesh7 --explain")
                 .out.find("] Mesh7/default/3STEPD  n_phi 50483, n_f 920, n_c 640\n"),
             std::string::npos);
@@ -284,14 +285,18 @@ TEST_F(Command, WrongMethodsFiguresAndStopsAreOneLine) {
 }
 
 TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
-  const Result result = bench(
-      "--mesh=Mesh0 --method=ALM:r=20,rho=32,SYMMLQ:SSOR0.7,schur=sparse,3STEPCG:FLIC2,lanes=1 "
-      "--repetitions=1 --out=o");
+#ifdef AIRYBENCH_SANITIZED  // few iterations
+  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SKY,lanes=1",
+                                          "3STEPCG:SKY,lanes=1"};
+#else
+  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SSOR0.7,schur=sparse",
+                                          "3STEPCG:FLIC2,lanes=1"};
+#endif
+  const Result result = bench("--mesh=Mesh0 --repetitions=1 --out=o --method=" + names[0] + "," +
+                              names[1] + "," + names[2]);
   ASSERT_EQ(result.code, 0) << result.err << result.out;
   const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
   ASSERT_EQ(lines.size(), 3u);
-  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SSOR0.7,schur=sparse",
-                                          "3STEPCG:FLIC2,lanes=1"};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto record = Json::parse(lines[k]);
     EXPECT_EQ(record["method"], names[k]);
@@ -374,7 +379,7 @@ TEST_F(Command, ATimeoutTellsWhatWasDone) {
 }
 
 TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
-  const std::string methods = "3STEPCG3,SDTIC6,SYMMLQ:FLIC3,ALM,BLIND:SKY,HYBRID";
+  const std::string methods = "3STEPCG3,SDTIC6,ALM:r=20,rho=20,BLIND:SKY,HYBRID";
   const auto counts = [&](const std::string& arguments, std::vector<const char*> keys) {
     EXPECT_EQ(bench("--mesh=Mesh0 --repetitions=1 --out=o --method=" + methods + arguments).code,
               0);
@@ -388,7 +393,7 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   const std::vector<const char*> every = {"linear_iterations", "contact_iterations",
                                           "uzawa_iterations", "tolerance", "error_force"};
   const auto first = counts("", every);
-  EXPECT_EQ(first.size(), 30u);
+  EXPECT_EQ(first.size(), 25u);
   EXPECT_EQ(counts("", every), first);
   std::vector<std::string> linear;  // of the first run
   for (std::size_t k = 0; k < first.size(); k += every.size()) linear.push_back(first[k]);

@@ -165,6 +165,14 @@ class PageTest(unittest.TestCase):
         self.assertEqual(document.one("h1").text, "Passed, nothing has changed")
         self.assertEqual(len(self.panels(document)), 8)
 
+    def test_times_that_are_not_judged_yet_are_not_called_unchanged(self) -> None:
+        history = made_up.write_history(self.folder / "young", nights=1)
+        file, = (history / "nights").glob("*.json")
+        night = json.loads(file.read_text(encoding="utf-8")) | {"times_judged": False}
+        file.write_text(json.dumps(night), encoding="utf-8")
+        document = self.shown(page=self.make(history, name="young.html"))
+        self.assertEqual(document.one("h1").text, "Passed, times are not judged yet")
+
     def test_heads_arrows_and_words_are_used(self) -> None:
         page = self.changed_page("used.html", ("</body>", """<script>
             const key = (node, name) =>

@@ -113,8 +113,8 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertEqual(self.check("--write")[0], 0)
         self.assertEqual(self.check(), (0, "", ""))
         text = self.readme.read_text(encoding="utf-8")
-        self.assertIn("Mesh0  default  HYBRID    761  500 ms  200 µs  4.0 MiB       1.0e-10", text)
-        self.assertIn("\n…\nMesh7  default  HYBRID  50483", text)
+        self.assertIn("Mesh0/default/HYBRID    761  500 ms  200 µs  4.0 MiB       1.0e-10", text)
+        self.assertIn("\n…\nMesh7/default/HYBRID  50483", text)
 
     def test_what_is_wrong_has_file_line_and_both_numbers(self) -> None:
         self.check("--write")

@@ -219,7 +219,7 @@ TEST(Prediction, FarExtrapolationsStillFitTheTable) {
                                      record_of("SSKY", {"B", 11}, 1e9, std::int64_t{1} << 60)};
   const std::vector<PlannedCase> cases = {planned("SSKY", large)};
   const std::string table = prediction_table(cases, forecast(cases, records, {}), {});
-  EXPECT_NE(table.find("Mesh7 default SSKY: above --timeout=900"), table.npos) << table;
+  EXPECT_NE(table.find("Mesh7/default/SSKY: above --timeout=900"), table.npos) << table;
 }
 
 TEST(Prediction, TheTableHasTotalsAndLimits) {
@@ -232,9 +232,9 @@ TEST(Prediction, TheTableHasTotalsAndLimits) {
   ASSERT_TRUE(f.references_s);
   const std::string table = prediction_table(cases, f, options);
   for (const char* part :
-       {"mesh   scene    method  n_phi", "2 ms", "measured", "no record", "the run: about 50 s",
-        "without 1 of 3 cases", "largest heap 3.0 MiB, Mesh0 default 3STEPD",
-        "Mesh0 default 3STEPD: above --timeout=50\n"})
+       {"case                  n_phi", "2 ms", "measured", "no record", "the run: about 50 s",
+        "without 1 of 3 cases", "largest heap 3.0 MiB, Mesh0/default/3STEPD",
+        "Mesh0/default/3STEPD: above --timeout=50\n"})
     EXPECT_NE(table.find(part), table.npos) << part << "\n" << table;
 }
 

@@ -63,7 +63,7 @@ TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
     SCOPED_TRACE(name);
     const auto points = error_points(method(name));
     ASSERT_FALSE(points.empty());
-    EXPECT_TRUE(points.back().knob.suffix().empty());  // the method as it is
+    EXPECT_FALSE(points.back().knob.value || points.back().knob.stop);  // the method as it is
     EXPECT_EQ(points.size() == 1, method(name).knob == AccuracyKnob::none);
   }
 }
@@ -75,8 +75,8 @@ TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
   std::int64_t before = 0;
   for (const TurnedMethod& point : error_points(method("SDTIC3"))) {
     const Solution solution = run(point.method, system, control);
-    ASSERT_TRUE(solution.linear_iterations) << point.knob.suffix();
-    EXPECT_GT(*solution.linear_iterations, before) << point.knob.suffix();
+    ASSERT_TRUE(solution.linear_iterations) << point.knob.name;
+    EXPECT_GT(*solution.linear_iterations, before) << point.knob.name;
     before = *solution.linear_iterations;
   }
 }
@@ -87,7 +87,8 @@ TEST(Study, NamesOfCasesAreUnique) {
   for (const Study study : {Study::error, Study::stability}) {
     const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
     std::set<std::string> names;
-    for (const Case& c : cases) EXPECT_TRUE(names.insert(c.name()).second) << c.name();
+    for (const Case& c : cases)
+      EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();
     EXPECT_FALSE(names.empty());
   }
 }

@@ -76,8 +76,8 @@ TEST(StoredCase, NamesTellAllCasesOfAMethodApart) {
   }
   EXPECT_EQ(names, (std::set<std::string>{"Mesh0/default/ALM", "Mesh0/default/ALM/stop=paper",
                                           "Mesh0/default/ALM/study=error",
-                                          "Mesh0/default/ALM/stop=paper/study=error",
-                                          "Mesh0/default/ALM/uzawa_iterations=10/study=error"}));
+                                          "Mesh0/default/ALM/study=error/stop=paper",
+                                          "Mesh0/default/ALM/study=error/uzawa_iterations=10"}));
 }
 
 TEST(StoredCase, TheIntervalIsTheStoredOneElseTheDeviation) {

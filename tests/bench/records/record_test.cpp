@@ -220,7 +220,7 @@ TEST(Terminal, TableNamesWhatWentWrong) {
   record.status = Status::timeout;
   record.status_reason = "time limit reached during the contact sweeps";
   const std::string table = results_table({record});
-  EXPECT_NE(table.find("Mesh0 default 3STEPD: timeout: time limit reached during"),
+  EXPECT_NE(table.find("Mesh0/default/3STEPD: timeout: time limit reached during"),
             std::string::npos);
 }
 

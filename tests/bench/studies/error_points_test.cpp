@@ -77,7 +77,7 @@ TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
     for (const TurnedMethod& point : error_points(method)) {
       const std::string knob = point.knob.stop ? "paper's stop" : point.knob.name;
       const ExpectedTable::Row key = {mesh, method.name, knob, text(point.knob.value)};
-      SCOPED_TRACE(fmt::format("{}, {}{}", mesh, method.name, point.knob.suffix()));
+      SCOPED_TRACE(fmt::format("{}, {}, {} {}", mesh, method.name, knob, text(point.knob.value)));
       const ExpectedTable::Row found = values_of(bench.examine(point.method, {}).record);
       const ExpectedTable::Row* expected = table().find(key);
       if (update != Update::no)

@@ -7,6 +7,7 @@
 
 #include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
 
 namespace airybench::tracking_command_test {
 namespace {
@@ -70,6 +71,22 @@ TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
   expect_refused("compare a empty", "no case is in both");
 }
 
+// What plots/page_data.py offers to show: ("time_s", "time of one solve", …
+TEST_F(TrackingCommand, NightsHaveEveryQuantityOfThePage) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  ASSERT_EQ(run("track --history=h --from=a").code, 0);
+  const Json night = Json::parse(testing::text_of(folder_ / "h/nights/2026-11-21T030000Z.json"));
+  const std::string text = testing::text_of(testing::source_folder() / "plots/page_data.py");
+  const std::size_t end = text.find("\n)\n", text.find("QUANTITIES = ("));
+  int quantities = 0;
+  for (std::size_t at = text.find("\n    (\""); at < end; at = text.find("\n    (\"", at + 1)) {
+    const std::string key = text.substr(at + 7, text.find('"', at + 7) - at - 7);
+    EXPECT_TRUE(night.at("cases")[0].contains(key)) << key;
+    ++quantities;
+  }
+  EXPECT_EQ(quantities, 18);
+}
+
 TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
   write_run("a", 1, "2026-11-21T03:00:00Z");
   const Result first = run("track --history=h --from=a");
@@ -77,6 +94,9 @@ TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
   EXPECT_NE(first.out.find("nothing is worse"), std::string::npos) << first.out;
   EXPECT_TRUE(fs::exists(folder_ / "h/nights/2026-11-21T030000Z.json"));
   expect_refused("track --history=h --from=a", "already in the history");
+  EXPECT_EQ(Json::parse(testing::text_of(folder_ / "h/nights/2026-11-21T030000Z.json"))
+                .at("times_judged"),
+            false);
   write_run("b", 1, "2026-11-22T03:00:00Z", 12);
   const Result second = run("track --history=h --from=b");
   EXPECT_EQ(second.code, 1);

@@ -1,0 +1,79 @@
+#include "bench/records/case_name.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <vector>
+
+namespace airybench {
+namespace {
+
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('/', begin), text.size());
+    parts.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
+}
+
+std::optional<double> number_of(std::string_view text) {
+  double value = 0;
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+}
+
+}  // namespace
+
+std::string CaseName::suffix() const {
+  std::string text;
+  if (!study.empty()) text += "/study=" + study;
+  if (knob_value) {
+    std::string word = knob;
+    std::replace(word.begin(), word.end(), ' ', '_');
+    text += fmt::format("/{}={}", word, *knob_value);
+  }
+  if (stop == Stop::paper) text += "/stop=paper";
+  return text;
+}
+
+std::string CaseName::text() const { return mesh + "/" + scene + "/" + method + suffix(); }
+
+std::string CaseName::file() const {
+  std::string name = text();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '-');
+  return name;
+}
+
+std::optional<CaseName> case_name_of(std::string_view text) {
+  const std::vector<std::string_view> parts = parts_of(text);
+  if (parts.size() < 3) return {};
+  CaseName name;
+  name.mesh = parts[0];
+  name.scene = parts[1];
+  name.method = parts[2];
+  for (std::size_t k = 3; k < parts.size(); ++k) {
+    const std::size_t equals = std::min(parts[k].find('='), parts[k].size());
+    const std::string_view key = parts[k].substr(0, equals);
+    const std::string_view value = parts[k].substr(std::min(equals + 1, parts[k].size()));
+    if (parts[k] == "stop=paper") {
+      name.stop = Stop::paper;
+    } else if (key == "study") {
+      name.study = value;
+    } else {
+      name.knob = key;
+      name.knob_value = number_of(value);
+      if (!name.knob_value) return {};
+    }
+  }
+  // Order and repetition: the name must be written as it is printed.
+  if (name.mesh.empty() || name.scene.empty() || name.method.empty() || name.text() != text)
+    return {};
+  return name;
+}
+
+}  // namespace airybench

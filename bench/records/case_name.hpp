@@ -1,0 +1,34 @@
+// What a case is called wherever it is printed, asked for, filed or compared:
+//
+//   MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper]
+//
+//   Mesh0/default/3STEPD
+//   Mesh3/default/ALM/stop=paper
+//   Mesh0/default/SSKY/study=error/tolerance=0.01
+//
+// The parts in brackets are there where they are not the default. plots/case_names.py is the same.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "solvers/method.hpp"
+
+namespace airybench {
+
+struct CaseName {
+  std::string mesh, scene, method;
+  std::string study, knob;           // empty: none
+  std::optional<double> knob_value;  // none: the knob is not turned
+  Stop stop = Stop::target;
+
+  std::string text() const;
+  std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
+  std::string file() const;    // the text with '-' for '/' and ':'
+};
+
+// Empty: this is no case's name.
+std::optional<CaseName> case_name_of(std::string_view text);
+
+}  // namespace airybench

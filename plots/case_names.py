@@ -1,0 +1,21 @@
+"""What a case is called wherever it is shown or filed, as bench/records/case_name.hpp has it."""
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+
+
+def case_name(case: Mapping) -> str:
+    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper] of a record or a row of results.csv."""
+    name = "/".join(case[key] for key in ("mesh", "scene", "method"))
+    if case.get("study"):
+        name += f"/study={case['study']}"
+    if case.get("knob_value") not in (None, ""):
+        value = repr(float(case["knob_value"])).removesuffix(".0")
+        name += f"/{case['knob'].replace(' ', '_')}={value}"
+    return name + ("/stop=paper" if case.get("stop") == "paper" else "")
+
+
+def file_of(name: str) -> str:
+    """The stem of the case's files."""
+    return re.sub("[/:]", "-", name)

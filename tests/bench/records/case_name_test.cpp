@@ -1,0 +1,106 @@
+// One name per case: what is printed is accepted, for every record that is committed.
+#include "bench/records/case_name.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "bench/exports/stored_case.hpp"
+#include "bench/records/record_files.hpp"
+#include "bench/records/record_json.hpp"
+#include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::case_name_test {
+namespace {
+
+TEST(CaseName, IsReadAsItIsWritten) {
+  const CaseName name{"Mesh0", "default",  "SYMMLQ:SSOR0.7,schur=sparse", "error", "contact sweeps",
+                      1e-12,   Stop::paper};
+  EXPECT_EQ(
+      name.text(),
+      "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper");
+  EXPECT_EQ(
+      name.file(),
+      "Mesh0-default-SYMMLQ-SSOR0.7,schur=sparse-study=error-contact_sweeps=1e-12-stop=paper");
+  const auto read = case_name_of(name.text());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->method, name.method);
+  EXPECT_EQ(read->knob_value, name.knob_value);
+  EXPECT_EQ(read->stop, Stop::paper);
+}
+
+TEST(CaseName, RefusesWhatIsNone) {
+  for (const char* text : {"", "Mesh0", "Mesh0/default", "Mesh0/default/", "//",
+                           "Mesh0/default/ALM/", "a/b/c/stop=target",
+                           "a/b/c/stop=paper/study=error", "a/b/c/tolerance=", "a/b/c/tolerance=x",
+                           "a/b/c/tolerance=0.010", "a/b/c/tolerance=1/tolerance=1", "a/b/c/study"})
+    EXPECT_FALSE(case_name_of(text)) << text;
+}
+
+// Records of a folder, by the reader of runs and the reader of exports.
+TEST(CaseName, OfEveryCommittedRecordGoesAround) {
+  std::size_t count = 0;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(testing::results_folder())) {
+    if (entry.path().filename() != "records.jsonl") continue;
+    std::set<std::string> names;
+    for (const Json& json : read_record_lines(entry.path().parent_path())) {
+      const std::string name = case_name(json);
+      EXPECT_TRUE(names.insert(name).second) << entry.path() << ": " << name << " is there twice";
+      const auto read = case_name_of(name);
+      ASSERT_TRUE(read) << name;
+      EXPECT_EQ(read->text(), name);
+      EXPECT_EQ(name_of(record_from_json(json)).text(), name);
+      EXPECT_EQ(stored_case(json, "record").name(), name);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 3000u);
+}
+
+// "Mesh0/default/…" of each line that begins with it, after a "[1/7] " if there is one.
+std::multiset<std::string> names_in(const std::string& text) {
+  std::multiset<std::string> names;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('[')) line = line.substr(line.find("] ") + 2);
+    if (line.starts_with("Mesh0/")) names.insert(line.substr(0, line.find_first_of(" ")));
+  }
+  return names;
+}
+
+std::multiset<std::string> without_colons(const std::multiset<std::string>& names) {
+  std::multiset<std::string> bare;
+  for (std::string name : names) {
+    if (name.ends_with(':')) name.pop_back();
+    bare.insert(name);
+  }
+  return bare;
+}
+
+TEST(CaseName, IsTheSameInPlanProgressTableRecordsAndFiles) {
+  const testing::BenchCommand bench;
+  const std::string run = "--study=error --mesh=Mesh0 --method=HYBRID --repetitions=1 ";
+  const auto planned = names_in(bench.run(run + "--explain").out);
+  EXPECT_EQ(planned.size(), 8u);
+  EXPECT_TRUE(planned.contains("Mesh0/default/HYBRID/study=error/contact_sweeps=30"));
+  EXPECT_EQ(names_in(bench.run(run + "--dry-run").out), planned);
+  const testing::CommandResult done = bench.run(run + "--fields --out=o");
+  std::multiset<std::string> recorded;
+  for (const Json& record : bench.records()) {
+    recorded.insert(case_name(record));
+    EXPECT_TRUE(std::filesystem::exists(
+        bench.path("o/fields/" + case_name_of(case_name(record))->file() + ".stress.csv")));
+  }
+  EXPECT_EQ(recorded, planned);
+  EXPECT_EQ(without_colons(names_in(done.err)), planned) << done.err;
+  for (const std::string& name : planned)
+    EXPECT_TRUE(without_colons(names_in(done.out)).contains(name)) << done.out;
+  const std::string one = "Mesh0/default/HYBRID/study=error/contact_sweeps=30";
+  EXPECT_EQ(bench.run("replay o:" + one + " --out=again").code, 0);
+  EXPECT_EQ(case_name(bench.records("again").front()), one);
+}
+
+}  // namespace
+}  // namespace airybench::case_name_test
