@@ -122,6 +122,9 @@ Options parse_options(int argc, const char* const* argv) {
                                "MiB of heap that one solve may use, its blocks included")
                     ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_option("--then", options.then,
+                 "a command for the shell after the run; the output folder becomes its last "
+                 "argument, its exit status does not matter");
   app.add_flag("--append", options.append,
                "keep the records in the folder, but those of the cases that are run");
   app.add_flag("--resume", options.resume,

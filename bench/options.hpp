@@ -33,6 +33,7 @@ struct Options {
   double timeout_s = 900;                          // per solve
   double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
+  std::string then;                                // a command for the shell, after the run
   bool fields = false;                             // write stresses and contact points
   bool histories = false;                          // keep iteration histories in records.jsonl
   bool list = false, dry_run = false, explain = false;

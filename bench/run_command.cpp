@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cstdio>
+#include <cstdlib>
 #include <sstream>
 
 #include "assembly/mesh_selection.hpp"
@@ -126,6 +127,14 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
     fmt::print("note: {}\n", warning);
 }
 
+void run_after(const Options& options) {
+  std::string folder;
+  for (const char c : options.out.string()) folder += c == '\'' ? "'\\''" : std::string(1, c);
+  std::fflush(stdout);
+  if (std::system(fmt::format("{} '{}'", options.then, folder).c_str()) != 0)
+    fmt::print(stderr, "note: --then: {}: failed\n", options.then);
+}
+
 // The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options) {
   const std::vector<Method> selected =
@@ -179,6 +188,7 @@ int run_command(int argc, const char* const* argv) {
   if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
   print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
+  if (!options.then.empty()) run_after(options);
   for (const Record& record : result.records)
     if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
   return all_ok;

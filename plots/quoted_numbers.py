@@ -168,6 +168,8 @@ def shown(value: float, rounding: str, like: str) -> str:
     if not exponent:
         last = min(last, 0)  # never coarser than a whole number
     rounded = exact.quantize(Decimal(1).scaleb(last), rounding=rounding)
+    if rounded.adjusted() > exact.adjusted() and last < 0:  # 0.0996 is 0.10
+        rounded = rounded.quantize(Decimal(1).scaleb(last + 1))
     if exponent:
         text, power = f"{rounded:.{digits - 1}e}".split("e")
         return f"{text}e{int(power)}"

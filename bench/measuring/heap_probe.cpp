@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -215,6 +216,9 @@ Limit::~Limit() { limit.store(no_limit); }
 bool Limit::exceeded() const { return limit_passed.load(); }
 
 Backstop::Backstop(std::optional<std::int64_t> limit_bytes) {
+  [[maybe_unused]] static const int registered = std::atexit([] {
+    if (limit.load() != no_limit && limit_passed.load()) _exit(backstop_exit_code);
+  });
   std::int64_t available = no_limit / 2;
   std::ifstream file("/proc/meminfo");
   for (std::string word; file >> word;) {

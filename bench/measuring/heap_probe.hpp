@@ -48,7 +48,8 @@ class Limit {
 };
 
 // Ends the process with backstop_exit_code when the heap grows beyond what a Limit can hold: by
-// small blocks without end, or past all memory that the machine has left. For the scope of the
+// small blocks without end, or past all memory that the machine has left; or when a library calls
+// exit() because a Limit has refused it a block, as OpenBLAS's threads do. For the scope of the
 // object. limit_bytes: of the Limits to come, or empty; half of it again is granted.
 class Backstop {
  public:

@@ -33,6 +33,7 @@ void identify(const Case& planned, Record& record) {
   record.case_number = planned.number;
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
+  record.study = name_of(planned.study);
   record.stop = planned.stop;
 }
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "solvers/method.hpp"
+#include "solvers/solution.hpp"
 
 namespace airybench {
 

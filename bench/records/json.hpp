@@ -8,7 +8,7 @@ namespace airybench {
 
 using Json = nlohmann::ordered_json;
 
-// Compiled once: reading and writing take the compiler as long as all else that a file does with
+// Compiled once: parsing and dumping take the compiler as long as everything else a file does with
 // JSON.
 
 Json parse_json(const std::string& text);  // throws Json::exception

@@ -400,6 +400,16 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   EXPECT_EQ(counts(" --threads=2", {"linear_iterations"}), linear);
 }
 
+TEST_F(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
+  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"it's\" ";
+  const Result result = bench(run + "--then='ls >said; ls >>said'");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(content(folder_ / "said").find("records.jsonl\n"), std::string::npos);
+  EXPECT_EQ(bench(run + "--then=false").code, 0);
+  EXPECT_EQ(bench(run + "--then='touch never' --dry-run").code, 0);
+  EXPECT_FALSE(fs::exists(folder_ / "never"));
+}
+
 TEST_F(Command, ALongCaseIsMeasuredOnce) {
   ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code,
             0);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <thread>
@@ -149,6 +150,20 @@ TEST_F(Isolation, MemoryWithoutEndIsEnded) {
     EXPECT_EQ(record.status, Status::out_of_memory) << bytes;
     EXPECT_NE(record.status_reason.find("limit"), std::string::npos) << record.status_reason;
   }
+}
+
+// OpenBLAS's threads do: "malloc failed in gemm_driver".
+TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
+  if (!heap::is_active()) return;
+  options_.memory_limit_bytes = 64 << 20;
+  const Method gives_up = harmful("GIVES UP", [](Solution&) {
+    void* const block = std::malloc(std::size_t{1} << 27);
+    if (block == nullptr) std::exit(1);
+    std::free(block);
+  });
+  EXPECT_EQ(run_between(gives_up).status, Status::out_of_memory);
+  // Where nothing was refused, an exit is a crash.
+  EXPECT_EQ(run_between(harmful("EXITS", [](Solution&) { std::exit(1); })).status, Status::crashed);
 }
 
 TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {

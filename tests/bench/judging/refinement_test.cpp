@@ -18,11 +18,14 @@ namespace {
 struct Posed {
   DualSystem system;
   Reference reference;
-  double error_of(const std::string& method, Status expected = Status::ok) const {
+  // Unrefined, what rounding leaves is near the target, on either side by the processor's kernels.
+  double error_of(const std::string& method, bool may_be_inaccurate = false) const {
     RunControl control;
     control.tolerance = 1e-12;
     const Solution solution = run(select_methods(method).front(), system, control);
-    EXPECT_EQ(solution.status, expected) << method << ": " << solution.message;
+    EXPECT_TRUE(solution.status == Status::ok ||
+                (may_be_inaccurate && solution.status == Status::inaccurate))
+        << method << ": " << name_of(solution.status) << ": " << solution.message;
     const Verification found = verify(system, solution, &reference);
     return std::max(found.error_stress.value_or(1), found.error_force.value_or(1));
   }
@@ -55,7 +58,7 @@ TEST(Refinement, GivesBackTheDigitsThatConditioningTook) {
     const auto file = stability_scenes().front().parent_path() / (std::string(scene) + ".json");
     const Posed p = posed("Mesh0", read_scene(file));
     for (const std::string method : {"3STEPD", "BLIND:SCHUR"})
-      EXPECT_LE(p.error_of(method + ":REFINED"), 1e-4 * p.error_of(method, Status::inaccurate))
+      EXPECT_LE(p.error_of(method + ":REFINED"), 1e-4 * p.error_of(method, true))
           << method << ", " << scene;
   }
 }

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <set>
+#include <sstream>
+#include <string>
 
 #include "bench/exports/stored_case.hpp"
 #include "bench/records/record_files.hpp"
