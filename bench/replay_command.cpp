@@ -63,6 +63,11 @@ Json find_record(const std::string& name) {
       throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, line, records.size()));
     return records[line - 1];
   }
+  if (!case_name_of(which))
+    throw UsageError(fmt::format(
+        "{}: '{}' is no case's name (allowed: MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE]"
+        "[/stop=paper], or a line's number)",
+        name, which));
   for (const Json& record : records)
     if (case_name(record) == which) return record;
   throw UsageError(fmt::format("{}: no such case (the first is {})", name,

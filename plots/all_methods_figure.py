@@ -43,9 +43,10 @@ def draw(rows: list[Row]) -> Figure | str:
     words = "; ".join(f"{merged(cases)} ({why})" for why, cases in failed.items())
     some = next(iter(lines.values()))
     figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"Scene {some[0].scene}, {parts.threads(rows)}. n^p: power law by least squares of "
-        "logarithms over all sizes of a method, three or more. Lines are interrupted between one "
-        "tooth and the rack. Errors of 0 are at the lower edge.",
+        f"Scene {some[0].scene}, {parts.threads(rows)}"
+        f"{', with the paper’s stops' if some[0].stop == 'paper' else ''}. n^p: power law by least "
+        "squares of logarithms over all sizes of a method, three or more. Lines are interrupted "
+        "between one tooth and the rack. Errors of 0 are at the lower edge.",
         f"No point: {words}." if words else ""])
     figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
                 s="All methods over the number of unknowns", fontsize=11, weight="bold")

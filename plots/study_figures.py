@@ -71,7 +71,7 @@ def drawings_of(rows: list[Row], splits: list[Split]) -> list[Drawing]:
                      ("convergence", convergence_figure.draw, studies["error"])]
     drawings += [(file_name("stability", mesh), atlas_figure.draw, own)
                  for mesh, own in by_mesh(studies["stability"]).items()]
-    sizes = [row for row in studies[""] if row.stop == "target"]
+    sizes = [row for row in studies[""] if row.stop == "target"] or studies[""]
     if sizes:
         scene = scene_of(sizes)
         drawings.append(("all_methods", all_methods_figure.draw,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <vector>
 
 namespace airybench {
@@ -23,7 +24,8 @@ std::optional<double> number_of(std::string_view text) {
   double value = 0;
   const char* const end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
-  return error == std::errc() && rest == end ? std::optional(value) : std::nullopt;
+  const bool is_number = error == std::errc() && rest == end && std::isfinite(value);
+  return is_number ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace

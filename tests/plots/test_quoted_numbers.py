@@ -145,7 +145,8 @@ class QuotedNumbersTest(unittest.TestCase):
                 (797363.0, even, "50 483", "797 363"), (999.6, even, "300", "1000"),
                 (1.8225e-12, even, "1.7e-12", "1.8e-12"), (1.8225e-12, up, "1e-12", "2e-12"),
                 (9.96e-4, even, "1.2e-3", "1.0e-3"), (0.0, even, "no", "no"),
-                (12.0, even, "no", "12"), (0.0, even, "3", "0")):
+                (12.0, even, "no", "12"), (0.0996, even, "0.10", "0.10"),
+                (9.96, even, "10", "10"), (0.0, even, "3", "0")):
             with self.subTest(value=value, like=like):
                 self.assertEqual(quoted_numbers.shown(value, rounding, like), shown)
 

@@ -36,7 +36,7 @@ TEST(CaseName, IsReadAsItIsWritten) {
 TEST(CaseName, RefusesWhatIsNone) {
   for (const char* text : {"", "Mesh0", "Mesh0/default", "Mesh0/default/", "//",
                            "Mesh0/default/ALM/", "a/b/c/stop=target",
-                           "a/b/c/stop=paper/study=error", "a/b/c/tolerance=", "a/b/c/tolerance=x",
+                           "a/b/c/stop=paper/study=error", "a/b/c/tolerance=", "a/b/c/tolerance=x", "a/b/c/tolerance=inf",
                            "a/b/c/tolerance=0.010", "a/b/c/tolerance=1/tolerance=1", "a/b/c/study"})
     EXPECT_FALSE(case_name_of(text)) << text;
 }
@@ -100,6 +100,11 @@ TEST(CaseName, IsTheSameInPlanProgressTableRecordsAndFiles) {
   EXPECT_EQ(without_colons(names_in(done.err)), planned) << done.err;
   for (const std::string& name : planned)
     EXPECT_TRUE(without_colons(names_in(done.out)).contains(name)) << done.out;
+  const testing::CommandResult none = bench.run("replay o:Mesh0/default --out=again");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.err.find("'Mesh0/default' is no case's name (allowed: MESH/SCENE/METHOD["),
+            std::string::npos)
+      << none.err;
   const std::string one = "Mesh0/default/HYBRID/study=error/contact_sweeps=30";
   EXPECT_EQ(bench.run("replay o:" + one + " --out=again").code, 0);
   EXPECT_EQ(case_name(bench.records("again").front()), one);
