@@ -34,10 +34,11 @@ TEST(CaseName, IsReadAsItIsWritten) {
 }
 
 TEST(CaseName, RefusesWhatIsNone) {
-  for (const char* text : {"", "Mesh0", "Mesh0/default", "Mesh0/default/", "//",
-                           "Mesh0/default/ALM/", "a/b/c/stop=target",
-                           "a/b/c/stop=paper/study=error", "a/b/c/tolerance=", "a/b/c/tolerance=x", "a/b/c/tolerance=inf",
-                           "a/b/c/tolerance=0.010", "a/b/c/tolerance=1/tolerance=1", "a/b/c/study"})
+  for (const char* text :
+       {"", "Mesh0", "Mesh0/default", "Mesh0/default/", "//", "Mesh0/default/ALM/",
+        "a/b/c/stop=target", "a/b/c/stop=paper/study=error",
+        "a/b/c/tolerance=", "a/b/c/tolerance=x", "a/b/c/tolerance=inf", "a/b/c/tolerance=0.010",
+        "a/b/c/tolerance=1/tolerance=1", "a/b/c/study"})
     EXPECT_FALSE(case_name_of(text)) << text;
 }
 
