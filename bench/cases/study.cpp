@@ -1,7 +1,5 @@
 #include "bench/cases/study.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <stdexcept>

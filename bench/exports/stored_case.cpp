@@ -10,7 +10,6 @@
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/statistics/robust.hpp"
-#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -74,17 +73,15 @@ CaseName case_name(const Json& record, const std::string& place, const StoredCas
           text(record, place, "study"),
           text(record, place, "knob"),
           number(record, place, "knob_value"),
-          stored.stop == "paper" ? Stop::paper : Stop::target};
+          stop_of(stored.stop)};
 }
 
 // Null where the file is no JSON. Throws RecordError where it cannot be read.
 Json json_of_file(const std::filesystem::path& file) {
   try {
-    return parse_json(file_text(file));
+    return parse_json(text_of_records(file));
   } catch (const Json::exception&) {
     return {};
-  } catch (const std::runtime_error& unreadable) {
-    throw RecordError(unreadable.what());
   }
 }
 

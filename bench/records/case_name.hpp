@@ -28,6 +28,8 @@ struct CaseName {
   std::string file() const;    // the text with '-' for '/' and ':'
 };
 
+Stop stop_of(std::string_view name);  // "paper"; older records have none: the target
+
 // Empty: this is no case's name.
 std::optional<CaseName> case_name_of(std::string_view text);
 

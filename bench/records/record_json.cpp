@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "bench/records/case_name.hpp"
 #include "bench/records/json.hpp"
 
 namespace airybench {
@@ -39,8 +40,6 @@ Status status_of(const std::string& name) {
     if (name_of(static_cast<Status>(i)) == name) return static_cast<Status>(i);
   return Status::crashed;
 }
-
-Stop stop_of(const std::string& name) { return name == "paper" ? Stop::paper : Stop::target; }
 
 StageTimes stage_times_of(const Json& json) {
   StageTimes times;

@@ -8,6 +8,7 @@
 #include "bench/records/case_name.hpp"
 #include "bench/records/journal.hpp"
 #include "bench/records/json.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -112,14 +113,20 @@ class Keys {
 }  // namespace
 
 std::string CaseRecord::name() const {
-  return CaseName{
-      mesh, scene, method, study, knob, knob_value, stop == "paper" ? Stop::paper : Stop::target}
-      .text();
+  return CaseName{mesh, scene, method, study, knob, knob_value, stop_of(stop)}.text();
 }
 
 std::string CaseRecord::date() const {
   const auto found = context.find("date");
   return found == context.end() ? "" : found->second;
+}
+
+std::string text_of_records(const std::filesystem::path& file) {
+  try {
+    return file_text(file);
+  } catch (const std::runtime_error& unreadable) {
+    throw RecordError(unreadable.what());
+  }
 }
 
 CaseRecord case_record(const Json& json, const std::string& place) {

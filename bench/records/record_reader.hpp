@@ -75,6 +75,9 @@ inline constexpr std::array<NumberMember, 3> shown_members = {{
     {"peak_rss_bytes", &CaseRecord::peak_rss_bytes},
 }};
 
+// All bytes of a file of records; throws RecordError "file: why".
+std::string text_of_records(const std::filesystem::path& file);
+
 // Keys that are not in CaseRecord are passed over; null and a missing key are the same. `place` is
 // what a RecordError begins with.
 CaseRecord case_record(const Json& json, const std::string& place);

@@ -11,7 +11,6 @@
 #include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/robust.hpp"
 #include "support/atomic_file.hpp"
-#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -97,17 +96,9 @@ bool is_date(const std::string& text) {
          });
 }
 
-std::string text_of_night(const fs::path& file) {
-  try {
-    return file_text(file);
-  } catch (const std::runtime_error& unreadable) {
-    throw RecordError(unreadable.what());
-  }
-}
-
 Night read_night(const fs::path& file) {
   try {
-    const Json json = parse_json(text_of_night(file));
+    const Json json = parse_json(text_of_records(file));
     if (json.at("format") != format_name)
       throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
                                     json_text(json.at("format")), format_name));
