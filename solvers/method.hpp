@@ -39,6 +39,8 @@ enum class AccuracyKnob {
 struct Method {
   std::string name;              // "SDTIC3"
   std::string summary;           // one line
+  std::string family;            // "SYMMLQ"
+  std::string preconditioner;    // "DTIC3"; empty: none
   bool in_paper = false;         // named there; these are run by default
   Blocks blocks = Blocks::airy;  // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/method_names.hpp"
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {
@@ -17,10 +16,9 @@ class CaseTable {
   // method (no stop of its own to choose) that has none of this stop serves with the other one's.
   // Of several records of a case the last one counts. Throws RecordError: several scenes, none of
   // them the default one; `source` is the file that it names.
-  CaseTable(const std::vector<CaseRecord>& records, const std::string& stop,
-            const std::string& source);
+  CaseTable(const std::vector<Record>& records, const std::string& stop, const std::string& source);
 
-  const CaseRecord* find(const std::string& mesh, const std::string& method) const;  // or null
+  const Record* find(const std::string& mesh, const std::string& method) const;  // or null
   const std::vector<std::string>& meshes() const { return meshes_; }  // as they first appear
   std::vector<std::string> methods(const std::string& mesh) const;    // general names, sorted
   const std::string& scene() const { return scene_; }
@@ -29,7 +27,8 @@ class CaseTable {
  private:
   std::string scene_ = "default";
   std::vector<std::string> meshes_;
-  std::map<std::pair<std::string, std::string>, CaseRecord> cases_;  // (mesh, general name)
+  std::map<std::pair<std::string, std::string>, Record> cases_;  // (mesh, general name)
+  std::map<std::string, std::string> general_names_;             // of each name in the records
 };
 
 }  // namespace airybench
