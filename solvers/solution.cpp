@@ -1,9 +1,21 @@
 #include "solvers/solution.hpp"
 
+#include <sstream>
+
 namespace airybench {
 
 std::size_t matrix_bytes(const Solution& solution) {
   return solution.storage.sum() - solution.storage[MemoryOwner::iteration] + solution.file_bytes;
+}
+
+void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution) {
+  solution.error_estimate = estimate;
+  if (solution.status != Status::ok || estimate <= control.target_error) return;
+  std::ostringstream message;
+  message << "by its own estimate its error is " << estimate << " (target " << control.target_error
+          << ")";
+  solution.status = Status::inaccurate;
+  solution.message = message.str();
 }
 
 }  // namespace airybench

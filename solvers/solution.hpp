@@ -113,4 +113,8 @@ struct RunControl {
   bool active_sets = true;            // finish the contact law by them where the sweeps did not
 };
 
+// What all checks end with: the estimate into the solution, and `inaccurate` where it is above the
+// target.
+void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution);
+
 }  // namespace airybench

@@ -6,8 +6,8 @@
 // Rows in the order of ContactPoints: per point normal, tangential (μ = 0: normal only).
 #pragma once
 
-#include <Eigen/Cholesky>
-#include <string>
+#include "assembly/dual_system.hpp"
+#include "solvers/solution.hpp"
 
 namespace airybench {
 
@@ -19,7 +19,10 @@ struct CondensedSystem {
   }
 };
 
-// Of a dense block. Throws Breakdown naming it when it is not positive definite to rounding.
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name);
+// The contact law by Gauss–Seidel sweeps and, where these do not converge, active sets: the
+// solution's forces, status, counts and history. Without contact points there is nothing to do and
+// the status is ok.
+void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                             const RunControl& control, Solution& solution);
 
 }  // namespace airybench

@@ -1,14 +1,14 @@
 // NONE: M = I.
-#pragma once
-
 #include "solvers/preconditioners/preconditioner.hpp"
 
 namespace airybench {
 
-inline Preconditioner identity_preconditioner(const SparseColumns&, const Deadline&) {
+static Preconditioner identity_preconditioner(const SparseColumns&, double, const Deadline&) {
   Preconditioner result;
   result.applier = [](int) { return [](LaneBlock&) {}; };
   return result;
 }
+
+PreconditionerKind identity_kind() { return {"NONE", {""}, "NONE", {}, identity_preconditioner}; }
 
 }  // namespace airybench

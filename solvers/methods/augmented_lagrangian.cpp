@@ -1,15 +1,19 @@
-#include "solvers/uzawa/alm_methods.hpp"
+// ALM: the augmented Lagrangian method with given parameters, ALM:r=…,rho=…, and with the best of
+// the paper's grid.
+#include "solvers/uzawa/augmented_lagrangian.hpp"
 
 #include <algorithm>
 #include <array>
 #include <sstream>
 
+#include "solvers/condensation/finish.hpp"
 #include "solvers/direct/factor_counts.hpp"
+#include "solvers/general_names.hpp"
 
 namespace airybench {
 namespace {
 
-UzawaOptions options_of(const RunControl& control) {
+UzawaOptions uzawa_options(const RunControl& control) {
   UzawaOptions options;
   options.stop = control.stop;
   options.tolerance = control.tolerance;
@@ -59,32 +63,30 @@ Eigen::VectorXd rough_diagonal(const DualSystem& system) {
   return compliance;
 }
 
-void check(const DualSystem& system, const AugmentedFactor& augmented, const UzawaResult& result,
-           const RunControl& control, Solution& solution) {
+void check_uzawa_result(const DualSystem& system, const AugmentedFactor& augmented,
+                        const UzawaResult& result, const RunControl& control, Solution& solution) {
   bool solved = true;
-  check_airy_answer(
-      system, rough_diagonal(system),
-      [&](SaddleVector& v) { solved = solve_saddle(system, augmented, v, control.deadline); },
-      {result.x, result.lambda, result.lambda_c}, control, solution);
+  run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
+    check_airy_answer(
+        system, rough_diagonal(system),
+        [&](SaddleVector& v) { solved = solve_saddle(system, augmented, v, control.deadline); },
+        {result.x, result.lambda, result.lambda_c}, control, solution);
+  });
   if (solved || solution.status != Status::ok) return;
   solution.status = Status::inaccurate;
   solution.message = "its error could not be estimated: " + solution.parameters +
                      " leave too badly conditioned a system";
 }
 
-}  // namespace
-
 Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& control, double r,
                                     double rho) {
   Solution solution;
-  const AugmentedFactor augmented = [&] {
-    const StageTimer timer(solution.times, Stage::factor);
-    const OwnerScope scope(MemoryOwner::factor);
-    return factor_augmented(system, r, control.deadline);
-  }();
+  const AugmentedFactor augmented =
+      run_stage(solution.times, Stage::factor, MemoryOwner::factor,
+                [&] { return factor_augmented(system, r, control.deadline); });
   count_factor(augmented.factor, solution);
   solution.storage[MemoryOwner::iteration] = uzawa_bytes(system, 1);
-  const UzawaOptions options = options_of(control);
+  const UzawaOptions options = uzawa_options(control);
   UzawaResult result = [&] {
     // Without contact the iteration only finds the multipliers of the prescribed forces.
     const StageTimer timer(solution.times, system.n_c() > 0 ? Stage::contact : Stage::recover);
@@ -93,12 +95,8 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
   solution.parameters = describe(r, rho);
   solution.uzawa_iterations = result.iterations;
   solution.F_C = std::move(result.F_C);
-  {
-    const StageTimer timer(solution.times, Stage::recover);
-    const OwnerScope scope(MemoryOwner::answer);
-    solution.phi = airy_function(system, result.x);
-    solution.stress = stress_of_airy_function(*system.problem, solution.phi);
-  }
+  run_stage(solution.times, Stage::recover, MemoryOwner::answer,
+            [&] { store_airy_answer(system, result.x, solution); });
   if (control.histories)
     solution.histories.push_back({control.stop == Stop::paper
                                       ? "i_C of the Uzawa iteration, N"
@@ -114,15 +112,20 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
                        residuals(result);
   }
   if (solution.status == Status::ok && control.stop == Stop::target)
-    check(system, augmented, result, control, solution);
+    check_uzawa_result(system, augmented, result, control, solution);
   return solution;
 }
 
+// The paper's 8 × 8 grid, [1, 20, 40, 60, 80, 100, 200, 300]² for (r, ρ): the combination that
+// meets the stop in the fewest iterations. One factorisation per r; the ρ of one r run side by
+// side; a combination is given up at as many iterations as the best so far needed. When time is up,
+// what was found until then counts. Throws Breakdown when none converges, TimeoutReached when none
+// has until then.
 Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& control) {
   constexpr std::array<double, 8> grid = {1, 20, 40, 60, 80, 100, 200, 300};
   // From the ones that are often best, so that the others can be given up early.
   constexpr std::array<double, 8> order = {20, 40, 60, 80, 100, 1, 200, 300};
-  UzawaOptions options = options_of(control);
+  UzawaOptions options = uzawa_options(control);
   Tuning tuning;
   const GridPoint* best = nullptr;
   tuning.grid.reserve(grid.size() * grid.size());
@@ -157,6 +160,41 @@ Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& con
     return solve_augmented_lagrangian(s, c, r, rho);
   };
   return tuning;
+}
+
+Method alm_method(const std::string& name, const std::string& summary) {
+  Method method;
+  method.name = name;
+  method.family = "ALM";
+  method.summary = "augmented Lagrangian, Uzawa's algorithm with " + summary;
+  method.stages = {Stage::factor, Stage::contact, Stage::recover, Stage::check};
+  method.first_tolerance = 2e-2;
+  return method;
+}
+
+}  // namespace
+
+Method alm(GeneralName name) {
+  if (!name.first().empty()) name.refuse("'" + name.first() + "' is no parameter (valid: r, rho)");
+  const double r = name.positive("r"), rho = name.positive("rho");
+  name.refuse_rest("r, rho");
+  Method method = alm_method(name.name(), "given parameters");
+  method.knob = AccuracyKnob::uzawa_iterations;
+  method.solve = [r, rho](const DualSystem& system, const RunControl& control) {
+    return solve_augmented_lagrangian(system, control, r, rho);
+  };
+  return method;
+}
+
+Method tuned_alm() {
+  Method method = alm_method("ALM", "the best of the paper's grid");
+  method.in_paper = true;
+  method.knob = AccuracyKnob::stop;
+  method.tune = tune_augmented_lagrangian;
+  method.solve = [](const DualSystem& system, const RunControl& control) {
+    return tune_augmented_lagrangian(system, control).solve(system, control);
+  };
+  return method;
 }
 
 }  // namespace airybench
