@@ -26,7 +26,6 @@ CaseTable::CaseTable(const std::vector<Record>& records, const std::string& stop
     : scene_(scene_of(records, source)) {
   for (const bool of_this_stop : {false, true})  // the second replaces the first
     for (const Record& record : records) {
-      general_names_[record.method] = record.general_name;
       if (record.scene == scene_ && (name_of(record.stop) == stop) == of_this_stop &&
           (of_this_stop || !record.iterative))
         cases_[{record.mesh, record.general_name}] = record;
@@ -38,8 +37,10 @@ CaseTable::CaseTable(const std::vector<Record>& records, const std::string& stop
 }
 
 const Record* CaseTable::find(const std::string& mesh, const std::string& method) const {
-  const auto known = general_names_.find(method);
-  const auto found = cases_.find({mesh, known == general_names_.end() ? method : known->second});
+  std::string name = method;
+  for (const auto& [of_paper, general] : paper_names)
+    if (method == of_paper) name = general;
+  const auto found = cases_.find({mesh, name});
   return found == cases_.end() ? nullptr : &found->second;
 }
 

@@ -1,14 +1,25 @@
 // The cases of one stop and one scene, found under any of their method's names.
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {
+
+// The paper's names for methods that have a general one, as its sentences use them.
+inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> paper_names = {{
+    {"SDTIC3", "SYMMLQ:DTIC3"},
+    {"SDTIC6", "SYMMLQ:DTIC6"},
+    {"SSKY", "SYMMLQ:SKY"},
+    {"3STEPCG3", "3STEPCG:DTIC3"},
+    {"3STEPCG6", "3STEPCG:DTIC6"},
+}};
 
 class CaseTable {
  public:
@@ -28,7 +39,6 @@ class CaseTable {
   std::string scene_ = "default";
   std::vector<std::string> meshes_;
   std::map<std::pair<std::string, std::string>, Record> cases_;  // (mesh, general name)
-  std::map<std::string, std::string> general_names_;             // of each name in the records
 };
 
 }  // namespace airybench

@@ -8,7 +8,6 @@
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "bench/judging/verifier.hpp"
-#include "bench/output/record_files.hpp"
 #include "support/atomic_file.hpp"
 
 namespace airybench {

@@ -78,6 +78,11 @@ TEST(ClaimsStatistics, SpreadIsGeometricMeanAndRange) {
   EXPECT_EQ(with_timeout.interval.high, infinity);
 }
 
+TEST(ClaimsCases, ThePapersNamesAreTheMethods) {
+  for (const auto& [of_paper, general] : paper_names)
+    EXPECT_EQ(select_methods(of_paper).front().identity(), general);
+}
+
 using Result = testing::CommandResult;
 
 class Claims : public ::testing::Test {
