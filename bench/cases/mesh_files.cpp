@@ -31,4 +31,19 @@ std::vector<MeshFile> read_meshes(const std::string& selection) {
   return files;
 }
 
+std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  using std::filesystem::weakly_canonical;
+  std::error_code ignored;
+  if (std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored))
+    return file.filename().string();
+  const std::filesystem::path from_folder =
+      weakly_canonical(file).lexically_relative(weakly_canonical(folder));
+  return from_folder.has_parent_path() ? from_folder.string() : "./" + from_folder.string();
+}
+
+std::filesystem::path recorded_file(const std::string& recorded,
+                                    const std::filesystem::path& folder) {
+  return recorded.find('/') == recorded.npos ? mesh_directory() / recorded : folder / recorded;
+}
+
 }  // namespace airybench

@@ -22,4 +22,11 @@ std::filesystem::path mesh_directory();
 // std::invalid_argument; two files of the same name are refused.
 std::vector<MeshFile> read_meshes(const std::string& selection);
 
+// How a record in `folder` names a mesh's file: one of the catalogue's by its name alone, another
+// by its path from the folder, "./part.msh".
+std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder);
+// And back.
+std::filesystem::path recorded_file(const std::string& recorded,
+                                    const std::filesystem::path& folder);
+
 }  // namespace airybench

@@ -25,6 +25,8 @@ Everything after "--" goes to Google Benchmark.
 Exit status  0  every case is ok, or skipped with a reason
              1  some case is not
              2  wrong usage, or a file that cannot be used or written: one line on standard error
+             3  out of memory, or a defect of bench itself: one line on standard error (so with every
+                command)
          128+n  ended by signal n (Ctrl-C: 130); what was measured is in the folder
 
 Examples

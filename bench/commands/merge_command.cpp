@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/output/record_files.hpp"
 
@@ -42,10 +43,22 @@ MergeOptions parse_merge(int argc, const char* const* argv) {
   return options;
 }
 
-std::vector<RecordLine> read_all(const std::vector<std::filesystem::path>& folders) {
+// A path from its own folder becomes one from the folder of the whole.
+void name_mesh_from(const std::filesystem::path& out, const std::filesystem::path& folder,
+                    RecordLine& line) {
+  if (line.record.mesh_file.empty()) return;
+  line.record.mesh_file = recorded_path(recorded_file(line.record.mesh_file, folder), out);
+  line.json["mesh_file"] = line.record.mesh_file;
+}
+
+std::vector<RecordLine> read_all(const std::vector<std::filesystem::path>& folders,
+                                 const std::filesystem::path& out) {
   std::vector<RecordLine> all;
   for (const auto& folder : folders)
-    for (RecordLine& line : lines_in(folder)) all.push_back(std::move(line));
+    for (RecordLine& line : lines_in(folder)) {
+      name_mesh_from(out, folder, line);
+      all.push_back(std::move(line));
+    }
   if (all.empty()) throw FileError("the folders have no records");
   return all;
 }
@@ -81,7 +94,7 @@ std::map<std::int64_t, RecordLine> by_number(const std::vector<RecordLine>& all)
 
 int merge_command(int argc, const char* const* argv) {
   const MergeOptions options = parse_merge(argc, argv);
-  const std::vector<RecordLine> all = read_all(options.folders);
+  const std::vector<RecordLine> all = read_all(options.folders, options.out);
   refuse_mixtures(all);
   const std::map<std::int64_t, RecordLine> cases = by_number(all);
   // The same in all, or they would have been refused.

@@ -95,11 +95,10 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   return options;
 }
 
-MeshFile mesh_of(const Record& record) {
-  const std::filesystem::path recorded = record.mesh_file;
-  const std::filesystem::path file = recorded.is_absolute() && std::filesystem::exists(recorded)
-                                         ? recorded
-                                         : mesh_directory() / (record.mesh + ".msh");
+// Older records do not say where a mesh of the catalogue was.
+MeshFile mesh_of(const Record& record, const std::filesystem::path& folder) {
+  const std::string recorded = record.mesh_file.empty() ? record.mesh + ".msh" : record.mesh_file;
+  const std::filesystem::path file = recorded_file(recorded, folder);
   MeshFile mesh = std::move(read_meshes(file.string()).front());
   if (mesh.sha256 != record.mesh_sha256)
     throw FileError(fmt::format("{}: is not the mesh of the record: its SHA-256 is {}, not {}",
@@ -107,10 +106,10 @@ MeshFile mesh_of(const Record& record) {
   return mesh;
 }
 
-Case case_of(const Record& record, const Options& options) {
-  MeshFile mesh = mesh_of(record);
+Case case_of(const Record& record, const std::filesystem::path& folder, const Options& options) {
+  MeshFile mesh = mesh_of(record, folder);
   const std::string definition = json_text(record.scene_definition);
-  PosedScene posed{record.scene, record.scene_group, record.mesh_file,
+  PosedScene posed{record.scene, record.scene_group, recorded_path(mesh.path, options.out),
                    mesh.sha256,  definition,         nullptr};
   Scene scene;
   if (definition != "{}") {
@@ -171,7 +170,7 @@ int replay_command(int argc, const char* const* argv) {
         fmt::format("{}: was not measured by this program, or not so (recorded and "
                     "now): {} (--other-program runs it all the same)",
                     asked.record, differs));
-  const Case planned = case_of(record, options);
+  const Case planned = case_of(record, folder, options);
   catch_interrupts();
   const RunResult result = run_cases({planned}, options, context);
   const Record& now = result.records.front();

@@ -54,14 +54,6 @@ std::string definition_of(const Scene& scene) {
   return json_text(parse_json(file_text(scene.source)));
 }
 
-// How a record names the mesh's file: one of the catalogue's by its name alone.
-std::string recorded_path(const std::filesystem::path& file) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored)
-             ? file.filename().string()
-             : std::filesystem::absolute(file).string();
-}
-
 std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<Scene> scenes;
   const bool atlas = options.study == Study::stability && options.scenes.empty();
@@ -76,7 +68,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<PosedScene> posed;
   for (const MeshFile& file : read_meshes(options.meshes))
     for (const Scene& scene : scenes)
-      posed.push_back({scene.name, scene.group, recorded_path(file.path), file.sha256,
+      posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition_of(scene),
                        std::make_shared<const Problem>(pose(scene, file.mesh))});
   return posed;

@@ -118,6 +118,9 @@ TEST_F(Command, TakesAUsersMeshAndScene) {
   ASSERT_EQ(result.code, 0) << result.err;
   const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
   EXPECT_EQ(record["mesh"], "mine");
+  EXPECT_EQ(record["mesh_file"], "../mine.msh");
+  EXPECT_EQ(bench("replay o:1 --out=again/r").code, 0);
+  EXPECT_EQ(Json::parse(content(folder_ / "again/r/records.jsonl"))["mesh_file"], "../../mine.msh");
   EXPECT_EQ(record["scene"], "flat");
   EXPECT_EQ(record["n_c"], 20);
   EXPECT_TRUE(record["coulomb_violation_N"].is_null());
