@@ -5,13 +5,14 @@ T triangles, B boundary edges, P = 2 x (contact edges) contact points.
 """
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from case_names import case_name, file_of
+from paper_sizes import catalogue_mesh
+from records import RecordsError, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
@@ -37,7 +38,9 @@ class Fields:
     edges: np.ndarray     # (P/2, 2, 2) mm: contact edges; contact point 2e is the start of edge e
     traction: np.ndarray  # (P/2, 2, 2) MPa: start, end; normal (pressure < 0), tangential
     state: np.ndarray     # (P/2, 2) of STATES
-    n_phi: int | None     # from results.csv; None: it has no such row
+    mesh: str
+    n_phi: int | None     # from the record; None: there is none
+    sideways: bool        # drawn with y to the right and x down: a tooth rests on its foundation
 
     @property
     def triangles(self) -> np.ndarray:
@@ -45,9 +48,14 @@ class Fields:
         return self.corners[:, :, 0]
 
     def moved(self, origin: np.ndarray, frame: np.ndarray) -> Fields:
-        """Positions seen from origin (2,) along the frame's columns (2, 2); stresses stay."""
-        return replace(self, **{key: (getattr(self, key) - origin) @ frame
-                                for key in ("corners", "boundary", "edges")})
+        """Positions seen from origin (2,) along the frame's columns (2, 2), drawn with the first
+        down and the second to the right; stresses stay."""
+        return replace(self, sideways=True, **{key: (getattr(self, key) - origin) @ frame
+                                               for key in ("corners", "boundary", "edges")})
+
+    def placed(self, points: np.ndarray) -> np.ndarray:
+        """(..., 2) x, y -> to the right and along the vertical axis of a picture."""
+        return points[..., ::-1] if self.sideways else points
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face."""
@@ -115,18 +123,16 @@ def read_table(path: Path, header: str,
     return np.array(numbers).reshape(-1, width), np.array(last, dtype=object)
 
 
-def read_n_phi(results: Path, name: str) -> int | None:
-    """n_phi of the row whose case gave the file name; None without file or row."""
-    if not results.is_file():
-        return None
+def cases_of(results: Path) -> dict[str, tuple[str, int]]:
+    """Name of a case's files -> mesh, n_phi."""
+    if not any((results / file).is_file() for file in ("records.jsonl", "results.csv")):
+        return {}
     try:
-        with results.open(newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                if file_of(case_name(row)) == name:
-                    return int(row["n_phi"])
-    except (OSError, UnicodeDecodeError, csv.Error, KeyError, ValueError, TypeError) as error:
-        raise FieldsError(f"{results}: {error!r}; expected columns mesh, scene, method, n_phi")
-    return None
+        table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))
+    except RecordsError as error:
+        raise FieldsError(error)
+    return {file_of(case_name(case)): (case["mesh"], case["n_phi"])
+            for case in table.to_dict("records")}
 
 
 def error_names_in(results: Path) -> list[str]:
@@ -161,8 +167,9 @@ def names_in(results: Path) -> list[str]:
     return names
 
 
-def read_fields(results: Path, name: str) -> Fields:
-    """One solution; throws FieldsError. The three files must describe the same body."""
+def read_fields(results: Path, name: str, cases: dict[str, tuple[str, int]]) -> Fields:
+    """One solution; throws FieldsError. The three files must describe the same body. Without a
+    case of that name the mesh is read from it."""
     path = {part: results / "fields" / f"{name}.{part}.csv"
             for part in ("stress", "contact", "boundary")}
     rows, _ = read_table(path["stress"], STRESS)
@@ -185,7 +192,9 @@ def read_fields(results: Path, name: str) -> Fields:
     if not np.array_equal(points[:, :2], contact.reshape(-1, 2)):
         raise FieldsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
+    mesh, n_phi = cases.get(name, (name.partition("-")[0], None))
     half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), n_phi=read_n_phi(results / "results.csv", name))
+                  state=state.reshape(-1, 2), mesh=mesh, n_phi=n_phi,
+                  sideways=catalogue_mesh(mesh) is not None)

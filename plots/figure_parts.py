@@ -6,7 +6,7 @@ arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from matplotlib import colormaps, ticker
@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from figure_words import heap_caption, plain, short, time_caption, wrapped
-from results_table import Row
+from record_keys import STOPS, Row
+from selection import of_scene
 
 WIDTH = 6.3  # inches: 16 cm
 TYPE, SMALL, MATH = 8, 7, 10  # points; indices and exponents are set at 0.7 MATH
@@ -97,6 +98,16 @@ class ErrorScale:
         bar.ax.tick_params(pad=1.5, labelsize=SMALL)
         bar.outline.set_linewidth(0.4)
         bar.ax.set_title("error of the contact forces", pad=2)
+
+
+def by_stop(rows: list[Row]) -> Iterator[tuple[str, list[Row], ErrorScale]]:
+    """End of the figures' names, rows of an ordinary run's scene and the stop, common colours."""
+    own = of_scene([row for row in rows if not row.study])
+    scale = ErrorScale(own)
+    for stop in STOPS:
+        of_stop = [row for row in own if row.stop == stop]
+        if of_stop:
+            yield "_paper_stop" if stop == "paper" else "", of_stop, scale
 
 
 def draw_point(axes: Axes, x: float, y: float | None, row: Row, mark: str, scale: ErrorScale,

@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 import error_map
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
-from fields import (Fields, FieldsError, error_names_in, names_in, read_error_share,
+from fields import (Fields, FieldsError, cases_of, error_names_in, names_in, read_error_share,
                     read_fields)
 from figure_files import replace_all, write_small_png
 
@@ -99,11 +99,11 @@ def main() -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
     try:
-        names = names_in(args.results)
+        names, cases = names_in(args.results), cases_of(args.results)
         chosen = choose(names)
         wanted = names if args.each or not chosen else chosen
-        solutions = {name: read_fields(args.results, name) for name in wanted}
-        mapped = {name: solutions.get(name) or read_fields(args.results, name)
+        solutions = {name: read_fields(args.results, name, cases) for name in wanted}
+        mapped = {name: solutions.get(name) or read_fields(args.results, name, cases)
                   for name in error_names_in(args.results)}
         maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
         if chosen:

@@ -21,9 +21,9 @@ import sys
 import tempfile
 from pathlib import Path
 
-from night_history import read_history, read_records
+from night_history import OF_A_CASE, read_history
 from page_data import page_data
-from results_table import ResultsError
+from records import RecordsError, read
 
 PARTS = Path(__file__).resolve().parent / "page"
 SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
@@ -39,7 +39,7 @@ def main() -> None:
     args = parser.parse_args()
     try:
         write_whole(args.out, page(args.history, args.results))
-    except ResultsError as error:
+    except RecordsError as error:
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}; expected a file to write")
@@ -49,9 +49,9 @@ def main() -> None:
 def page(history: Path, results: Path | None) -> str:
     nights, records = read_history(history), None
     if results and not results.is_dir():
-        raise ResultsError(f"{results}: no such folder; expected the --out of bench")
+        raise RecordsError(f"{results}: no such folder; expected the --out of bench")
     if results and (results / "records.jsonl").exists():
-        records = read_records(results / "records.jsonl")
+        records = read(results / "records.jsonl", OF_A_CASE)
     data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
                       separators=(",", ":")).replace("<", "\\u003c")
     style = part("page.css")

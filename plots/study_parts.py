@@ -2,49 +2,40 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 
 from matplotlib.figure import Figure
 
 from figure_words import plain, short, span, wrapped
-from method_names import general
-from results_table import Row
+from record_keys import Row
 
 TYPE, LINE, MARGIN = 8, 0.155, 0.1  # points; inches
-# Okabe and Ito's colours; the markers say the same in grey.
-FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s"), "3STEPD": ("#D55E00", "D"),
-            "ALM": ("#00805C", "^"), "BLIND": ("#56B4E9", "<"), "HYBRID": ("#000000", "P"),
-            "P2": ("#C98500", "X")}
-OTHERS = ("#777777", "v")
-ALARM = "#D00060"
 STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=0.8,
             linestyle="none", zorder=7)  # the paper's stop
-DISPLACEMENTS = "P2"  # the method in displacements: another discrete problem
 
 
-def family(method: str) -> str:
-    """SDTIC3 -> SYMMLQ, 3STEPD:CHOLMOD -> 3STEPD."""
-    return general(method).partition(":")[0]
+def order(row: Row) -> tuple[int, str]:
+    """Sorts by family, then by method."""
+    return row.look.rank, row.method
 
 
-def style(method: str) -> tuple[str, str]:
-    """Colour and marker."""
-    return FAMILIES.get(family(method), OTHERS)
+def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
+    """By size."""
+    meshes: dict[str, list[Row]] = {}
+    for row in sorted(rows, key=lambda row: row.n_phi):
+        meshes.setdefault(row.mesh, []).append(row)
+    return meshes
 
 
-def dashes(method: str) -> object:
-    return (0, (5, 1.5)) if family(method) == "3STEPCG" else "-"
+def file_name(stem: str, mesh: str) -> str:
+    """The mesh may be named anyhow."""
+    return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
 
 
 def threads(rows: list[Row]) -> str:
     count = span(row.threads for row in rows)
     return f"{count} thread{'' if count == '1' else 's'}"
-
-
-def order(method: str) -> tuple[int, str]:
-    """Sorts methods by family."""
-    names = [*FAMILIES]
-    return names.index(f) if (f := family(method)) in names else len(names), method
 
 
 def percent(value: float) -> str:

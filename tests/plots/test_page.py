@@ -270,10 +270,10 @@ class WrongInputTest(unittest.TestCase):
         for change, line in (
                 ({"date": "yesterday"}, "date is 'yesterday', expected a date in ISO 8601"),
                 ({"failed": 1}, "failed is 1, expected true or false"),
-                ({"context": {"cpus": 2}}, "cpus is 2, expected a text"),
+                ({"context": {"cpus": 2}}, "cpus is 2, expected a text, or empty"),
                 ({"cases": [7]}, "cases[0]: 7, expected an object"),
                 ({"cases": {"time_s": "1"}},
-                 'cases[0]: time_s is "1", expected a number or null'),
+                 "cases[0]: time_s is '1', expected a number above 0, or empty"),
                 ({"cases": {"stop": "never"}},
                  "cases[0]: stop is 'never', expected one of target, paper"),
                 ({"verdicts": {"kind": "odd"}},
@@ -286,7 +286,7 @@ class WrongInputTest(unittest.TestCase):
         results = self.folder / "results"
         results.mkdir()
         (results / "records.jsonl").write_text("{}\n", encoding="utf-8")
-        self.expect(f"{results}/records.jsonl:1: mesh is null, expected a text", self.history,
+        self.expect(f"{results}/records.jsonl:1: mesh is null, expected a name", self.history,
                     results)
 
     def test_a_file_that_cannot_be_written(self) -> None:
