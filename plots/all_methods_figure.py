@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from bodies import sharing_axes
 from figure_files import Drawing
-from figure_parts import MATH, axes_at, log_axis, log_limits
+from figure_parts import MATH, axes_at, log_limits, log_log
 from figure_words import merged, plain
 from paper_sizes import BODIES
 from record_keys import Row
@@ -56,15 +56,14 @@ def draw(rows: list[Row]) -> Figure | str:
     drawn = [row for lines in blocks for line in lines.values() for row in line]
     between = "one tooth and the rack" if {row.body for row in drawn} == set(BODIES.values()) \
         else "bodies"
-    figure = parts.sheet(WIDTH, len(blocks) * BLOCK, [
+    figure = parts.sheet(WIDTH, len(blocks) * BLOCK,
+                         "All methods over the number of unknowns", [
         f"Scene {rows[0].scene}, {parts.threads(rows)}"
         f"{', with the paper’s stops' if rows[0].stop == 'paper' else ''}. n^p: power law by least "
         f"squares of logarithms over all sizes of a method, three or more. Lines are interrupted "
         f"between {between}. Errors of 0 are at the lower edge.",
         f"No point: {words}." if words else ""])
     height = figure.get_size_inches()[1]
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / height, va="top",
-                s="All methods over the number of unknowns", fontsize=11, weight="bold")
     for k, lines in enumerate(blocks):
         if len(blocks) > 1:
             bodies = dict.fromkeys(row.body for line in lines.values() for row in line)
@@ -88,14 +87,11 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
         return max(value_of(row, column), floor)
 
     sizes = [row.n_phi for line in lines.values() for row in line]
-    axes.set(xscale="log", yscale="log", ylabel=PANELS[column],
-             ylim=log_limits([shown(row) for row in rows]),
-             xlim=(min(sizes) / 1.3, 1.3 * max(sizes)))
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, ylabel=PANELS[column],
+            ylim=log_limits([shown(row) for row in rows]),
+            xlim=(min(sizes) / 1.3, 1.3 * max(sizes)))
     axes.set_xlabel(r"degrees of freedom $n_\varphi$, 1")
     axes.grid(which="major")
-    axes.spines[["right"]].set_visible(False)
     mark_meshes(axes, {row.mesh: row.n_phi for line in lines.values() for row in line}, 55, 7)
     for line in known.values():
         look = line[0].look
@@ -122,5 +118,5 @@ def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[s
         axes.plot([at[method][0], 1.03], [at[method][1], y], transform=axes.transAxes,
                   clip_on=False, color=colour, linewidth=0.4, alpha=0.6, zorder=1)
         power = "" if powers[method] is None else rf": $n^{{{powers[method]:.2f}}}$"
-        axes.text(1.04, y, plain(method) + power, transform=axes.transAxes, va="center", color=colour,
-                  fontsize=MATH - 2)
+        axes.text(1.04, y, plain(method) + power, transform=axes.transAxes, va="center",
+                  color=colour, fontsize=MATH - 2)

@@ -83,7 +83,8 @@ def draw(rows: list[Row]) -> Figure | str:
     width = max(left + CELL * len(columns) + max(RIGHT, above), 9)
     top = TITLE + above
     body = top + ROW * len(methods) + below + KEY
-    figure = parts.sheet(width, body, [
+    figure = parts.sheet(width, body, f"Stability on {rows[0].mesh}: {len(methods)} methods in "
+                         f"{len(columns)} scenes", [
         "A row is a method, a column an extreme scene; scenes by group. ok: all errors and "
         "residuals at most the target; its number n says that the errors of stresses and contact "
         "forces are at most 1e-n; +: no such error is known. Empty: not in the study. "
@@ -92,8 +93,6 @@ def draw(rows: list[Row]) -> Figure | str:
     axes = figure.add_axes([left / width, (height - top - ROW * len(methods)) / height,
                             CELL * len(columns) / width, ROW * len(methods) / height],
                            xlim=(0, len(columns)), ylim=(len(methods), 0))
-    figure.text(parts.MARGIN / width, 1 - 0.08 / height, va="top", fontsize=12, weight="bold",
-                s=f"Stability on {rows[0].mesh}: {len(methods)} methods in {len(columns)} scenes")
     draw_cells(axes, rows, columns, methods)
     draw_names(axes, rows, columns, families)
     draw_groups(axes, groups)

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import Drawing
-from figure_parts import axes_at, log_axis, log_limits
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
 from selection import scene_of
@@ -94,14 +94,13 @@ def draw(rows: list[Row]) -> Figure | str:
         return "fewer than two meshes have error_discretisation"
     bounded_scene, bounded = bounded_of(rows)
     width = LEFT + MAIN + 0.15 + len(bounded) * (GAP + BESIDE)
-    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM, [
+    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM,
+                         "Discretisation error", [
         f"Scene {scene}. Relative constitutive relation error between the equilibrated "
         "stresses and the compatible P2 displacements on the same mesh. h^p: power law fitted by "
         "least squares of logarithms."
         + (f" Right: scene {bounded_scene}; the bounds of the energy are guaranteed where there is "
            "no friction." if bounded else "")])
-    figure.text(parts.MARGIN / width, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s="Discretisation error", fontsize=11, weight="bold")
     marks = marks_of(dict.fromkeys([*bodies, *bounded]))
     draw_errors(axes_at(figure, LEFT, TOP, MAIN, HEIGHT), bodies, marks)
     for k, (body, points) in enumerate(bounded.items(), 1):
@@ -113,11 +112,9 @@ def draw(rows: list[Row]) -> Figure | str:
 def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
                 marks: dict[str, tuple[str, str]]) -> None:
     every = [point for points in bodies.values() for point in points]
-    axes.set(xscale="log", yscale="log", xlim=log_limits([point.h for point in every], 1.25),
-             ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
-             ylabel="relative discretisation error of the stresses, 1")
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlim=log_limits([point.h for point in every], 1.25),
+            ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
+            ylabel="relative discretisation error of the stresses, 1")
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels = Labels(axes)

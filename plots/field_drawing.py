@@ -69,9 +69,10 @@ def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> No
     tau = largest_shear(cut(s.stress[chosen].reshape(-1, 3, 3), parts)).ravel()
     mesh = Triangulation(*xy.T, np.arange(len(xy)).reshape(-1, 3))
     axes.tripcolor(mesh, tau, shading="gouraud", cmap=COLORMAP, norm=scales.shear, rasterized=True)
-    corners = axes.transData.transform(s.placed(s.triangles[chosen]).reshape(-1, 2)).reshape(-1, 3, 2)
+    triangles = s.placed(s.triangles[chosen])
+    corners = axes.transData.transform(triangles.reshape(-1, 2)).reshape(-1, 3, 2)
     size_pt = np.hypot(*(corners - corners[:, [1, 2, 0]]).T).mean(0) * 72 / axes.figure.dpi
-    axes.add_collection(PolyCollection(s.placed(s.triangles[chosen]), facecolor="none", alpha=0.4,
+    axes.add_collection(PolyCollection(triangles, facecolor="none", alpha=0.4,
                                        edgecolor="black", rasterized=True,
                                        linewidths=np.clip(0.04 * size_pt, 0.05, 0.3)))
 

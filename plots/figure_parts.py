@@ -196,6 +196,14 @@ def log_axis(axis: Axis) -> None:
     axis.set_minor_formatter(ticker.NullFormatter())
 
 
+def log_log(axes: Axes, **properties: object) -> None:
+    """With its limits among the properties."""
+    axes.set(xscale="log", yscale="log", **properties)
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
+    axes.spines[["right"]].set_visible(False)
+
+
 def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, float]:
     """At least a decade; with headroom where there is a case without a value."""
     known = [value for value in values if value is not None] or [1]

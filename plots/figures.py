@@ -14,19 +14,19 @@ line says which, and nothing is written.
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
 
 import matplotlib
 
+import command
 from figure_files import Drawing, replace_all
 from figure_parts import STYLE
 from figure_words import merged
 from paper_sizes import table1
 from record_keys import Row
-from records import RecordsError, read_run, rows_of
+from records import read_run, rows_of
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
@@ -78,26 +78,14 @@ def draw_all(rows: list[Row], out: Path) -> None:
     print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
 
 
-def fail(message: object) -> None:
-    print(f"figures.py: {message}", file=sys.stderr)
-    sys.exit(2)
+def draw(args: argparse.Namespace) -> None:
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(STYLE)
+    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the --out of bench")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
-    parser.error = fail
-    args = parser.parse_args()
-    matplotlib.rcdefaults()
-    matplotlib.rcParams.update(STYLE)
-    try:
-        draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures")
-    except RecordsError as error:
-        fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}; expected a folder to write to")
+    command.run(__doc__, command.results_and_out, draw, "a folder to write to")
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What a method looks like: fixed for the paper's families and ours, the next of a cycle for others."""
+"""What a method looks like: fixed for the families of the table, the next of a cycle for others."""
 from __future__ import annotations
 
 from itertools import chain, cycle, islice

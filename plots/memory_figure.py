@@ -72,7 +72,8 @@ def draw(rows: list[Row]) -> Figure | str:
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
               if row.memory_counts_differ]
     body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
-    figure = parts.sheet(WIDTH, TOP + body + BOTTOM, [
+    figure = parts.sheet(WIDTH, TOP + body + BOTTOM,
+                         "Where the memory goes", [
         f"{'; '.join(sizes)}, scene {rows[0].scene}, {parts.threads(rows)}. "
         "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
         "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
@@ -81,8 +82,6 @@ def draw(rows: list[Row]) -> Figure | str:
         f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
         else ""])
     height = figure.get_size_inches()[1]
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / height, va="top",
-                s="Where the memory goes", fontsize=11, weight="bold")
     left = max(LEFT, max(width_of(row.method, parts.TYPE) for row in rows) / 72 + 0.2)
     top = TOP
     for mesh, own in meshes.items():

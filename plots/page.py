@@ -17,10 +17,10 @@ import hashlib
 import html
 import json
 import os
-import sys
 import tempfile
 from pathlib import Path
 
+import command
 from night_history import OF_A_CASE, read_history
 from page_data import page_data
 from records import RecordsError, read
@@ -30,19 +30,17 @@ SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    command.run(__doc__, add_arguments, make, "a file to write")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("history", type=Path, metavar="HISTORY")
     parser.add_argument("results", type=Path, metavar="RESULTS", nargs="?")
     parser.add_argument("--out", type=Path, default=Path("page.html"))
-    parser.error = fail
-    args = parser.parse_args()
-    try:
-        write_whole(args.out, page(args.history, args.results))
-    except RecordsError as error:
-        fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}; expected a file to write")
+
+
+def make(args: argparse.Namespace) -> None:
+    write_whole(args.out, page(args.history, args.results))
     print(args.out)
 
 
@@ -94,11 +92,6 @@ def write_whole(file: Path, text: str) -> None:
     except BaseException:
         os.unlink(temporary)
         raise
-
-
-def fail(message: object) -> None:
-    print(f"page.py: {message}", file=sys.stderr)
-    sys.exit(2)
 
 
 if __name__ == "__main__":

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import Drawing
-from figure_parts import axes_at, log_axis, log_limits
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
 from selection import given, is_paper_stop, of_scene
@@ -75,7 +75,8 @@ def table_of(rows: list[Row]) -> list[tuple[str, ...]]:
     for level in reversed(levels([row.error_total for row in rows])):
         cells = [parts.percent(level)]
         for best, named in ((cheapest(stress, level), True),
-                            (cheapest([row for row in rows if row.in_displacements], level), False)):
+                            (cheapest([row for row in rows if row.in_displacements], level),
+                             False)):
             own = [with_knob(best) if best else "–"] if named else []
             cells += own + ([best.mesh, parts.seconds(best.time_s),
                              parts.mebibytes(best.peak_heap_bytes)] if best else ["–"] * 3)
@@ -99,16 +100,15 @@ def draw(rows: list[Row]) -> Figure | str:
               "has the mesh's error. ") if names else ""
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
     tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
-    figure = parts.sheet(WIDTH, sum(heights.values()) + 0.3, [
+    figure = parts.sheet(WIDTH, sum(heights.values()) + 0.3,
+                         "What a total error costs: method and mesh together", [
         f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Dotted: the "
         "mesh's discretisation error, the lowest that a method can reach on it; a method's curve "
         "ends there however many more digits it computes. Thick line: the Pareto front of the "
-        f"stress methods: nothing cheaper has its error, give or take 1 %. {others}Small points: all "
-        f"solves of the study{tuned}."])
+        "stress methods: nothing cheaper has its error, give or take 1 %. "
+        f"{others}Small points: all solves of the study{tuned}."])
     top = 0.3
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s="What a total error costs: method and mesh together", fontsize=11, weight="bold")
     for body, of_body in bodies.items():
         draw_body(figure, top, body, of_body)
         draw_table(figure, top + TOP + HEIGHT + BELOW, displacements_of(of_body), tables[body])
@@ -125,11 +125,9 @@ def draw_body(figure: Figure, top: float, body: str, rows: list[Row]) -> None:
             continue
         axes = axes_at(figure, left, top + TOP, width, HEIGHT)
         known = [row for row in rows if value_of(row, column)]
-        axes.set(xscale="log", yscale="log", xlabel=AXES[column],
-                 ylim=(min(errors) / 1.25, max(errors) * 1.25),
-                 xlim=log_limits([value_of(row, column) for row in known], 1.6))
-        log_axis(axes.xaxis)
-        log_axis(axes.yaxis)
+        log_log(axes, xlabel=AXES[column],
+                ylim=(min(errors) / 1.25, max(errors) * 1.25),
+                xlim=log_limits([value_of(row, column) for row in known], 1.6))
         axes.spines[["top", "right"]].set_visible(False)
         if column == "time_s":
             axes.set_ylabel("total relative error of the stresses, 1")
@@ -155,7 +153,8 @@ def draw_panel(axes: Axes, rows: list[Row], column: str) -> None:
     labels.avoid(*line)
     for row in best:
         axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
-                  marker=row.look.marker, markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
+                  marker=row.look.marker, markersize=8, markeredgecolor="white",
+                  markeredgewidth=0.7, zorder=6)
     for method in displacements_of(rows):
         own = [row for row in rows if row.method == method]
         draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column)
@@ -186,7 +185,8 @@ def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str)
     axes.plot(*line, color=colour, marker=marker, markersize=8, linewidth=1.5, zorder=5,
               linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
     labels.avoid(*line)
-    labels.add(f"{rows[0].method} displacements", line[0], line[1], color=colour, weight="bold", fontsize=8.5)
+    labels.add(f"{rows[0].method} displacements", *line, color=colour, weight="bold",
+               fontsize=8.5)
 
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:

@@ -42,8 +42,8 @@ def chosen(rows: list[Row]) -> list[Row]:
     for row in rows:
         if row.preconditioner:
             meshes.setdefault(row.mesh, []).append(row)
-    full = [own for own in meshes.values()
-            if {row.general_name for row in own} - {row.general_name for row in rows if row.in_paper}]
+    in_paper = {row.general_name for row in rows if row.in_paper}
+    full = [own for own in meshes.values() if {row.general_name for row in own} - in_paper]
     return max(full, default=[], key=lambda own: (len({row.general_name for row in own}),
                                                   own[0].n_phi))
 
@@ -65,7 +65,7 @@ def columns_of(rows: list[Row]) -> Columns:
 
 
 def places_of(rows: list[Row]) -> dict[Slot, float]:
-    """Slot -> position, in slots from the left: groups with parameters first, else by appearance."""
+    """Slot -> position, in slots from the left: groups with parameters first, as they come."""
     groups = list(dict.fromkeys(slot_of(row)[0] for row in rows))
     slots = sorted({slot_of(row) for row in rows},
                    key=lambda slot: (slot[1] is None, groups.index(slot[0]), slot[1]))

@@ -26,7 +26,6 @@ Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of tab
 from __future__ import annotations
 
 import argparse
-import math
 import re
 import sys
 from collections.abc import Iterator

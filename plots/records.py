@@ -5,8 +5,9 @@ is allowed.
 """
 from __future__ import annotations
 
+import csv
+import io
 import json
-import re
 from collections.abc import Callable, Collection
 from pathlib import Path
 
@@ -98,30 +99,26 @@ def with_derived(table: pd.DataFrame) -> pd.DataFrame:
 
 def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]]:
     """Rows as texts, and the header."""
-    try:
-        cells = pd.read_csv(path, header=None, dtype=str, keep_default_na=False, na_values=[],
-                            skip_blank_lines=False, encoding="utf-8")
-    except pd.errors.EmptyDataError:
-        return [], []
-    except pd.errors.ParserError as error:
-        long = re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", str(error))
-        if long:
-            raise RecordsError(f"{path}:{long[2]}: {long[3]} values, expected {long[1]} as in "
-                               "line 1")
-        raise RecordsError(f"{path}: cannot be read: not CSV text: {' '.join(str(error).split())}")
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not UTF-8"
-        raise RecordsError(f"{path}: cannot be read: {reason}; expected {path.name} of bench")
-    header = list(cells.loc[0])
+    lines = cells_of(path)
+    header = lines[0] if lines else []
     for name in KEYS:
-        if header.count(name) > 1 or (name in needed and name not in header):
+        if header.count(name) > 1 or (lines and name in needed and name not in header):
             raise RecordsError(f"{path}:1: {header.count(name) or 'no'} columns {name}; expected "
                                f"one each of {', '.join(needed)}")
-    for k in cells.index[cells.isna().any(axis=1)]:
-        raise RecordsError(f"{path}:{k + 1}: {cells.loc[k].notna().sum()} values, expected "
-                           f"{len(header)} as in line 1")
-    cells.columns = header
-    return cells.loc[1:, [name for name in KEYS if name in header]].to_dict("records"), header
+    return [dict(zip(header, cells)) for cells in lines[1:]], header
+
+
+def cells_of(path: Path) -> list[list[str]]:
+    """Of a CSV, line by line; as many in each as in the first."""
+    try:
+        lines = list(csv.reader(io.StringIO(text_of(path)), strict=True))
+    except csv.Error as error:
+        raise RecordsError(f"{path}: cannot be read: not CSV text: {error}")
+    for line, cells in enumerate(lines, 1):
+        if len(cells) != len(lines[0]):
+            raise RecordsError(f"{path}:{line}: {len(cells)} values, expected {len(lines[0])} as "
+                               "in line 1")
+    return lines
 
 
 def read_lines(path: Path) -> list[object]:
@@ -134,8 +131,8 @@ def text_of(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
-        raise RecordsError(f"{path}: cannot be read: "
-                           f"{getattr(error, 'strerror', None) or 'not UTF-8'}")
+        reason = getattr(error, "strerror", None) or "not UTF-8"
+        raise RecordsError(f"{path}: cannot be read: {reason}; expected what bench writes")
 
 
 def json_of(text: str, place: str) -> object:

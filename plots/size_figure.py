@@ -141,15 +141,12 @@ def width_in(axes: Axes) -> float:
 
 def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
-    axes.set(xscale="log", yscale="log", xlim=parts.log_limits([row.n_phi for row in rows], 1.25),
-             ylim=parts.log_limits(values))
-    parts.log_axis(axes.xaxis)
-    parts.log_axis(axes.yaxis)
+    parts.log_log(axes, xlim=parts.log_limits([row.n_phi for row in rows], 1.25),
+                  ylim=parts.log_limits(values))
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
     axes.set_xlabel(r"$n_\varphi$", fontsize=parts.MATH, labelpad=2)
     axes.grid(axis="y")
-    axes.spines[["right"]].set_visible(False)
 
 
 def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: float) -> None:

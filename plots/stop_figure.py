@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import Drawing
-from figure_parts import axes_at, log_axis, log_limits
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
 from record_keys import Row
 from selection import given, is_paper_stop, of_scene
@@ -64,14 +64,13 @@ def draw(rows: list[Row]) -> Figure | str:
     stops = [stop for curve in curves.values() for stop in curve]
     families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no force is "
-        "out of balance by more than 1e-3 N. Left: the error of its contact forces then, which the "
-        f"stop does not see; dashed: the target error {short(target)} of the other figures. "
-        "Right: the iterations it took."])
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s=f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
-                f"{parts.percent(max(errors_of(stops)))}", fontsize=11, weight="bold")
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+                         f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
+                         f"{parts.percent(max(errors_of(stops)))}", [
+        f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
+        "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
+        f"which the stop does not see; dashed: the target error {short(target)} of the other "
+        "figures. Right: the iterations it took."])
     left = axes_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
@@ -90,11 +89,9 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                included: list[float]) -> None:
     stops = [stop for curve in curves.values() for stop in curve if getattr(stop.row, column)]
     values = [getattr(stop.row, column) for stop in stops]
-    axes.set(xscale="log", yscale="log", xlabel="penalty r, relative to the stiffness, 1",
-             xlim=log_limits([stop.r for stop in stops], 1.5),
-             ylim=log_limits([*values, *included], 1.8))
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
+            xlim=log_limits([stop.r for stop in stops], 1.5),
+            ylim=log_limits([*values, *included], 1.8))
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels, lines = Labels(axes), {}

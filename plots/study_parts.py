@@ -56,11 +56,13 @@ def mebibytes(value: float | None) -> str:
     return f"{mib:.2g}\u00a0MiB" if mib < 99.5 else f"{mib:.0f}\u00a0MiB"
 
 
-def sheet(width: float, body: float, texts: Iterable[str]) -> Figure:
+def sheet(width: float, body: float, title: str, texts: Iterable[str]) -> Figure:
     """A figure of so many inches, made higher by the lines of its caption below."""
     lines = [line for text in texts if text for line in wrapped(text, width - 2 * MARGIN, TYPE)]
     height = body + LINE * len(lines) + MARGIN
     figure = Figure(figsize=(width, height))
+    figure.text(MARGIN / width, 1 - 0.08 / height, plain(title), va="top", fontsize=11,
+                weight="bold")
     for k, line in enumerate(lines):
         figure.text(MARGIN / width, (height - body - 0.02 - k * LINE) / height, plain(line),
                     va="top", fontsize=TYPE)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import Drawing
-from figure_parts import axes_at, log_axis, log_limits
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
 from record_keys import Row
 from selection import given, is_paper_stop, of_scene
@@ -59,9 +59,8 @@ def draw(rows: list[Row]) -> Figure | str:
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     notes = [f"No point: {'; '.join(dict.fromkeys(absent))}."] if absent else []
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [words, *notes])
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s=f"{known[0].mesh}: what each digit costs", fontsize=11, weight="bold")
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+                         f"{known[0].mesh}: what each digit costs", [words, *notes])
     left = LEFT
     for column, width in zip(AXES if heap else ["time_s"], PANELS):
         axes = axes_at(figure, left, TOP, width if heap else sum(PANELS), HEIGHT)
@@ -85,10 +84,8 @@ def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]]
              if (known := [row for row in curve if value_of(row, column)])}
     rows = [row for curve in [*shown.values(), stops] for row in curve if value_of(row, column)]
     highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
-    axes.set(xscale="log", yscale="log", xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
-             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
+            xlim=log_limits([value_of(row, column) for row in rows], 1.7))
     axes.grid(axis="both")
     axes.spines[["top", "right"]].set_visible(False)
     axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)

@@ -196,7 +196,8 @@ class GalleryTest(unittest.TestCase):
     def test_damaged_table_of_results(self) -> None:
         self.edit("stress", lambda lines: lines)
         (self.results / "results.csv").write_text("mesh,scene\nMesh1,default\n")
-        self.assert_refused(str(self.results / "results.csv"), "no columns method; expected one each of mesh")
+        self.assert_refused(str(self.results / "results.csv"),
+                            "no columns method; expected one each of mesh")
 
     def test_wrong_option_and_unusable_out(self) -> None:
         write_solution(self.fields, NAMES[0])

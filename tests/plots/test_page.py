@@ -159,6 +159,20 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("hidden", document.one("section", id="figures").attributes)
         self.assertIn("hidden", self.shown().one("section", id="figures").attributes)
 
+    def test_bodies_have_their_headings(self) -> None:
+        history = made_up.write_history(self.folder / "own", nights=2)
+        for file in (history / "nights").iterdir():
+            text = file.read_text(encoding="utf-8").replace("Mesh0", "punch1")
+            file.write_text(text.replace("Mesh3", "dovetail3"), encoding="utf-8")
+        page = self.make(history, name="own.html")
+        panels = self.shown(page=page).one("div", id="panels")
+        self.assertEqual([head.text for head in panels.all("h3", class_="body")],
+                         ["punch", "dovetail"])
+        document = self.shown("#filter=dovetail+hybrid", page)
+        self.assertEqual(list(self.panels(document)), ["dovetail3/default/HYBRID"])
+        self.assertEqual(self.column(document, "mesh"), ["dovetail3"])
+        self.assertEqual(self.shown().all("h3", class_="body"), [])  # one body
+
     def test_one_night_is_enough(self) -> None:
         history = made_up.write_history(self.folder / "first", nights=1)
         document = self.shown(page=self.make(history, name="first.html"))
@@ -260,7 +274,7 @@ class WrongInputTest(unittest.TestCase):
         self.file.write_text('{"format":\n', encoding="utf-8")
         self.expect(f"{self.file}:2: not JSON: Expecting value; expected an object")
         self.file.write_bytes(b"\xff")
-        self.expect(f"{self.file}: cannot be read: not UTF-8")
+        self.expect(f"{self.file}: cannot be read: not UTF-8; expected what bench writes")
         self.file.write_text("[]", encoding="utf-8")
         self.expect(f"{self.file}: not a night; expected an object with format airybench-night-1")
         self.spoil({"noise": {"median_s": float("nan")}})
