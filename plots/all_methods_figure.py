@@ -14,8 +14,8 @@ from figure_parts import MATH, axes_at, log_limits, log_log
 from figure_words import merged, plain
 from paper_sizes import BODIES
 from record_keys import Row
-from selection import of_scene
-from size_figure import exponent, mark_meshes, spread
+from selection import by_body, grouped, of_scene
+from size_figure import beside, exponent, mark_meshes
 from work_precision_figure import value_of
 
 LEFT, TOP, PANEL, NAMES, HEIGHT, BOTTOM = 0.72, 1.3, 2.8, 2.0, 4.6, 0.5
@@ -35,11 +35,9 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
     """Method -> its completed rows by size, where there are two sizes or more."""
-    lines: dict[str, list[Row]] = {}
-    for row in sorted(rows, key=lambda row: (parts.order(row), row.n_phi)):
-        if row.completed:
-            lines.setdefault(row.method, []).append(row)
-    return {method: line for method, line in lines.items()
+    done = sorted((row for row in rows if row.completed),
+                  key=lambda row: (parts.order(row), row.n_phi))
+    return {method: line for method, line in grouped(done, lambda row: row.method).items()
             if len({row.n_phi for row in line}) > 1}
 
 
@@ -48,11 +46,9 @@ def draw(rows: list[Row]) -> Figure | str:
     blocks = [lines for own in sharing_axes(rows) if (lines := lines_of(own))]
     if not blocks:
         return "no method has two sizes"
-    failed: dict[str, list[str]] = {}
-    for row in rows:
-        if not row.completed:
-            failed.setdefault(row.status_words(), []).append(f"{row.method} on {row.mesh}")
-    words = "; ".join(f"{merged(cases)} ({why})" for why, cases in failed.items())
+    failed = grouped([row for row in rows if not row.completed], Row.status_words)
+    words = "; ".join(f"{merged([f'{row.method} on {row.mesh}' for row in own])} ({why})"
+                      for why, own in failed.items())
     drawn = [row for lines in blocks for line in lines.values() for row in line]
     between = "one tooth and the rack" if {row.body for row in drawn} == set(BODIES.values()) \
         else "bodies"
@@ -66,7 +62,7 @@ def draw(rows: list[Row]) -> Figure | str:
     height = figure.get_size_inches()[1]
     for k, lines in enumerate(blocks):
         if len(blocks) > 1:
-            bodies = dict.fromkeys(row.body for line in lines.values() for row in line)
+            bodies = by_body([row for line in lines.values() for row in line])
             figure.text(parts.MARGIN / WIDTH, 1 - (k * BLOCK + 0.35) / height, va="top",
                         s=plain(", ".join(bodies)), fontsize=10, weight="bold")
         for j, column in enumerate(PANELS):
@@ -109,14 +105,10 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
 def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[str, str],
                powers: dict[str, float | None]) -> None:
     """Name and exponent beside the last points, in their order."""
-    at = {method: axes.transAxes.inverted().transform(axes.transData.transform(end))
-          for method, end in ends.items()}
-    order = sorted(at, key=lambda method: at[method][1])
-    places = spread([at[method][1] for method in order], LABEL_PT / (72 * HEIGHT), 0.01, 0.99)
-    for method, y in zip(order, places):
+    for method, at, y in beside(axes, ends, LABEL_PT):
         colour = colours[method]
-        axes.plot([at[method][0], 1.03], [at[method][1], y], transform=axes.transAxes,
-                  clip_on=False, color=colour, linewidth=0.4, alpha=0.6, zorder=1)
+        axes.plot([at[0], 1.03], [at[1], y], transform=axes.transAxes, clip_on=False,
+                  color=colour, linewidth=0.4, alpha=0.6, zorder=1)
         power = "" if powers[method] is None else rf": $n^{{{powers[method]:.2f}}}$"
         axes.text(1.04, y, plain(method) + power, transform=axes.transAxes, va="center",
                   color=colour, fontsize=MATH - 2)

@@ -17,6 +17,7 @@ import study_parts as parts
 from figure_files import Drawing
 from figure_words import plain
 from record_keys import OUTCOMES, Row
+from selection import by_mesh
 
 # Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
 MARKS = {
@@ -65,7 +66,7 @@ def columns_of(rows: list[Row]) -> list[tuple[str, str]]:
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for mesh, own in parts.by_mesh([row for row in rows if row.study == "stability"]).items():
+    for mesh, own in by_mesh([row for row in rows if row.study == "stability"]).items():
         yield Drawing(parts.file_name("stability", mesh), own, draw)
 
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import pandas as pd
 
 from paper_sizes import BODIES, SIZES, catalogue_mesh
+from selection import by_body
 
 if TYPE_CHECKING:
     from records import Row
@@ -62,14 +63,11 @@ def name_of(meshes: list[str]) -> str:
 def sharing_axes(rows: list[Row]) -> list[list[Row]]:
     """Bodies whose sizes do not overlap share axes over n_phi: the rows of each axes."""
     shared: list[list[Row]] = []
-    for body in dict.fromkeys(row.body for row in rows):
-        own = [row for row in rows if row.body == body]
+    for own in by_body(rows).values():
         low, high = min(row.n_phi for row in own), max(row.n_phi for row in own)
-        beside = (group for group in shared
-                  if all(max(row.n_phi for row in group if row.body == other) < low
-                         or min(row.n_phi for row in group if row.body == other) > high
-                         for other in {row.body for row in group}))
-        group = next(beside, None)
+        group = next((group for group in shared if all(
+            max(row.n_phi for row in other) < low or min(row.n_phi for row in other) > high
+            for other in by_body(group).values())), None)
         if group is None:
             shared.append(own)
         else:

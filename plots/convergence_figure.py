@@ -16,7 +16,7 @@ from figure_files import Drawing
 from figure_parts import axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
-from selection import scene_of
+from selection import by_mesh, scene_of
 
 LEFT, TOP, HEIGHT, BOTTOM, GAP, MAIN, BESIDE = 0.72, 0.4, 4.0, 0.5, 0.85, 5.0, 3.6
 MARKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#00805C", "^"), ("#8A3FA0", "D"), ("#C98500", "v"),
@@ -51,12 +51,9 @@ def marks_of(bodies: Iterable[str]) -> dict[str, tuple[str, str]]:
 
 def points_of(rows: list[Row]) -> dict[str, list[Point]]:
     """Body -> its meshes, the coarsest first. The error is of mesh and scene: any row has it."""
-    meshes: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.error_discretisation and row.n_phi:
-            meshes.setdefault(row.mesh, []).append(row)
+    known = [row for row in rows if row.error_discretisation and row.n_phi]
     bodies: dict[str, list[Point]] = {}
-    for mesh, own in sorted(meshes.items(), key=lambda item: item[1][0].n_phi):
+    for mesh, own in by_mesh(known).items():
         bounds = [(row.lower_bound_Nmm, row.upper_bound_Nmm) for row in own
                   if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]
         error = float(np.median([row.error_discretisation for row in own]))

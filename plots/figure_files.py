@@ -1,8 +1,6 @@
-"""What is drawn of a run, and how it is written: all files together or none, pictures small."""
+"""What is drawn of a run, and how it is written: pictures small."""
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
@@ -42,16 +40,6 @@ class Drawing:
 def write(figure: Figure, path: Path) -> None:
     metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
     figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata)
-
-
-def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
-    """Each writer writes its file beside its place; when all are there they are moved to it."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".figures-") as temporary:
-        for name, write in writers.items():
-            write(Path(temporary) / name)
-        for name in writers:
-            os.replace(Path(temporary) / name, folder / name)
 
 
 def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:

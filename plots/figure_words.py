@@ -9,6 +9,7 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 
 from record_keys import Row
+from selection import grouped
 
 
 def short(value: float) -> str:
@@ -63,12 +64,9 @@ class Notes:
 
 def merged(cases: list[str]) -> str:
     """'ALM on Mesh1', 'ALM on Mesh2' -> 'ALM on Mesh1, Mesh2'."""
-    meshes: dict[str, list[str]] = {}
-    for case in cases:
-        method, _, mesh = case.partition(" on ")
-        meshes.setdefault(method, []).append(mesh)
-    return ", ".join(f"{method} on {', '.join(on)}" if on[0] else method
-                     for method, on in meshes.items())
+    methods = grouped((case.partition(" on ") for case in cases), lambda parts: parts[0])
+    return ", ".join(f"{method} on {', '.join(mesh for *_, mesh in on)}" if on[0][2] else method
+                     for method, on in methods.items())
 
 
 def span(values: Iterable[int]) -> str:

@@ -21,7 +21,7 @@ from pathlib import Path
 import matplotlib
 
 import command
-from figure_files import Drawing, replace_all
+from figure_files import Drawing
 from figure_parts import STYLE
 from figure_words import merged
 from paper_sizes import table1
@@ -73,7 +73,8 @@ def draw_all(rows: list[Row], out: Path) -> None:
         writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
         report.append(f"{out / 'table1.md'}")
     if writers:
-        replace_all(out, writers)
+        out.mkdir(parents=True, exist_ok=True)
+        command.replace_all(out, writers)
     undrawn = listed(rows, drawn)
     print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
 

@@ -23,7 +23,7 @@ from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
 from fields import (Fields, cases_of, error_names_in, names_in, read_error_share,
                     read_fields)
-from figure_files import replace_all, write_small_png
+from figure_files import write_small_png
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -68,7 +68,7 @@ def write(figure: Figure, path: Path) -> None:
 
 
 def save(figure: Figure, targets: list[Path]) -> None:
-    replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
+    command.replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
     print(*targets, sep="\n")
 
 
@@ -97,6 +97,7 @@ def draw(args: argparse.Namespace) -> None:
     mapped = {name: solutions.get(name) or read_fields(args.results, name, cases)
               for name in error_names_in(args.results)}
     maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
+    out.mkdir(parents=True, exist_ok=True)
     if chosen:
         *teeth, rack = (solutions[name] for name in chosen)
         save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
@@ -108,7 +109,7 @@ def draw(args: argparse.Namespace) -> None:
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
         path = out / f"error_map_{name}.png"
-        replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
+        command.replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
                                              error_map.DPI, colours=200)})
         print(path)
 

@@ -11,7 +11,7 @@ from figure_files import Drawing
 from figure_parts import axes_at
 from figure_words import plain, width_of
 from record_keys import OWNERS, Row
-from selection import compared, of_scene
+from selection import by_body, by_mesh, compared, grouped, of_scene
 
 WIDTH, LEFT, RIGHT, TOP, BOTTOM, BAR = 8.6, 1.5, 1.75, 0.92, 0.45, 0.27
 BETWEEN = 0.75  # the axes of two meshes
@@ -36,14 +36,13 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     split = of_scene([row for row in rows if row.memory_by_owner and row.completed
                       and row.stop == "target" and not row.study])
     if split:
-        bars = [bar for body in dict.fromkeys(row.body for row in split)
-                for bar in chosen([row for row in split if row.body == body])]
+        bars = [bar for own in by_body(split).values() for bar in chosen(own)]
         yield Drawing("memory_by_owner", bars, draw)
 
 
 def chosen(rows: list[Row]) -> list[Row]:
     """Of a body's largest mesh that has two methods or more; by peak."""
-    meshes = [compared(own, ROOM) for own in parts.by_mesh(rows).values()]
+    meshes = [compared(own, ROOM) for own in by_mesh(rows).values()]
     return sorted(next((own for own in reversed(meshes) if len(own) > 1), []), key=peak_of)
 
 
@@ -66,8 +65,7 @@ def draw(rows: list[Row]) -> Figure | str:
     if not rows:
         return "no mesh has two methods whose heap was split"
     used = [owner for owner in OWNERS if any(peaks_of(row).get(owner, 0) > 0 for row in rows)]
-    meshes = {mesh: [row for row in rows if row.mesh == mesh]
-              for mesh in dict.fromkeys(row.mesh for row in rows)}
+    meshes = grouped(rows, lambda row: row.mesh)
     sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
               if row.memory_counts_differ]

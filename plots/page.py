@@ -16,8 +16,6 @@ import base64
 import hashlib
 import html
 import json
-import os
-import tempfile
 from pathlib import Path
 
 import command
@@ -40,7 +38,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def make(args: argparse.Namespace) -> None:
-    write_whole(args.out, page(args.history, args.results))
+    text = page(args.history, args.results)
+    command.replace_all(args.out.parent, {
+        args.out.name: lambda path: path.write_text(text, encoding="utf-8")})
     print(args.out)
 
 
@@ -79,19 +79,6 @@ def figures(folder: Path) -> str:
                      f'<img alt="{name}" src="data:image/png;base64,{image}"></button>'
                      f'<figcaption>{name}</figcaption></figure>')
     return "\n".join(shown)
-
-
-def write_whole(file: Path, text: str) -> None:
-    """The old file or the new one, never a part."""
-    descriptor, temporary = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}-")
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8") as out:
-            out.write(text)
-        os.chmod(temporary, 0o644)  # mkstemp's files are their owner's alone
-        os.replace(temporary, file)
-    except BaseException:
-        os.unlink(temporary)
-        raise
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ from figure_files import Drawing
 from figure_parts import axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
-from selection import given, is_paper_stop, of_scene
+from selection import by_body, given, grouped, is_paper_stop, of_scene
 from work_precision_figure import AXES, curves_of, value_of
 
 WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP = 11.5, 0.72, 0.55, (6.0, 4.3), 4.3, 0.3
@@ -89,9 +89,7 @@ def draw(rows: list[Row]) -> Figure | str:
     known = [row for row in rows if row.time_s and row.error_total and row.error_total <= HIGHEST]
     if not known:
         return "no row has time_s and an error_total up to 1"
-    bodies: dict[str, list[Row]] = {}
-    for row in sorted(known, key=lambda row: row.n_phi):
-        bodies.setdefault(row.body, []).append(row)
+    bodies = by_body(sorted(known, key=lambda row: row.n_phi))
     tables = {body: table_of(of_body) for body, of_body in bodies.items()}
     heights = {body: TOP + HEIGHT + BELOW + TABLE_LINE * (len(table) + 1.5)
                for body, table in tables.items()}
@@ -191,11 +189,8 @@ def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str)
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
     """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
-    stops: dict[str, list[Row]] = {}
-    for row in rows:
-        if is_paper_stop(row) and not given(row):
-            stops.setdefault(row.method, []).append(row)
-    for method, own in stops.items():
+    stops = [row for row in rows if is_paper_stop(row) and not given(row)]
+    for method, own in grouped(stops, lambda row: row.method).items():
         x, y = [value_of(row, column) for row in own], [row.error_total for row in own]
         for at in zip(x, y):
             axes.plot(*at, markerfacecolor=own[0].look.colour, **parts.STOP | {"markersize": 12})

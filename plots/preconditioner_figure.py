@@ -13,6 +13,7 @@ from figure_files import Drawing
 from figure_parts import HEAP, TIME, ErrorScale, Footer, axes_at, draw_point
 from figure_words import Notes, plain, short
 from record_keys import Row
+from selection import by_body, by_mesh, grouped
 
 HEADS = {"SSOR": r"SSOR $\omega$"}
 MARKERS = "osD^v<>pPX*hd"
@@ -28,9 +29,8 @@ Columns = dict[str, dict[Slot, Row]]  # family -> slot -> row
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for suffix, own, scale in parts.by_stop(rows):
-        shown = [row for body in dict.fromkeys(row.body for row in own)
-                 for column in columns_of(chosen([row for row in own if row.body == body])).values()
-                 for row in column.values()]
+        shown = [row for of_body in by_body(own).values()
+                 for column in columns_of(chosen(of_body)).values() for row in column.values()]
         yield Drawing(f"figure3{suffix}", shown, draw, vector=True,
                       options=dict(run=own, scale=scale))
 
@@ -38,14 +38,10 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 def chosen(rows: list[Row]) -> list[Row]:
     """Those with a preconditioner on the mesh that has most of them, if any is not one of Figs 4
     and 5."""
-    meshes: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.preconditioner:
-            meshes.setdefault(row.mesh, []).append(row)
+    meshes = by_mesh([row for row in rows if row.preconditioner])
     in_paper = {row.general_name for row in rows if row.in_paper}
     full = [own for own in meshes.values() if {row.general_name for row in own} - in_paper]
-    return max(full, default=[], key=lambda own: (len({row.general_name for row in own}),
-                                                  own[0].n_phi))
+    return max(reversed(full), default=[], key=lambda own: len({row.general_name for row in own}))
 
 
 def slot_of(row: Row) -> Slot:
@@ -79,9 +75,7 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
     stop."""
     if not rows:
         return "no preconditioners beyond those of figures 4 and 5"
-    meshes: dict[str, list[Row]] = {}
-    for row in rows:
-        meshes.setdefault(row.mesh, []).append(row)
+    meshes = grouped(rows, lambda row: row.mesh)
     notes = {TIME: Notes(), HEAP: Notes()}
     for row in rows:
         case = row.general_name + (f" on {row.mesh}" if len(meshes) > 1 else "")
@@ -165,9 +159,7 @@ def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict
                slot_inches: float) -> None:
     """Parameters and groups below, errors above; of a dense sweep every second, third."""
     step = math.ceil(NARROWEST / slot_inches)
-    groups: dict[str, list[Slot]] = {}
-    for slot in places:
-        groups.setdefault(slot[0], []).append(slot)
+    groups = grouped(places, lambda slot: slot[0])
     upright = {group for group, slots in groups.items()
                if max(len(label_of(slot)) for slot in slots) > 1}
     named = [slot for slot in places if slot[0] not in upright

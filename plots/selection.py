@@ -2,10 +2,30 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Hashable, Iterable
+from typing import TypeVar
 
 from record_keys import Row
 
+Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
 GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
+
+
+def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
+    """In the order in which the keys come."""
+    groups: dict[Key, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
+def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
+    """By size."""
+    return grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
+
+
+def by_body(rows: list[Row]) -> dict[str, list[Row]]:
+    return grouped(rows, lambda row: row.body)
 
 
 def scene_of(rows: list[Row]) -> str:

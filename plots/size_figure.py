@@ -16,7 +16,7 @@ from figure_parts import EDGE_AT, HEAP, TIME, ErrorScale, Footer, Quantity, axes
 from figure_words import Notes, plain, width_of
 from looks import plain_looks
 from record_keys import Row
-from selection import compared
+from selection import by_body, compared, grouped
 
 LEFT, BESIDE, TOP, HEIGHT, BOTTOM = 0.62, 1.04, 0.36, 3.9, 0.42  # BESIDE: and a name
 NAMES = 0.66  # place for them at least
@@ -70,11 +70,8 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
         if row.general_name not in names or row.method != row.general_name:
             names[row.general_name] = row.method
     bodies = list(dict.fromkeys(row.body for row in sorted(rows, key=lambda row: row.n_phi)))
-    lines: dict[str, list[Row]] = {}
-    for row in rows:
-        lines.setdefault(names[row.general_name], []).append(row)
     return {name: sorted(line, key=lambda row: (bodies.index(row.body), row.n_phi))
-            for name, line in lines.items()}
+            for name, line in grouped(rows, lambda row: names[row.general_name]).items()}
 
 
 def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale) -> Figure | str:
@@ -165,9 +162,8 @@ def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: flo
 
 def name_bodies(axes: Axes, rows: list[Row], above_pt: float) -> None:
     """And gaps between them."""
-    bodies: dict[str, list[int]] = {}
-    for row in sorted(rows, key=lambda row: row.n_phi):
-        bodies.setdefault(row.body, []).append(row.n_phi)
+    by_size = sorted(rows, key=lambda row: row.n_phi)
+    bodies = {body: [row.n_phi for row in own] for body, own in by_body(by_size).items()}
     for n_phi in {row.n_phi for row in rows}:
         axes.axvline(n_phi, color="0.88", linewidth=0.4, zorder=0)
     ends = list(bodies.values())
@@ -220,24 +216,28 @@ def draw_line(axes: Axes, line: list[Row], look: tuple[str, object], quantity: Q
     return last
 
 
+def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
+           apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
+    """Method, its last point and the height of its name, of the axes' size; from below."""
+    to_axes = axes.transData + axes.transAxes.inverted()
+    at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
+          for method, end in ends.items()}
+    order = sorted(at, key=lambda method: at[method][1])
+    height_pt = 72 * axes.get_position().height * axes.figure.get_size_inches()[1]
+    places = spread([at[method][1] for method in order], apart_pt / height_pt, 0.01, 0.99)
+    return zip(order, map(at.get, order), places)
+
+
 def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
                 fits: dict[str, float | None], looks: PlainLooks) -> None:
     """Name and exponent beside the last points, in their order."""
-    def fraction(point: tuple[float, float] | None) -> tuple[float, float]:
-        return tuple(axes.transAxes.inverted().transform(axes.transData.transform(point))) \
-            if point else (1, 1.0)
-
-    height_pt = HEIGHT * 72
-    at = {method: fraction(end) for method, end in ends.items()}
-    order = sorted(at, key=lambda method: at[method][1])
-    places = spread([at[method][1] for method in order], LABEL_PT / height_pt, 0.01, 0.99)
     inch = 1 / width_in(axes)
     exponents = (parts.WIDTH - LEFT - 0.49) * inch
-    for method, y in zip(order, places):
+    for method, at, y in beside(axes, ends, LABEL_PT):
         marker, dashes = looks[method]
         style = dict(transform=axes.transAxes, clip_on=False)
         if ends[method]:
-            axes.plot([at[method][0], 1 + 0.12 * inch], [at[method][1], y], **style,
+            axes.plot([at[0], 1 + 0.12 * inch], [at[1], y], **style,
                       color="0.6", linewidth=0.4, zorder=1)
         axes.plot([1 + 0.14 * inch, 1 + 0.46 * inch], [y, y], **style, color=LINE_COLOR,
                   linestyle=dashes, linewidth=0.8)

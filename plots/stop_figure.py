@@ -13,7 +13,7 @@ from figure_files import Drawing
 from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
 from record_keys import Row
-from selection import given, is_paper_stop, of_scene
+from selection import given, grouped, is_paper_stop, of_scene
 
 WIDTH, LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 10.5, 0.72, 0.4, 4.5, 0.72, 4.0, 0.5
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
@@ -48,12 +48,12 @@ def curves_of(rows: list[Row]) -> dict[str, list[Stop]]:
     """'Mesh3, rho = 2 r' -> its cases by r."""
     stops = [stop for row in rows if (stop := stop_of(row))]
     families = {stop.row.family for stop in stops}
-    curves: dict[str, list[Stop]] = {}
-    for stop in sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)):
+
+    def name(stop: Stop) -> str:
         ratio = "r" if stop.ratio == 1 else f"{stop.ratio:g} r"
         family = f"{stop.row.family}, " if len(families) > 1 else ""
-        curves.setdefault(f"{family}{stop.row.mesh}, ρ = {ratio}", []).append(stop)
-    return curves
+        return f"{family}{stop.row.mesh}, ρ = {ratio}"
+    return grouped(sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)), name)
 
 
 def draw(rows: list[Row]) -> Figure | str:

@@ -20,14 +20,6 @@ def order(row: Row) -> tuple[int, str]:
     return row.look.rank, row.method
 
 
-def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
-    """By size."""
-    meshes: dict[str, list[Row]] = {}
-    for row in sorted(rows, key=lambda row: row.n_phi):
-        meshes.setdefault(row.mesh, []).append(row)
-    return meshes
-
-
 def file_name(stem: str, mesh: str) -> str:
     """The mesh may be named anyhow."""
     return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"

@@ -12,7 +12,7 @@ from figure_files import Drawing
 from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
 from record_keys import Row
-from selection import given, is_paper_stop, of_scene
+from selection import by_mesh, given, grouped, is_paper_stop, of_scene
 
 WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 11.5, 0.72, 0.35, (6.6, 3.6), 5.6, 0.42, 0.5
 HIGHEST = 1e3  # errors above are drawn here
@@ -22,17 +22,15 @@ AXES = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB"}
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
-    for mesh, own in parts.by_mesh(study).items():
+    for mesh, own in by_mesh(study).items():
         yield Drawing(parts.file_name("work_precision", mesh), own, draw)
 
 
 def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     """Method and knob -> points in the order of the knob, by family; without the paper's stop."""
-    curves: dict[tuple[str, str], list[Row]] = {}
-    for row in sorted(rows, key=lambda row: (parts.order(row), row.knob, row.knob_value or 0)):
-        if not is_paper_stop(row) and not row.in_displacements:
-            curves.setdefault((row.method, row.knob), []).append(row)
-    return curves
+    shown = [row for row in rows if not is_paper_stop(row) and not row.in_displacements]
+    shown.sort(key=lambda row: (parts.order(row), row.knob, row.knob_value or 0))
+    return grouped(shown, lambda row: (row.method, row.knob))
 
 
 def draw(rows: list[Row]) -> Figure | str:
@@ -54,7 +52,7 @@ def draw(rows: list[Row]) -> Figure | str:
              f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
              f"single points: methods run to their end. Dashed: the target error {short(target)}.")
     if stops:
-        words += (f" Stars: {' and '.join(families_of(stops))} ended by the paper's stop, small "
+        words += (f" Stars: {' and '.join(grouped(stops, lambda row: row.family))} ended by the paper's stop, small "
                   "ones with given r and ρ.")
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
@@ -67,10 +65,6 @@ def draw(rows: list[Row]) -> Figure | str:
         draw_panel(axes, column, curves, stops, floor, target)
         left += width + GAP
     return figure
-
-
-def families_of(rows: list[Row]) -> list[str]:
-    return list(dict.fromkeys(row.family for row in rows))
 
 
 def value_of(row: Row, column: str) -> float | None:
@@ -124,8 +118,8 @@ def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> Non
         size = parts.STOP["markersize"] * (0.6 if given(row) else 1)
         axes.plot(*at, markerfacecolor=row.look.colour, **parts.STOP | {"markersize": size})
         labels.obstacles.append(labels.points(*at) + [[-4, 0], [0, 0], [4, 0]])
-    for family in families_of(stops) if column == "time_s" else []:
-        own = [row for row in stops if row.family == family]
+    families = grouped(stops, lambda row: row.family) if column == "time_s" else {}
+    for family, own in families.items():
         shown = [row for row in own if not given(row)] or own
         errors = [row.error_force for row in shown]
         words = parts.percent(max(errors))

@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent))
 import made_up  # noqa: E402; finds plots
 
 import drawn  # noqa: E402
+import command  # noqa: E402
 import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
 import figure_words  # noqa: E402
@@ -238,7 +239,7 @@ class PaperFiguresTest(unittest.TestCase):
         self.figures.mkdir()
         (self.figures / "a").write_text("earlier")
         with self.assertRaises(OSError):
-            figure_files.replace_all(self.figures, {"a": Path.touch, "b": fail})
+            command.replace_all(self.figures, {"a": Path.touch, "b": fail})
         self.assertEqual([path.name for path in self.figures.iterdir()], ["a"])
         self.assertEqual((self.figures / "a").read_text(), "earlier")
 
