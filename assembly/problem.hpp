@@ -16,7 +16,7 @@
 
 #include "assembly/elasticity.hpp"
 #include "assembly/hct.hpp"
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "assembly/mesh_layers.hpp"
-#include "assembly/mesh_transform.hpp"
 #include "assembly/problem.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/transform.hpp"
 
 namespace airybench {
 
@@ -42,8 +42,8 @@ struct Scene {
 };
 
 // A scene that cannot be posed on a mesh. what(): one line with scene, key, value, what is allowed.
-struct SceneError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+struct SceneError : InputError {
+  using InputError::InputError;
 };
 
 // Throws SceneError when a value is impossible in itself: ν ≥ 0.5, μ < 0, E ≤ 0, …

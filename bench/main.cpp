@@ -3,17 +3,18 @@
 #include <cstdio>
 #include <exception>
 #include <map>
+#include <new>
+#include <stdexcept>
 #include <string_view>
 
-#include "bench/claims/claims_command.hpp"
-#include "bench/exports/export_command.hpp"
+#include "bench/commands/claims_command.hpp"
+#include "bench/commands/compare_command.hpp"
+#include "bench/commands/export_command.hpp"
+#include "bench/commands/merge_command.hpp"
+#include "bench/commands/replay_command.hpp"
+#include "bench/commands/run_command.hpp"
+#include "bench/commands/track_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
-#include "bench/options.hpp"
-#include "bench/records/merge_command.hpp"
-#include "bench/replay_command.hpp"
-#include "bench/run_command.hpp"
-#include "bench/tracking/compare_command.hpp"
-#include "bench/tracking/track_command.hpp"
 
 namespace {
 
@@ -25,6 +26,11 @@ const std::map<std::string_view, Command> commands = {
     {"export", airybench::export_command}, {"merge", airybench::merge_command},
     {"replay", airybench::replay_command}, {"track", airybench::track_command},
 };
+
+int complain(std::string_view what, int exit_code) {
+  fmt::print(stderr, "bench: {}\n", what);
+  return exit_code;
+}
 
 }  // namespace
 
@@ -41,8 +47,14 @@ int main(int argc, char** argv) {
                "bench: {}: what was measured by then is in the output folder; --resume goes on\n",
                interrupted.what());
     return 128 + interrupted.signal;
+  } catch (const airybench::InputError& error) {
+    return complain(error.what(), airybench::wrong_usage);
+  } catch (const std::invalid_argument& error) {
+    return complain(error.what(), airybench::wrong_usage);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", airybench::did_not_finish);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "bench: {}\n", error.what());
-    return airybench::wrong_usage;
+    return complain(fmt::format("a defect of this program: {}", error.what()),
+                    airybench::did_not_finish);
   }
 }

@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {

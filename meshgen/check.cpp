@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 #include "meshgen/checksums.hpp"
 #include "support/sha256.hpp"
 

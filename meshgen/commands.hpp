@@ -7,8 +7,8 @@
 #include <optional>
 #include <string>
 
-#include "assembly/mesh_layers.hpp"
-#include "assembly/mesh_transform.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/transform.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {

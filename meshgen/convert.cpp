@@ -9,7 +9,7 @@
 #include <map>
 #include <set>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/quiet_stdout.hpp"
 

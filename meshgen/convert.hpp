@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {

@@ -1,7 +1,7 @@
 // Shape of triangles.
 #pragma once
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 

@@ -17,7 +17,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 

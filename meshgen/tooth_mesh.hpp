@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {

@@ -7,7 +7,7 @@
 
 #include <functional>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 
 namespace airybench {

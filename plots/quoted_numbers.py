@@ -169,7 +169,7 @@ def seconds(value: float) -> str:
 
 
 def table(rows: list[Row]) -> str:
-    """As `bench` prints it (bench/terminal.cpp), a line of dots between meshes."""
+    """As `bench` prints it (support/text_table.cpp), a line of dots between meshes."""
     def number(value: float | None, show: str) -> str:
         return "-" if value is None else format(value, show)
     cells = [["case", "n_phi", "time", "±", "heap", "error stress", "error force", "status"]]

@@ -1,17 +1,46 @@
-// Methods made from general names: a family, a preconditioner or parameters, options.
+// Names that say how a method is made: "3STEPCG:DTIC3", "SYMMLQ:SSOR0.7,schur=sparse",
+// "ALM:r=20,rho=32". A family, a preconditioner, options.
 #pragma once
 
+#include <initializer_list>
+#include <map>
 #include <string>
 
+#include "solvers/condensation/finish.hpp"
 #include "solvers/method.hpp"
+#include "solvers/preconditioners/preconditioner.hpp"
 
 namespace airybench {
 
-// "3STEPCG:DTIC3", "SYMMLQ:SSOR0.7,schur=sparse", "ALM:r=20,rho=32". Throws std::invalid_argument
-// naming what is wrong and what is valid.
-Method method_of_general_name(const std::string& name);
+// What a family's function takes its choices out of. All throw std::invalid_argument: one line that
+// names what is wrong and what is valid.
+class GeneralName {
+ public:
+  explicit GeneralName(const std::string& name);
+  const std::string& name() const { return name_; }
+  const std::string& family() const { return family_; }
+  const std::string& first() const { return first_; }  // what follows the colon, if it has no '='
+  [[noreturn]] void refuse(const std::string& why) const;
 
-// Whether the name is of one of these families.
-bool is_general_name(const std::string& name);
+  MakePreconditioner preconditioner() const;  // `first`
+  // Options: each is taken out.
+  std::string one_of(const std::string& key, const std::string& otherwise,
+                     std::initializer_list<const char*> allowed);
+  double positive(const std::string& key);
+  int lanes() { return one_of("lanes", "16", {"1", "16"}) == "1" ? 1 : most_lanes; }
+  Refine refine() {
+    return one_of("refine", "no", {"yes", "no"}) == "yes" ? Refine::yes : Refine::no;
+  }
+  void refuse_rest(const std::string& valid) const;  // the options that nothing has taken
+
+ private:
+  std::string take(const std::string& key, const std::string& otherwise);
+
+  std::string name_, family_, first_;
+  std::map<std::string, std::string> options_;
+};
+
+// What the methods of a Krylov family with `name.first()` have in common.
+Method krylov_method(const GeneralName& name, const std::string& summary);
 
 }  // namespace airybench

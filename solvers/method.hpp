@@ -37,19 +37,22 @@ enum class AccuracyKnob {
 };
 
 struct Method {
-  std::string name;              // "SDTIC3"
-  std::string summary;           // one line
-  bool in_paper = false;         // named there; these are run by default
-  Blocks blocks = Blocks::airy;  // what it needs assembled
+  std::string name = {};            // "SDTIC3"
+  std::string family = {};          // "SYMMLQ": the variants and preconditioners of one idea
+  std::string preconditioner = {};  // "DTIC3", as preconditioner_names() spells it; empty: none
+  std::string summary = {};         // one line
+  bool in_paper = false;            // named there; these are run by default
+  Blocks blocks = Blocks::airy;     // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
-  std::vector<std::string> stages;  // in order, as StageTimes names them
+  std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
+                               Stage::contact, Stage::recover, Stage::check};  // in order
   // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
   // contact there is nothing to condense.
   bool condenses_contact_only = false;
-  Solve solve;
-  std::string general_name;  // "SYMMLQ:DTIC3" where the name is an alias; else empty
+  Solve solve = {};
+  std::string general_name = {};  // "SYMMLQ:DTIC3" where the name is an alias; else empty
   // An iterative method is run to a target error: the harness begins with this tolerance per
   // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
@@ -57,10 +60,18 @@ struct Method {
   AccuracyKnob knob = AccuracyKnob::none;
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
   // then does both.
-  std::function<Tuning(const DualSystem&, const RunControl&)> tune;
+  std::function<Tuning(const DualSystem&, const RunControl&)> tune = {};
 
   const std::string& identity() const { return general_name.empty() ? name : general_name; }
+  // The tolerance of an iteration decides when it ends: it has a stop to choose.
   bool is_iterative() const { return first_tolerance > 0; }
 };
+
+// Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
+// std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
+Solution run(const Solve& solve, const DualSystem& system, const RunControl& control);
+inline Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
+  return run(method.solve, system, control);
+}
 
 }  // namespace airybench

@@ -3,39 +3,46 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <cmath>
-#include <new>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 
-#include "assembly/control_points.hpp"
-#include "solvers/condensation/condensation_methods.hpp"
-#include "solvers/displacement/quadratic_displacements.hpp"
 #include "solvers/general_names.hpp"
-#include "solvers/uzawa/alm_methods.hpp"
 
 namespace airybench {
-namespace {
 
-Method direct(const char* name, const char* summary, bool in_paper, Blocks blocks, Solve solve) {
-  Method method;
-  method.name = name;
-  method.summary = summary;
-  method.in_paper = in_paper;
-  method.blocks = blocks;
-  method.stages = {"order", "factor", "condense", "contact", "recover", "check"};
-  method.solve = std::move(solve);
-  return method;
+// A method is a function of a file in methods/, and so is a family of general names.
+#define METHOD(function)      \
+  [] {                        \
+    extern Method function(); \
+    return function();        \
+  }()
+#define FAMILY(function)                 \
+  [] {                                   \
+    extern Method function(GeneralName); \
+    return function;                     \
+  }()
+
+static const std::map<std::string, Method (*)(GeneralName)>& families() {
+  static const std::map<std::string, Method (*)(GeneralName)> all = {
+      {"3STEPCG", FAMILY(three_step_cg)},
+      {"ALM", FAMILY(alm)},
+      {"SYMMLQ", FAMILY(symmlq)},
+  };
+  return all;
 }
 
-Method blind(const char* name, const char* summary, bool in_paper, Solve solve) {
-  Method method = direct(name, summary, in_paper, Blocks::airy, std::move(solve));
-  method.condenses_contact_only = true;
-  return method;
+bool is_general_name(const std::string& name) {
+  return name.find(':') != name.npos && families().contains(name.substr(0, name.find(':')));
+}
+
+static Method method_of_general_name(const std::string& text) {
+  GeneralName name(text);
+  return families().at(name.family())(std::move(name));
 }
 
 // One of the paper's names for a method that has a general one.
-Method alias(const char* name, const char* general_name) {
+static Method alias(const char* name, const char* general_name) {
   Method method = method_of_general_name(general_name);
   method.name = name;
   method.general_name = general_name;
@@ -43,80 +50,36 @@ Method alias(const char* name, const char* general_name) {
   return method;
 }
 
-Method tuned_augmented_lagrangian() {
-  Method method = method_of_general_name("ALM:r=20,rho=20");
-  method.name = "ALM";
-  method.summary = "augmented Lagrangian, Uzawa's algorithm with the best of the paper's grid";
-  method.in_paper = true;
-  method.knob = AccuracyKnob::stop;
-  method.tune = tune_augmented_lagrangian;
-  method.solve = [](const DualSystem& system, const RunControl& control) {
-    return tune_augmented_lagrangian(system, control).solve(system, control);
-  };
-  return method;
-}
-
-Method with_knob(Method method, AccuracyKnob knob) {
-  method.knob = knob;
-  return method;
-}
-
-Method in_displacements(Method method) {
-  method.in_displacements = true;
-  return method;
-}
-
-Solve three_step(KeepX::Where where, Refine refine = Refine::no) {
-  return [where, refine](const DualSystem& system, const RunControl& control) {
-    return solve_three_step_skyline(system, control, where, refine);
-  };
-}
-
-Solve blind_schur(Refine refine) {
-  return [refine](const DualSystem& system, const RunControl& control) {
-    return solve_blind_mumps_schur(system, control, refine);
-  };
-}
-
-std::vector<Method> table() {
-  std::vector<Method> all = {
-      alias("SDTIC3", "SYMMLQ:DTIC3"),
-      alias("3STEPCG3", "3STEPCG:DTIC3"),
-      alias("SDTIC6", "SYMMLQ:DTIC6"),
-      alias("3STEPCG6", "3STEPCG:DTIC6"),
-      alias("SSKY", "SYMMLQ:SKY"),
-      with_knob(direct("3STEPD", "three-step condensation, skyline LDLT", true, Blocks::airy,
-                       three_step(KeepX::Where::memory)),
-                AccuracyKnob::contact_sweeps),
-      tuned_augmented_lagrangian(),
-      blind("BLIND", "blind condensation, MUMPS indefinite LDLT", true, solve_blind_mumps),
-      blind("BLIND:SCHUR", "blind condensation, D from MUMPS's Schur complement", false,
-            blind_schur(Refine::no)),
-      blind("BLIND:SCHUR:REFINED", "BLIND:SCHUR refined with residuals in long double", false,
-            blind_schur(Refine::yes)),
-      blind("BLIND:SKY", "blind condensation, skyline LDLT, multipliers after their unknowns",
-            false, solve_blind_skyline),
-      direct("3STEPD:REFINED", "3STEPD refined with residuals in long double", false, Blocks::airy,
-             three_step(KeepX::Where::memory, Refine::yes)),
-      direct("3STEPD:FILE", "3STEPD with the intermediate matrices in a file", false, Blocks::airy,
-             three_step(KeepX::Where::file)),
-      direct("3STEPD:LEAN", "3STEPD that never stores the intermediate matrices whole", false,
-             Blocks::airy, three_step(KeepX::Where::nowhere)),
-      direct("3STEPD:CHOLMOD", "three-step condensation, CHOLMOD supernodal Cholesky", false,
-             Blocks::airy, solve_three_step_cholmod),
-      with_knob(
-          direct("HYBRID", "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
-                 false, Blocks::contact_points, solve_hybridized),
-          AccuracyKnob::contact_sweeps),
-      in_displacements(direct("P2",
-                              "quadratic displacements, CHOLMOD: what most users would run instead",
-                              false, Blocks::contact_points, solve_quadratic_displacements)),
-  };
-  for (const char* family : {"SYMMLQ:", "3STEPCG:"})
-    for (const std::string& preconditioner : preconditioner_names())
-      all.push_back(method_of_general_name(family + preconditioner));
+const std::vector<Method>& methods() {
+  static const std::vector<Method> all = [] {
+    std::vector<Method> table = {
+        alias("SDTIC3", "SYMMLQ:DTIC3"),
+        alias("3STEPCG3", "3STEPCG:DTIC3"),
+        alias("SDTIC6", "SYMMLQ:DTIC6"),
+        alias("3STEPCG6", "3STEPCG:DTIC6"),
+        alias("SSKY", "SYMMLQ:SKY"),
+        METHOD(three_step),
+        METHOD(tuned_alm),
+        METHOD(blind),
+        METHOD(blind_schur),
+        METHOD(blind_schur_refined),
+        METHOD(blind_skyline),
+        METHOD(three_step_refined),
+        METHOD(three_step_file),
+        METHOD(three_step_lean),
+        METHOD(three_step_cholmod),
+        METHOD(hybrid),
+        METHOD(p2),
+    };
+    for (const char* family : {"SYMMLQ:", "3STEPCG:"})
+      for (const std::string& preconditioner : preconditioner_names())
+        table.push_back(method_of_general_name(family + preconditioner));
+    return table;
+  }();
   return all;
 }
+
+namespace {
 
 // Commas part the items, but for those inside a general name: "ALM:r=20,rho=32" is one.
 std::vector<std::string> split_selection(std::string_view selection) {
@@ -140,11 +103,6 @@ std::string valid_names() {
 }
 
 }  // namespace
-
-const std::vector<Method>& methods() {
-  static const std::vector<Method> all = table();
-  return all;
-}
 
 std::vector<Method> select_methods(std::string_view selection) {
   std::vector<bool> selected(methods().size(), false);
@@ -172,56 +130,6 @@ std::vector<Method> select_methods(std::string_view selection) {
   for (const Method& method : more) add(method);
   if (result.empty()) throw std::invalid_argument("no method is named");
   return result;
-}
-
-namespace {
-
-Solution failed(Status status, const std::string& message) {
-  Solution solution;
-  solution.status = status;
-  solution.message = message;
-  return solution;
-}
-
-// What is wrong with a result that claims success; null: nothing that can be seen here.
-const char* flaw(const Solution& solution, const DualSystem& system) {
-  const Problem& problem = *system.problem;
-  const bool in_displacements = solution.displacement.cols() > 0;
-  const int forces = in_displacements ? control_points(problem).law.size() : system.contact.size();
-  if (solution.F_C.size() != forces) return "contact forces are missing";
-  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem))
-    return "displacements are missing";
-  if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
-  bool finite =
-      solution.F_C.allFinite() && solution.phi.allFinite() && solution.displacement.allFinite();
-  for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
-  return finite ? nullptr : "the result is not finite";
-}
-
-}  // namespace
-
-Solution run(const Solve& solve, const DualSystem& system, const RunControl& control) {
-  try {
-    Solution solution = solve(system, control);
-    if (solution.status == Status::ok) {
-      if (const char* what = flaw(solution, system)) {
-        solution.status = Status::breakdown;
-        solution.message = what;
-      }
-    }
-    return solution;
-  } catch (const TimeoutReached& timeout) {
-    Solution solution = failed(Status::timeout, timeout.what());
-    solution.done_fraction = timeout.done_fraction;
-    solution.error_so_far = timeout.error_so_far;
-    return solution;
-  } catch (const std::bad_alloc&) {
-    return failed(Status::out_of_memory, "an allocation was refused");
-  } catch (const Breakdown& breakdown) {
-    return failed(Status::breakdown, breakdown.what());
-  } catch (const std::exception& error) {
-    return failed(Status::crashed, error.what());
-  }
 }
 
 }  // namespace airybench

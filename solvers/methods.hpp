@@ -1,6 +1,6 @@
 // The table of named methods: the only place that knows all of them.
 //
-// A new method is one file with a free function and one line in methods.cpp; it then appears in
+// A new method is one file in methods/ and one line in methods.cpp; it then appears in
 // `bench --list`, the runs, the tests and the figures.
 #pragma once
 
@@ -24,11 +24,7 @@ const std::vector<Method>& methods();
 // Throws std::invalid_argument: one line with the item that matches nothing and what is valid.
 std::vector<Method> select_methods(std::string_view selection);
 
-// Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
-// std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
-Solution run(const Solve& solve, const DualSystem& system, const RunControl& control);
-inline Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
-  return run(method.solve, system, control);
-}
+// Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
+bool is_general_name(const std::string& name);
 
 }  // namespace airybench

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "assembly/memory_owner.hpp"
 #include "solvers/solution.hpp"
+#include "support/memory_owner.hpp"
 
 namespace airybench {
 namespace {

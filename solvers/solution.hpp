@@ -12,24 +12,12 @@
 #include <string_view>
 #include <vector>
 
-#include "assembly/memory_owner.hpp"
 #include "assembly/stress_field.hpp"
 #include "solvers/stage_times.hpp"
+#include "support/memory_owner.hpp"
+#include "support/status.hpp"
 
 namespace airybench {
-
-enum class Status {
-  ok,
-  inaccurate,     // finished, with an error above the target by the method's own estimate, or the
-                  // verifier's finding
-  not_converged,  // an iteration ended before its tolerance was met
-  breakdown,      // a pivot, a scalar or a result that the method cannot go on with
-  timeout,
-  out_of_memory,
-  crashed,
-  skipped,
-};
-std::string_view name_of(Status status);
 
 struct IterationHistory {
   std::string what;              // "natural map residual of the contact sweeps"
@@ -110,10 +98,6 @@ class Deadline {
   std::optional<std::chrono::steady_clock::time_point> end_;
 };
 
-// When an iterative method stops: by RunControl::tolerance, which the harness tightens until the
-// error is below its target; or as the paper does it.
-enum class Stop { target, paper };
-
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
@@ -128,5 +112,9 @@ struct RunControl {
   int uzawa_iterations = 20000;       // at most
   bool active_sets = true;            // finish the contact law by them where the sweeps did not
 };
+
+// What all checks end with: the estimate into the solution, and `inaccurate` where it is above the
+// target.
+void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution);
 
 }  // namespace airybench

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string_view>
 
+#include "support/memory_owner.hpp"
+
 namespace airybench {
 
 enum class Stage {
@@ -70,5 +72,13 @@ class StageTimer {
   Stage stage_;
   std::chrono::steady_clock::time_point start_;
 };
+
+// Runs one stage: on its clock, what it allocates on its owner's account.
+template <typename Work>
+auto run_stage(StageTimes& times, Stage stage, MemoryOwner owner, Work work) {
+  const StageTimer timer(times, stage);
+  const OwnerScope scope(owner);
+  return work();
+}
 
 }  // namespace airybench

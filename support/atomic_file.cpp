@@ -4,8 +4,9 @@
 
 #include <cerrno>
 #include <fstream>
-#include <stdexcept>
 #include <string>
+
+#include "support/errors.hpp"
 
 namespace airybench {
 
@@ -31,7 +32,13 @@ void write_file_atomically(const std::filesystem::path& file, std::string_view b
     std::filesystem::rename(beside, target, error);
   if (!error) return;
   if (!in_place) std::filesystem::remove(beside, ignored);
-  throw std::runtime_error(file.string() + ": cannot be written: " + error.message());
+  throw FileError(file.string() + ": cannot be written: " + error.message());
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string() + ": cannot be made a folder: " + error.message());
 }
 
 }  // namespace airybench

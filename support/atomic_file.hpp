@@ -7,7 +7,10 @@
 namespace airybench {
 
 // Writes beside the file, then renames; a device or a pipe is written to as it is. Throws
-// std::runtime_error "file: why"; the file that was there is untouched then.
+// FileError "file: why"; the file that was there is untouched then.
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+// With all above it, unless it is there. Throws FileError.
+void make_folder(const std::filesystem::path& folder);
 
 }  // namespace airybench

@@ -1,9 +1,15 @@
 #!/usr/bin/env bash
 # Makes the committed tables of outcomes and errors anew, or with --widen lets them include what is
 # found here: with every kernel of OpenBLAS that runs on this machine, on one and on two threads.
-# Usage: tests/update_tables.sh [--widen] (after ./run test; then look at git diff tests/data)
+# Usage: tests/update_tables.sh [--widen]   after ./run test; then look at git diff tests/data
+#        tests/update_tables.sh --fields    what follows from bench/records/record_fields.def:
+#                                           tables of results/README.md, plots/record_fields.json
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
+if [[ ${1:-} == --fields ]]; then
+  AIRYBENCH_UPDATE=anew build/release/tests/bench_test --gtest_brief=1 --gtest_filter='RecordFormat.*'
+  exit
+fi
 update=anew
 if [[ ${1:-} == --widen ]]; then update=widen; fi
 kernels=(Prescott)

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
-#include "assembly/mesh_selection.hpp"
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/selection.hpp"
 #include "support/data_folder.hpp"
 #include "support/sha256.hpp"
 

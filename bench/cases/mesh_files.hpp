@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 

@@ -37,16 +37,16 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
          !airy ? unused : (contact ? "no body force" : "no contact boundary"));
   decide("assemble gap", contact && loads.gap_mm != nullptr,
          contact ? "the gap is zero" : "no contact boundary");
-  for (const std::string& stage : method.stages) {
+  for (const Stage stage : method.stages) {
     const bool for_contact =
-        stage == "contact" || (stage == "condense" && method.condenses_contact_only);
-    decide(stage, contact || !for_contact, "no contact boundary");
-    if (stage == "condense" && airy) {
+        stage == Stage::contact || (stage == Stage::condense && method.condenses_contact_only);
+    decide(std::string(name_of(stage)), contact || !for_contact, "no contact boundary");
+    if (stage == Stage::condense && airy) {
       if (!method.condenses_contact_only)
         decide("condense: eliminate force multipliers", constrained, "no force boundary");
       decide("condense: D and G", contact, "no contact boundary");
     }
-    if (stage == "contact")
+    if (stage == Stage::contact)
       decide("contact: tangential law", contact && friction,
              contact ? "no friction: tangential forces are prescribed to zero"
                      : "no contact boundary");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -100,7 +101,7 @@ int flic_level_of_equal_memory(Evidence& evidence, const std::string& mesh,
       fmt::format("{}, {}: memory DTIC3 {}, FLIC4 {}", mesh, family, dtic->text, flic4->text));
   if (distance(nearest) <= std::log(same_memory)) return level;
   for (const int x : {1, 2, 3, 5}) {
-    const CaseRecord* record = evidence.cases().find(mesh, fmt::format("{}:FLIC{}", family, x));
+    const Record* record = evidence.cases().find(mesh, fmt::format("{}:FLIC{}", family, x));
     if (record == nullptr || !record->storage_bytes) continue;
     const auto bytes = static_cast<double>(*record->storage_bytes);
     if (distance(bytes) >= distance(nearest)) continue;
@@ -244,7 +245,7 @@ Claim alm_is_slightly_faster_than_3stepd(const CaseTable& cases) {
     std::string ignored;
     auto alm = time_of(cases, mesh, "ALM", ignored);
     const auto direct = time_of(cases, mesh, "3STEPD", ignored);
-    const CaseRecord* record = cases.find(mesh, "ALM");
+    const Record* record = cases.find(mesh, "ALM");
     if (!alm || !direct || !record->tuning_s) return {};
     alm->text = fmt::format("({} + {:.3g} s)", alm->text, *record->tuning_s);
     alm->time.figure_s += *record->tuning_s;
@@ -291,9 +292,10 @@ Claim alm_needs_the_least_memory(const CaseTable& cases) {
   return evidence.claim(8, "ALM needs the least memory of all, less than 3STEPD (4.0.3)");
 }
 
-bool is_condensing(const std::string& method) {
-  const std::string family = method.substr(0, method.find(':'));
-  return family == "3STEPD" || family == "BLIND" || family == "3STEPCG" || family == "SYMMLQ";
+// Of the paper's families that condense on the contact boundary.
+bool is_condensing(const Record& record) {
+  constexpr std::array<std::string_view, 4> condensing = {"3STEPD", "BLIND", "3STEPCG", "SYMMLQ"};
+  return std::find(condensing.begin(), condensing.end(), record.family) != condensing.end();
 }
 
 struct ContactShares {
@@ -306,8 +308,8 @@ void add_contact_shares(ContactShares& shares, const CaseTable& cases, const std
   double largest = -1;
   std::string text;
   for (const std::string& method : cases.methods(mesh)) {
-    if (!is_condensing(method)) continue;
-    const CaseRecord& record = *cases.find(mesh, method);
+    const Record& record = *cases.find(mesh, method);
+    if (!is_condensing(record)) continue;
     if (!has_answer(record) || !record.time_s || !record.stage_contact_s) {
       ++shares.without_answer;
       continue;
@@ -359,8 +361,8 @@ std::string preconditioner_mesh(const CaseTable& cases) {
   std::ptrdiff_t most = -1;
   for (const std::string& mesh : cases.meshes()) {
     const auto methods = cases.methods(mesh);
-    const auto count = std::count_if(methods.begin(), methods.end(), [](const std::string& m) {
-      return starts_with(m, "SYMMLQ:") || starts_with(m, "3STEPCG:");
+    const auto count = std::count_if(methods.begin(), methods.end(), [&](const std::string& m) {
+      return !cases.find(mesh, m)->preconditioner.empty();
     });
     if (count > most || (count == most && mesh == "Mesh3")) {
       most = count;

@@ -8,9 +8,9 @@
 namespace airybench {
 namespace {
 
-std::string scene_of(const std::vector<CaseRecord>& records, const std::string& source) {
+std::string scene_of(const std::vector<Record>& records, const std::string& source) {
   std::set<std::string> scenes;
-  for (const CaseRecord& record : records) scenes.insert(record.scene);
+  for (const Record& record : records) scenes.insert(record.scene);
   if (scenes.empty() || scenes.count("default") > 0) return "default";
   if (scenes.size() > 1)
     throw RecordError(
@@ -21,24 +21,26 @@ std::string scene_of(const std::vector<CaseRecord>& records, const std::string& 
 
 }  // namespace
 
-CaseTable::CaseTable(const std::vector<CaseRecord>& records, const std::string& stop,
+CaseTable::CaseTable(const std::vector<Record>& records, const std::string& stop,
                      const std::string& source)
     : scene_(scene_of(records, source)) {
   for (const bool of_this_stop : {false, true})  // the second replaces the first
-    for (const CaseRecord& record : records) {
-      const std::string name = general_name(record.method);
-      if (record.scene == scene_ && (record.stop.empty() || record.stop == stop) == of_this_stop &&
-          (of_this_stop || is_direct(name)))
-        cases_[{record.mesh, name}] = record;
+    for (const Record& record : records) {
+      if (record.scene == scene_ && (name_of(record.stop) == stop) == of_this_stop &&
+          (of_this_stop || !record.iterative))
+        cases_[{record.mesh, record.general_name}] = record;
     }
-  for (const CaseRecord& record : records)
+  for (const Record& record : records)
     if (!methods(record.mesh).empty() &&
         std::find(meshes_.begin(), meshes_.end(), record.mesh) == meshes_.end())
       meshes_.push_back(record.mesh);
 }
 
-const CaseRecord* CaseTable::find(const std::string& mesh, const std::string& method) const {
-  const auto found = cases_.find({mesh, general_name(method)});
+const Record* CaseTable::find(const std::string& mesh, const std::string& method) const {
+  std::string name = method;
+  for (const auto& [of_paper, general] : paper_names)
+    if (method == of_paper) name = general;
+  const auto found = cases_.find({mesh, name});
   return found == cases_.end() ? nullptr : &found->second;
 }
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "bench/terminal.hpp"
+#include "support/text_table.hpp"
 
 namespace airybench {
 namespace {
@@ -20,7 +20,7 @@ std::string some_of(std::vector<std::string> names) {
   return fmt::format("{} and {} more", joined(names), rest);
 }
 
-std::string remark(const CaseRecord& record) {
+std::string remark(const Record& record) {
   return record.status == Status::inaccurate ? " (inaccurate)" : "";
 }
 
@@ -28,7 +28,7 @@ std::string remark(const CaseRecord& record) {
 
 std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh,
                                  const std::string& method, std::string& why) {
-  const CaseRecord* record = cases.find(mesh, method);
+  const Record* record = cases.find(mesh, method);
   const auto refuse = [&](const std::string& reason) -> std::optional<ShownTime> {
     why = reason;
     return {};
@@ -76,9 +76,9 @@ std::optional<ShownTime> Evidence::time(const std::string& mesh, const std::stri
 }
 
 std::optional<ShownBytes> Evidence::bytes(const std::string& mesh, const std::string& method,
-                                          std::optional<std::int64_t> CaseRecord::*value,
+                                          std::optional<std::int64_t> Record::*value,
                                           const char* name) {
-  const CaseRecord* record = cases_.find(mesh, method);
+  const Record* record = cases_.find(mesh, method);
   const auto refuse = [&](std::string_view reason) -> std::optional<ShownBytes> {
     missing(mesh, method, std::string(reason));
     return {};
@@ -92,11 +92,11 @@ std::optional<ShownBytes> Evidence::bytes(const std::string& mesh, const std::st
 }
 
 std::optional<ShownBytes> Evidence::peak_heap(const std::string& mesh, const std::string& method) {
-  return bytes(mesh, method, &CaseRecord::peak_heap_bytes, "peak_heap_bytes");
+  return bytes(mesh, method, &Record::peak_heap_bytes, "peak_heap_bytes");
 }
 
 std::optional<ShownBytes> Evidence::storage(const std::string& mesh, const std::string& method) {
-  return bytes(mesh, method, &CaseRecord::storage_bytes, "storage_bytes");
+  return bytes(mesh, method, &Record::storage_bytes, "storage_bytes");
 }
 
 void Evidence::part(Verdict verdict, const std::string& if_undecided) {

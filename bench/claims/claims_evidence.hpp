@@ -65,7 +65,7 @@ class Evidence {
 
  private:
   std::optional<ShownBytes> bytes(const std::string& mesh, const std::string& method,
-                                  std::optional<std::int64_t> CaseRecord::*value, const char* name);
+                                  std::optional<std::int64_t> Record::*value, const char* name);
 
   const CaseTable& cases_;
   Claim claim_;

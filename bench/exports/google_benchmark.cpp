@@ -9,8 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "bench/records/json.hpp"
-#include "bench/records/record.hpp"
+#include "bench/exports/numbers.hpp"
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {
@@ -25,37 +24,38 @@ std::string printable(std::string text) {
   return text;
 }
 
-void add_counters(const StoredCase& stored, Run& run) {
-  for (const auto& [key, value] : stored.quantities)
+void add_counters(const Record& record, Run& run) {
+  for (const auto& [key, value] : numbers_of(record))
     if (!key.starts_with("time_") && key != "threads" && key != "repetitions")
       run.counters[key] = value;
 }
 
-Run run_of(const StoredCase& stored, std::size_t family) {
+Run run_of(const Record& record, std::size_t family) {
   Run run;
-  run.run_name.function_name = printable(stored.name());
+  run.run_name.function_name = printable(name_of(record).text());
   run.run_name.iterations = "iterations:1";
   run.run_name.time_type = "manual_time";
   run.family_index = static_cast<std::int64_t>(family);
   run.per_family_instance_index = 0;
-  run.threads = std::lround(stored.quantity("threads").value_or(1));
+  run.threads = record.threads.value_or(1);
   run.time_unit = benchmark::kMillisecond;
-  run.repetitions = static_cast<std::int64_t>(stored.samples_s.size());
+  run.repetitions = static_cast<std::int64_t>(record.samples_s.size());
   run.repetition_index = 0;
   return run;
 }
 
-Run failed_run(const StoredCase& stored, std::size_t family) {
-  Run run = run_of(stored, family);
+Run failed_run(const Record& record, std::size_t family) {
+  Run run = run_of(record, family);
   run.error_occurred = true;
-  run.error_message = printable(stored.status + ": " + stored.status_reason);
+  run.error_message =
+      printable(fmt::format("{}: {}", name_of(record.status), record.status_reason));
   return run;
 }
 
 // A time in s, or for a percentage the fraction itself.
-Run aggregate(const StoredCase& stored, std::size_t family, const char* name, double value,
+Run aggregate(const Record& record, std::size_t family, const char* name, double value,
               benchmark::StatisticUnit unit) {
-  Run run = run_of(stored, family);
+  Run run = run_of(record, family);
   run.run_type = Run::RT_Aggregate;
   run.aggregate_name = name;
   run.aggregate_unit = unit;
@@ -67,32 +67,32 @@ Run aggregate(const StoredCase& stored, std::size_t family, const char* name, do
   return run;
 }
 
-std::vector<Run> runs_of(const StoredCase& stored, std::size_t family) {
-  const std::vector<double>& samples = stored.samples_s;
-  if (samples.empty()) return {failed_run(stored, family)};
+std::vector<Run> runs_of(const Record& record, std::size_t family) {
+  const std::vector<double>& samples = record.samples_s;
+  if (samples.empty()) return {failed_run(record, family)};
   std::vector<Run> runs;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    Run run = run_of(stored, family);
+    Run run = run_of(record, family);
     run.repetition_index = static_cast<std::int64_t>(k);
     run.real_accumulated_time = samples[k];
-    add_counters(stored, run);
+    add_counters(record, run);
     runs.push_back(std::move(run));
   }
   if (samples.size() < 2) return runs;
   const double mean = boost::math::statistics::mean(samples);
   const double deviation = std::sqrt(boost::math::statistics::sample_variance(samples));
   using enum benchmark::StatisticUnit;
-  runs.push_back(aggregate(stored, family, "mean", mean, kTime));
-  add_counters(stored, runs.back());
-  runs.push_back(aggregate(stored, family, "median", median(samples), kTime));
-  add_counters(stored, runs.back());
-  runs.push_back(aggregate(stored, family, "stddev", deviation, kTime));
-  if (mean > 0) runs.push_back(aggregate(stored, family, "cv", deviation / mean, kPercentage));
+  runs.push_back(aggregate(record, family, "mean", mean, kTime));
+  add_counters(record, runs.back());
+  runs.push_back(aggregate(record, family, "median", median(samples), kTime));
+  add_counters(record, runs.back());
+  runs.push_back(aggregate(record, family, "stddev", deviation, kTime));
+  if (mean > 0) runs.push_back(aggregate(record, family, "cv", deviation / mean, kPercentage));
   return runs;
 }
 
 // The keys that the library writes, as far as a record knows them, and then the record's own.
-Json context_of(const std::vector<StoredCase>& cases) {
+Json context_of(const std::vector<Record>& cases) {
   const std::map<std::string, std::string> known =
       cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
   const auto number = [&](const char* key) {
@@ -116,7 +116,7 @@ Json context_of(const std::vector<StoredCase>& cases) {
 
 }  // namespace
 
-std::string google_benchmark_json(const std::vector<StoredCase>& cases) {
+std::string google_benchmark_json(const std::vector<Record>& cases) {
   std::ostringstream text;
   // ReportContext() would describe the machine that exports, and its clock.
   text << "{\n  \"context\": " << indented_json_text(context_of(cases), 2)
@@ -128,13 +128,6 @@ std::string google_benchmark_json(const std::vector<StoredCase>& cases) {
   if (!Json::accept(text.str()))
     throw std::runtime_error("Google Benchmark's reporter wrote what is not JSON");
   return text.str();
-}
-
-std::string google_benchmark_json(const std::vector<Json>& records) {
-  std::vector<StoredCase> cases;
-  for (const auto& record : records)
-    cases.push_back(stored_case(record, fmt::format("record {}", cases.size() + 1)));
-  return google_benchmark_json(cases);
 }
 
 }  // namespace airybench

@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/exports/stored_case.hpp"
-#include "bench/records/json.hpp"
+#include "bench/records/record.hpp"
 
 namespace airybench {
 
@@ -16,9 +15,6 @@ namespace airybench {
 // itself. A case without samples is one run with error_occurred and "status: reason". `context` is
 // that of the first case, not of the machine that exports. Throws std::runtime_error when the
 // library wrote what is not JSON.
-std::string google_benchmark_json(const std::vector<StoredCase>& cases);
-
-// The same from lines of records.jsonl; throws RecordError too.
-std::string google_benchmark_json(const std::vector<Json>& records);
+std::string google_benchmark_json(const std::vector<Record>& cases);
 
 }  // namespace airybench

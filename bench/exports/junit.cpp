@@ -7,6 +7,8 @@
 #include <boost/property_tree/xml_parser.hpp>
 #include <sstream>
 
+#include "bench/exports/numbers.hpp"
+
 namespace airybench {
 namespace {
 
@@ -29,39 +31,48 @@ void set_attribute(Tree& element, const std::string& name, const std::string& va
   element.put("<xmlattr>." + name, allowed_in_xml(value));
 }
 
-const char* element_for(const std::string& status) {
-  if (status == "skipped") return "skipped";
-  if (status == "crashed" || status == "timeout" || status == "out_of_memory") return "error";
-  return status == "ok" ? "" : "failure";
+const char* element_for(Status status) {
+  switch (status) {
+    case Status::ok:
+      return "";
+    case Status::skipped:
+      return "skipped";
+    case Status::crashed:
+    case Status::timeout:
+    case Status::out_of_memory:
+      return "error";
+    default:
+      return "failure";
+  }
 }
 
 std::string seconds(double value) { return fmt::format("{:.9f}", value); }
 
-Tree testcase(const StoredCase& stored) {
+Tree testcase(const Record& record) {
   Tree test;
-  set_attribute(test, "name", stored.method);
-  set_attribute(test, "classname", stored.mesh + "." + stored.scene);
-  set_attribute(test, "time", seconds(stored.time_s.value_or(0)));
-  if (const std::string element = element_for(stored.status); !element.empty()) {
+  set_attribute(test, "name", variant_of(record));
+  set_attribute(test, "classname", record.mesh + "." + record.scene);
+  set_attribute(test, "time", seconds(record.time_s.value_or(0)));
+  if (const std::string element = element_for(record.status); !element.empty()) {
     Tree outcome;
-    set_attribute(outcome, "message", stored.status_reason);
-    if (element != "skipped") set_attribute(outcome, "type", stored.status);
+    set_attribute(outcome, "message", record.status_reason);
+    if (element != "skipped") set_attribute(outcome, "type", std::string(name_of(record.status)));
     test.add_child(element, outcome);
   }
   return test;
 }
 
-Tree testsuite(const std::vector<StoredCase>& cases, const StoredCase& first) {
+Tree testsuite(const std::vector<Record>& cases, const Record& first) {
   Tree suite, tests, properties;
   std::map<std::string, int> outcomes;
   int count = 0;
   double total_s = 0;
-  for (const StoredCase& stored : cases) {
-    if (stored.mesh != first.mesh || stored.scene != first.scene) continue;
+  for (const Record& record : cases) {
+    if (record.mesh != first.mesh || record.scene != first.scene) continue;
     ++count;
-    ++outcomes[element_for(stored.status)];
-    total_s += stored.time_s.value_or(0);
-    tests.push_back({"testcase", testcase(stored)});
+    ++outcomes[element_for(record.status)];
+    total_s += record.time_s.value_or(0);
+    tests.push_back({"testcase", testcase(record)});
   }
   set_attribute(suite, "name", first.mesh + "/" + first.scene);
   set_attribute(suite, "tests", std::to_string(count));
@@ -84,10 +95,10 @@ Tree testsuite(const std::vector<StoredCase>& cases, const StoredCase& first) {
 
 }  // namespace
 
-std::string junit_xml(const std::vector<StoredCase>& cases) {
+std::string junit_xml(const std::vector<Record>& cases) {
   Tree suites;
   for (auto first = cases.begin(); first != cases.end(); ++first) {
-    const bool begins = std::none_of(cases.begin(), first, [&](const StoredCase& other) {
+    const bool begins = std::none_of(cases.begin(), first, [&](const Record& other) {
       return other.mesh == first->mesh && other.scene == first->scene;
     });
     if (begins) suites.push_back({"testsuite", testsuite(cases, *first)});

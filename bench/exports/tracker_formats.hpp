@@ -4,21 +4,17 @@
 #include <string>
 #include <vector>
 
-#include "bench/exports/stored_case.hpp"
+#include "bench/records/record.hpp"
 
 namespace airybench {
 
 // github-action-benchmark, tool customSmallerIsBetter: a list of {name, unit, value, range, extra}
 // with time (ms), peak heap (B) and the errors of stress and force of every case that has them.
-std::string github_action_json(const std::vector<StoredCase>& cases);
+std::string github_action_json(const std::vector<Record>& cases);
 
 // Bencher Metric Format, bencher.dev/bmf.json: case → measure → {value, lower_value, upper_value};
 // latency in ns, peak-heap in B, error-stress and error-force relative. A case that has none of
 // them is left out.
-std::string bencher_json(const std::vector<StoredCase>& cases);
-
-// Long form for change-point tools, RFC 4180: date,revision,mesh,scene,method,stop,quantity,value;
-// a row per case and number.
-std::string series_csv(const std::vector<StoredCase>& cases);
+std::string bencher_json(const std::vector<Record>& cases);
 
 }  // namespace airybench

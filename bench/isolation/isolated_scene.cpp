@@ -5,11 +5,10 @@
 #include <chrono>
 #include <csignal>
 
+#include "bench/cases/blank_record.hpp"
 #include "bench/isolation/scene_process.hpp"
-#include "bench/measuring/seconds_since.hpp"
-#include "bench/records/blank_record.hpp"
 #include "bench/records/json.hpp"
-#include "bench/records/record_json.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
@@ -90,7 +89,7 @@ Record IsolatedScene::examine(std::size_t k) {
   if (process_ != nullptr)
     answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return record_from_json(parse_json(*answer));
+  if (answer) return record_of(parse_json(*answer), "the case's process");
   Record record = blank_record(*cases_[k], options_);
   record.status_reason = "the process of its scene ended";
   process_.reset();
@@ -102,7 +101,7 @@ TimedRun IsolatedScene::measure_time(std::size_t k) {
   if (process_ != nullptr && examined_in_[k] == generation_)
     answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
   throw_if_interrupted();
-  if (answer) return timed_run_from_json(parse_json(*answer));
+  if (answer) return timed_run_of(parse_json(*answer));
   if (examined_in_[k] == generation_) process_.reset();
   TimedRun run;
   run.message = "the process of its scene ended";

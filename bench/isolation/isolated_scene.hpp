@@ -15,11 +15,11 @@
 #include <string>
 #include <vector>
 
+#include "bench/cases/options.hpp"
 #include "bench/cases/plan.hpp"
-#include "bench/isolation/activity_board.hpp"
 #include "bench/isolation/child_process.hpp"
+#include "bench/measuring/activity_board.hpp"
 #include "bench/measuring/workbench.hpp"
-#include "bench/options.hpp"
 #include "bench/records/record.hpp"
 
 namespace airybench {

@@ -7,12 +7,11 @@
 #include <map>
 #include <sstream>
 
+#include "bench/cases/blank_record.hpp"
+#include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/environment.hpp"
-#include "bench/measuring/heap_probe.hpp"
-#include "bench/records/blank_record.hpp"
 #include "bench/records/json.hpp"
-#include "bench/records/record_json.hpp"
-#include "bench/terminal.hpp"
+#include "support/text_table.hpp"
 
 namespace airybench {
 namespace {

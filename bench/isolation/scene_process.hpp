@@ -4,11 +4,11 @@
 
 #include <vector>
 
+#include "bench/cases/options.hpp"
 #include "bench/cases/plan.hpp"
-#include "bench/isolation/activity_board.hpp"
 #include "bench/isolation/child_process.hpp"
+#include "bench/measuring/activity_board.hpp"
 #include "bench/measuring/workbench.hpp"
-#include "bench/options.hpp"
 
 namespace airybench {
 

@@ -14,7 +14,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/stress_field.hpp"
-#include "solvers/condensation/condensed.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 

@@ -15,8 +15,8 @@
 #include <fstream>
 #include <thread>
 
+#include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/build_info.hpp"
-#include "bench/measuring/heap_probe.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
@@ -50,7 +50,7 @@ void set_threads(int threads) {
   omp_set_num_threads(threads);
 }
 
-std::map<std::string, std::string> describe_environment(int threads) {
+Context describe_environment(int threads) {
   double load[1] = {0};
   if (getloadavg(load, 1) != 1) load[0] = -1;
   return {
@@ -80,6 +80,23 @@ std::map<std::string, std::string> describe_environment(int threads) {
       {"heap_probe", heap::is_active() ? "on" : "off"},
       {"date", fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)))},
   };
+}
+
+Context context_of_run(const Options& options) {
+  Context context = describe_environment(options.threads);
+  const Context settings = {
+      {"target_error", fmt::format("{}", options.target_error)},
+      {"timeout_s", fmt::format("{}", options.timeout_s)},
+      {"long_case_s", fmt::format("{}", options.long_case_s)},
+      {"repetitions", std::to_string(options.repetitions)},
+      {"interleaved", options.interleave ? "yes" : "no"},
+      {"memory_limit_bytes",
+       options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
+  };
+  context.insert(settings.begin(), settings.end());
+  if (options.shard.count > 1) context["shard"] = name_of(options.shard);
+  for (const auto& [key, value] : options.own_context) context[key] = value;
+  return context;
 }
 
 }  // namespace airybench

@@ -1,8 +1,8 @@
 // Where and with what a run was made, and the setting of its threads.
 #pragma once
 
-#include <map>
-#include <string>
+#include "bench/cases/options.hpp"
+#include "bench/records/context.hpp"
 
 namespace airybench {
 
@@ -11,6 +11,9 @@ void set_threads(int threads);
 
 // git revision and dirty flag, compiler and flags, library versions, BLAS, CPU, threads, load,
 // date.
-std::map<std::string, std::string> describe_environment(int threads);
+Context describe_environment(int threads);
+
+// The same, and what the options add: tolerances, limits, repetitions.
+Context context_of_run(const Options& options);
 
 }  // namespace airybench

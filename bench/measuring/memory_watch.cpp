@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/measuring/heap_probe.hpp"
+#include "bench/heap/heap_probe.hpp"
 
 namespace airybench {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "bench/records/memory_split.hpp"
+#include "bench/measuring/memory_split.hpp"
 #include "solvers/stage_times.hpp"
 
 namespace airybench {

@@ -6,8 +6,8 @@
 #include <array>
 #include <chrono>
 
-#include "bench/measuring/seconds_since.hpp"
 #include "bench/statistics/robust.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {

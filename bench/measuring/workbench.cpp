@@ -8,14 +8,14 @@
 #include <cmath>
 #include <new>
 
-#include "bench/measuring/heap_probe.hpp"
+#include "bench/cases/blank_record.hpp"
+#include "bench/heap/heap_probe.hpp"
+#include "bench/judging/answer_hash.hpp"
+#include "bench/measuring/field_files.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/rss_probe.hpp"
-#include "bench/measuring/seconds_since.hpp"
-#include "bench/records/answer_hash.hpp"
-#include "bench/records/blank_record.hpp"
-#include "bench/records/fields.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
@@ -32,6 +32,48 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
 
 bool asks_for_discretisation(const Method& method, const Options& options) {
   return options.study == Study::error || method.in_displacements;
+}
+
+void note(const Verification& v, Record& record) {
+  record.error_stress = v.error_stress;
+  record.error_force = v.error_force;
+  record.equilibrium_residual = v.equilibrium_residual;
+  record.natural_map_residual = v.natural_map_residual;
+  record.signorini_violation_N = v.signorini_violation_N;
+  record.coulomb_violation_N = v.coulomb_violation_N;
+  record.normal_resultant_N = v.normal_resultant_N;
+  record.tangential_resultant_N = v.tangential_resultant_N;
+  record.strain_energy_Nmm = v.strain_energy_Nmm;
+  record.complementary_energy_Nmm = v.complementary_energy_Nmm;
+  record.n_open = v.n_open;
+  record.n_stick = v.n_stick;
+  record.n_slip = v.n_slip;
+  record.answer_hash = answer_hash(v);
+}
+
+void note(const MemorySplit& memory, Record& record) {
+  record.memory_by_owner = by_owner(memory);
+  record.memory_by_stage = by_stage(memory);
+  record.memory_counts_differ = counts_differ(memory);
+  record.memory_count_ratio = count_ratio(memory);
+  record.heap_allocations = memory.allocations;
+  record.heap_allocated_bytes = memory.allocated_bytes;
+}
+
+// A list of points, an object of residuals.
+Json json_of(const std::vector<GridPoint>& grid) {
+  Json json = Json::array();
+  for (const GridPoint& point : grid)
+    json.push_back({{"r", point.r},
+                    {"rho", point.rho},
+                    {"iterations", point.iterations},
+                    {"outcome", point.outcome}});
+  return json;
+}
+Json json_of(const std::vector<IterationHistory>& histories) {
+  Json json = Json::object();
+  for (const IterationHistory& history : histories) json[history.what] = history.residual;
+  return json;
 }
 
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
@@ -186,7 +228,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   };
   const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
-  record.grid = std::move(tuning.grid);
+  if (!tuning.grid.empty()) record.grid = json_of(tuning.grid);
   if (tuning.solve != nullptr) {
     choice.solve = tuning.solve;
   } else {  // every run says what became of it
@@ -241,15 +283,14 @@ void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
 }
 
 void Workbench::judge(const Method& method, const Verification& verification, Record& record) {
-  record.verification = verification;
-  record.answer_hash = answer_hash(verification);
+  note(verification, record);
   if (record.status != Status::ok) return;
-  const WorstMeasure worst = worst_measure(*record.verification);
+  const WorstMeasure worst = worst_measure(verification);
   if (!(worst.value <= options_.target_error)) {
     record.status = Status::inaccurate;
     record.status_reason = fmt::format("{} {:.2e} is above the target {:.0e}", worst.name,
                                        worst.value, options_.target_error);
-  } else if (record.verification->error_stress || method.in_displacements) {
+  } else if (verification.error_stress || method.in_displacements) {
     if (verification.relative_to_loads)
       record.status_reason = "next to no stress: errors are relative to the loads";
   } else {
@@ -284,16 +325,18 @@ Workbench::Examination Workbench::examine(const Method& method,
   record.claimed_status = solution.status;
   record.error_estimate = solution.error_estimate;
   record.condition_estimate = solution.condition_estimate;
-  record.storage_bytes = matrix_bytes(solution);
+  if (const std::size_t bytes = matrix_bytes(solution); bytes > 0)
+    record.storage_bytes = static_cast<std::int64_t>(bytes);
   record.library_bytes = solution.library_bytes;
   record.factor_entries = solution.factor_entries;
-  record.factor_flops = solution.factor_flops;
+  if (solution.factor_flops) record.factor_flops = std::llround(*solution.factor_flops);
   record.linear_iterations = solution.linear_iterations;
   record.contact_iterations = solution.contact_iterations;
   record.uzawa_iterations = solution.uzawa_iterations;
   record.parameters = solution.parameters;
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
-  if (options_.histories) record.histories = std::move(solution.histories);
+  if (options_.histories && !solution.histories.empty())
+    record.histories = json_of(solution.histories);
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;
     record.error_so_far = solution.error_so_far;
@@ -325,22 +368,23 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (once && is_measured(record)) {
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);
-    record.stage_samples.push_back(solution.times);
-    record.peak_heap_bytes = run.peak_heap_bytes;
-    record.memory = run.memory;
-    record.peak_rss_bytes = run.peak_rss_bytes;
-    record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+    record.stage_samples.push_back(by_name(solution.times));
+    note_memory(run, record);
   }
   return examination;
+}
+
+void Workbench::note_memory(const Run& run, Record& record) {
+  record.peak_heap_bytes = run.peak_heap_bytes;
+  record.peak_rss_bytes = run.peak_rss_bytes;
+  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+  if (run.memory) note(*run.memory, record);
 }
 
 void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
   malloc_trim(0);
   const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
-  record.peak_heap_bytes = run.peak_heap_bytes;
-  record.memory = run.memory;
-  record.peak_rss_bytes = run.peak_rss_bytes;
-  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+  note_memory(run, record);
   record.instructions = run.instructions;
 }
 
@@ -348,7 +392,7 @@ TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
   const Run run = solve(choice, blocks(method.blocks), Activity::timed_run);
   TimedRun timed;
   timed.time_s = run.time_s;
-  timed.stages = run.solution.times;
+  timed.stages = by_name(run.solution.times);
   timed.status = run.solution.status;
   timed.message = run.solution.message;
   return timed;

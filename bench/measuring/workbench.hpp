@@ -8,10 +8,13 @@
 #include <map>
 #include <memory>
 
-#include "bench/isolation/activity_board.hpp"
+#include "bench/cases/options.hpp"
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/reference.hpp"
-#include "bench/options.hpp"
+#include "bench/judging/verifier.hpp"
+#include "bench/measuring/activity_board.hpp"
+#include "bench/measuring/memory_split.hpp"
+#include "bench/measuring/timed_run.hpp"
 #include "bench/records/record.hpp"
 #include "solvers/methods.hpp"
 
@@ -73,6 +76,7 @@ class Workbench {
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
   Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
+  static void note_memory(const Run& run, Record& record);
   void judge(const Method& method, const Verification& verification, Record& record);
 
   std::shared_ptr<const Problem> problem_;

@@ -51,8 +51,6 @@ std::string CaseName::file() const {
   return name;
 }
 
-Stop stop_of(std::string_view name) { return name == "paper" ? Stop::paper : Stop::target; }
-
 std::optional<CaseName> case_name_of(std::string_view text) {
   const std::vector<std::string_view> parts = parts_of(text);
   if (parts.size() < 3) return {};

@@ -13,7 +13,7 @@
 #include <string>
 #include <string_view>
 
-#include "solvers/solution.hpp"
+#include "support/status.hpp"
 
 namespace airybench {
 
@@ -27,8 +27,6 @@ struct CaseName {
   std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
   std::string file() const;    // the text with '-' for '/' and ':'
 };
-
-Stop stop_of(std::string_view name);  // "paper"; older records have none: the target
 
 // Empty: this is no case's name.
 std::optional<CaseName> case_name_of(std::string_view text);

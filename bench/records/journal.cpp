@@ -15,7 +15,7 @@ namespace airybench {
 Journal::Journal(const std::filesystem::path& file) : file_(file) {
   descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
   if (descriptor_ < 0)
-    throw OutputError(fmt::format("{}: cannot be written: {}", file.string(), strerror(errno)));
+    throw FileError(fmt::format("{}: cannot be written: {}", file.string(), strerror(errno)));
 }
 
 Journal::~Journal() {
@@ -47,7 +47,7 @@ void Journal::append(const std::string& line) {
   if (error == 0) return;
   // If this fails as well, a torn line stays, and read_journal() passes over it.
   [[maybe_unused]] const int taken_back = ftruncate(descriptor_, before);
-  throw OutputError(fmt::format("{}: cannot be written: {}", file_.string(), strerror(error)));
+  throw FileError(fmt::format("{}: cannot be written: {}", file_.string(), strerror(error)));
 }
 
 JournalLines read_journal(const std::filesystem::path& file) {
@@ -55,9 +55,9 @@ JournalLines read_journal(const std::filesystem::path& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error) && !error) return result;
   if (error || !std::filesystem::is_regular_file(file))
-    throw OutputError(file.string() + ": is not a file of records");
+    throw FileError(file.string() + ": is not a file of records");
   std::ifstream in(file, std::ios::binary);
-  if (!in.is_open()) throw OutputError(file.string() + ": cannot be read");
+  if (!in.is_open()) throw FileError(file.string() + ": cannot be read");
   std::ostringstream bytes;
   bytes << in.rdbuf();
   const std::string text = bytes.str();

@@ -2,27 +2,24 @@
 #pragma once
 
 #include <filesystem>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-namespace airybench {
+#include "support/errors.hpp"
 
-struct OutputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+namespace airybench {
 
 class Journal {
  public:
   Journal() = default;  // closed
-  // Opens for appending. Throws OutputError.
+  // Opens for appending. Throws FileError.
   explicit Journal(const std::filesystem::path& file);
   ~Journal();
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&& other) noexcept;
 
   bool is_open() const { return descriptor_ >= 0; }
-  // Writes the line and waits until it is on disk (fsync). Throws OutputError; what was written of
+  // Writes the line and waits until it is on disk (fsync). Throws FileError; what was written of
   // the line is taken back then.
   void append(const std::string& line);
 
@@ -37,7 +34,7 @@ struct JournalLines {
   std::vector<std::string> lines;
   bool torn = false;  // there was such a start
 };
-// A file that is not there has no lines. Throws OutputError.
+// A file that is not there has no lines. Throws FileError.
 JournalLines read_journal(const std::filesystem::path& file);
 
 }  // namespace airybench

@@ -12,19 +12,18 @@
 namespace airybench {
 namespace {
 
-using ByName = std::map<std::string, const CaseRecord*>;
+using ByName = std::map<std::string, const Record*>;
 
-ByName by_name(const std::vector<CaseRecord>& records) {
+ByName by_name(const std::vector<Record>& records) {
   ByName result;
-  for (const CaseRecord& record : records) result[record.name()] = &record;
+  for (const Record& record : records) result[name_of(record).text()] = &record;
   return result;
 }
 
-std::vector<std::string> names_only_in(const std::vector<CaseRecord>& records,
-                                       const ByName& others) {
+std::vector<std::string> names_only_in(const std::vector<Record>& records, const ByName& others) {
   std::vector<std::string> names;
-  for (const CaseRecord& record : records)
-    if (const std::string name = record.name();
+  for (const Record& record : records)
+    if (const std::string name = name_of(record).text();
         !others.contains(name) && std::find(names.begin(), names.end(), name) == names.end())
       names.push_back(name);
   return names;
@@ -39,7 +38,7 @@ std::optional<double> drift_of(const std::vector<ComparedCase>& cases) {
   return median(std::move(ratios));
 }
 
-bool is_timed(const CaseRecord& record) { return has_answer(record) && !record.samples_s.empty(); }
+bool is_timed(const Record& record) { return has_answer(record) && !record.samples_s.empty(); }
 
 // Has the ratio gone up by enough? For the other direction with reciprocals.
 bool exceeds(double ratio, double corrected, double drift, double minimum_effect) {
@@ -73,7 +72,7 @@ bool Comparison::has_regression() const {
   });
 }
 
-Comparison compare(const std::vector<CaseRecord>& a, const std::vector<CaseRecord>& b,
+Comparison compare(const std::vector<Record>& a, const std::vector<Record>& b,
                    const CompareRules& rules) {
   Comparison result;
   result.rules = rules;
@@ -83,8 +82,8 @@ Comparison compare(const std::vector<CaseRecord>& a, const std::vector<CaseRecor
   std::vector<SamplePair> pairs;
   std::vector<double> p_values;
   double log_sum = 0;
-  for (const CaseRecord& record : a) {
-    const std::string name = record.name();
+  for (const Record& record : a) {
+    const std::string name = name_of(record).text();
     const auto other = in_b.find(name);
     if (other == in_b.end() || in_a.at(name) != &record) continue;
     ComparedCase one;

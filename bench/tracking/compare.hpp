@@ -31,7 +31,7 @@ enum class TimeVerdict { faster, slower, not_separated, too_few_samples };
 std::string_view name_of(TimeVerdict verdict);  // "not separated"
 
 struct ComparedCase {
-  CaseRecord a, b;
+  Record a, b;
   bool timed = false;    // both have an answer and samples; what follows is of these
   double ratio = 1;      // raw
   double corrected = 1;  // by the drift
@@ -56,7 +56,7 @@ struct Comparison {
 };
 
 // Of several records of a case the last counts.
-Comparison compare(const std::vector<CaseRecord>& a, const std::vector<CaseRecord>& b,
+Comparison compare(const std::vector<Record>& a, const std::vector<Record>& b,
                    const CompareRules& rules);
 
 }  // namespace airybench

@@ -6,8 +6,8 @@
 
 #include "bench/records/json.hpp"
 #include "bench/statistics/robust.hpp"
-#include "bench/terminal.hpp"
 #include "bench/tracking/judge_counters.hpp"
+#include "support/text_table.hpp"
 
 namespace airybench {
 namespace {
@@ -15,21 +15,20 @@ namespace {
 // Status, errors, memory, iterations: what is not equal.
 std::vector<std::string> other_changes(const ComparedCase& one) {
   std::vector<std::string> changes;
-  const std::string name = one.a.name();
+  const std::string name = name_of(one.a).text();
   if (one.a.status != one.b.status)
     changes.push_back(
         fmt::format("{}: status {} → {}", name, name_of(one.a.status), name_of(one.b.status)));
-  for (const auto& [key, member] : error_members)
-    if (one.a.*member && one.b.*member &&
-        (error_grew(*(one.a.*member), *(one.b.*member)) ||
-         error_grew(*(one.b.*member), *(one.a.*member))))
-      changes.push_back(
-          fmt::format("{}: {} {:.3g} → {:.3g}", name, key, *(one.a.*member), *(one.b.*member)));
-  for (const JudgedCount& count : judged_counts) {
-    const auto before = one.a.*count.member, after = one.b.*count.member;
+  for (const Field* field : fields_with(error)) {
+    const auto before = number_in(one.a, *field), after = number_in(one.b, *field);
+    if (before && after && (error_grew(*before, *after) || error_grew(*after, *before)))
+      changes.push_back(fmt::format("{}: {} {:.3g} → {:.3g}", name, field->name, *before, *after));
+  }
+  for (const JudgedCount& count : judged_counts()) {
+    const auto before = count.in(one.a), after = count.in(one.b);
     if (before && after &&
         (count_grew(count, *before, *after) || count_grew(count, *after, *before)))
-      changes.push_back(fmt::format("{}: {} {} → {}", name, count.name, *before, *after));
+      changes.push_back(fmt::format("{}: {} {} → {}", name, count.field->name, *before, *after));
   }
   return changes;
 }
@@ -41,7 +40,7 @@ std::string interval_text(const Interval& interval) {
 // The cells of a row; those of a case without times say so.
 std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
   if (!one.timed)
-    return {one.a.name(),
+    return {name_of(one.a).text(),
             "",
             "",
             "",
@@ -49,7 +48,7 @@ std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
             "",
             "",
             fmt::format("no times: {}, {}", name_of(one.a.status), name_of(one.b.status))};
-  return {one.a.name(),
+  return {name_of(one.a).text(),
           show_seconds(median(one.a.samples_s)),
           show_seconds(median(one.b.samples_s)),
           fmt::format("{:.3g}", one.ratio),
@@ -109,7 +108,7 @@ std::string comparison_markdown(const Comparison& comparison) {
 Json comparison_json(const Comparison& comparison) {
   Json cases = Json::array();
   for (const ComparedCase& one : comparison.cases) {
-    Json json = {{"case", one.a.name()},
+    Json json = {{"case", name_of(one.a).text()},
                  {"status_a", name_of(one.a.status)},
                  {"status_b", name_of(one.b.status)},
                  {"other_changes", other_changes(one)}};

@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "bench/records/json.hpp"
-#include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/robust.hpp"
 #include "support/atomic_file.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -24,33 +24,6 @@ constexpr std::array kinds = {Kind::worse, Kind::better, Kind::changed};
 template <typename T>
 Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json();
-}
-Json or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
-
-Json to_json(const CaseRecord& record) {
-  Json json = {{"mesh", record.mesh},
-               {"scene", record.scene},
-               {"method", record.method},
-               {"stop", or_null(record.stop)},
-               {"study", or_null(record.study)},
-               {"knob", or_null(record.knob)},
-               {"knob_value", or_null(record.knob_value)},
-               {"status", name_of(record.status)},
-               {"samples_s", record.samples_s},
-               {"time_s", or_null(record.time_s)},
-               {"time_low_s", nullptr},
-               {"time_high_s", nullptr},
-               {"noise_kernel_s", or_null(record.noise_kernel_s)},
-               {"answer_hash", or_null(record.answer_hash)}};
-  if (!record.samples_s.empty()) {
-    const Interval interval = bootstrap_median(record.samples_s);
-    json["time_low_s"] = interval.low;
-    json["time_high_s"] = interval.high;
-  }
-  for (const auto& [key, member] : count_members) json[key] = or_null(record.*member);
-  for (const auto& [key, member] : error_members) json[key] = or_null(record.*member);
-  for (const auto& [key, member] : shown_members) json[key] = or_null(record.*member);
-  return json;
 }
 
 Json to_json(const Finding& finding) {
@@ -98,7 +71,7 @@ bool is_date(const std::string& text) {
 
 Night read_night(const fs::path& file) {
   try {
-    const Json json = parse_json(text_of_records(file));
+    const Json json = parse_json(file_text(file));
     if (json.at("format") != format_name)
       throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
                                     json_text(json.at("format")), format_name));
@@ -112,7 +85,7 @@ Night read_night(const fs::path& file) {
     night.noise_samples_s = json.at("noise").at("samples_s").get<std::vector<double>>();
     for (const Json& one : json.at("cases"))
       night.cases.push_back(
-          case_record(one, fmt::format("{}: case {}", file.string(), night.cases.size() + 1)));
+          record_of(one, fmt::format("{}: case {}", file.string(), night.cases.size() + 1)));
     for (const Json& one : json.at("verdicts")) night.findings.push_back(finding_of(one));
     night.failed = json.at("failed").get<bool>();
     night.times_judged = json.value("times_judged", true);  // older nights do not say
@@ -135,9 +108,9 @@ std::string_view name_of(Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-const CaseRecord* Night::find(const std::string& case_name) const {
-  const auto found = std::find_if(cases.begin(), cases.end(), [&](const CaseRecord& record) {
-    return record.name() == case_name;
+const Record* Night::find(const std::string& case_name) const {
+  const auto found = std::find_if(cases.begin(), cases.end(), [&](const Record& record) {
+    return name_of(record).text() == case_name;
   });
   return found == cases.end() ? nullptr : &*found;
 }
@@ -152,7 +125,7 @@ std::string Night::machine() const {
                      context_value("threads"));
 }
 
-Night night_of(std::vector<CaseRecord> records, const std::string& source) {
+Night night_of(std::vector<Record> records, const std::string& source) {
   if (records.empty()) throw RecordError(source + ": no records (a night needs some)");
   Night night;
   night.context = records.front().context;
@@ -160,7 +133,7 @@ Night night_of(std::vector<CaseRecord> records, const std::string& source) {
   if (!is_date(night.date))
     throw RecordError(fmt::format("{}:1: context: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
                                   source, night.date));
-  for (const CaseRecord& record : records)
+  for (const Record& record : records)
     if (record.noise_kernel_s) night.noise_samples_s.push_back(*record.noise_kernel_s);
   night.cases = std::move(records);
   return night;
@@ -185,9 +158,10 @@ fs::path file_for(const Night& night, const fs::path& folder, const std::vector<
   for (const Night& other : history) {
     if (other.date != night.date) continue;
     ++of_this_second;
-    if (std::equal(
-            night.cases.begin(), night.cases.end(), other.cases.begin(), other.cases.end(),
-            [](const CaseRecord& a, const CaseRecord& b) { return to_json(a) == to_json(b); }))
+    if (std::equal(night.cases.begin(), night.cases.end(), other.cases.begin(), other.cases.end(),
+                   [](const Record& a, const Record& b) {
+                     return to_json(a, nightly) == to_json(b, nightly);
+                   }))
       throw RecordError(
           fmt::format("{}: these records are already in the history", other.file.string()));
   }
@@ -200,7 +174,7 @@ fs::path file_for(const Night& night, const fs::path& folder, const std::vector<
 void write_night(const Night& night) {
   const auto finite = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   Json cases = Json::array(), verdicts = Json::array();
-  for (const CaseRecord& record : night.cases) cases.push_back(to_json(record));
+  for (const Record& record : night.cases) cases.push_back(to_json(record, nightly));
   for (const Finding& finding : night.findings) verdicts.push_back(to_json(finding));
   const Json json = {{"format", format_name},
                      {"date", night.date},
@@ -213,12 +187,7 @@ void write_night(const Night& night) {
                      {"verdicts", verdicts},
                      {"failed", night.failed},
                      {"times_judged", night.times_judged}};
-  std::error_code error;
-  const fs::path folder = night.file.parent_path();
-  fs::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(
-        fmt::format("{}: cannot be made a folder: {}", folder.string(), error.message()));
+  make_folder(night.file.parent_path());
   write_file_atomically(night.file, indented_json_text(json, 1) + "\n");
 }
 

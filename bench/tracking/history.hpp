@@ -2,8 +2,7 @@
 //   {"format": "airybench-night-1", "date": "2026-11-21T03:00:00Z", "context": {…},
 //    "noise": {"median_s", "mad_s", "samples_s"},   the reference kernel, over the night
 //    "cases": [{…}], "verdicts": [{…}], "failed": true | false}
-// A case has the keys of records.jsonl that CaseRecord has, and time_low_s, time_high_s: the 95 %
-// bootstrap interval of time_s. What is not known is null.
+// A case has the fields of a record that are `nightly`. What is not known is null.
 #pragma once
 
 #include <filesystem>
@@ -39,20 +38,20 @@ struct Night {
   std::string date;            // ISO 8601, UTC
   std::map<std::string, std::string> context;
   std::vector<double> noise_samples_s;  // of the reference kernel
-  std::vector<CaseRecord> cases;
+  std::vector<Record> cases;
   std::vector<Finding> findings;
   bool failed = false;
   bool times_judged = false;  // there were enough nights of the machine
 
-  const CaseRecord* find(const std::string& case_name) const;  // or null
-  std::string context_value(const std::string& key) const;     // "" where it has none
+  const Record* find(const std::string& case_name) const;   // or null
+  std::string context_value(const std::string& key) const;  // "" where it has none
   // Runs of the same machine: processor, their number, threads. Only these are compared.
   std::string machine() const;
 };
 
 // A night of records as a run writes them; the context is the first record's. Its date is the
 // context's. Throws RecordError: no records, or no usable date ("date").
-Night night_of(std::vector<CaseRecord> records, const std::string& source);
+Night night_of(std::vector<Record> records, const std::string& source);
 
 // In the order of dates. Empty where there is no folder yet. Throws RecordError, which names a file
 // that is no whole night.
@@ -62,7 +61,7 @@ std::vector<Night> read_history(const std::filesystem::path& folder);
 // is another of the same second. Throws RecordError when the history has this very night.
 std::filesystem::path file_for(const Night& night, const std::filesystem::path& folder,
                                const std::vector<Night>& history);
-// Writes night.file whole. Throws std::runtime_error.
+// Writes night.file whole. Throws FileError.
 void write_night(const Night& night);
 
 }  // namespace airybench

@@ -15,7 +15,7 @@ namespace {
 constexpr const char* all_cases = "all cases";
 constexpr const char* time_name = "time_s";
 
-double log_time(const CaseRecord* record) {
+double log_time(const Record* record) {
   const bool has_time = record != nullptr && has_answer(*record) && record->time_s;
   return has_time ? std::log(*record->time_s) : std::nan("");
 }
@@ -34,8 +34,8 @@ std::size_t start_of(const std::vector<Night>& nights, const std::string& case_n
 
 TimeTable time_table(const std::vector<Night>& nights) {
   TimeTable table;
-  for (const CaseRecord& now : nights.back().cases) {
-    const std::string name = now.name();
+  for (const Record& now : nights.back().cases) {
+    const std::string name = name_of(now).text();
     std::vector<double> series;
     for (const Night& night : nights) series.push_back(log_time(night.find(name)));
     table.log_times.push_back(std::move(series));
@@ -69,7 +69,7 @@ Finding finding_of(const TimeChange& found, const TimeTable& table,
   std::string against = "the other cases";
   if (found.series) {
     const std::vector<double>& series = table.log_times[*found.series];
-    finding.case_name = nights.back().cases[*found.series].name();
+    finding.case_name = name_of(nights.back().cases[*found.series]).text();
     finding.before = seconds(series, table.starts[*found.series], change.first);
     finding.after = seconds(series, change.first, series.size());
     if (table.log_times.size() < least_cases) against = "the reference kernel";

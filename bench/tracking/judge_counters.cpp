@@ -29,9 +29,9 @@ class CounterComparison {
 
   // The case in the last earlier night where has(night, record).
   template <typename Has>
-  const CaseRecord* earlier(const std::string& name, const Has& has) const {
+  const Record* earlier(const std::string& name, const Has& has) const {
     for (auto night = nights_.rbegin() + 1; night != nights_.rend(); ++night)
-      if (const CaseRecord* record = night->find(name); record != nullptr && has(*night, *record))
+      if (const Record* record = night->find(name); record != nullptr && has(*night, *record))
         return record;
     return nullptr;
   }
@@ -55,64 +55,65 @@ class CounterComparison {
   const std::vector<Night>& nights_;
 };
 
-void compare_status(CounterComparison& comparison, const CaseRecord& now) {
-  const CaseRecord* before =
-      comparison.earlier(now.name(), [](const Night&, const CaseRecord&) { return true; });
+void compare_status(CounterComparison& comparison, const Record& now) {
+  const Record* before =
+      comparison.earlier(name_of(now).text(), [](const Night&, const Record&) { return true; });
   if (before == nullptr || before->status == now.status) return;
   const Kind kind = before->status == Status::ok ? Kind::worse
                     : now.status == Status::ok   ? Kind::better
                                                  : Kind::changed;
-  comparison.add(now.name(), Lane::status, "status", name_of(before->status), name_of(now.status),
-                 kind);
+  comparison.add(name_of(now).text(), Lane::status, "status", name_of(before->status),
+                 name_of(now.status), kind);
 }
 
-void compare_counts(CounterComparison& comparison, const CaseRecord& now) {
-  for (const JudgedCount& count : judged_counts) {
-    if (!(now.*count.member)) continue;
-    const CaseRecord* record =
-        comparison.earlier(now.name(), [&](const Night& night, const CaseRecord& earlier) {
-          return earlier.*count.member &&
-                 (!count.of_libraries || same_libraries(night, comparison.newest()));
-        });
+void compare_counts(CounterComparison& comparison, const Record& now) {
+  const std::string name = name_of(now).text();
+  for (const JudgedCount& count : judged_counts()) {
+    const std::optional<std::int64_t> after = count.in(now);
+    if (!after) continue;
+    const Record* record = comparison.earlier(name, [&](const Night& night, const Record& earlier) {
+      return count.in(earlier) &&
+             (!count.of_libraries || same_libraries(night, comparison.newest()));
+    });
     if (record == nullptr) continue;
-    const std::int64_t before = *(record->*count.member), after = *(now.*count.member);
-    if (count_grew(count, before, after))
-      comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::worse);
-    else if (count_grew(count, after, before))
-      comparison.add(now.name(), Lane::counters, count.name, before, after, Kind::better);
+    const std::int64_t before = *count.in(*record);
+    if (count_grew(count, before, *after))
+      comparison.add(name, Lane::counters, count.field->name, before, *after, Kind::worse);
+    else if (count_grew(count, *after, before))
+      comparison.add(name, Lane::counters, count.field->name, before, *after, Kind::better);
   }
 }
 
-void compare_errors(CounterComparison& comparison, const CaseRecord& now) {
+void compare_errors(CounterComparison& comparison, const Record& now) {
   const std::size_t found = comparison.findings.size();
-  for (const auto& [name, member] : error_members) {
-    if (!(now.*member)) continue;
-    const CaseRecord* record =
-        comparison.earlier(now.name(), [&, m = member](const Night&, const CaseRecord& earlier) {
-          return (earlier.*m).has_value();
-        });
+  const std::string name = name_of(now).text();
+  for (const Field* field : fields_with(error)) {
+    const std::optional<double> after = number_in(now, *field);
+    if (!after) continue;
+    const Record* record = comparison.earlier(name, [&](const Night&, const Record& earlier) {
+      return number_in(earlier, *field).has_value();
+    });
     if (record == nullptr) continue;
-    const double before = *(record->*member), after = *(now.*member);
-    if (error_grew(before, after))
-      comparison.add(now.name(), Lane::errors, name, before, after, Kind::worse);
-    else if (error_grew(after, before))
-      comparison.add(now.name(), Lane::errors, name, before, after, Kind::better);
+    const double before = *number_in(*record, *field);
+    if (error_grew(before, *after))
+      comparison.add(name, Lane::errors, field->name, before, *after, Kind::worse);
+    else if (error_grew(*after, before))
+      comparison.add(name, Lane::errors, field->name, before, *after, Kind::better);
   }
   if (comparison.findings.size() > found || now.answer_hash.empty()) return;
-  const CaseRecord* record = comparison.earlier(
-      now.name(),
-      [](const Night&, const CaseRecord& earlier) { return !earlier.answer_hash.empty(); });
+  const Record* record = comparison.earlier(
+      name, [](const Night&, const Record& earlier) { return !earlier.answer_hash.empty(); });
   if (record != nullptr && record->answer_hash != now.answer_hash)
-    comparison.add(now.name(), Lane::errors, "answer_hash", record->answer_hash, now.answer_hash,
+    comparison.add(name, Lane::errors, "answer_hash", record->answer_hash, now.answer_hash,
                    Kind::changed);
 }
 
 // What the selection of the last night had and this one has not, and libraries that changed.
 void compare_contexts(CounterComparison& comparison, const Night& before) {
   const Night& now = comparison.newest();
-  for (const CaseRecord& record : before.cases)
-    if (now.find(record.name()) == nullptr)
-      comparison.add(record.name(), Lane::status, "status", name_of(record.status),
+  for (const Record& record : before.cases)
+    if (now.find(name_of(record).text()) == nullptr)
+      comparison.add(name_of(record).text(), Lane::status, "status", name_of(record.status),
                      std::string_view("not run"), Kind::changed);
   std::string changes;
   for (const char* key : library_keys)
@@ -139,6 +140,24 @@ bool error_grew(double before, double after) {
   return after > error_growth * before && after - before > rounding;
 }
 
+std::optional<std::int64_t> JudgedCount::in(const Record& record) const {
+  const Json value = field->value(record);
+  return value.is_null() ? std::nullopt : std::optional(value.get<std::int64_t>());
+}
+
+const std::vector<JudgedCount>& judged_counts() {
+  static const std::vector<JudgedCount> counts = [] {
+    std::vector<JudgedCount> result;
+    for (const Field* field : fields_with(counter))
+      result.push_back({field, (field->use & of_libraries) != 0,
+                        (field->use & per_cent)    ? 1.01
+                        : (field->use & per_mille) ? 1.001
+                                                   : 1.0});
+    return result;
+  }();
+  return counts;
+}
+
 bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t after) {
   return static_cast<double>(after) > static_cast<double>(before) * count.tolerated_growth;
 }
@@ -147,7 +166,7 @@ std::vector<Finding> judge_counters(const std::vector<Night>& nights) {
   if (nights.size() < 2) return {};
   CounterComparison comparison(nights);
   compare_contexts(comparison, nights[nights.size() - 2]);
-  for (const CaseRecord& now : comparison.newest().cases) {
+  for (const Record& now : comparison.newest().cases) {
     compare_status(comparison, now);
     compare_counts(comparison, now);
     compare_errors(comparison, now);

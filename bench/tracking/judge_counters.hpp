@@ -14,7 +14,6 @@
 //   answer     another answer_hash where no error has changed: changed, no failure
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -23,24 +22,14 @@
 
 namespace airybench {
 
+// A field that is a counter.
 struct JudgedCount {
-  const char* name;
-  std::optional<std::int64_t> CaseRecord::*member;
+  const Field* field;
   bool of_libraries = false;
   double tolerated_growth = 1;
+  std::optional<std::int64_t> in(const Record& record) const;
 };
-inline constexpr std::array<JudgedCount, 10> judged_counts = {{
-    {"linear_iterations", &CaseRecord::linear_iterations},
-    {"contact_iterations", &CaseRecord::contact_iterations},
-    {"uzawa_iterations", &CaseRecord::uzawa_iterations},
-    {"factor_entries", &CaseRecord::factor_entries},
-    {"factor_flops", &CaseRecord::factor_flops},
-    {"storage_bytes", &CaseRecord::storage_bytes},
-    {"peak_heap_bytes", &CaseRecord::peak_heap_bytes, true, 1.001},
-    {"heap_allocations", &CaseRecord::heap_allocations, true},
-    {"heap_allocated_bytes", &CaseRecord::heap_allocated_bytes, true, 1.001},
-    {"instructions", &CaseRecord::instructions, true, 1.01},
-}};
+const std::vector<JudgedCount>& judged_counts();
 bool count_grew(const JudgedCount& count, std::int64_t before, std::int64_t after);
 
 // The findings on the newest of `nights`, which are of one machine, in the order of dates: of each

@@ -5,7 +5,6 @@
 
 #include "assembly/load_scale.hpp"
 #include "solvers/condensation/airy_residual.hpp"
-#include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
@@ -64,8 +63,6 @@ void add(LongSaddleVector& answer, const SaddleVector& delta) {
 void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution) {
-  const StageTimer timer(solution.times, Stage::check);
-  const OwnerScope scope(MemoryOwner::check);
   judge_by_own_estimate(correction(system, D_diagonal, load_scale(*system.problem), solve,
                                    in_long(answer), solution.F_C)
                             .estimate,
@@ -76,8 +73,6 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
-  const StageTimer timer(solution.times, Stage::check);
-  const OwnerScope scope(MemoryOwner::check);
   const Eigen::VectorXd D_diagonal = D.diagonal();
   const LoadScale scale = load_scale(*system.problem);
   LongSaddleVector trial = in_long(answer), best = trial;

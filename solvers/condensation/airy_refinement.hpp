@@ -40,8 +40,7 @@ struct SaddleVector {
 using SaddleSolve = std::function<void(SaddleVector&)>;
 
 // What belongs to the solution's F_C: sets its error estimate, and says `inaccurate` where it is ok
-// so far and the estimate is above the target. D_diagonal: of D, or of its order of magnitude. Its
-// time is the stage `check`.
+// so far and the estimate is above the target. D_diagonal: of D, or of its order of magnitude.
 void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
                        const SaddleSolve& solve, const SaddleVector& answer,
                        const RunControl& control, Solution& solution);
@@ -50,15 +49,5 @@ void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagon
 void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const SaddleSolve& solve, const SaddleVector& answer,
                         const RunControl& control, Solution& solution);
-
-enum class Refine { no, yes };
-inline void finish_airy_answer(Refine refine, const DualSystem& system, const Eigen::MatrixXd& D,
-                               const SaddleSolve& solve, const SaddleVector& answer,
-                               const RunControl& control, Solution& solution) {
-  if (refine == Refine::yes)
-    refine_airy_answer(system, D, solve, answer, control, solution);
-  else
-    check_airy_answer(system, D.diagonal(), solve, answer, control, solution);
-}
 
 }  // namespace airybench

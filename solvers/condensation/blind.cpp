@@ -1,11 +1,12 @@
 #include "solvers/condensation/blind.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <numeric>
 #include <string>
 
 #include "assembly/sparse_bytes.hpp"
+#include "solvers/direct/condition.hpp"
+#include "solvers/direct/dense_cholesky.hpp"
 
 namespace airybench {
 namespace {
@@ -155,6 +156,28 @@ Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const
   for (const Eigen::VectorXd* part : {&v.x, &v.lambda_F, &v.lambda_C})
     for (const double value : *part) all(*position++) = value;
   return all;
+}
+
+void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
+                   const BlindSolve& solve, int columns_at_once, Solution& solution) {
+  if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
+  CondensedSystem condensed;
+  if (system.n_c() > 0)
+    condensed = run_stage(solution.times, Stage::condense, MemoryOwner::condensed,
+                          [&] { return condense_blindly(system, blind, solve, columns_at_once); });
+  finish_in_airy_function(
+      system, control, condensed,
+      [&](const Eigen::VectorXd& F_C) {
+        Eigen::VectorXd x = blind_right_hand_side(system, blind, F_C);
+        solve(x);
+        return by_blocks(system, blind, x);
+      },
+      [&](SaddleVector& v) {
+        Eigen::VectorXd x = in_one(system, blind, v);
+        solve(x);
+        v = by_blocks(system, blind, x);
+      },
+      Refine::no, solution);
 }
 
 void check_inertia(int negative_pivots, int expected) {

@@ -20,9 +20,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/condensation/airy_refinement.hpp"
-#include "solvers/condensation/condensed.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/condensation/finish.hpp"
 
 namespace airybench {
 
@@ -54,6 +52,10 @@ Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSyste
 SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
                        const Eigen::VectorXd& solution);
 Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v);
+
+// All that follows the factorisation of M₁₁, by solves: condenses, and finishes.
+void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
+                   const BlindSolve& solve, int columns_at_once, Solution& solution);
 
 // Throws Breakdown when the factor of M₁₁ has another number of negative pivots than expected.
 void check_inertia(int negative_pivots, int expected);

@@ -2,22 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "assembly/load_scale.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
-
-void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution) {
-  solution.error_estimate = estimate;
-  if (solution.status != Status::ok || estimate <= control.target_error) return;
-  std::ostringstream message;
-  message << "by its own estimate its error is " << estimate << " (target " << control.target_error
-          << ")";
-  solution.status = Status::inaccurate;
-  solution.message = message.str();
-}
 
 void check_stiffness_answer(const Problem& problem, const ContactPoints& contact,
                             const CondensedSystem& condensed, const UnbalancedForces& unbalanced,

@@ -29,7 +29,4 @@ void check_stiffness_answer(const Problem& problem, const ContactPoints& contact
                             const Eigen::VectorXd& displacement, StiffnessFactor& factor,
                             const RunControl& control, Solution& solution);
 
-// What all checks end with: the estimate into the solution, and `inaccurate` where it is above.
-void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution);
-
 }  // namespace airybench

@@ -19,15 +19,10 @@ CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
                                        const Eigen::VectorXd& b, int n_c, const std::string& system,
                                        const RunControl& control, StiffnessFactor& factor,
                                        Solution& solution) {
-  {
-    const StageTimer timer(solution.times, Stage::order);
-    factor.cholesky.analyse(K, n_c);
-  }
+  run_stage(solution.times, Stage::order, MemoryOwner::factor,
+            [&] { factor.cholesky.analyse(K, n_c); });
   control.deadline.check("the ordering of the " + system);
-  {
-    const StageTimer timer(solution.times, Stage::factor);
-    factor.cholesky.factor(K);
-  }
+  run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] { factor.cholesky.factor(K); });
   control.deadline.check("the factorisation of the " + system);
   CondensedSystem condensed;
   {
@@ -40,7 +35,6 @@ CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
   count_factor(factor.cholesky, solution);
   solution.storage[MemoryOwner::factor] +=
       static_cast<std::size_t>(factor.y.size()) * sizeof(double);
-  solution.storage[MemoryOwner::condensed] = condensed.bytes();
   return condensed;
 }
 

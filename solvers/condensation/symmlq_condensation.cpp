@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <memory>
 
+#include "solvers/condensation/three_step.hpp"
 #include "solvers/krylov/symmetric_product.hpp"
 #include "solvers/preconditioners/drop_tolerance.hpp"
 
@@ -141,92 +142,6 @@ Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditio
   result.entries += factor->entries();
   result.workspace_rows += n + 2 * m;
   return result;
-}
-
-Solution solve_symmlq_condensation(const DualSystem& system, const RunControl& control,
-                                   const MakePreconditioner& make, SchurBlock schur, int lanes,
-                                   Refine refine) {
-  const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
-  Solution solution;
-  const Preconditioner preconditioner = [&] {
-    const StageTimer timer(solution.times, Stage::precondition);
-    const OwnerScope scope(MemoryOwner::preconditioner);
-    return saddle_preconditioner(system, make(system.S, control.deadline), schur, lanes,
-                                 control.threads, control.deadline);
-  }();
-  note_preconditioner(preconditioner, solution);
-  const KrylovOptions options = krylov_options(control, lanes);
-  const SymmetricOperator A = saddle_operator(system);
-  solution.storage[MemoryOwner::iteration] =
-      iteration_bytes(options, n_c + 1, symmlq_vectors * A.n + preconditioner.workspace_rows);
-  const auto load = [&](LaneColumn b) {
-    if (system.q.size() > 0) b.head(n) = system.q;
-    if (system.F.size() > 0) b.segment(n, n_f) = system.F;
-    if (system.F0.size() > 0) b.tail(n_c) = -system.F0;
-  };
-
-  CondensedSystem condensed;
-  KrylovSummary all;
-  if (n_c > 0) {
-    const StageTimer timer(solution.times, Stage::condense);
-    const OwnerScope scope(MemoryOwner::condensed);
-    condensed.D.resize(n_c, n_c);
-    condensed.G.resize(n_c);
-    const RightHandSides sides = {n_c + 1,
-                                  [&](int k, LaneColumn b) {
-                                    if (k == 0)
-                                      load(b);
-                                    else
-                                      b(n + n_f + k - 1) = 1;
-                                  },
-                                  [&](int k, const LaneColumn& x) {
-                                    if (k == 0)
-                                      condensed.G = x.tail(n_c);
-                                    else
-                                      condensed.D.col(k - 1) = -x.tail(n_c);
-                                  }};
-    all.add(solve_by_symmlq(A, preconditioner, sides, options, control.deadline));
-    condensed.D = ((condensed.D + condensed.D.transpose()) / 2).eval();
-    solution.storage[MemoryOwner::condensed] = condensed.bytes();
-  }
-  solve_condensed_contact(condensed, system.contact, control, solution);
-  const auto solve_one = [&](const std::function<void(LaneColumn)>& make_load) {
-    SaddleVector v;
-    const RightHandSides side = {1, [&](int, LaneColumn b) { make_load(b); },
-                                 [&](int, const LaneColumn& x) {
-                                   v = {x.head(n), x.segment(n, n_f), x.tail(n_c)};
-                                 }};
-    KrylovOptions one = options;
-    one.lanes = 1;
-    try {
-      all.add(solve_by_symmlq(A, preconditioner, side, one, control.deadline));
-    } catch (TimeoutReached& timeout) {
-      timeout.count_before(n_c > 0 ? n_c + 1 : 0);
-      throw;
-    }
-    return v;
-  };
-  SaddleVector answer;
-  {
-    const StageTimer timer(solution.times, Stage::recover);
-    answer = solve_one([&](LaneColumn b) {
-      load(b);
-      if (n_c > 0) b.tail(n_c) += solution.F_C;
-    });
-    const OwnerScope scope(MemoryOwner::answer);
-    solution.phi = airy_function(system, answer.x);
-    solution.stress = stress_of_airy_function(*system.problem, solution.phi);
-  }
-  const auto solve_saddle = [&](SaddleVector& v) {
-    v = solve_one([&](LaneColumn b) {
-      b.head(n) = v.x;
-      b.segment(n, n_f) = v.lambda_F;
-      b.tail(n_c) = v.lambda_C;
-    });
-  };
-  finish_airy_answer(refine, system, condensed.D, solve_saddle, answer, control, solution);
-  note_krylov("SYMMLQ", all, options, control, solution);
-  return solution;
 }
 
 }  // namespace airybench

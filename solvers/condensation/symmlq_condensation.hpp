@@ -12,10 +12,11 @@
 //   blockdiag(S*, C Cᵀ)        sparse: C diag(S)⁻¹ Cᵀ of the equilibrated S
 #pragma once
 
-#include "solvers/condensation/condensation_methods.hpp"
 #include "solvers/krylov/symmlq.hpp"
 
 namespace airybench {
+
+enum class SchurBlock { dense, sparse };
 
 SymmetricOperator saddle_operator(const DualSystem& system);
 // S_star: preconditioner of S. Throws Breakdown when the Schur block is not positive definite.

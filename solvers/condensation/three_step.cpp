@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numeric>
 
+#include "solvers/direct/dense_cholesky.hpp"
+
 namespace airybench {
 
 SparseRows::InnerIterator constraint_row(const DualSystem& system, int k) {
@@ -161,6 +163,21 @@ void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveI
     if (system.n_c() > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
   }
   subtract_multipliers(steps, system, solve, v);
+}
+
+void solve_in_three_steps(const DualSystem& system, const RunControl& control,
+                          const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
+                          Solution& solution) {
+  const ThreeStep steps = run_stage(solution.times, Stage::condense, MemoryOwner::intermediate,
+                                    [&] { return condense_in_three_steps(system, solve_S, keep); });
+  solution.storage[MemoryOwner::intermediate] = steps.bytes();
+  solution.file_bytes = steps.X.bytes() - steps.X.heap_bytes();
+  finish_in_airy_function(
+      system, control, steps.condensed,
+      [&](const Eigen::VectorXd& F_C) {
+        return recover_airy_unknowns(steps, system, F_C, solve_S);
+      },
+      [&](SaddleVector& v) { solve_saddle(steps, system, solve_S, v); }, refine, solution);
 }
 
 }  // namespace airybench

@@ -16,10 +16,8 @@
 #include <optional>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/condensation/column_store.hpp"
-#include "solvers/condensation/condensed.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/condensation/finish.hpp"
 
 namespace airybench {
 
@@ -47,6 +45,11 @@ struct ThreeStep {
 // Throws Breakdown when K_FF or W is not positive definite to rounding.
 ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
                                   const KeepX& keep = {});
+
+// All that follows a factorisation of S, or its preconditioner: condenses, and finishes.
+void solve_in_three_steps(const DualSystem& system, const RunControl& control,
+                          const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
+                          Solution& solution);
 
 // The scaled Airy unknowns and multipliers that belong to contact forces F_C (see DualSystem).
 // `solve` is called once if X was kept nowhere.

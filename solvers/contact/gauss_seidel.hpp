@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/condensation/condensed.hpp"
+#include "solvers/contact/condensed.hpp"
 #include "solvers/solution.hpp"
 
 namespace airybench {

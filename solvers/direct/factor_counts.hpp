@@ -9,6 +9,9 @@
 namespace airybench {
 
 void count_factor(const SkylineFactor& factor, Solution& solution);
+// Makes it, too, in the stages `order` and `factor`.
+SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const RunControl& control,
+                               Solution& solution);
 // After the solves: their workspace stays, and counts.
 void count_factor(const CholmodFactor& factor, Solution& solution);
 void count_factor(const MumpsFactor& factor, Solution& solution);

@@ -15,8 +15,8 @@
 #include <memory>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "support/data_folder.hpp"
 

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "assembly/control_points.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 
@@ -37,8 +36,5 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem);
 // The coefficients of all nodes, in x and y, from the unknowns.
 DisplacementField displacement_field(const QuadraticDisplacements& system,
                                      const Eigen::VectorXd& unknowns);
-
-// The method. Solution::F_C are forces at the control points: not the contact points of `system`.
-Solution solve_quadratic_displacements(const DualSystem& system, const RunControl& control);
 
 }  // namespace airybench

@@ -47,4 +47,27 @@ void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneS
   throw TimeoutReached(message.str(), (finished + digits) / (end_ - begin_), largest);
 }
 
+KrylovOptions krylov_options(const RunControl& control, int lanes) {
+  KrylovOptions options;
+  options.tolerance = control.tolerance;
+  options.lanes = lanes;
+  options.threads = control.threads;
+  return options;
+}
+
+void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
+                 const RunControl& control, Solution& solution) {
+  solution.linear_iterations = summary.iterations;
+  if (control.histories)
+    solution.histories.push_back(
+        {std::string("relative residual of the first right-hand side, ") + solver,
+         summary.history});
+  if (summary.converged) return;
+  std::ostringstream message;
+  message << solver << ": relative residual " << summary.residual << " after "
+          << summary.most_iterations << " iterations (tolerance " << options.tolerance << ")";
+  solution.status = Status::not_converged;
+  solution.message = message.str();
+}
+
 }  // namespace airybench

@@ -50,6 +50,11 @@ struct KrylovSummary {
   void add(const KrylovSummary& other);
 };
 
+KrylovOptions krylov_options(const RunControl& control, int lanes);
+// Iterations, history and, when the tolerance was not met, status and message into the solution.
+void note_krylov(const char* solver, const KrylovSummary& summary, const KrylovOptions& options,
+                 const RunControl& control, Solution& solution);
+
 // Which right-hand side of a range is in which lane.
 class Lanes {
  public:

@@ -42,10 +42,10 @@ IncompleteFactor drop_tolerance_factor(const SparseColumns& lower, double tolera
   return factor;
 }
 
-Preconditioner drop_tolerance_preconditioner(const SparseColumns& lower, double tolerance,
-                                             const Deadline& deadline) {
-  const auto factor =
-      std::make_shared<const IncompleteFactor>(drop_tolerance_factor(lower, tolerance, deadline));
+static Preconditioner drop_tolerance_preconditioner(const SparseColumns& lower, double digits,
+                                                    const Deadline& deadline) {
+  const auto factor = std::make_shared<const IncompleteFactor>(
+      drop_tolerance_factor(lower, std::pow(10.0, -digits), deadline));
   const auto applier = [factor](int) -> Apply {
     return [factor](LaneBlock& X) { solve_in_place(*factor, X); };
   };
@@ -55,6 +55,10 @@ Preconditioner drop_tolerance_preconditioner(const SparseColumns& lower, double 
   result.entries = static_cast<std::int64_t>(factor->entries());
   result.flops = factor->flops;
   return result;
+}
+
+PreconditionerKind drop_tolerance_kind() {
+  return {"DTIC", {"3", "4", "5", "6"}, "DTIC3..DTIC6", {}, drop_tolerance_preconditioner};
 }
 
 }  // namespace airybench

@@ -14,7 +14,5 @@ namespace airybench {
 
 IncompleteFactor drop_tolerance_factor(const SparseColumns& lower, double tolerance,
                                        const Deadline& deadline = {});
-Preconditioner drop_tolerance_preconditioner(const SparseColumns& lower, double tolerance,
-                                             const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -1,12 +1,14 @@
-#include "solvers/preconditioners/exact.hpp"
-
+// SKY: M = S, factorised in skyline storage.
 #include <memory>
 
 #include "solvers/direct/skyline.hpp"
+#include "solvers/preconditioners/preconditioner.hpp"
 
 namespace airybench {
 
-Preconditioner exact_preconditioner(const SparseColumns& lower, const Deadline& deadline) {
+// Throws Breakdown when S is not positive definite.
+static Preconditioner exact_preconditioner(const SparseColumns& lower, double,
+                                           const Deadline& deadline) {
   const auto factor =
       std::make_shared<const SkylineFactor>(factor_ldlt(analyse_skyline(lower), lower, deadline));
   if (!(factor->diagonal.array() > 0).all())
@@ -26,5 +28,7 @@ Preconditioner exact_preconditioner(const SparseColumns& lower, const Deadline& 
   result.workspace_rows = factor->profile.n;
   return result;
 }
+
+PreconditionerKind exact_kind() { return {"SKY", {""}, "SKY", {}, exact_preconditioner}; }
 
 }  // namespace airybench

@@ -99,10 +99,10 @@ FillLevelFactor fill_level_factor(const SparseColumns& lower, int level, const D
   return result;
 }
 
-Preconditioner fill_level_preconditioner(const SparseColumns& lower, int level,
+Preconditioner fill_level_preconditioner(const SparseColumns& lower, double level,
                                          const Deadline& deadline) {
-  const auto made =
-      std::make_shared<const FillLevelFactor>(fill_level_factor(lower, level, deadline));
+  const auto made = std::make_shared<const FillLevelFactor>(
+      fill_level_factor(lower, static_cast<int>(level), deadline));
   const auto applier = [made](int) -> Apply {
     return [made](LaneBlock& X) { solve_in_place(made->factor, X); };
   };
@@ -113,6 +113,10 @@ Preconditioner fill_level_preconditioner(const SparseColumns& lower, int level,
   result.flops = made->factor.flops;
   result.shift = made->shift;
   return result;
+}
+
+PreconditionerKind fill_level_kind() {
+  return {"FLIC", {"1", "2", "3", "4", "5"}, "FLIC1..FLIC5", {}, fill_level_preconditioner};
 }
 
 }  // namespace airybench

@@ -20,7 +20,7 @@ struct FillLevelFactor {
 // Throws Breakdown when no shift up to 1 helps.
 FillLevelFactor fill_level_factor(const SparseColumns& lower, int level,
                                   const Deadline& deadline = {});
-Preconditioner fill_level_preconditioner(const SparseColumns& lower, int level,
+Preconditioner fill_level_preconditioner(const SparseColumns& lower, double level,
                                          const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -34,7 +34,7 @@ void apply(const SparseColumns& lower, double omega, double* x) {
 
 }  // namespace
 
-Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega) {
+Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega, const Deadline&) {
   for (Eigen::Index j = 0; j < lower.cols(); ++j) {
     const int first = lower.outerIndexPtr()[j];
     if (lower.outerIndexPtr()[j + 1] == first || lower.innerIndexPtr()[first] != j ||
@@ -49,6 +49,14 @@ Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega) {
   Preconditioner result;
   result.applier = applier;
   return result;
+}
+
+PreconditionerKind ssor_kind() {
+  return {"SSOR",
+          {"0.25", "0.5", "0.75", "1.0", "1.25", "1.5", "1.75"},
+          "SSOR followed by a number above 0 and below 2",
+          [](double omega) { return omega > 0 && omega < 2; },
+          ssor_preconditioner};
 }
 
 }  // namespace airybench

@@ -11,6 +11,7 @@
 namespace airybench {
 
 // Keeps a reference to `lower`.
-Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega);
+Preconditioner ssor_preconditioner(const SparseColumns& lower, double omega,
+                                   const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -6,9 +6,9 @@
 #include <Eigen/QR>
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "assembly/stress_field.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "assembly/elasticity.hpp"
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench::hct_test {
 namespace {

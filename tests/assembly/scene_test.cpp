@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <sstream>
 
-#include "assembly/mesh_selection.hpp"
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/selection.hpp"
 #include "meshgen/check.hpp"
 #include "meshgen/checksums.hpp"
 #include "meshgen/gmsh_mesher.hpp"

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 #include "meshgen/catalogue.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "support/sha256.hpp"

@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"

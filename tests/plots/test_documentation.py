@@ -1,4 +1,4 @@
-"""README.md and docs/: every relative link leads somewhere.  /usr/bin/python3 -m unittest FILE"""
+"""README.md and docs/: every relative link leads somewhere, quoted files are quoted as they are.  /usr/bin/python3 -m unittest FILE"""
 import re
 import unittest
 from pathlib import Path
@@ -33,11 +33,25 @@ def broken_links(file: Path) -> list[str]:
     return broken
 
 
+QUOTED_FILE = re.compile(r"^<!-- file: (\S+) -->\n```\w*\n(.*?)^```$", re.M | re.S)
+
+
 class DocumentationTest(unittest.TestCase):
     def test_links_lead_somewhere(self) -> None:
         files = [PROJECT / "README.md", *(PROJECT / "docs").glob("*.md"),
                  *(PROJECT / folder / "README.md" for folder in ("plots", "results"))]
         self.assertEqual([], [link for file in files for link in broken_links(file)])
+
+    def test_a_quoted_file_is_quoted_as_it_is(self) -> None:
+        quoted = [(name, code) for file in (PROJECT / "docs").glob("*.md")
+                  for name, code in QUOTED_FILE.findall(file.read_text(encoding="utf-8"))]
+        self.assertEqual(2, len(quoted))
+        for name, code in quoted:
+            self.assertEqual((PROJECT / name).read_text(encoding="utf-8"), code, name)
+
+    def test_the_example_of_a_method_is_short(self) -> None:
+        example = PROJECT / "tests/solvers/example/three_step_simplicial.cpp"
+        self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 40)
 
     def test_the_readme_is_short_enough_to_be_read(self) -> None:
         self.assertLessEqual(len((PROJECT / "README.md").read_text(encoding="utf-8").split()), 1500)

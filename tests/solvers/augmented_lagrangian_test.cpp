@@ -6,7 +6,6 @@
 
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
-#include "solvers/uzawa/alm_methods.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::augmented_lagrangian_test {
@@ -18,6 +17,10 @@ DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6
 
 Solution solve(const char* method, const DualSystem& system, const RunControl& control = {}) {
   return run(select_methods(method).front(), system, control);
+}
+
+Tuning tune(const DualSystem& system, const RunControl& control) {
+  return select_methods("ALM").front().tune(system, control);
 }
 
 RunControl with(double tolerance, Stop stop = Stop::target) {
@@ -157,7 +160,7 @@ TEST(AugmentedLagrangian, TuningTriesTheWholeGridAndTakesTheFewestIterations) {
   for (const Stop stop : {Stop::target, Stop::paper}) {
     RunControl control = with(1e-6, stop);
     control.target_error = 1e-2;  // by its own estimate the error is above the tolerance
-    const Tuning tuning = tune_augmented_lagrangian(system, control);
+    const Tuning tuning = tune(system, control);
     std::set<std::pair<double, double>> points;
     const GridPoint* best = nullptr;
     for (const GridPoint& point : tuning.grid) {
@@ -187,7 +190,7 @@ TEST(AugmentedLagrangian, WhatIsNotFiniteNeitherConvergesNorIsChosen) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     DualSystem system = system_of();
     system.q(3) = poison;
-    EXPECT_THROW(tune_augmented_lagrangian(system, with(1e-6)), Breakdown);
+    EXPECT_THROW(tune(system, with(1e-6)), Breakdown);
     EXPECT_EQ(solve("ALM:r=20,rho=20", system).status, Status::not_converged);
     system = system_of();
     system.S.valuePtr()[5] = poison;

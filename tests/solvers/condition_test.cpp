@@ -6,8 +6,8 @@
 #include <Eigen/QR>
 #include <filesystem>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 

@@ -17,7 +17,7 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/mumps.hpp"
 #include "solvers/direct/skyline.hpp"
-#include "solvers/general_names.hpp"
+#include "solvers/preconditioners/preconditioner.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -361,6 +361,39 @@ TEST(Methods, SelectionByNamesAndGlobs) {
                                 "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
   }
   EXPECT_THROW(select_methods(""), std::invalid_argument);
+}
+
+// What records and figures group methods by.
+TEST(Methods, EachSaysItsFamilyAndItsPreconditioner) {
+  const std::set<std::string> iterative = {"3STEPCG", "ALM", "SYMMLQ"},
+                              direct = {"3STEPD", "BLIND", "HYBRID", "P2"};
+  const std::vector<std::string>& known = preconditioner_names();
+  std::set<std::string> families;
+  for (const Method& method : methods()) {
+    families.insert(method.family);
+    EXPECT_EQ(method.is_iterative(), iterative.contains(method.family)) << method.name;
+    EXPECT_TRUE(method.identity().starts_with(method.family)) << method.name;
+    const bool has_one = method.family == "3STEPCG" || method.family == "SYMMLQ";
+    EXPECT_EQ(std::count(known.begin(), known.end(), method.preconditioner), has_one)
+        << method.name << ": " << method.preconditioner;
+    if (has_one) {
+      EXPECT_EQ(method.identity(), method.family + ":" + method.preconditioner);
+    }
+    EXPECT_EQ(std::count(method.stages.begin(), method.stages.end(), Stage::precondition), has_one)
+        << method.name;
+  }
+  std::set<std::string> all = iterative;
+  all.insert(direct.begin(), direct.end());
+  EXPECT_EQ(families, all);
+}
+
+TEST(Methods, APreconditionerHasOneSpelling) {
+  for (const auto& [name, spelling] : {std::pair{"SYMMLQ:SSOR1", "SSOR1.0"},
+                                       {"SYMMLQ:SSOR1.00,schur=sparse", "SSOR1.0"},
+                                       {"3STEPCG:SSOR.7,lanes=1", "SSOR0.7"},
+                                       {"3STEPCG:DTIC3.0", "DTIC3"},
+                                       {"SSKY", "SKY"}})
+    EXPECT_EQ(select_methods(name).front().preconditioner, spelling) << name;
 }
 
 Method made_up(std::function<Solution(const DualSystem&, const RunControl&)> solve) {

@@ -7,8 +7,8 @@
 #include <map>
 #include <ostream>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"

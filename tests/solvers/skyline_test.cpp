@@ -6,8 +6,8 @@
 #include <random>
 
 #include "assembly/dual_system.hpp"
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::skyline_test {

@@ -5,7 +5,7 @@
 #include <random>
 
 #include "solvers/krylov/symmlq.hpp"
-#include "solvers/preconditioners/identity.hpp"
+#include "solvers/preconditioners/preconditioner.hpp"
 
 namespace airybench::testing {
 
@@ -67,7 +67,7 @@ inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
   return result;
 }
 
-inline Preconditioner no_preconditioner() { return identity_preconditioner({}, {}); }
+inline Preconditioner no_preconditioner() { return preconditioner_named("NONE")({}, {}); }
 
 // ‖R‖_M⁻¹ of every column.
 inline Eigen::VectorXd norms(const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& R) {

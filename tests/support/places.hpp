@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "assembly/msh_format.hpp"
+#include "mesh/msh_format.hpp"
 
 namespace airybench::testing {
 

@@ -1,7 +1,7 @@
 // Meshes made on the spot, so that a test shows what it is about.
 #pragma once
 
-#include "assembly/mesh.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench::testing {
 

@@ -1,9 +1,9 @@
 // The scene files of the stability atlas.
 #include <gtest/gtest.h>
 
-#include "assembly/msh_format.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/judging/reference.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::stability_scenes_test {

@@ -7,12 +7,13 @@
 #include <fstream>
 #include <set>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
-#include "bench/measuring/runner.hpp"
 #include "bench/measuring/workbench.hpp"
-#include "bench/records/record_files.hpp"
+#include "bench/output/record_files.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/records/summary.hpp"
+#include "bench/running/runner.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -115,8 +116,8 @@ TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
   EXPECT_EQ(record.status, Status::not_converged);
   EXPECT_TRUE(is_measured(record));
   EXPECT_EQ(record.samples_s.size(), 1u);
-  ASSERT_TRUE(record.verification);
-  EXPECT_GT(record.verification->error_force.value_or(0), 1e-6);
+  ASSERT_TRUE(is_verified(record));
+  EXPECT_GT(record.error_force.value_or(0), 1e-6);
   EXPECT_EQ(record.uzawa_iterations, first.knob.value);
 
   Record ordinary = record;  // elsewhere what has not converged is no measurement
@@ -127,11 +128,11 @@ TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
 TEST(Study, OutcomesTellWhoKnewWhat) {
   Record record;
   record.status = record.claimed_status.emplace(Status::ok);
-  record.verification.emplace().error_stress = 1e-3;
+  record.error_stress = 1e-3;
   EXPECT_EQ(outcome_of(record), "ok");
   record.status = Status::inaccurate;  // by the verifier, against the method's word
   EXPECT_EQ(outcome_of(record), "wrong_success");
-  record.verification->error_stress.reset();  // there is no reference
+  record.error_stress.reset();  // there is no reference
   EXPECT_EQ(outcome_of(record), "unverified");
   record.claimed_status = Status::inaccurate;
   EXPECT_EQ(outcome_of(record), "inaccurate");

@@ -8,8 +8,10 @@
 #include <set>
 #include <sstream>
 
+#include "bench/exports/csv.hpp"
 #include "bench/exports/google_benchmark.hpp"
 #include "bench/exports/junit.hpp"
+#include "bench/exports/numbers.hpp"
 #include "bench/exports/tracker_formats.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/record.hpp"
@@ -47,9 +49,9 @@ Json record(const std::string& method, const std::vector<double>& samples_s) {
   return json;
 }
 
-std::vector<StoredCase> cases_of(const std::vector<Json>& records) {
-  std::vector<StoredCase> cases;
-  for (const Json& json : records) cases.push_back(stored_case(json, "made up"));
+std::vector<Record> records_of(const std::vector<Json>& records) {
+  std::vector<Record> cases;
+  for (const Json& json : records) cases.push_back(record_of(json, "made up"));
   return cases;
 }
 
@@ -64,7 +66,7 @@ Json awkward_record() {
   return json;
 }
 
-TEST(StoredCase, NamesTellAllCasesOfAMethodApart) {
+TEST(Exports, NamesTellAllCasesOfAMethodApart) {
   std::set<std::string> names;
   for (const Json& change :
        {Json::object(), Json{{"stop", "paper"}}, Json{{"study", "error"}},
@@ -72,7 +74,7 @@ TEST(StoredCase, NamesTellAllCasesOfAMethodApart) {
         Json{{"study", "error"}, {"knob", "uzawa iterations"}, {"knob_value", 10}}}) {
     Json json = record("ALM", {1});
     json.update(change);
-    names.insert(stored_case(json, "made up").name());
+    names.insert(name_of(record_of(json, "made up")).text());
   }
   EXPECT_EQ(names, (std::set<std::string>{"Mesh0/default/ALM", "Mesh0/default/ALM/stop=paper",
                                           "Mesh0/default/ALM/study=error",
@@ -80,38 +82,44 @@ TEST(StoredCase, NamesTellAllCasesOfAMethodApart) {
                                           "Mesh0/default/ALM/study=error/uzawa_iterations=10"}));
 }
 
-TEST(StoredCase, TheIntervalIsTheStoredOneElseTheDeviation) {
+TEST(Exports, TheIntervalIsTheStoredOneElseTheDeviation) {
   Json json = record("HYBRID", {1, 2, 4});
-  StoredCase stored = stored_case(json, "made up");
-  EXPECT_EQ(stored.time_low_s, 1);  // 2 - 1
-  EXPECT_EQ(stored.time_high_s, 3);
+  Record stored = record_of(json, "made up");
+  EXPECT_EQ(time_interval(stored).low, 1);  // 2 - 1
+  EXPECT_EQ(time_interval(stored).high, 3);
   json["time_low_s"] = 1.5;
   json["time_high_s"] = 2.25;
-  stored = stored_case(json, "made up");
-  EXPECT_EQ(stored.time_low_s, 1.5);
-  EXPECT_EQ(stored.time_high_s, 2.25);
+  stored = record_of(json, "made up");
+  EXPECT_EQ(time_interval(stored).low, 1.5);
+  EXPECT_EQ(time_interval(stored).high, 2.25);
 }
 
-TEST(StoredCase, WrongValuesAreNamedWithTheirPlace) {
+TEST(Exports, WrongValuesAreNamedWithTheirPlace) {
   const auto message = [](const char* key, const Json& value) -> std::string {
     Json json = record("HYBRID", {1});
     json[key] = value;
     try {
-      stored_case(json, "records.jsonl:3");
+      record_of(json, "records.jsonl:3");
     } catch (const RecordError& error) {
       return error.what();
     }
     return "accepted";
   };
-  EXPECT_EQ(message("status", 7), "records.jsonl:3: status: 7 (allowed: a text, null)");
-  EXPECT_EQ(message("mesh", nullptr), "records.jsonl:3: mesh: null (allowed: a text)");
-  EXPECT_EQ(message("time_s", "1"), "records.jsonl:3: time_s: \"1\" (allowed: a number, null)");
-  EXPECT_EQ(message("samples_s", {1, "x"}), "records.jsonl:3: samples_s: \"x\" (allowed: numbers)");
-  EXPECT_EQ(message("context", {{"cpu", 1}}), "records.jsonl:3: context.cpu: 1 (allowed: a text)");
+  EXPECT_EQ(
+      message("status", 7),
+      "records.jsonl:3: status: 7 (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
+      "out_of_memory, crashed, skipped)");
+  EXPECT_EQ(message("mesh", nullptr),
+            "records.jsonl:3: mesh: null (allowed: a text that is not empty)");
+  EXPECT_EQ(message("time_s", "1"), "records.jsonl:3: time_s: \"1\" (allowed: a number > 0, null)");
+  EXPECT_EQ(message("samples_s", {1, "x"}),
+            "records.jsonl:3: samples_s: \"x\" (allowed: numbers > 0)");
+  EXPECT_EQ(message("context", {{"cpu", 1}}),
+            "records.jsonl:3: context: {\"cpu\":1} (allowed: an object of texts)");
 }
 
 Json google(const std::vector<Json>& records) {
-  return Json::parse(google_benchmark_json(records));
+  return Json::parse(google_benchmark_json(records_of(records)));
 }
 
 TEST(GoogleBenchmark, ARunPerSampleAndAggregates) {
@@ -164,7 +172,7 @@ TEST(GoogleBenchmark, NoRecordsAreAnEmptyList) { EXPECT_TRUE(google({}).at("benc
 
 TEST(GithubAction, EntriesHaveTheDocumentedFields) {
   const Json entries =
-      Json::parse(github_action_json(cases_of({record("HYBRID", {1, 2, 4}), awkward_record()})));
+      Json::parse(github_action_json(records_of({record("HYBRID", {1, 2, 4}), awkward_record()})));
   ASSERT_EQ(entries.size(), 4u + 3u);  // the second has no time
   std::set<std::string> names;
   for (const Json& entry : entries) {
@@ -186,7 +194,7 @@ TEST(Bencher, MeasuresHaveAValueAndBounds) {
   Json unmeasured = record("3STEPD", {});
   for (const char* key : {"peak_heap_bytes", "error_stress", "error_force"})
     unmeasured[key] = nullptr;
-  const Json all = Json::parse(bencher_json(cases_of({record("HYBRID", {1, 2, 4}), unmeasured})));
+  const Json all = Json::parse(bencher_json(records_of({record("HYBRID", {1, 2, 4}), unmeasured})));
   ASSERT_EQ(all.size(), 1u);
   const Json& measures = all.at("Mesh0/default/HYBRID");
   EXPECT_EQ(measures.at("latency"),
@@ -199,7 +207,7 @@ TEST(Bencher, MeasuresHaveAValueAndBounds) {
 
 TEST(SeriesCsv, ARowPerNumber) {
   EXPECT_EQ(series_csv({}), "date,revision,mesh,scene,method,stop,quantity,value\n");
-  const std::string text = series_csv(cases_of({awkward_record()}));
+  const std::string text = series_csv(records_of({awkward_record()}));
   EXPECT_NE(text.find("\n2026-01-02T03:04:05Z,abc,Mesh0,\"wall, <new>\",\"ALM:r=1,rho=2\",target,"
                       "peak_heap_bytes,1048576\n"),
             std::string::npos)
@@ -216,7 +224,7 @@ TEST(Junit, StatusesBecomeOutcomes) {
     records.back()["status"] = status;
   }
   const TemporaryFolder folder;
-  const fs::path file = write_text(folder / "junit.xml", junit_xml(cases_of(records)));
+  const fs::path file = write_text(folder / "junit.xml", junit_xml(records_of(records)));
   boost::property_tree::ptree document;
   read_xml(file.string(), document);
   const auto& suites = document.get_child("testsuites");
@@ -272,14 +280,19 @@ TEST_F(ExportCommand, TheSeriesOfAHistoryIsInOrderOfDate) {
     const Json json = {{"format", "airybench-night-1"},
                        {"date", date},
                        {"context", {{"git_revision", "r" + std::string(file)}}},
-                       {"cases", {one}}};
+                       {"noise", {{"samples_s", Json::array()}}},
+                       {"cases", {one}},
+                       {"verdicts", Json::array()},
+                       {"failed", false}};
     write_text(folder_ / ("nights/" + std::string(file) + ".json"), json.dump(1));
   };
-  night("a", "2026-01-02", 2);
-  night("b", "2026-01-01", 1);
+  night("a", "2026-01-02T00:00:00Z", 2);
+  night("b", "2026-01-01T00:00:00Z", 1);
   ASSERT_EQ(run(". --format=csv"), 0) << err_;
-  const auto first = out_.find("2026-01-01,rb,Mesh0,default,HYBRID,target,peak_heap_bytes,1\n");
-  const auto second = out_.find("2026-01-02,ra,Mesh0,default,HYBRID,target,peak_heap_bytes,2\n");
+  const auto first =
+      out_.find("2026-01-01T00:00:00Z,rb,Mesh0,default,HYBRID,target,peak_heap_bytes,1\n");
+  const auto second =
+      out_.find("2026-01-02T00:00:00Z,ra,Mesh0,default,HYBRID,target,peak_heap_bytes,2\n");
   EXPECT_LT(first, second);
   EXPECT_NE(second, std::string::npos) << out_;
 }
@@ -295,18 +308,22 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(run(". --format=xml"), 2);
   EXPECT_NE(err_.find("junit"), std::string::npos) << err_;
   write_text(folder_ / "records.jsonl", record("HYBRID", {1}).dump() + "\n{\n");
-  expect_line(". --format=csv",
-              "./records.jsonl:2: not a record (allowed: a JSON object on a line)");
+  expect_line(
+      ". --format=csv",
+      "./records.jsonl:2: not JSON: parse error at line 1, column 2: syntax error while parsing "
+      "object key - unexpected end of input; expected string literal");
   Json wrong = record("HYBRID", {1});
   wrong["status"] = 1;
   write_text(folder_ / "records.jsonl", wrong.dump() + "\n");
-  expect_line(". --format=junit", "./records.jsonl:1: status: 1 (allowed: a text, null)");
+  expect_line(
+      ". --format=junit",
+      "./records.jsonl:1: status: 1 (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
+      "out_of_memory, crashed, skipped)");
   fs::create_directory(folder_ / "nights");
   expect_line(". --format=csv",
               "./nights: no *.json in it (a folder that bench track wrote has them)");
   write_text(folder_ / "nights/a.json", "{\"format\": 1}");
-  expect_line(". --format=csv",
-              "./nights/a.json: not a night (allowed: a JSON object, format airybench-night-1)");
+  expect_line(". --format=csv", "./nights/a.json: format: 1 (allowed: \"airybench-night-1\")");
 }
 
 }  // namespace

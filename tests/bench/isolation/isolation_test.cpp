@@ -9,9 +9,10 @@
 #include <thread>
 
 #include "assembly/scene.hpp"
+#include "bench/heap/heap_probe.hpp"
 #include "bench/isolation/child_process.hpp"
-#include "bench/measuring/heap_probe.hpp"
-#include "bench/measuring/runner.hpp"
+#include "bench/records/summary.hpp"
+#include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -97,7 +98,7 @@ TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
   EXPECT_EQ(record.status, Status::crashed);
   EXPECT_EQ(record.ended_in, "timed run, factor");
   EXPECT_TRUE(record.samples_s.empty());
-  EXPECT_TRUE(record.verification);
+  EXPECT_TRUE(is_verified(record));
 }
 
 TEST_F(Isolation, ExceptionsAreRecorded) {

@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
-#include "bench/records/fields.hpp"
+#include "bench/measuring/field_files.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"

@@ -6,9 +6,9 @@
 #include <map>
 #include <sstream>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "bench/judging/verifier.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <random>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/solution.hpp"
 #include "tests/support/places.hpp"

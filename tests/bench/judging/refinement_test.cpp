@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 
-#include "assembly/msh_format.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/cases/study.hpp"
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 

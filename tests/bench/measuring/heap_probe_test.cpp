@@ -1,4 +1,4 @@
-#include "bench/measuring/heap_probe.hpp"
+#include "bench/heap/heap_probe.hpp"
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -10,11 +10,11 @@
 #include <new>
 #include <thread>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/rss_probe.hpp"
 #include "bench/measuring/workbench.hpp"
+#include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/direct/skyline.hpp"
@@ -268,8 +268,7 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
   auto [record, choice] = bench.examine(method_, {});
   bench.measure_memory(method_, choice, record);
   ASSERT_EQ(record.status, Status::ok) << record.status_reason;
-  const auto least =
-      static_cast<std::int64_t>(record.storage_bytes) + record.blocks_heap_bytes.value();
+  const std::int64_t least = record.storage_bytes.value() + record.blocks_heap_bytes.value();
   EXPECT_GE(record.peak_heap_bytes.value(), least);
   // MUMPS's solves have a buffer of up to 18 MB whatever the system's size is.
   const std::int64_t buffer = method_.name == "BLIND" ? 18'000'000 : 0;

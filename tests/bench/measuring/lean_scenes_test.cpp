@@ -10,7 +10,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/cases/stages.hpp"
-#include "bench/measuring/heap_probe.hpp"
+#include "bench/heap/heap_probe.hpp"
 #include "bench/records/record.hpp"
 #include "solvers/condensation/blind.hpp"
 #include "solvers/condensation/three_step.hpp"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <thread>
 
+#include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/environment.hpp"
-#include "bench/measuring/heap_probe.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/machine_warnings.hpp"
 #include "bench/measuring/noise_kernel.hpp"

@@ -8,9 +8,7 @@
 #include <sstream>
 #include <string>
 
-#include "bench/exports/stored_case.hpp"
-#include "bench/records/record_files.hpp"
-#include "bench/records/record_json.hpp"
+#include "bench/records/record_reader.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
@@ -42,21 +40,18 @@ TEST(CaseName, RefusesWhatIsNone) {
     EXPECT_FALSE(case_name_of(text)) << text;
 }
 
-// Records of a folder, by the reader of runs and the reader of exports.
 TEST(CaseName, OfEveryCommittedRecordGoesAround) {
   std::size_t count = 0;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(testing::results_folder())) {
     if (entry.path().filename() != "records.jsonl") continue;
     std::set<std::string> names;
-    for (const Json& json : read_record_lines(entry.path().parent_path())) {
-      const std::string name = case_name(json);
+    for (const Record& record : read_records(entry.path(), Studies::include)) {
+      const std::string name = name_of(record).text();
       EXPECT_TRUE(names.insert(name).second) << entry.path() << ": " << name << " is there twice";
       const auto read = case_name_of(name);
       ASSERT_TRUE(read) << name;
       EXPECT_EQ(read->text(), name);
-      EXPECT_EQ(name_of(record_from_json(json)).text(), name);
-      EXPECT_EQ(stored_case(json, "record").name(), name);
       ++count;
     }
   }
@@ -93,9 +88,9 @@ TEST(CaseName, IsTheSameInPlanProgressTableRecordsAndFiles) {
   const testing::CommandResult done = bench.run(run + "--fields --out=o");
   std::multiset<std::string> recorded;
   for (const Json& record : bench.records()) {
-    recorded.insert(case_name(record));
-    EXPECT_TRUE(std::filesystem::exists(
-        bench.path("o/fields/" + case_name_of(case_name(record))->file() + ".stress.csv")));
+    const CaseName name = name_of(record_of(record, "record"));
+    recorded.insert(name.text());
+    EXPECT_TRUE(std::filesystem::exists(bench.path("o/fields/" + name.file() + ".stress.csv")));
   }
   EXPECT_EQ(recorded, planned);
   EXPECT_EQ(without_colons(names_in(done.err)), planned) << done.err;
@@ -108,7 +103,7 @@ TEST(CaseName, IsTheSameInPlanProgressTableRecordsAndFiles) {
       << none.err;
   const std::string one = "Mesh0/default/HYBRID/study=error/contact_sweeps=30";
   EXPECT_EQ(bench.run("replay o:" + one + " --out=again").code, 0);
-  EXPECT_EQ(case_name(bench.records("again").front()), one);
+  EXPECT_EQ(name_of(record_of(bench.records("again").front(), "record")).text(), one);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/records/run_identity.hpp"
+#include "bench/records/context.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::journal_test {
@@ -26,10 +26,10 @@ TEST(Journal, KeepsLinesAndDropsAStart) {
 
 TEST(Journal, SaysWhatCannotBeWrittenOrRead) {
   const testing::TemporaryFolder folder;
-  EXPECT_THROW(Journal(folder / "nowhere/j"), OutputError);
-  EXPECT_THROW(read_journal(folder.path()), OutputError);
+  EXPECT_THROW(Journal(folder / "nowhere/j"), FileError);
+  EXPECT_THROW(read_journal(folder.path()), FileError);
   Journal full("/dev/full");
-  EXPECT_THROW(full.append("one"), OutputError);
+  EXPECT_THROW(full.append("one"), FileError);
 }
 
 TEST(RunIdentity, NamesWhatDiffersAndPassesOverTheMoment) {

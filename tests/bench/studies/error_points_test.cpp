@@ -2,10 +2,11 @@
 // may not grow, nor an error.
 #include <fmt/format.h>
 
-#include "assembly/msh_format.hpp"
 #include "assembly/scene.hpp"
 #include "bench/cases/study.hpp"
 #include "bench/measuring/workbench.hpp"
+#include "bench/records/summary.hpp"
+#include "mesh/msh_format.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
 
@@ -28,14 +29,11 @@ std::string text(const std::optional<double>& value) {
 }
 
 // error_force, error_stress, error_total, iterations.
-ExpectedTable::Row values_of(const Record& record) {
+ExpectedTable::Row values_of(Record record) {
+  summarise(record);
   ExpectedTable::Row row;
-  const Columns all = columns(record);
-  for (const char* name : {"error_force", "error_stress", "error_total"}) {
-    const auto column = std::find_if(all.begin(), all.end(),
-                                     [&](const auto& entry) { return entry.first == name; });
-    row.push_back(column->second.is_null() ? "" : text(column->second.get<double>()));
-  }
+  for (const auto& error : {record.error_force, record.error_stress, record.error_total})
+    row.push_back(text(error));
   if (record.uzawa_iterations)
     row.push_back(std::to_string(*record.uzawa_iterations));
   else

@@ -7,8 +7,8 @@
 namespace airybench::compare_test {
 namespace {
 
-CaseRecord record(const std::string& method, double time_s, int repetitions = 9) {
-  CaseRecord result;
+Record record(const std::string& method, double time_s, int repetitions = 9) {
+  Record result;
   result.mesh = "Mesh0";
   result.scene = "default";
   result.method = method;
@@ -22,8 +22,7 @@ TimeVerdict verdict(const Comparison& comparison) { return comparison.cases.at(0
 
 // One case that takes `ratio` times as long while the kernel takes `drift` times as long.
 Comparison compared(double ratio, std::optional<double> drift = {}, int repetitions = 9) {
-  CaseRecord a = record("3STEPD", 1, repetitions),
-             b = record("3STEPD", 1.00001 * ratio, repetitions);
+  Record a = record("3STEPD", 1, repetitions), b = record("3STEPD", 1.00001 * ratio, repetitions);
   if (drift) {
     a.noise_kernel_s = 0.1;
     b.noise_kernel_s = 0.1 * *drift;
@@ -60,9 +59,9 @@ TEST(Compare, SaysWhenNoPCouldBeSmallEnough) {
 }
 
 TEST(Compare, MatchesCasesByAllThatMakesThem) {
-  CaseRecord paper = record("ALM", 1), point = record("ALM", 1), target = record("ALM", 1);
-  paper.stop = "paper";
-  target.stop = "target";
+  Record paper = record("ALM", 1), point = record("ALM", 1), target = record("ALM", 1);
+  paper.stop = Stop::paper;
+  target.stop = Stop::target;
   point.study = "error";
   point.knob = "tolerance";
   point.knob_value = 0.01;
@@ -71,11 +70,11 @@ TEST(Compare, MatchesCasesByAllThatMakesThem) {
   ASSERT_EQ(comparison.cases.size(), 2u);  // without a stop and with the target are one
   EXPECT_EQ(comparison.only_a, std::vector<std::string>{"Mesh0/default/ALM/stop=paper"});
   EXPECT_EQ(comparison.only_b, std::vector<std::string>{"Mesh0/default/P2"});
-  EXPECT_EQ(comparison.cases[1].a.name(), "Mesh0/default/ALM/study=error/tolerance=0.01");
+  EXPECT_EQ(name_of(comparison.cases[1].a).text(), "Mesh0/default/ALM/study=error/tolerance=0.01");
 }
 
 TEST(Compare, ABrokenCaseIsARegressionAndOtherChangesAreNamed) {
-  CaseRecord a = record("ALM", 1), b = record("ALM", 1);
+  Record a = record("ALM", 1), b = record("ALM", 1);
   b.status = Status::inaccurate;
   a.error_force = 1e-7;
   b.error_force = 2e-6;
@@ -92,7 +91,7 @@ TEST(Compare, ABrokenCaseIsARegressionAndOtherChangesAreNamed) {
 }
 
 TEST(Compare, TheGeometricMeanIsOverTheTimedCases) {
-  CaseRecord crashed = record("BLIND", 1);
+  Record crashed = record("BLIND", 1);
   crashed.status = Status::crashed;
   const Comparison comparison = compare({record("ALM", 1), record("P2", 1), crashed},
                                         {record("ALM", 2), record("P2", 0.5), crashed}, {});

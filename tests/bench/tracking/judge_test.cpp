@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "bench/commands/track_command.hpp"
 #include "bench/tracking/judge_counters.hpp"
-#include "bench/tracking/track_command.hpp"
 #include "tests/bench/tracking/synthetic_history.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -15,8 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-CaseRecord record(const std::string& method, double time_s) {
-  CaseRecord result;
+Record record(const std::string& method, double time_s) {
+  Record result;
   result.mesh = "Mesh0";
   result.scene = "default";
   result.method = method;
@@ -32,8 +32,8 @@ CaseRecord record(const std::string& method, double time_s) {
   return result;
 }
 
-Night night(int day, std::vector<CaseRecord> cases) {
-  for (CaseRecord& one : cases)
+Night night(int day, std::vector<Record> cases) {
+  for (Record& one : cases)
     one.context = {{"cpu", "C"},
                    {"cpus", "2"},
                    {"threads", "1"},
@@ -43,8 +43,7 @@ Night night(int day, std::vector<CaseRecord> cases) {
 }
 
 // The findings of a second night with this record after a first one with `before`.
-std::vector<Finding> after(const CaseRecord& before, const CaseRecord& now,
-                           bool* failed = nullptr) {
+std::vector<Finding> after(const Record& before, const Record& now, bool* failed = nullptr) {
   std::vector<Night> history = {night(0, {before}), night(1, {now})};
   judge_newest(history, {});
   if (failed != nullptr) *failed = history.back().failed;
@@ -53,7 +52,7 @@ std::vector<Finding> after(const CaseRecord& before, const CaseRecord& now,
 
 struct Change {
   const char* what;
-  void (*change)(CaseRecord& record);
+  void (*change)(Record& record);
   const char* quantity;  // nullptr: no finding
   Lane lane;
   Kind kind;
@@ -61,7 +60,7 @@ struct Change {
 class CounterLane : public ::testing::TestWithParam<Change> {};
 
 TEST_P(CounterLane, Judges) {
-  CaseRecord now = record("ALM", 1);
+  Record now = record("ALM", 1);
   GetParam().change(now);
   bool failed = false;
   const std::vector<Finding> findings = after(record("ALM", 1), now, &failed);
@@ -79,30 +78,30 @@ TEST_P(CounterLane, Judges) {
 
 INSTANTIATE_TEST_SUITE_P(
     Changes, CounterLane,
-    ::testing::Values(Change{"none", [](CaseRecord&) {}, nullptr, Lane::status, Kind::changed},
-                      Change{"status", [](CaseRecord& r) { r.status = Status::timeout; }, "status",
+    ::testing::Values(Change{"none", [](Record&) {}, nullptr, Lane::status, Kind::changed},
+                      Change{"status", [](Record& r) { r.status = Status::timeout; }, "status",
                              Lane::status, Kind::worse},
-                      Change{"more", [](CaseRecord& r) { r.linear_iterations = 101; },
+                      Change{"more", [](Record& r) { r.linear_iterations = 101; },
                              "linear_iterations", Lane::counters, Kind::worse},
-                      Change{"fewer", [](CaseRecord& r) { r.linear_iterations = 99; },
+                      Change{"fewer", [](Record& r) { r.linear_iterations = 99; },
                              "linear_iterations", Lane::counters, Kind::better},
-                      Change{"allocations", [](CaseRecord& r) { r.heap_allocations = 51; },
+                      Change{"allocations", [](Record& r) { r.heap_allocations = 51; },
                              "heap_allocations", Lane::counters, Kind::worse},
-                      Change{"rounded_blocks", [](CaseRecord& r) { r.peak_heap_bytes = 1000900; },
+                      Change{"rounded_blocks", [](Record& r) { r.peak_heap_bytes = 1000900; },
                              nullptr, Lane::counters, Kind::changed},
-                      Change{"heap", [](CaseRecord& r) { r.peak_heap_bytes = 1001100; },
+                      Change{"heap", [](Record& r) { r.peak_heap_bytes = 1001100; },
                              "peak_heap_bytes", Lane::counters, Kind::worse},
-                      Change{"unknown", [](CaseRecord& r) { r.linear_iterations.reset(); }, nullptr,
+                      Change{"unknown", [](Record& r) { r.linear_iterations.reset(); }, nullptr,
                              Lane::counters, Kind::changed},
-                      Change{"error", [](CaseRecord& r) { r.error_force = 1.02e-7; }, "error_force",
+                      Change{"error", [](Record& r) { r.error_force = 1.02e-7; }, "error_force",
                              Lane::errors, Kind::worse},
-                      Change{"small", [](CaseRecord& r) { r.error_force = 1.009e-7; }, nullptr,
+                      Change{"small", [](Record& r) { r.error_force = 1.009e-7; }, nullptr,
                              Lane::errors, Kind::worse},
-                      Change{"rounding", [](CaseRecord& r) { r.error_stress = 9e-12; }, nullptr,
+                      Change{"rounding", [](Record& r) { r.error_stress = 9e-12; }, nullptr,
                              Lane::errors, Kind::worse},
-                      Change{"smaller", [](CaseRecord& r) { r.error_force = 0.9e-7; },
-                             "error_force", Lane::errors, Kind::better},
-                      Change{"answer", [](CaseRecord& r) { r.answer_hash = "abd"; }, "answer_hash",
+                      Change{"smaller", [](Record& r) { r.error_force = 0.9e-7; }, "error_force",
+                             Lane::errors, Kind::better},
+                      Change{"answer", [](Record& r) { r.answer_hash = "abd"; }, "answer_hash",
                              Lane::errors, Kind::changed}),
     [](const auto& parameter) { return std::string(parameter.param.what); });
 
@@ -113,7 +112,7 @@ TEST(Judge, ErrorsAtRoundingMayGrow) {
 }
 
 TEST(Judge, HeapFiguresStartAgainWithOtherLibraries) {
-  CaseRecord more = record("ALM", 1);
+  Record more = record("ALM", 1);
   more.heap_allocations = 500;
   std::vector<Night> history = {night(0, {record("ALM", 1)}), night(1, {more})};
   history[1].context["compiler"] = "GNU 14";
@@ -125,7 +124,7 @@ TEST(Judge, HeapFiguresStartAgainWithOtherLibraries) {
 }
 
 TEST(Judge, AnotherMachineIsNotCompared) {
-  CaseRecord more = record("ALM", 1);
+  Record more = record("ALM", 1);
   more.linear_iterations = 500;
   std::vector<Night> history = {night(0, {record("ALM", 1)}), night(1, {more})};
   history[1].context["cpu"] = "D";
@@ -141,7 +140,7 @@ TEST(Judge, ACaseThatIsLeftOutIsNamed) {
   ASSERT_EQ(history[1].findings.size(), 1u);
   EXPECT_EQ(history[1].findings[0].after, "not run");
   EXPECT_FALSE(history[1].failed);
-  CaseRecord back = record("P2", 1);  // compared with the last night that has it
+  Record back = record("P2", 1);  // compared with the last night that has it
   back.linear_iterations = 101;
   history.push_back(night(2, {record("ALM", 1), back}));
   judge_newest(history, {});
@@ -154,7 +153,7 @@ TEST(Judge, ASlowdownIsReportedOnceWithItsFirstNight) {
   std::vector<Night> history;
   int reports = 0;
   for (int day = 0; day < 40; ++day) {
-    std::vector<CaseRecord> cases;
+    std::vector<Record> cases;
     for (int c = 0; c < 8; ++c) {
       const bool slow = c == 3 && day >= 25;
       cases.push_back(

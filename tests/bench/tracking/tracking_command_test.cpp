@@ -62,7 +62,7 @@ TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
 
 TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
   write_run("a", 1, "2026-11-21T03:00:00Z");
-  expect_refused("compare a none", "none/records.jsonl: cannot be opened");
+  expect_refused("compare a none", "none/records.jsonl: no such file");
   expect_refused("compare a", "B");
   expect_refused("compare a a --out=c.txt", "allowed: a name that ends in .md or .json");
   expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
@@ -117,7 +117,7 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   write_run("a", 1, "yesterday");
   expect_refused("track --history=h --judge-only", "h: no nights");
   expect_refused("track --history=h --from=a", "a/records.jsonl:1: context: date: \"yesterday\"");
-  expect_refused("track --history=h --from=none", "none/records.jsonl: cannot be opened");
+  expect_refused("track --history=h --from=none", "none/records.jsonl: no such file");
   expect_refused("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
   expect_refused("track --history=h --out=x", "--out: not with bench track");
   EXPECT_FALSE(fs::exists(folder_ / "h"));

@@ -1,0 +1,44 @@
+// What a run is told: the command line of `bench`, see bench/commands/command_options.hpp.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/cases/plan.hpp"
+#include "bench/cases/study.hpp"
+#include "solvers/solution.hpp"
+
+namespace airybench {
+
+struct Options {
+  std::string meshes = "Mesh0..Mesh3";
+  std::string methods;                        // empty: all the paper's
+  std::vector<std::filesystem::path> scenes;  // empty: the default scene
+  std::filesystem::path out = "results/latest";
+  std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods
+  Study study = Study::none;
+  double target_error = 1e-6;
+  Stop stop = Stop::target;
+  bool append = false;      // keep the records that are in the folder
+  bool resume = false;      // and run only the cases that have none
+  Shard shard;              // the part of the plan that is run
+  bool interleave = false;  // repetitions of a scene's cases in random turn
+  int repetitions = 5;
+  int threads = 1;
+  double timeout_s = 900;                          // per solve
+  double long_case_s = 30;                         // a longer solve is measured once
+  std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
+  std::string then;                                // a command for the shell, after the run
+  bool fields = false;                             // write stresses and contact points
+  bool histories = false;                          // keep iteration histories in records.jsonl
+  bool list = false, dry_run = false, explain = false;
+  // What came after "--" for Google Benchmark:
+  std::string filter;                              // --benchmark_filter=, selects cases
+  std::map<std::string, std::string> own_context;  // --benchmark_context=, for the records
+};
+
+}  // namespace airybench

@@ -1,0 +1,184 @@
+#include "bench/commands/command_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "bench/commands/command_line.hpp"
+#include "bench/measuring/build_info.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* run_footer = R"(
+Other commands (each has --help)
+  bench claims DIR       the paper's sentences, checked against a results folder
+  bench compare A B      two runs, case by case: faster, slower, or not separated
+  bench track            a night's run, added to a history and judged
+  bench export DIR       records for Google Benchmark's tools, trackers, JUnit
+  bench merge DIR...     the shards of a run, joined
+  bench replay RECORD    one recorded case, run again
+
+Everything after "--" goes to Google Benchmark.
+
+Exit status  0  every case is ok, or skipped with a reason
+             1  some case is not
+             2  wrong usage, or a file that cannot be used or written: one line on standard error
+         128+n  ended by signal n (Ctrl-C: 130); what was measured is in the folder
+
+Examples
+  bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
+  bench --figure=3 --out=results/figure3
+  bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
+  bench --study=stability --out=results/stability
+  bench --mesh=Mesh0..Mesh7 --out=results/night --resume
+  bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
+  bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
+)";
+
+// What Google Benchmark is told. Its filter and context are ours to keep: the cases that are run
+// and the records must show them.
+void take_benchmark_argument(const std::string& argument, Options& options) {
+  const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
+    if (!argument.starts_with(option)) return {};
+    return argument.substr(option.size());
+  };
+  if (const auto filter = value_of("--benchmark_filter=")) {
+    options.filter = *filter;
+  } else if (const auto pair = value_of("--benchmark_context=")) {
+    const std::size_t equals = pair->find('=');
+    if (equals == pair->npos || equals == 0)
+      throw UsageError(fmt::format("-- {}: (allowed: --benchmark_context=key=value)", argument));
+    options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
+  } else if (argument.starts_with("--benchmark_enable_random_interleaving")) {
+    options.interleave = !argument.ends_with("=false") && !argument.ends_with("=0");
+  } else {
+    throw UsageError(
+        fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
+                    "--benchmark_enable_random_interleaving=, --benchmark_context=)",
+                    argument));
+  }
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  CLI::App app(
+      "Time, memory and error of methods for stress-formulated contact with friction, for every "
+      "mesh, scene and method chosen.",
+      "bench");
+  app.footer(run_footer);
+  app.set_version_flag("--version", std::string("airybench ") + build_info.version);
+  std::int64_t limit_MiB = 0;
+  app.add_option("--mesh", options.meshes,
+                 "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files")
+      ->capture_default_str();
+  app.add_option("--method", options.methods,
+                 "names or globs, separated by commas; default: all the paper's methods");
+  app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
+      ->delimiter(',');
+  app.add_option(
+         "--figure", options.figure,
+         "the cases of the paper's figure 3, 4 or 5, and those that we set beside them (4 and 5 "
+         "are the same)")
+      ->check(CLI::IsMember({3, 4, 5}))
+      ->excludes(app.get_option("--mesh"))
+      ->excludes(app.get_option("--method"));
+  std::string study;
+  app.add_option("--study", study,
+                 "error (every method over its accuracy knob: what each digit costs) or stability "
+                 "(every method on the extreme scenes of bench/scenes/stability)")
+      ->check(CLI::IsMember({"error", "stability"}))
+      ->excludes(app.get_option("--figure"));
+  app.add_option("--target-error", options.target_error,
+                 "every iterative method is tightened until its errors and residuals are below "
+                 "this; a case that stays above is `inaccurate`")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  std::string stop = "target";
+  app.add_option("--stop", stop,
+                 "when iterative methods stop: target (see --target-error), or paper (the paper's "
+                 "own stops, whatever error they leave)")
+      ->check(CLI::IsMember({"target", "paper"}))
+      ->capture_default_str();
+  app.add_option("--repetitions", options.repetitions, "timed runs of each case")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of BLAS and for right-hand sides")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--timeout", options.timeout_s,
+                 "seconds that one solve may take; one that does not end by itself is ended")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option(
+         "--long-case", options.long_case_s,
+         "seconds: a longer solve is measured once, and repetitions end when they add up to this")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  auto* limit = app.add_option("--memory-limit", limit_MiB,
+                               "MiB of heap that one solve may use, its blocks included")
+                    ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
+  app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_option("--then", options.then,
+                 "a command for the shell after the run; the output folder becomes its last "
+                 "argument, its exit status does not matter");
+  app.add_flag("--append", options.append,
+               "keep the records in the folder, but those of the cases that are run");
+  app.add_flag("--resume", options.resume,
+               "go on with the run in the folder: only the cases that have no record are run; the "
+               "records must be of this machine, program and options")
+      ->excludes(app.get_option("--append"));
+  std::string shard;
+  app.add_option("--shard", shard,
+                 "k/n: the k-th of n parts of the cases, for n machines (bench merge joins them)");
+  app.add_flag("--interleave", options.interleave,
+               "the repetitions of a scene's cases in random turn, so that the machine's moods "
+               "fall on all alike; their records are written when all have theirs");
+  app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
+  app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
+  app.add_flag("--list", options.list, "print meshes and methods, and end");
+  app.add_flag("--dry-run", options.dry_run,
+               "print the cases, what they will take (from earlier records) and what is left out, "
+               "and end");
+  app.add_flag("--explain", options.explain,
+               "print each case's stages, those left out and why, and end");
+
+  int own = argc;
+  for (int i = 1; i < argc; ++i)
+    if (std::strcmp(argv[i], "--") == 0) {
+      own = i;
+      for (int k = i + 1; k < argc; ++k) take_benchmark_argument(argv[k], options);
+      break;
+    }
+  parse_command_line(app, own, argv);
+  if (!(options.timeout_s > 0 && options.timeout_s <= 1e9))
+    throw UsageError(fmt::format("--timeout: {} (allowed: above 0, up to 1e9)", options.timeout_s));
+  if (!(options.long_case_s > 0 && options.long_case_s <= 1e9))
+    throw UsageError(
+        fmt::format("--long-case: {} (allowed: above 0, up to 1e9)", options.long_case_s));
+  if (!(options.target_error > 0 && options.target_error <= 1e9))
+    throw UsageError(
+        fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
+  if (!shard.empty()) {
+    const std::optional<Shard> part = shard_of(shard);
+    if (!part) throw UsageError(fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shard));
+    options.shard = *part;
+  }
+  if (stop == "paper") options.stop = Stop::paper;
+  if (study == "error") options.study = Study::error;
+  if (study == "stability") options.study = Study::stability;
+  if (options.study == Study::error && options.stop == Stop::paper)
+    throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
+  if (options.study == Study::stability) {
+    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0";
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
+    options.repetitions = 1;
+  }
+  if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
+  return options;
+}
+
+}  // namespace airybench

@@ -1,0 +1,11 @@
+// The command line of a run.
+#pragma once
+
+#include "bench/cases/options.hpp"
+
+namespace airybench {
+
+// Throws UsageError, HelpRequested.
+Options parse_options(int argc, const char* const* argv);
+
+}  // namespace airybench

@@ -1,0 +1,191 @@
+#include "bench/commands/replay_command.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "bench/cases/mesh_files.hpp"
+#include "bench/cases/plan.hpp"
+#include "bench/cases/scene_file.hpp"
+#include "bench/commands/command_line.hpp"
+#include "bench/isolation/isolated_scene.hpp"
+#include "bench/measuring/environment.hpp"
+#include "bench/output/record_files.hpp"
+#include "bench/running/runner.hpp"
+#include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
+#include "support/sha256.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* replay_footer = R"(
+RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD. The mesh must be the
+file that the record was measured on, and this program the one that measured it.
+
+Exit status  0  the same status, iterations and contact states as recorded
+             1  something of these is another
+             2  wrong usage, another mesh, another program: one line on standard error
+)";
+
+struct ReplayOptions {
+  std::string record;
+  std::filesystem::path out = "results/replay";
+  bool other_program = false;
+};
+
+ReplayOptions parse_replay(int argc, const char* const* argv) {
+  ReplayOptions options;
+  CLI::App app("Runs one recorded case again, as it was run then.", "bench replay");
+  app.footer(replay_footer);
+  app.add_option("RECORD", options.record, "which")->required();
+  app.add_option("--out", options.out, "folder of the new record")->capture_default_str();
+  app.add_flag("--other-program", options.other_program,
+               "although program, machine or settings are not the record's");
+  parse_command_line(app, argc, argv);
+  return options;
+}
+
+Record find_record(const std::string& name) {
+  const std::size_t colon = name.find(':');
+  if (colon == name.npos)
+    throw UsageError(fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", name));
+  const std::string folder = name.substr(0, colon), which = name.substr(colon + 1);
+  const std::vector<RecordLine> lines = lines_in(folder);
+  std::size_t line = 0;
+  const auto [end, error] = std::from_chars(which.data(), which.data() + which.size(), line);
+  if (error == std::errc() && end == which.data() + which.size()) {
+    if (line < 1 || line > lines.size())
+      throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, line, lines.size()));
+    return lines[line - 1].record;
+  }
+  if (!case_name_of(which))
+    throw UsageError(fmt::format(
+        "{}: '{}' is no case's name (allowed: MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE]"
+        "[/stop=paper], or a line's number)",
+        name, which));
+  for (const RecordLine& one : lines)
+    if (name_of(one.record).text() == which) return one.record;
+  throw UsageError(fmt::format("{}: no such case (the first is {})", name,
+                               lines.empty() ? "missing" : name_of(lines.front().record).text()));
+}
+
+double setting(const Context& context, const std::string& key, double otherwise) {
+  const auto found = context.find(key);
+  return found == context.end() ? otherwise : std::atof(found->second.c_str());
+}
+
+Options options_of(const Record& record, const Context& context, std::filesystem::path out) {
+  Options options;
+  options.out = std::move(out);
+  options.threads = static_cast<int>(record.threads.value_or(1));
+  options.target_error = record.target_error.value_or(options.target_error);
+  if (record.study == name_of(Study::error))
+    options.study = Study::error;  // whose points have stops of their own
+  else
+    options.stop = record.stop;
+  if (record.study == name_of(Study::stability)) options.study = Study::stability;
+  options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
+  const auto interleaved = context.find("interleaved");
+  options.interleave = interleaved != context.end() && interleaved->second == "yes";
+  options.timeout_s = setting(context, "timeout_s", options.timeout_s);
+  options.long_case_s = setting(context, "long_case_s", options.long_case_s);
+  if (const double limit = setting(context, "memory_limit_bytes", 0); limit > 0)
+    options.memory_limit_bytes = static_cast<std::int64_t>(limit);
+  return options;
+}
+
+MeshFile mesh_of(const Record& record) {
+  const std::filesystem::path recorded = record.mesh_file;
+  const std::filesystem::path file = recorded.is_absolute() && std::filesystem::exists(recorded)
+                                         ? recorded
+                                         : mesh_directory() / (record.mesh + ".msh");
+  MeshFile mesh = std::move(read_meshes(file.string()).front());
+  if (mesh.sha256 != record.mesh_sha256)
+    throw FileError(fmt::format("{}: is not the mesh of the record: its SHA-256 is {}, not {}",
+                                file.string(), mesh.sha256, record.mesh_sha256));
+  return mesh;
+}
+
+Case case_of(const Record& record, const Options& options) {
+  MeshFile mesh = mesh_of(record);
+  const std::string definition = json_text(record.scene_definition);
+  PosedScene posed{record.scene, record.scene_group, record.mesh_file,
+                   mesh.sha256,  definition,         nullptr};
+  Scene scene;
+  if (definition != "{}") {
+    const auto file = options.out / (record.scene + ".json");
+    make_folder(options.out);
+    write_file_atomically(file, definition + "\n");
+    scene = read_scene(file);
+  }
+  posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
+  const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop);
+  for (const Case& c : plan)
+    if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop)
+      return c;
+  throw FileError(fmt::format("{}: this program has no such point of the study", record.method));
+}
+
+std::string text_of(const Record& record, const char* key) {
+  const Json value = field_named(key).value(record);
+  if (value.is_null()) return "-";
+  if (value.is_number_float()) return fmt::format("{:.4g}", value.get<double>());
+  return value.is_string() ? value.get<std::string>() : json_text(value);
+}
+
+// What must be the same, and what may differ.
+constexpr std::array<const char*, 8> exact = {"status",
+                                              "linear_iterations",
+                                              "contact_iterations",
+                                              "uzawa_iterations",
+                                              "parameters",
+                                              "n_open",
+                                              "n_stick",
+                                              "n_slip"};
+constexpr std::array<const char*, 4> measured = {"time_s", "peak_heap_bytes", "error_stress",
+                                                 "error_force"};
+
+}  // namespace
+
+int replay_command(int argc, const char* const* argv) {
+  const ReplayOptions asked = parse_replay(argc, argv);
+  const Record record = find_record(asked.record);
+  const Context& recorded = record.context;
+  const Options options = options_of(record, recorded, asked.out);
+  set_threads(options.threads);
+  Context context = context_of_run(options);
+  for (const auto& [key, value] : recorded)  // what that run said of itself
+    if (context.count(key) == 0) context[key] = value;
+  const std::filesystem::path folder = asked.record.substr(0, asked.record.find(':'));
+  std::error_code error;
+  if (std::filesystem::equivalent(folder, asked.out, error))
+    throw UsageError(
+        fmt::format("--out: {} (allowed: another folder than the record's)", asked.out.string()));
+  if (record.scene_definition.is_null() && record.scene != Scene().name)
+    throw FileError(
+        fmt::format("{}: does not say what its scene {} is", asked.record, record.scene));
+  const std::string differs = differences(recorded, context, Sameness::same_program);
+  if (!differs.empty() && !asked.other_program)
+    throw FileError(
+        fmt::format("{}: was not measured by this program, or not so (recorded and "
+                    "now): {} (--other-program runs it all the same)",
+                    asked.record, differs));
+  const Case planned = case_of(record, options);
+  catch_interrupts();
+  const RunResult result = run_cases({planned}, options, context);
+  const Record& now = result.records.front();
+  bool same = true;
+  fmt::print("{:<20}  {:>14}  {:>14}\n", name_of(record).text(), "recorded", "now");
+  for (const char* key : measured)
+    fmt::print("{:<20}  {:>14}  {:>14}\n", key, text_of(record, key), text_of(now, key));
+  for (const char* key : exact) {
+    const std::string before = text_of(record, key), after = text_of(now, key);
+    same = same && before == after;
+    fmt::print("{:<20}  {:>14}  {:>14}{}\n", key, before, after,
+               before == after ? "" : "  differs");
+  }
+  return same ? all_ok : some_case_failed;
+}
+
+}  // namespace airybench

@@ -1,0 +1,198 @@
+#include "bench/commands/run_command.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <sstream>
+
+#include "bench/cases/blank_record.hpp"
+#include "bench/cases/mesh_files.hpp"
+#include "bench/cases/plan.hpp"
+#include "bench/cases/scene_file.hpp"
+#include "bench/cases/stages.hpp"
+#include "bench/commands/command_options.hpp"
+#include "bench/forecast/prediction.hpp"
+#include "bench/isolation/isolated_scene.hpp"
+#include "bench/measuring/environment.hpp"
+#include "bench/measuring/machine_warnings.hpp"
+#include "bench/measuring/noise_kernel.hpp"
+#include "bench/records/json.hpp"
+#include "bench/running/progress.hpp"
+#include "bench/running/runner.hpp"
+#include "mesh/selection.hpp"
+#include "solvers/methods.hpp"
+#include "support/data_folder.hpp"
+#include "support/file_text.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+namespace {
+
+// The paper shows SYMMLQ and says that the other is alike; both are run.
+constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
+
+void print_list() {
+  fmt::print("meshes ({}):\n", mesh_directory().string());
+  for (const std::string_view name : catalogue_mesh_names) fmt::print("  {}\n", name);
+  fmt::print("methods (* of the paper, run by default):\n");
+  for (const Method& method : methods()) {
+    const std::string same =
+        method.general_name.empty() ? "" : fmt::format(" (= {})", method.general_name);
+    fmt::print("  {}{:<16}  {}{}\n", method.in_paper ? "*" : " ", method.name, method.summary,
+               same);
+  }
+  fmt::print(
+      "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
+      "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
+      "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE\n");
+}
+
+// The scene file as it is, on a line.
+std::string definition_of(const Scene& scene) {
+  if (scene.source == Scene().source) return "{}";
+  return json_text(parse_json(file_text(scene.source)));
+}
+
+// How a record names the mesh's file: one of the catalogue's by its name alone.
+std::string recorded_path(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored)
+             ? file.filename().string()
+             : std::filesystem::absolute(file).string();
+}
+
+std::vector<PosedScene> pose_all(const Options& options) {
+  std::vector<Scene> scenes;
+  const bool atlas = options.study == Study::stability && options.scenes.empty();
+  for (const auto& file : atlas ? stability_scenes() : options.scenes) {
+    scenes.push_back(read_scene(file));
+    for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
+      if (scenes[i].name == scenes.back().name)
+        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scenes[i].name,
+                                     scenes[i].source, scenes.back().source));
+  }
+  if (scenes.empty()) scenes.emplace_back();
+  std::vector<PosedScene> posed;
+  for (const MeshFile& file : read_meshes(options.meshes))
+    for (const Scene& scene : scenes)
+      posed.push_back({scene.name, scene.group, recorded_path(file.path), file.sha256,
+                       definition_of(scene),
+                       std::make_shared<const Problem>(pose(scene, file.mesh))});
+  return posed;
+}
+
+void print_stages(const std::vector<Case>& plan) {
+  for (const Case& c : plan) {
+    const MeshSizes sizes = solved_sizes(*c.posed.problem);
+    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", c.number, plan.size(), c.name().text(),
+               sizes.n_phi, sizes.n_f, sizes.n_c);
+    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
+      fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
+                 decision.run ? "" : ": ", decision.reason);
+  }
+}
+
+void print_left_out(const std::vector<Case>& plan, const Options& options) {
+  std::map<std::pair<std::string, std::string>, int> cases_without;  // stage, reason
+  for (const Case& c : plan)
+    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, options.fields))
+      if (!decision.run) ++cases_without[{decision.stage, decision.reason}];
+  fmt::print("left out:\n");
+  for (const auto& [what, count] : cases_without)
+    fmt::print("  {:<36} {} (in {} of {} cases)\n", what.first, what.second, count, plan.size());
+}
+
+void print_prediction(const std::vector<Case>& plan, const Options& options) {
+  std::vector<Record> planned;
+  for (const Case& c : plan) planned.push_back(blank_record(c, options));
+  const std::filesystem::path committed = data_folder("results");
+  const PastRecords past = read_past_records(
+      {committed / "paper", committed / "direct", committed / "stability", options.out});
+  for (const std::string& why : past.passed_over) fmt::print(stderr, "{}\n", why);
+  const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
+                            options.memory_limit_bytes, options.study == Study::stability};
+  fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
+  print_left_out(plan, options);
+}
+
+void print_warnings(const Context& context, const RunResult& result, const Options& options) {
+  std::vector<double> noise;
+  for (const Record& record : result.records)
+    noise.insert(noise.end(), record.noise_kernel_samples_s.begin(),
+                 record.noise_kernel_samples_s.end());
+  const std::optional<double> spread =
+      noise.empty() ? std::nullopt : std::optional(summarise_noise(noise).spread());
+  for (const std::string& warning :
+       machine_warnings(machine_state(context, options.repetitions, spread)))
+    fmt::print("note: {}\n", warning);
+}
+
+void run_after(const Options& options) {
+  std::string folder;
+  for (const char c : options.out.string()) folder += c == '\'' ? "'\\''" : std::string(1, c);
+  std::fflush(stdout);
+  if (std::system(fmt::format("{} '{}'", options.then, folder).c_str()) != 0)
+    fmt::print(stderr, "note: --then: {}: failed\n", options.then);
+}
+
+// The cases of the command line, before they are shared out.
+std::vector<Case> plan_of(const Options& options) {
+  const std::vector<Method> selected =
+      select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
+  std::vector<Case> plan = plan_cases(pose_all(options), selected, options.study, options.stop);
+  if (!options.filter.empty()) plan = matching(plan, options.filter);
+  if (plan.empty()) throw UsageError("no case is left: the arguments after -- select none");
+  return plan;
+}
+
+std::string times_line(const RunTimes& times) {
+  const auto percent = [&](double part) { return 100 * part / times.wall_s; };
+  return fmt::format(
+      "{}: {:.1f} % in solves, {:.1f} % assembly and references, {:.1f} % judging, {:.1f} % "
+      "harness",
+      show_duration(times.wall_s), percent(times.runs_s), percent(times.preparation_s),
+      percent(times.judging_s), percent(times.harness_s()));
+}
+
+}  // namespace
+
+int run_command(int argc, const char* const* argv) {
+  Options options = parse_options(argc, argv);
+  if (options.figure) {
+    options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
+    options.methods = *options.figure == 3 ? figure_3_methods : default_methods(Study::none);
+  }
+  if (options.list) {
+    print_list();
+    return all_ok;
+  }
+  const std::vector<Case> whole = plan_of(options);
+  const std::vector<Case> plan = part_of(whole, options.shard);
+  if (plan.empty())
+    throw UsageError(
+        fmt::format("--shard: {} (there are {} cases)", name_of(options.shard), whole.size()));
+  if (options.explain) print_stages(plan);
+  if (options.dry_run) print_prediction(plan, options);
+  if (options.explain || options.dry_run) return all_ok;
+  set_threads(options.threads);
+  catch_interrupts();
+  Context context = context_of_run(options);
+  context["cases_planned"] = std::to_string(whole.size());
+  context["plan_sha256"] = fingerprint(whole);
+  const RunResult result = run_cases(plan, options, context);
+  fmt::print("\n{}\n", results_table(result.records));
+  if (result.earlier > 0)
+    fmt::print("{} of these {} records were there already{}\n", result.earlier,
+               result.records.size(),
+               result.torn ? ", and the start of another, which was run again" : "");
+  if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
+  print_warnings(context, result, options);
+  fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
+  if (!options.then.empty()) run_after(options);
+  for (const Record& record : result.records)
+    if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
+  return all_ok;
+}
+
+}  // namespace airybench

@@ -1,0 +1,166 @@
+#include "bench/commands/track_command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "bench/cases/options.hpp"
+#include "bench/commands/command_line.hpp"
+#include "bench/commands/run_command.hpp"
+#include "bench/tracking/judge.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* track_footer = R"(
+Every other option is one of a run (bench --help). Without them the nightly selection is measured:
+  --mesh=Mesh0..Mesh2 --repetitions=9
+  --method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6
+
+Judged are  status, counters   any worsening against the last night of the same machine
+            errors             growth by more than 1 % and by more than 1e-11
+            times              changes of level over the nights of the same machine, reported once,
+                               with the first night of the new level
+
+Exit status  0  nothing is worse
+             1  something is
+             2  wrong usage, or a file that cannot be used or written: one line on standard error
+
+Examples
+  bench track --history=results/history
+  bench track --history=results/history --from=results/latest
+)";
+
+// Options of a run that a night has no use for, or that are its own.
+constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
+                                "--help", "--dry-run", "--explain"};
+
+struct TrackOptions {
+  fs::path history = "results/history";
+  fs::path from;  // empty: run
+  bool judge_only = false;
+  double minimum_effect_percent = 5;
+  int least_nights_after = TimeRules{}.least_nights_after;
+  std::vector<std::string> run;  // arguments of the run
+};
+
+bool is_option(const std::string& argument, const std::string& name) {
+  return argument == name || argument.starts_with(name + "=");
+}
+
+TrackOptions parse_track(int argc, const char* const* argv) {
+  TrackOptions options;
+  CLI::App app("Measures a nightly selection, adds it to a history, and says what has changed.",
+               "bench track");
+  app.footer(track_footer);
+  app.allow_extras();
+  app.add_option("--history", options.history, "folder of the history")->capture_default_str();
+  auto* from = app.add_option("--from", options.from,
+                              "add the records of this results folder instead of running");
+  app.add_flag("--judge-only", options.judge_only, "judge the newest night again")->excludes(from);
+  app.add_option("--minimum-effect", options.minimum_effect_percent,
+                 "per cent: smaller changes of a time are no change")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  app.add_option("--nights-after", options.least_nights_after,
+                 "nights after a change of a time that confirm it")
+      ->check(CLI::Range(2, 30))
+      ->capture_default_str();
+  // What comes after "--" goes on to the run as it is.
+  const char* const* const end = argv + argc;
+  const char* const* const separator = std::find_if(
+      argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
+  parse_command_line(app, static_cast<int>(separator - argv), argv);
+  options.run = app.remaining();
+  for (const std::string& argument : options.run)
+    for (const char* name : refused)
+      if (is_option(argument, name))
+        throw UsageError(fmt::format("{}: not with bench track (its runs go to {})", name,
+                                     (options.history / "latest").string()));
+  options.run.insert(options.run.end(), separator, end);
+  if ((options.judge_only || !options.from.empty()) && !options.run.empty())
+    throw UsageError(fmt::format("{}: not with {}, which does not run", options.run.front(),
+                                 options.judge_only ? "--judge-only" : "--from"));
+  return options;
+}
+
+void run_night(const TrackOptions& options) {
+  const std::vector<std::string> arguments =
+      nightly_arguments(options.run, (options.history / "latest").string());
+  std::vector<const char*> argv = {"bench"};
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  run_command(static_cast<int>(argv.size()), argv.data());  // a case that is not ok is judged below
+}
+
+Night measured_night(const TrackOptions& options) {
+  if (options.from.empty()) run_night(options);
+  const fs::path folder = options.from.empty() ? options.history / "latest" : options.from;
+  const fs::path records = folder / "records.jsonl";
+  return night_of(read_records(records), records.string());
+}
+
+// Judges the last night, and writes it.
+bool judge_and_print(std::vector<Night>& history, const TrackOptions& options) {
+  TimeRules rules;
+  rules.minimum_effect = options.minimum_effect_percent / 100;
+  rules.least_nights_after = static_cast<std::size_t>(options.least_nights_after);
+  judge_newest(history, rules);
+  const Night& night = history.back();
+  write_night(night);
+  const auto of_machine = static_cast<std::size_t>(
+      std::count_if(history.begin(), history.end(),
+                    [&](const Night& other) { return other.machine() == night.machine(); }));
+  fmt::print("{}: {} cases, night {} of this machine ({})\n", night.file.string(),
+             night.cases.size(), of_machine, night.machine());
+  if (!night.times_judged)
+    fmt::print("times are judged from night {} on\n", nights_to_judge_times(rules));
+  for (const Kind kind : {Kind::worse, Kind::better, Kind::changed})
+    for (const Finding& finding : night.findings)
+      if (finding.kind == kind) fmt::print("{:<7}  {}\n", name_of(kind), finding.sentence);
+  fmt::print("{}\n", night.failed ? "failed: something is worse" : "nothing is worse");
+  return night.failed;
+}
+
+}  // namespace
+
+std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
+                                           const std::string& out) {
+  const auto has = [&](const char* name) {
+    return std::any_of(own.begin(), own.end(),
+                       [&](const std::string& argument) { return is_option(argument, name); });
+  };
+  std::vector<std::string> arguments = {"--out=" + out};
+  if (!has("--mesh") && !has("--figure")) arguments.emplace_back("--mesh=Mesh0..Mesh2");
+  if (!has("--method") && !has("--figure"))
+    arguments.emplace_back(
+        "--method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6");
+  if (!has("--repetitions")) arguments.emplace_back("--repetitions=9");
+  if (!has("--interleave")) arguments.emplace_back("--interleave");
+  arguments.insert(arguments.end(), own.begin(), own.end());
+  return arguments;
+}
+
+int track_command(int argc, const char* const* argv) {
+  const TrackOptions options = parse_track(argc, argv);
+  std::vector<Night> history = read_history(options.history);  // before hours are spent on a run
+  if (options.judge_only) {
+    if (history.empty())
+      throw UsageError(fmt::format("{}: no nights (bench track without --judge-only adds one)",
+                                   options.history.string()));
+    return judge_and_print(history, options) ? 1 : 0;
+  }
+  Night night = measured_night(options);
+  night.file = file_for(night, options.history, history);
+  // An older run may be added later: it is judged from what was before it.
+  std::erase_if(history, [&](const Night& other) { return other.date > night.date; });
+  history.push_back(std::move(night));
+  return judge_and_print(history, options) ? 1 : 0;
+}
+
+}  // namespace airybench

@@ -1,0 +1,50 @@
+#include "bench/exports/csv.hpp"
+
+#include <fmt/format.h>
+
+#include "bench/exports/numbers.hpp"
+
+namespace airybench {
+namespace {
+
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return json_text(value);
+  std::string text = value.get<std::string>();
+  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+}  // namespace
+
+std::string csv_text(const std::vector<Record>& records) {
+  const std::vector<const Field*> columns = fields_with(column);
+  std::string text;
+  for (const Field* field : columns) text += (text.empty() ? "" : ",") + std::string(field->name);
+  text += "\n";
+  for (const Record& record : records) {
+    std::string separator;
+    for (const Field* field : columns)
+      text += std::exchange(separator, ",") + cell(field->value(record));
+    text += "\n";
+  }
+  return text;
+}
+
+std::string series_csv(const std::vector<Record>& records) {
+  std::string text = "date,revision,mesh,scene,method,stop,quantity,value\n";
+  for (const Record& record : records) {
+    std::string row;
+    for (const std::string& word :
+         {context_word(record, "date"), context_word(record, "git_revision"), record.mesh,
+          record.scene, variant_of(record), std::string(name_of(record.stop))})
+      row += cell(word) + ",";
+    for (const auto& [name, value] : numbers_of(record))
+      text += fmt::format("{}{},{}\n", row, name, value);
+  }
+  return text;
+}
+
+}  // namespace airybench

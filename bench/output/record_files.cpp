@@ -1,0 +1,111 @@
+#include "bench/output/record_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "bench/exports/csv.hpp"
+#include "bench/exports/google_benchmark.hpp"
+#include "support/atomic_file.hpp"
+
+namespace airybench {
+namespace {
+
+std::string text_of(const std::vector<RecordLine>& lines) {
+  std::string text;
+  for (const RecordLine& line : lines) {
+    text += json_text(line.json);
+    text += '\n';
+  }
+  return text;
+}
+
+// To keep a folder's files in step, what belongs to other records goes first.
+void remove_summaries(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* stale : {"results.csv", "results.json"})
+    std::filesystem::remove(folder / stale, ignored);
+}
+
+void write_summaries(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
+  std::vector<Record> records;
+  for (const RecordLine& line : lines) records.push_back(line.record);
+  write_file_atomically(folder / "results.csv", csv_text(records));
+  write_file_atomically(folder / "results.json", google_benchmark_json(records));
+}
+
+}  // namespace
+
+std::vector<RecordLine> lines_in(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "records.jsonl";
+  if (!std::filesystem::exists(file))
+    throw FileError(file.string() + ": no such file (a folder that bench --out wrote has it)");
+  return std::move(read_record_lines(file).lines);
+}
+
+void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
+  make_folder(folder);
+  remove_summaries(folder);
+  write_file_atomically(folder / "records.jsonl", text_of(lines));
+  write_summaries(folder, lines);
+}
+
+RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep keep)
+    : folder_(std::move(folder)), context_(std::move(context)), keep_(keep) {
+  make_folder(folder_);
+  for (const char* name : {"records.jsonl", "results.csv", "results.json"})
+    if (std::filesystem::is_directory(folder_ / name))
+      throw FileError(fmt::format("{}: is a folder", (folder_ / name).string()));
+  if (keep_ == Keep::none) return;
+  RecordLines there = read_record_lines(records_file());
+  lines_ = std::move(there.lines);
+  torn_ = there.torn;
+  if (keep_ == Keep::finished)
+    for (const RecordLine& line : lines_) {
+      const std::string differs =
+          differences(line.record.context, context_, Sameness::same_program);
+      if (!differs.empty())
+        throw FileError(fmt::format("{}: of another run, which does not mix with this one: {}",
+                                    line.place, differs));
+    }
+  if (torn_) rewrite();
+}
+
+std::optional<Record> RecordFiles::finished(const Record& blank) const {
+  if (keep_ != Keep::finished) return {};
+  const std::string name = name_of(blank).text();
+  for (const RecordLine& line : lines_) {
+    if (name_of(line.record).text() != name) continue;
+    for (const char* key : {"mesh_sha256", "scene_definition"})
+      if (field_named(key).value(line.record) != field_named(key).value(blank))
+        throw FileError(fmt::format("{}: {}: another than now, for {}", line.place, key, name));
+    return line.record;
+  }
+  return {};
+}
+
+void RecordFiles::rewrite() {
+  journal_ = Journal();
+  remove_summaries(folder_);
+  write_file_atomically(records_file(), text_of(lines_));
+  journal_ = Journal(records_file());
+}
+
+void RecordFiles::append(Record record) {
+  record.context = context_;
+  const std::string name = name_of(record).text();
+  const auto replaced = std::erase_if(
+      lines_, [&](const RecordLine& line) { return name_of(line.record).text() == name; });
+  if (!journal_.is_open() || replaced > 0) rewrite();
+  Json json = to_json(record);
+  journal_.append(json_text(json));
+  lines_.push_back({"", std::move(json), std::move(record)});
+}
+
+void RecordFiles::finish() const {
+  if (keep_ == Keep::none && lines_.empty()) return;  // an earlier run's files stay
+  write_summaries(folder_, lines_);
+}
+
+}  // namespace airybench

@@ -1,0 +1,60 @@
+// The output folder: records.jsonl (a line per case, on disk before the next case starts),
+// results.csv (the flat view) and results.json (Google Benchmark's schema), both written at the
+// end, fields/ (on request).
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/records/context.hpp"
+#include "bench/records/journal.hpp"
+#include "bench/records/record_reader.hpp"
+
+namespace airybench {
+
+// What becomes of the records that a folder has.
+enum class Keep {
+  none,      // they go when the first of this run comes
+  others,    // only those of the same cases go, whatever they were measured with
+  finished,  // all stay, and must be of the same machine, program and settings as this run
+};
+
+class RecordFiles {
+ public:
+  // Makes the folder. Throws FileError: the folder, records to keep that cannot be read or, with
+  // Keep::finished, are of another run.
+  RecordFiles(std::filesystem::path folder, Context context, Keep keep);
+
+  // With Keep::finished: the record of this case, if there is one. Throws FileError when its mesh
+  // or scene was another.
+  std::optional<Record> finished(const Record& blank) const;
+
+  // One line, on disk when it returns, with the run's context; throws FileError.
+  void append(Record record);
+  // results.csv and results.json, of all records of the folder.
+  void finish() const;
+
+  bool was_torn() const { return torn_; }  // a line was half written, and is dropped
+
+ private:
+  std::filesystem::path records_file() const { return folder_ / "records.jsonl"; }
+  void rewrite();  // all records, whole
+
+  std::filesystem::path folder_;
+  Context context_;
+  Keep keep_;
+  std::vector<RecordLine> lines_;  // those of the folder
+  bool torn_ = false;
+  Journal journal_;
+};
+
+// The lines of a folder's records.jsonl. Throws FileError, also where there is none.
+std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
+
+// records.jsonl, results.csv and results.json of these; each file whole or not at all.
+void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines);
+
+}  // namespace airybench

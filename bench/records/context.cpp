@@ -1,0 +1,39 @@
+#include "bench/records/context.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+namespace airybench {
+namespace {
+
+// What may differ: when and where, and with how much beside it.
+const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host", "shard"};
+
+constexpr int most_named = 6;
+
+std::string value_of(const Context& context, const std::string& key) {
+  const auto found = context.find(key);
+  return found == context.end() ? "(not said)" : found->second;
+}
+
+}  // namespace
+
+std::string differences(const Context& a, const Context& b, Sameness sameness) {
+  std::set<std::string> keys;
+  for (const Context* context : {&a, &b})
+    for (const auto& [key, value] : *context) keys.insert(key);
+  const bool clean = value_of(a, "git_dirty") == "no" && value_of(b, "git_dirty") == "no";
+  std::string text;
+  int count = 0;
+  for (const std::string& key : keys) {
+    if (of_the_moment.count(key) > 0) continue;
+    if (key == "program_sha256" && sameness == Sameness::same_sources && clean) continue;
+    const std::string first = value_of(a, key), second = value_of(b, key);
+    if (first != second && ++count <= most_named)
+      text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", key, first, second);
+  }
+  return count > most_named ? fmt::format("{}; and {} more", text, count - most_named) : text;
+}
+
+}  // namespace airybench

@@ -1,0 +1,218 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bench/records/record.hpp"
+
+namespace airybench {
+namespace {
+
+// To JSON.
+
+Json json_of(const std::string& text) { return text.empty() ? Json() : Json(text); }
+Json json_of(bool flag) { return flag; }
+Json json_of(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+Json json_of(std::int64_t count) { return count; }
+Json json_of(Status status) { return name_of(status); }
+Json json_of(Stop stop) { return name_of(stop); }
+Json json_of(const Json& json) { return json; }
+template <typename T>
+Json json_of(const std::optional<T>& value) {
+  return value ? json_of(*value) : Json();
+}
+template <typename T>
+Json json_of(const std::vector<T>& list) {
+  return list;
+}
+Json json_of(const std::map<std::string, std::string>& words) { return words; }
+
+template <auto member>
+Json value_of(const Record& record) {
+  return json_of(record.*member);
+}
+
+// And back.
+
+struct Place {
+  const std::string& place;
+  const char* key;
+  [[noreturn]] void fail(const Json& value, const std::string& allowed) const {
+    throw RecordError(
+        fmt::format("{}: {}: {} (allowed: {})", place, key, json_text(value), allowed));
+  }
+};
+
+void read(field_kind::word, const Json& value, const Place& at, std::string& word) {
+  if (!value.is_string() || value.get_ref<const std::string&>().empty())
+    at.fail(value, "a text that is not empty");
+  word = value.get<std::string>();
+}
+
+void read(field_kind::text, const Json& value, const Place& at, std::string& text) {
+  if (value.is_null()) return;
+  if (!value.is_string()) at.fail(value, "a text, null");
+  text = value.get<std::string>();
+}
+
+void read(field_kind::flag, const Json& value, const Place& at, bool& flag) {
+  if (value.is_null()) return;
+  if (!value.is_boolean()) at.fail(value, "true, false, null");
+  flag = value.get<bool>();
+}
+
+void read(field_kind::count, const Json& value, const Place& at,
+          std::optional<std::int64_t>& count) {
+  constexpr double most = std::int64_t{1} << 60;
+  if (value.is_null()) return;
+  const double number = value.is_number() ? value.get<double>() : -1;
+  if (!(number >= 0 && number <= most && number == std::floor(number)))
+    at.fail(value, "a whole number from 0 to 2^60, null");
+  count = value.get<std::int64_t>();
+}
+
+void read_number(const Json& value, const Place& at, bool (*is_allowed)(double),
+                 const char* allowed, std::optional<double>& number) {
+  if (value.is_null()) return;
+  if (!value.is_number() || !is_allowed(value.get<double>())) at.fail(value, allowed);
+  number = value.get<double>();
+}
+void read(field_kind::number, const Json& value, const Place& at, std::optional<double>& number) {
+  read_number(
+      value, at, [](double) { return true; }, "a number, null", number);
+}
+void read(field_kind::amount, const Json& value, const Place& at, std::optional<double>& amount) {
+  read_number(
+      value, at, [](double x) { return x >= 0; }, "a number >= 0, null", amount);
+}
+void read(field_kind::time, const Json& value, const Place& at, std::optional<double>& time) {
+  read_number(
+      value, at, [](double x) { return x > 0; }, "a number > 0, null", time);
+}
+void read(field_kind::fraction, const Json& value, const Place& at, std::optional<double>& part) {
+  read_number(
+      value, at, [](double x) { return x >= 0 && x <= 1; }, "a number from 0 to 1, null", part);
+}
+
+template <typename Word>
+Word word_of(const Json& value, const Place& at, std::optional<Word> (*named)(std::string_view),
+             const std::string& allowed) {
+  const std::optional<Word> word =
+      value.is_string() ? named(value.get_ref<const std::string&>()) : std::nullopt;
+  if (!word) at.fail(value, allowed);
+  return *word;
+}
+
+void read(field_kind::status, const Json& value, const Place& at, Status& status) {
+  std::string allowed;
+  for (const Status one : all_statuses)
+    allowed += (allowed.empty() ? "" : ", ") + std::string(name_of(one));
+  status = word_of(value, at, &status_of, allowed);
+}
+
+void read(field_kind::claim, const Json& value, const Place& at, std::optional<Status>& claim) {
+  if (!value.is_null()) read(field_kind::status(), value, at, claim.emplace());
+}
+
+void read(field_kind::stop, const Json& value, const Place& at, Stop& stop) {
+  if (!value.is_null()) stop = word_of(value, at, &stop_of, "target, paper, null");
+}
+
+void read(field_kind::times, const Json& value, const Place& at, std::vector<double>& times) {
+  if (value.is_null()) return;
+  if (!value.is_array()) at.fail(value, "a list of numbers > 0");
+  for (const Json& time : value)
+    if (!time.is_number() || !(time.get<double>() > 0)) at.fail(time, "numbers > 0");
+  times = value.get<std::vector<double>>();
+}
+
+// What nlohmann's conversion accepts.
+template <typename T>
+void read_whole(const Json& value, const Place& at, const char* allowed, T& whole) {
+  if (value.is_null()) return;
+  try {
+    whole = value.get<T>();
+  } catch (const Json::exception&) {
+    at.fail(value, allowed);
+  }
+}
+void read(field_kind::stage_times, const Json& value, const Place& at,
+          std::vector<std::map<std::string, double>>& times) {
+  read_whole(value, at, "a list of objects of numbers", times);
+}
+void read(field_kind::words, const Json& value, const Place& at, std::vector<std::string>& words) {
+  read_whole(value, at, "a list of texts", words);
+}
+void read(field_kind::words_by_word, const Json& value, const Place& at,
+          std::map<std::string, std::string>& words) {
+  read_whole(value, at, "an object of texts", words);
+}
+void read(field_kind::json, const Json& value, const Place&, Json& json) { json = value; }
+
+template <typename Kind, auto member>
+void read_member(const Json& value, const std::string& place, const char* key, Record& record) {
+  read(Kind(), value, {place, key}, record.*member);
+}
+
+}  // namespace
+
+const std::vector<Field>& record_fields() {
+  static const std::vector<Field> fields = {
+#define FIELD(kind, name, unit, use, label, meaning) \
+  {#name,                                            \
+   unit,                                             \
+   use,                                              \
+   label,                                            \
+   meaning,                                          \
+   value_of<&Record::name>,                          \
+   [](Record& record) { record.name = {}; },         \
+   read_member<field_kind::kind, &Record::name>},
+#include "bench/records/record_fields.def"
+  };
+  return fields;
+}
+
+const Field& field_named(const std::string& name) {
+  const auto found = std::find_if(record_fields().begin(), record_fields().end(),
+                                  [&](const Field& field) { return field.name == name; });
+  if (found == record_fields().end()) throw std::out_of_range("no field is named " + name);
+  return *found;
+}
+
+std::vector<const Field*> fields_with(unsigned uses) {
+  std::vector<const Field*> result;
+  for (const Field& field : record_fields())
+    if ((field.use & uses) == uses) result.push_back(&field);
+  return result;
+}
+
+std::optional<double> number_in(const Record& record, const Field& field) {
+  const Json value = field.value(record);
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
+
+Json to_json(const Record& record) { return to_json(record, stored); }
+
+Json to_json(const Record& record, unsigned uses) {
+  Json json = Json::object();
+  for (const Field* field : fields_with(uses)) json[field->name] = field->value(record);
+  return json;
+}
+
+Record record_of(const Json& json, const std::string& place) {
+  if (!json.is_object())
+    throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place, json_text(json)));
+  static const Json null;
+  Record record;
+  for (const Field& field : record_fields()) {
+    const auto found = json.find(field.name);
+    field.read(found == json.end() ? null : *found, place, field.name, record);
+  }
+  if (record.general_name.empty()) record.general_name = record.method;
+  if (record.family.empty())
+    record.family = record.general_name.substr(0, record.general_name.find(':'));
+  return record;
+}
+
+}  // namespace airybench

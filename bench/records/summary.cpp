@@ -1,0 +1,85 @@
+#include "bench/records/summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/statistics/bootstrap.hpp"
+#include "bench/statistics/robust.hpp"
+
+namespace airybench {
+namespace {
+
+std::optional<double> median_of(const std::vector<double>& samples) {
+  const double value = median(samples);
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+void summarise_times(Record& r) {
+  const std::vector<double>& samples = r.samples_s;
+  r.repetitions = static_cast<std::int64_t>(samples.size());
+  r.time_s = median_of(samples);
+  r.time_min_s.reset();
+  r.time_mad_s.reset();
+  if (!samples.empty()) {
+    r.time_min_s = *std::min_element(samples.begin(), samples.end());
+    r.time_mad_s = median_absolute_deviation(samples);
+  }
+  const Interval interval = samples.size() > 1 ? bootstrap_median(samples) : Interval{};
+  r.time_low_s = interval.low > 0 ? std::optional(interval.low) : std::nullopt;
+  r.time_high_s = interval.low > 0 ? std::optional(interval.high) : std::nullopt;
+  r.assembly_s = median_of(r.assembly_samples_s);
+  r.noise_kernel_s = median_of(r.noise_kernel_samples_s);
+}
+
+// A stage's median is over the runs that have it.
+void summarise_stages(Record& r) {
+  std::map<std::string, std::vector<double>> times_of;
+  for (const auto& run : r.stage_samples)
+    for (const auto& [stage, seconds] : run) times_of[column_of_stage(stage)].push_back(seconds);
+  for (const Field* field : fields_with(column)) {
+    if (!std::string_view(field->name).starts_with("stage_")) continue;
+    field->clear(r);
+    if (const auto found = times_of.find(field->name); found != times_of.end())
+      field->read(median(found->second), "a stage's median", field->name, r);
+  }
+}
+
+void summarise_grid(Record& r) {
+  if (r.grid.empty()) return;
+  std::vector<double> iterations;
+  r.grid_failures = 0;
+  for (const Json& point : r.grid) {
+    const auto count = point.at("iterations").get<std::int64_t>();
+    if (point.at("outcome") == "diverged")
+      ++*r.grid_failures;
+    else if (count > 0)
+      iterations.push_back(static_cast<double>(count));
+    if (point.at("outcome") == "converged")
+      r.grid_best = std::min(r.grid_best.value_or(count), count);
+  }
+  if (iterations.empty()) return;
+  r.grid_median = static_cast<std::int64_t>(median(iterations));
+  r.grid_worst = static_cast<std::int64_t>(*std::max_element(iterations.begin(), iterations.end()));
+}
+
+}  // namespace
+
+std::string outcome_of(const Record& r) {
+  if (r.status == Status::inaccurate && r.claimed_status == Status::ok)
+    return r.error_stress ? "wrong_success" : "unverified";
+  return std::string(name_of(r.status));
+}
+
+std::string column_of_stage(const std::string& stage) { return "stage_" + stage + "_s"; }
+
+void summarise(Record& r) {
+  summarise_times(r);
+  summarise_stages(r);
+  summarise_grid(r);
+  r.outcome = outcome_of(r);
+  // A displacement method has no algebraic error against the reference.
+  if (r.error_discretisation && is_verified(r))
+    r.error_total = *r.error_discretisation + r.error_stress.value_or(0);
+}
+
+}  // namespace airybench

@@ -1,0 +1,49 @@
+#include "bench/running/progress.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/seconds_since.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+
+std::string results_table(const std::vector<Record>& records) {
+  const std::vector<std::string> header = {"case", "n_phi",        "time",        "±",
+                                           "heap", "error stress", "error force", "status"};
+  std::vector<std::vector<std::string>> rows = {header};
+  for (const Record& r : records)
+    rows.push_back({name_of(r).text(), fmt::format("{}", r.n_phi.value_or(0)),
+                    show_seconds(r.time_s), r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s),
+                    show_bytes(r.peak_heap_bytes), show_error(r.error_stress),
+                    show_error(r.error_force), std::string(name_of(r.status))});
+  std::string table = aligned_table(rows, 1);
+  for (const Record& r : records)
+    if (r.status != Status::ok)
+      table += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
+  return table;
+}
+
+namespace {
+
+double cost(std::int64_t n_phi) { return std::pow(static_cast<double>(n_phi), 1.7); }
+
+}  // namespace
+
+Progress::Progress(std::vector<std::int64_t> n_phi_of_cases) : cases_(n_phi_of_cases.size()) {
+  for (const std::int64_t n_phi : n_phi_of_cases) total_ += cost(n_phi);
+}
+
+std::string Progress::line(const Record& r) {
+  done_ += cost(r.n_phi.value_or(0));
+  const double elapsed = seconds_since(start_);
+  return fmt::format("[{}/{}] {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n", ++ended_,
+                     cases_, name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
+                     show_bytes(r.peak_heap_bytes), show_error(r.error_force),
+                     show_duration(elapsed),
+                     show_duration(elapsed * std::max(0.0, total_ - done_) / done_));
+}
+
+}  // namespace airybench

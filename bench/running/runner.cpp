@@ -1,0 +1,205 @@
+#include "bench/running/runner.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "bench/cases/blank_record.hpp"
+#include "bench/isolation/isolated_scene.hpp"
+#include "bench/measuring/noise_kernel.hpp"
+#include "bench/output/record_files.hpp"
+#include "bench/records/summary.hpp"
+#include "bench/running/progress.hpp"
+#include "support/seconds_since.hpp"
+
+namespace airybench {
+namespace {
+
+// The cases of one scene. Google Benchmark calls measure() once per repetition and the reporter
+// when a case has all of its own.
+class SceneRunner {
+ public:
+  SceneRunner(const std::vector<const Case*>& cases, const Options& options, RecordFiles& files,
+              Progress& progress)
+      : cases_(cases), options_(options), files_(files), progress_(progress) {
+    records_.resize(cases.size());
+  }
+
+  void measure(std::size_t k, benchmark::State& state) {
+    throw_if_interrupted();
+    const auto start = std::chrono::steady_clock::now();
+    if (!records_[k]) {
+      note_noise(noise_before_[k]);
+      records_[k] = scene_.examine(k);
+    }
+    Record& record = *records_[k];
+    for (auto _ : state) {
+      if (!is_measured(record)) {
+        state.SkipWithError(
+            fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
+        break;
+      }
+      state.SetIterationTime(next_sample(k, record, state));
+    }
+    wall_s_[k] += seconds_since(start);
+  }
+
+  void finish(const std::string& case_name) {
+    const std::size_t k = index_of(case_name);
+    Record& record = *records_[k];
+    scene_.end(k);
+    record.noise_kernel_samples_s = noise_before_[k];
+    note_noise(record.noise_kernel_samples_s);
+    record.wall_s = wall_s_[k];
+    summarise(record);
+    finished_.insert(k);
+    if (!options_.interleave) write(record);
+  }
+
+  // Interleaved cases end in random order, but all at about the same time: their records are kept
+  // in the plan's.
+  void finish_interleaved() {
+    if (!options_.interleave) return;
+    for (const std::size_t k : finished_) write(*records_[k]);
+  }
+
+  std::vector<Record> records() const {
+    std::vector<Record> result;
+    for (const std::size_t k : finished_) result.push_back(*records_[k]);
+    return result;
+  }
+  double preparation_s() const { return scene_.preparation_s(); }
+
+ private:
+  void write(const Record& record) {
+    files_.append(record);
+    std::cerr << progress_.line(record) << std::flush;
+  }
+  // The time of one repetition. A long case has its only one from its detail run.
+  double next_sample(std::size_t k, Record& record, benchmark::State& state) {
+    const double so_far = std::accumulate(record.samples_s.begin(), record.samples_s.end(), 0.0);
+    if (record.samples_s.empty() || (!record.measured_once && so_far < options_.long_case_s)) {
+      const TimedRun run = scene_.measure_time(k);
+      add_run(run, record);
+      return run.time_s;
+    }
+    const bool first = record.measured_once && shown_once_.insert(k).second;
+    if (!first) state.SkipWithError("not repeated: a long case");
+    return record.samples_s.back();
+  }
+  static void note_noise(std::vector<double>& samples) {
+    for (int i = 0; i < 3; ++i) samples.push_back(run_noise_kernel());
+  }
+  std::size_t index_of(const std::string& case_name) const {
+    for (std::size_t k = 0; k < cases_.size(); ++k)
+      if (cases_[k]->name().text() == case_name) return k;
+    throw std::logic_error("no case is named " + case_name);
+  }
+
+  const std::vector<const Case*>& cases_;
+  const Options& options_;
+  RecordFiles& files_;
+  Progress& progress_;
+  IsolatedScene scene_{cases_, options_};
+  std::vector<std::optional<Record>> records_;
+  std::map<std::size_t, std::vector<double>> noise_before_;
+  std::map<std::size_t, double> wall_s_;
+  std::set<std::size_t> finished_;
+  std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
+};
+
+class Reporter : public benchmark::BenchmarkReporter {
+ public:
+  explicit Reporter(SceneRunner& run) : run_(run) {}
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    if (!runs.empty() && runs.front().run_type == Run::RT_Iteration)
+      run_.finish(runs.front().run_name.function_name);
+  }
+
+ private:
+  SceneRunner& run_;
+};
+
+void initialize_benchmark(const Options& options) {
+  static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
+  arguments = {"bench"};
+  if (options.interleave) arguments.push_back("--benchmark_enable_random_interleaving=true");
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+}
+
+void run_scene(const std::vector<const Case*>& cases, const Options& options, SceneRunner& run) {
+  for (std::size_t k = 0; k < cases.size(); ++k)
+    benchmark::RegisterBenchmark(cases[k]->name().text().c_str(),
+                                 [&run, k](benchmark::State& state) { run.measure(k, state); })
+        ->UseManualTime()
+        ->Iterations(1)
+        ->Repetitions(options.repetitions)
+        ->Unit(benchmark::kMillisecond);
+  Reporter reporter(run);
+  try {
+    benchmark::RunSpecifiedBenchmarks(&reporter);
+  } catch (...) {
+    benchmark::ClearRegisteredBenchmarks();
+    throw;
+  }
+  benchmark::ClearRegisteredBenchmarks();
+}
+
+}  // namespace
+
+RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context) {
+  const auto start = std::chrono::steady_clock::now();
+  initialize_benchmark(options);
+  const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
+  RecordFiles files(options.out, context, keep);
+  RunResult result;
+  result.torn = files.was_torn();
+  std::map<std::int64_t, Record> records;  // by the case's number
+  std::vector<std::vector<const Case*>> scenes;
+  std::vector<std::int64_t> n_phi;
+  for (const Case& c : plan) {
+    const Record blank = blank_record(c, options);
+    if (auto earlier = files.finished(blank)) {
+      records[c.number] = std::move(*earlier);
+      ++result.earlier;
+      continue;
+    }
+    if (scenes.empty() || scenes.back().front()->posed.problem != c.posed.problem)
+      scenes.emplace_back();
+    scenes.back().push_back(&c);
+    n_phi.push_back(blank.n_phi.value_or(0));
+  }
+  Progress progress(std::move(n_phi));
+  for (const auto& cases : scenes) {
+    SceneRunner run(cases, options, files, progress);
+    try {
+      run_scene(cases, options, run);
+      run.finish_interleaved();
+    } catch (const Interrupted&) {
+      files.finish();
+      throw;
+    }
+    for (Record& record : run.records()) {
+      result.times.runs_s += record.runs_s.value_or(0);
+      result.times.judging_s += record.wall_s.value_or(0) - record.runs_s.value_or(0);
+      records[record.case_number.value_or(0)] = std::move(record);
+    }
+    result.times.preparation_s += run.preparation_s();
+  }
+  files.finish();
+  for (auto& [number, record] : records) result.records.push_back(std::move(record));
+  result.times.judging_s -= result.times.preparation_s;  // it is part of the first case's wall time
+  result.times.wall_s = seconds_since(start);
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,241 @@
+#include "mesh/mesh.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace airybench {
+namespace {
+
+// One side of one triangle. Sorted by its low and high vertex, both sides of an edge are
+// neighbours.
+struct Side {
+  int low, high;
+  int triangle, local;  // local: from the triangle's vertex `local` to the next one
+  bool forward;         // walked from low to high
+};
+
+std::vector<Side> sorted_sides(const Mesh& mesh) {
+  std::vector<Side> sides;
+  sides.reserve(3 * mesh.triangles.size());
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    for (int k = 0; k < 3; ++k) {
+      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+      sides.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
+    }
+  }
+  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+    return std::pair(x.low, x.high) < std::pair(y.low, y.high);
+  });
+  return sides;
+}
+
+std::string edge_text(int a, int b) {
+  return "edge " + std::to_string(a + 1) + "-" + std::to_string(b + 1);
+}
+
+[[noreturn]] void fail(const Mesh& mesh, const std::string& what) {
+  throw MeshError(mesh.name + ": " + what);
+}
+
+void check_triangles(const Mesh& mesh) {
+  const int n = static_cast<int>(mesh.vertices.size());
+  if (mesh.triangles.empty()) fail(mesh, "no triangles; at least one is needed");
+  if (mesh.triangle_body.size() != mesh.triangles.size())
+    fail(mesh, "every triangle needs a body: " + std::to_string(mesh.triangle_body.size()) +
+                   " bodies for " + std::to_string(mesh.triangles.size()) + " triangles");
+  for (int v = 0; v < n; ++v)
+    if (!mesh.vertices[v].allFinite())
+      fail(mesh, "vertex " + std::to_string(v + 1) + ": coordinates must be finite numbers");
+
+  std::vector<bool> used(n, false);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& triangle = mesh.triangles[t];
+    const std::string name = "triangle " + std::to_string(t + 1);
+    for (const int v : triangle) {
+      if (v < 0 || v >= n)
+        fail(mesh, name + ": vertex " + std::to_string(v + 1) + " does not exist (1.." +
+                       std::to_string(n) + ")");
+      used[v] = true;
+    }
+    const int body = mesh.triangle_body[t];
+    if (body < 0 || body >= static_cast<int>(mesh.body_names.size()))
+      fail(mesh, name + ": body " + std::to_string(body + 1) + " does not exist (1.." +
+                     std::to_string(mesh.body_names.size()) + ")");
+    const auto& [a, b, c] = std::tie(mesh.vertices[triangle[0]], mesh.vertices[triangle[1]],
+                                     mesh.vertices[triangle[2]]);
+    const double twice_area = cross_area(a, b, c);
+    const double longest_squared =
+        std::max({(b - a).squaredNorm(), (c - b).squaredNorm(), (a - c).squaredNorm()});
+    if (!(std::abs(twice_area) > flat_triangle_tolerance * longest_squared))
+      fail(mesh, name + ": zero area");
+    if (twice_area < 0) fail(mesh, name + ": inverted (its vertices must run counter-clockwise)");
+  }
+  const auto unused = std::find(used.begin(), used.end(), false);
+  if (unused != used.end())
+    fail(mesh,
+         "vertex " + std::to_string(unused - used.begin() + 1) + ": dangling (in no triangle)");
+}
+
+// Checks the roles against the triangulation; returns the end vertex of the boundary edge that
+// starts at each vertex (−1: none starts there).
+std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides) {
+  const int n = static_cast<int>(mesh.vertices.size());
+  std::vector<int> next(n, -1);
+  for (std::size_t i = 0; i < sides.size();) {
+    std::size_t j = i + 1;
+    while (j < sides.size() && sides[j].low == sides[i].low && sides[j].high == sides[i].high) ++j;
+    const std::string name = edge_text(sides[i].low, sides[i].high);
+    if (j - i > 2)
+      fail(mesh,
+           name + ": shared by " + std::to_string(j - i) + " triangles; at most two can meet");
+    if (j - i == 2 && sides[i].forward == sides[i + 1].forward)
+      fail(mesh, name + ": its two triangles overlap");
+    if (j - i == 1) {
+      const int start = sides[i].forward ? sides[i].low : sides[i].high;
+      if (next[start] != -1)
+        fail(mesh, "vertex " + std::to_string(start + 1) + ": the boundary touches itself there");
+      next[start] = sides[i].low + sides[i].high - start;
+    }
+    i = j;
+  }
+
+  std::vector<bool> has_role(n, false);
+  bool has_displacement = false;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto [a, b] = edge.vertices;
+    const std::string name = "boundary " + edge_text(a, b);
+    if (a < 0 || a >= n || b < 0 || b >= n)
+      fail(mesh, name + ": a vertex does not exist (1.." + std::to_string(n) + ")");
+    if (next[a] != b) {
+      if (next[b] == a) fail(mesh, name + ": walked clockwise; the body must lie on its left");
+      fail(mesh, name + ": not on the boundary of the triangles");
+    }
+    if (has_role[a]) fail(mesh, name + ": given twice");
+    has_role[a] = true;
+    has_displacement |= edge.role == BoundaryRole::displacement;
+  }
+  for (int v = 0; v < n; ++v)
+    if (next[v] != -1 && !has_role[v])
+      fail(mesh, edge_text(v, next[v]) +
+                     ": a boundary edge without a role (displacement, force or contact)");
+  if (!has_displacement)
+    fail(mesh, "no displacement edge; at least one is needed to hold the body");
+  return next;
+}
+
+// Euler's formula: vertices − edges + triangles = pieces − holes.
+void check_one_piece_without_holes(const Mesh& mesh, const std::vector<Side>& sides,
+                                   const std::vector<int>& next) {
+  std::vector<int> parent(mesh.vertices.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  for (const Side& side : sides) parent[root(side.low)] = root(side.high);
+  int pieces = 0;
+  for (std::size_t v = 0; v < parent.size(); ++v) pieces += parent[v] == static_cast<int>(v);
+  if (pieces > 1) fail(mesh, std::to_string(pieces) + " separate pieces; the body must be one");
+
+  std::vector<bool> seen(next.size(), false);
+  int loops = 0;
+  for (std::size_t start = 0; start < next.size(); ++start) {
+    if (next[start] == -1 || seen[start]) continue;
+    ++loops;
+    for (int v = static_cast<int>(start); !seen[v]; v = next[v]) seen[v] = true;
+  }
+  if (loops > 1)
+    fail(mesh, std::to_string(loops - 1) +
+                   " hole(s); a single-valued Airy function needs a body without holes");
+}
+
+}  // namespace
+
+void validate(const Mesh& mesh) {
+  check_triangles(mesh);
+  const std::vector<Side> sides = sorted_sides(mesh);
+  const std::vector<int> next = check_boundary(mesh, sides);
+  check_one_piece_without_holes(mesh, sides, next);
+}
+
+MeshEdges number_edges(const Mesh& mesh) {
+  MeshEdges edges;
+  edges.of_triangle.resize(mesh.triangles.size());
+  edges.vertices.reserve(mesh.vertices.size() + mesh.triangles.size());
+  for (const Side& side : sorted_sides(mesh)) {
+    if (edges.vertices.empty() || edges.vertices.back() != std::array{side.low, side.high})
+      edges.vertices.push_back({side.low, side.high});
+    edges.of_triangle[side.triangle][side.local] = edges.count() - 1;
+  }
+  edges.vertices.shrink_to_fit();
+  edges.of_boundary.reserve(mesh.boundary.size());
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto [low, high] = std::minmax(edge.vertices[0], edge.vertices[1]);
+    const auto found =
+        std::lower_bound(edges.vertices.begin(), edges.vertices.end(), std::array{low, high});
+    edges.of_boundary.push_back(static_cast<int>(found - edges.vertices.begin()));
+  }
+  return edges;
+}
+
+std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole role) {
+  std::vector<int> starting_at(mesh.vertices.size(), -1), ending_at(mesh.vertices.size(), -1);
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != role) continue;
+    starting_at[mesh.boundary[row].vertices[0]] = row;
+    ending_at[mesh.boundary[row].vertices[1]] = row;
+  }
+  std::vector<bool> taken(mesh.boundary.size(), false);
+  std::vector<std::vector<int>> chains;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != role || taken[row]) continue;
+    int first = row;
+    for (int before = ending_at[mesh.boundary[first].vertices[0]]; before != -1;
+         before = ending_at[mesh.boundary[first].vertices[0]]) {
+      first = before;
+      if (before == row) break;  // once around a closed chain
+    }
+    auto& chain = chains.emplace_back();
+    for (int next = first; next != -1 && !taken[next];
+         next = starting_at[mesh.boundary[next].vertices[1]]) {
+      taken[next] = true;
+      chain.push_back(next);
+    }
+  }
+  return chains;
+}
+
+MeshSizes mesh_sizes(const Mesh& mesh) {
+  MeshSizes sizes;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    sizes.displacement_edges += edge.role == BoundaryRole::displacement;
+    sizes.force_edges += edge.role == BoundaryRole::force;
+    sizes.contact_edges += edge.role == BoundaryRole::contact;
+  }
+  const int vertices = static_cast<int>(mesh.vertices.size());
+  const int triangles = static_cast<int>(mesh.triangles.size());
+  const int edges = vertices + triangles - 1;  // Euler, one piece without holes
+  sizes.n_phi = 3 * vertices + edges;
+  sizes.n_f = 4 * sizes.force_edges;
+  sizes.n_c = 4 * sizes.contact_edges;
+  return sizes;
+}
+
+MeshExtent extent_of(const Mesh& mesh) {
+  MeshExtent extent;
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& vertex : mesh.vertices) box.extend(vertex);
+  for (const auto& [a, b, c] : mesh.triangles)
+    extent.area_mm2 += cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact)
+      extent.contact_length_mm +=
+          (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  extent.width_mm = box.sizes().x();
+  extent.height_mm = box.sizes().y();
+  return extent;
+}
+
+}  // namespace airybench

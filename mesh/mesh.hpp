@@ -1,0 +1,93 @@
+// A triangulated plane body with the role of every boundary edge.
+//
+// The boundary is split into three parts, Γ = Γ_D ∪ Γ_F ∪ Γ_C: prescribed displacement, prescribed
+// traction, contact with the rigid foundation. A valid mesh is one simply connected piece: its
+// boundary is a single closed curve, because a single-valued Airy function cannot carry a resultant
+// around a hole.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/errors.hpp"
+
+namespace airybench {
+
+enum class BoundaryRole : std::uint8_t { displacement, force, contact };
+inline constexpr std::array<std::string_view, 3> boundary_role_names = {"displacement", "force",
+                                                                        "contact"};
+
+struct BoundaryEdge {
+  std::array<int, 2> vertices;  // start, end; the body lies on the left (counter-clockwise walk)
+  BoundaryRole role;
+};
+
+struct Mesh {
+  std::string name;                           // "Mesh3", or the file's name; for messages, records
+  std::vector<Eigen::Vector2d> vertices;      // mm
+  std::vector<std::array<int, 3>> triangles;  // vertex numbers, counter-clockwise
+  std::vector<int> triangle_body;             // per triangle: its row in body_names
+  std::vector<std::string> body_names;        // at least one
+  std::vector<BoundaryEdge> boundary;         // every boundary edge once, any order
+};
+
+// A mesh or a mesh file that cannot be used. what() is one line: file or mesh name, entity, what is
+// wrong, what is allowed. Vertices, triangles and boundary edges are counted from 1 there.
+struct MeshError : InputError {
+  using InputError::InputError;
+};
+
+// Twice the signed area of triangle abc, mm²; positive when counter-clockwise. Computed in Scalar.
+template <typename Scalar = double>
+Scalar cross_area(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  const auto x = [&](const Eigen::Vector2d& p) { return Scalar(p.x()) - Scalar(a.x()); };
+  const auto y = [&](const Eigen::Vector2d& p) { return Scalar(p.y()) - Scalar(a.y()); };
+  return x(b) * y(c) - y(b) * x(c);
+}
+
+// Twice a triangle's area, relative to its longest edge squared, below which it counts as flat.
+inline constexpr double flat_triangle_tolerance = 1e-13;
+
+// Throws MeshError on the first of: no triangles; a vertex that is not finite, or in no triangle; a
+// triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
+// more than two triangles; a boundary edge that is not on the boundary, given twice, or walked
+// against its triangle; a boundary edge without a role; a boundary that touches itself; more than
+// one piece; a hole; no displacement edge.
+void validate(const Mesh& mesh);
+
+// The edges of a valid mesh.
+struct MeshEdges {
+  std::vector<std::array<int, 2>> vertices;     // per edge: low vertex, high vertex
+  std::vector<std::array<int, 3>> of_triangle;  // per triangle: edge k joins its vertices k, k+1
+  std::vector<int> of_boundary;                 // per row of Mesh::boundary: its edge
+  int count() const { return static_cast<int>(vertices.size()); }
+};
+MeshEdges number_edges(const Mesh& mesh);
+
+// The boundary edges of one role, as chains: each inner vector lists rows of Mesh::boundary that
+// follow one another counter-clockwise. The chains start at the mesh's lowest such row.
+std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole role);
+
+// Sizes as the paper's Tab. 1 counts them.
+struct MeshSizes {
+  int n_phi = 0;  // 3 vertices + edges: all HCT degrees of freedom, the 3 of the gauge too
+  int n_f = 0;    // 4 per force edge
+  int n_c = 0;    // 4 per contact edge
+  int displacement_edges = 0;
+  int force_edges = 0;
+  int contact_edges = 0;
+};
+MeshSizes mesh_sizes(const Mesh& mesh);
+
+// The body's measures. Meshes of one body agree in them, but for what a curved side loses.
+struct MeshExtent {
+  double area_mm2 = 0, contact_length_mm = 0, width_mm = 0, height_mm = 0;
+};
+MeshExtent extent_of(const Mesh& mesh);
+
+}  // namespace airybench

@@ -1,0 +1,267 @@
+#include "mesh/msh_format.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <istream>
+#include <map>
+#include <ostream>
+
+namespace airybench {
+namespace {
+
+constexpr int gmsh_line = 1, gmsh_triangle = 2;
+
+// Reads a text file line by line and field by field; every complaint names file and line.
+class LineReader {
+ public:
+  LineReader(std::istream& in, std::string file_name) : in_(in), file_(std::move(file_name)) {}
+
+  // The next non-empty line; fails at the end of the file.
+  std::string_view next_line(std::string_view expected) {
+    while (std::getline(in_, line_)) {
+      ++number_;
+      while (!line_.empty() && std::isspace(static_cast<unsigned char>(line_.back())))
+        line_.pop_back();
+      rest_ = line_;
+      skip_blanks();
+      if (!rest_.empty()) return rest_;
+    }
+    fail("the file ends where " + std::string(expected) + " should come; is it truncated?");
+  }
+  bool at_end() { return (in_ >> std::ws).peek() == std::istream::traits_type::eof(); }
+
+  template <typename Number>
+  Number field(std::string_view what) {
+    Number value{};
+    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
+    if (error != std::errc() ||
+        (end != rest_.data() + rest_.size() && !std::isspace(static_cast<unsigned char>(*end))))
+      fail(std::string(what) + " expected, found '" + shown() + "'");
+    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
+    skip_blanks();
+    return value;
+  }
+  std::string quoted_name() {
+    const auto close = rest_.size() >= 2 && rest_[0] == '"' ? rest_.find('"', 1) : rest_.npos;
+    if (close == rest_.npos) fail("a name in double quotes expected, found '" + shown() + "'");
+    std::string name(rest_.substr(1, close - 1));
+    rest_.remove_prefix(close + 1);
+    skip_blanks();
+    return name;
+  }
+  void end_of_line() {
+    if (!rest_.empty()) fail("unexpected '" + shown() + "' at the end of the line");
+  }
+  void expect(std::string_view section) {
+    const std::string_view line = next_line(section);
+    if (line != section) fail(std::string(section) + " expected, found '" + shown() + "'");
+  }
+  [[noreturn]] void fail(const std::string& what) const {
+    throw MeshError(file_ + ":" + std::to_string(number_) + ": " + what);
+  }
+  const std::string& file() const { return file_; }
+
+ private:
+  void skip_blanks() {
+    while (!rest_.empty() && std::isspace(static_cast<unsigned char>(rest_.front())))
+      rest_.remove_prefix(1);
+  }
+  std::string shown() const {
+    std::string text(rest_.substr(0, 40));
+    for (char& c : text)
+      if (!std::isprint(static_cast<unsigned char>(c))) c = '?';
+    return text;
+  }
+
+  std::istream& in_;
+  std::string file_;
+  std::string line_;
+  std::string_view rest_;
+  int number_ = 0;
+};
+
+int read_count(LineReader& reader, std::string_view what) {
+  reader.next_line(what);
+  const int count = reader.field<int>(what);
+  reader.end_of_line();
+  if (count < 0) reader.fail(std::string(what) + " must not be negative");
+  return count;
+}
+
+struct PhysicalGroups {
+  std::map<int, BoundaryRole> roles;  // by Gmsh tag
+  std::map<int, int> bodies;          // Gmsh tag to row of Mesh::body_names
+};
+
+PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
+  PhysicalGroups groups;
+  const int count = read_count(reader, "the number of physical names");
+  for (int i = 0; i < count; ++i) {
+    reader.next_line("a physical name");
+    const int dimension = reader.field<int>("a dimension");
+    const int tag = reader.field<int>("a physical group's number");
+    const std::string name = reader.quoted_name();
+    reader.end_of_line();
+    if (dimension == 1) {
+      int role = 0;
+      while (role < 3 && boundary_role_names[role] != name) ++role;
+      if (role == 3)
+        reader.fail("physical curve '" + name +
+                    "': unknown boundary role (allowed: displacement, force, contact)");
+      if (!groups.roles.emplace(tag, static_cast<BoundaryRole>(role)).second)
+        reader.fail("physical curve " + std::to_string(tag) + " is named twice");
+    } else if (dimension == 2) {
+      if (!groups.bodies.emplace(tag, static_cast<int>(mesh.body_names.size())).second)
+        reader.fail("physical surface " + std::to_string(tag) + " is named twice");
+      mesh.body_names.push_back(name);
+    } else {
+      reader.fail("physical group '" + name + "' of dimension " + std::to_string(dimension) +
+                  " (allowed: 1, boundary roles; 2, bodies)");
+    }
+  }
+  reader.expect("$EndPhysicalNames");
+  return groups;
+}
+
+// Returns the vertex number of every Gmsh node number.
+std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
+  std::map<long, int> vertex_of_node;
+  const int count = read_count(reader, "the number of nodes");
+  double plane = 0;
+  for (int i = 0; i < count; ++i) {
+    reader.next_line("a node (" + std::to_string(count) + " announced, " + std::to_string(i) +
+                     " found)");
+    const long node = reader.field<long>("a node's number");
+    const std::string name = "node " + std::to_string(node);
+    const double x = reader.field<double>(name + ": x, a number,");
+    const double y = reader.field<double>(name + ": y, a number,");
+    const double z = reader.field<double>(name + ": z, a number,");
+    reader.end_of_line();
+    if (!std::isfinite(x) || !std::isfinite(y))
+      reader.fail(name + ": coordinates must be finite numbers");
+    if (i == 0) plane = z;
+    if (!(z == plane))
+      reader.fail(name + ": z is not that of the first node; the body must lie in one plane");
+    if (!vertex_of_node.emplace(node, static_cast<int>(mesh.vertices.size())).second)
+      reader.fail(name + " is given twice");
+    mesh.vertices.emplace_back(x, y);
+  }
+  reader.expect("$EndNodes");
+  return vertex_of_node;
+}
+
+void read_elements(LineReader& reader, const PhysicalGroups& groups,
+                   const std::map<long, int>& vertex_of_node, Mesh& mesh) {
+  const int count = read_count(reader, "the number of elements");
+  for (int i = 0; i < count; ++i) {
+    reader.next_line("an element (" + std::to_string(count) + " announced, " + std::to_string(i) +
+                     " found)");
+    const std::string name = "element " + std::to_string(reader.field<long>("an element's number"));
+    const int type = reader.field<int>(name + ": a type");
+    if (type != gmsh_line && type != gmsh_triangle)
+      reader.fail(name + ": type " + std::to_string(type) +
+                  " (allowed: 1, 2-node line; 2, 3-node triangle)");
+    const int tags = reader.field<int>(name + ": the number of tags");
+    if (tags < 1) reader.fail(name + ": needs a first tag, its physical group");
+    const int group = reader.field<int>(name + ": a physical group");
+    for (int tag = 1; tag < tags; ++tag) reader.field<int>(name + ": a tag");
+    const auto vertex = [&] {
+      const long node = reader.field<long>(name + ": a node's number");
+      const auto found = vertex_of_node.find(node);
+      if (found == vertex_of_node.end())
+        reader.fail(name + ": node " + std::to_string(node) + " does not exist");
+      return found->second;
+    };
+    if (type == gmsh_line) {
+      const auto role = groups.roles.find(group);
+      if (role == groups.roles.end())
+        reader.fail(name + ": physical group " + std::to_string(group) +
+                    " is no boundary role (allowed: displacement, force, contact)");
+      const int start = vertex(), end = vertex();
+      mesh.boundary.push_back({{start, end}, role->second});
+    } else {
+      const auto body = groups.bodies.find(group);
+      if (body == groups.bodies.end())
+        reader.fail(name + ": physical group " + std::to_string(group) + " is no named body");
+      const int a = vertex(), b = vertex(), c = vertex();
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangle_body.push_back(body->second);
+    }
+    reader.end_of_line();
+  }
+  reader.expect("$EndElements");
+}
+
+}  // namespace
+
+Mesh read_msh(std::istream& in, const std::string& file_name) {
+  LineReader reader(in, file_name);
+  Mesh mesh;
+  if (reader.next_line("$MeshFormat") != "$MeshFormat")
+    reader.fail("not a mesh file: the first line must be $MeshFormat");
+  reader.next_line("the format's version");
+  const double version = reader.field<double>("the format's version");
+  const int binary = reader.field<int>("the file type");
+  if (!(version >= 2 && version < 3) || binary != 0)
+    reader.fail("only MSH 2 in ASCII is read here; convert with `meshgen --convert`");
+  reader.expect("$EndMeshFormat");
+  reader.expect("$PhysicalNames");
+  const PhysicalGroups groups = read_physical_names(reader, mesh);
+  reader.expect("$Nodes");
+  const std::map<long, int> vertex_of_node = read_nodes(reader, mesh);
+  reader.expect("$Elements");
+  read_elements(reader, groups, vertex_of_node, mesh);
+  if (!reader.at_end()) {
+    reader.next_line("the end of the file");
+    reader.fail("unexpected section after $EndElements; convert with `meshgen --convert`");
+  }
+  mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
+  validate(mesh);
+  mesh.name = std::filesystem::path(file_name).stem().string();
+  return mesh;
+}
+
+Mesh read_msh(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw MeshError(file.string() + ": a folder, not a mesh file");
+  std::ifstream in(file);
+  if (!in) throw MeshError(file.string() + ": cannot be opened");
+  return read_msh(in, file.string());
+}
+
+void write_msh(std::ostream& out, const Mesh& mesh) {
+  const auto number = [](double value) {
+    std::array<char, 32> text;
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
+    return std::string(text.data(), end);
+  };
+  out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+  out << "$PhysicalNames\n" << boundary_role_names.size() + mesh.body_names.size() << "\n";
+  for (std::size_t role = 0; role < boundary_role_names.size(); ++role)
+    out << "1 " << role + 1 << " \"" << boundary_role_names[role] << "\"\n";
+  const std::size_t first_body = boundary_role_names.size() + 1;
+  for (std::size_t body = 0; body < mesh.body_names.size(); ++body)
+    out << "2 " << first_body + body << " \"" << mesh.body_names[body] << "\"\n";
+  out << "$EndPhysicalNames\n$Nodes\n" << mesh.vertices.size() << "\n";
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v)
+    out << v + 1 << " " << number(mesh.vertices[v].x()) << " " << number(mesh.vertices[v].y())
+        << " 0\n";
+  out << "$EndNodes\n$Elements\n" << mesh.boundary.size() + mesh.triangles.size() << "\n";
+  std::size_t element = 0;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto tag = static_cast<std::size_t>(edge.role) + 1;
+    out << ++element << " 1 2 " << tag << " " << tag << " " << edge.vertices[0] + 1 << " "
+        << edge.vertices[1] + 1 << "\n";
+  }
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto tag = first_body + static_cast<std::size_t>(mesh.triangle_body[t]);
+    out << ++element << " 2 2 " << tag << " " << tag;
+    for (const int v : mesh.triangles[t]) out << " " << v + 1;
+    out << "\n";
+  }
+  out << "$EndElements\n";
+}
+
+}  // namespace airybench

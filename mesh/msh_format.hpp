@@ -1,0 +1,28 @@
+// Mesh files: Gmsh's MSH 2.2 ASCII format, so that Gmsh and its readers open them as they are.
+//
+//   $PhysicalNames  dimension 1: displacement, force, contact; dimension 2: one or more bodies
+//   $Nodes          coordinates in mm; z is the same for all
+//   $Elements       2-node lines and 3-node triangles; the first tag is the physical group
+//
+// Other element types, further sections (parametrisations, data) and MSH 4 files are refused:
+// `meshgen --convert` turns any Gmsh model with those groups into such a file.
+#pragma once
+
+#include <filesystem>
+#include <iosfwd>
+#include <string>
+
+#include "mesh/mesh.hpp"
+
+namespace airybench {
+
+// Reads and validates. Throws MeshError with one line "file:line: entity: what is wrong".
+// Mesh::name is the file's name without folder and ".msh".
+Mesh read_msh(const std::filesystem::path& file);
+Mesh read_msh(std::istream& in, const std::string& file_name);
+
+// Writes the one canonical text of a mesh: numbers from 1 in order, coordinates in the shortest
+// form that reads back as the same double; equal meshes give equal bytes.
+void write_msh(std::ostream& out, const Mesh& mesh);
+
+}  // namespace airybench

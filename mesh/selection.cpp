@@ -1,0 +1,64 @@
+#include "mesh/selection.hpp"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace airybench {
+namespace {
+
+[[noreturn]] void refuse_item(std::string_view item, const std::string& why) {
+  throw std::invalid_argument("mesh '" + std::string(item) + "': " + why +
+                              " (valid: Mesh0..Mesh7, a list Mesh0,Mesh3, a range Mesh1..Mesh4, "
+                              "a glob Mesh[0-3], or files *.msh)");
+}
+
+std::size_t catalogue_row(std::string_view name, std::string_view item) {
+  const auto found = std::find(catalogue_mesh_names.begin(), catalogue_mesh_names.end(), name);
+  if (found == catalogue_mesh_names.end()) refuse_item(item, "not in the catalogue");
+  return static_cast<std::size_t>(found - catalogue_mesh_names.begin());
+}
+
+std::vector<std::string> expand_item(std::string_view item) {
+  if (item.empty()) refuse_item(item, "empty");
+  if (is_mesh_file(item)) return {std::string(item)};
+
+  std::size_t first = 0, last = 0;
+  if (const auto dots = item.find(".."); dots != item.npos) {
+    first = catalogue_row(item.substr(0, dots), item);
+    last = catalogue_row(item.substr(dots + 2), item);
+    if (first > last) refuse_item(item, "a range runs from the lower to the higher name");
+  } else if (item.find_first_of("*?[") != item.npos) {
+    const std::string pattern(item);
+    std::vector<std::string> names;
+    for (const std::string_view name : catalogue_mesh_names)
+      if (fnmatch(pattern.c_str(), name.data(), 0) == 0) names.emplace_back(name);
+    if (names.empty()) refuse_item(item, "matches no mesh");
+    return names;
+  } else {
+    first = last = catalogue_row(item, item);
+  }
+  return {catalogue_mesh_names.begin() + static_cast<std::ptrdiff_t>(first),
+          catalogue_mesh_names.begin() + static_cast<std::ptrdiff_t>(last) + 1};
+}
+
+}  // namespace
+
+bool is_mesh_file(std::string_view item) {
+  return item.find('/') != item.npos || item.ends_with(".msh");
+}
+
+std::vector<std::string> expand_mesh_selection(std::string_view argument) {
+  std::vector<std::string> selected;
+  for (std::size_t start = 0; start <= argument.size();) {
+    const std::size_t end = std::min(argument.find(',', start), argument.size());
+    for (std::string& name : expand_item(argument.substr(start, end - start)))
+      if (std::find(selected.begin(), selected.end(), name) == selected.end())
+        selected.push_back(std::move(name));
+    start = end + 1;
+  }
+  return selected;
+}
+
+}  // namespace airybench

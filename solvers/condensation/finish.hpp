@@ -1,0 +1,37 @@
+// What every condensation ends with, D and G being there:
+//
+//   contact   the contact forces, by the contact law on ū_C = D F_C − G
+//   recover   from them φ or u, and the stresses
+//   check     the method's own estimate of its error, by one more solve; refinement
+#pragma once
+
+#include <functional>
+
+#include "solvers/condensation/airy_refinement.hpp"
+#include "solvers/condensation/stiffness_check.hpp"
+#include "solvers/contact/condensed.hpp"
+
+namespace airybench {
+
+enum class Refine { no, yes };
+
+// Of a method in the Airy function. recover: x and the multipliers that belong to F_C. solve: as
+// for any right-hand side.
+void finish_in_airy_function(const DualSystem& system, const RunControl& control,
+                             const CondensedSystem& condensed,
+                             const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
+                             const SaddleSolve& solve, Refine refine, Solution& solution);
+
+// φ and stresses into the solution.
+void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solution& solution);
+
+// Of a method in displacements. recover: the stresses of the displacements u into the solution.
+// unbalanced: the forces that these and F_C leave.
+void finish_in_displacements(const Problem& problem, const ContactPoints& contact,
+                             const RunControl& control, const CondensedSystem& condensed,
+                             StiffnessFactor& factor,
+                             const std::function<void(Eigen::VectorXd u)>& recover,
+                             const std::function<UnbalancedForces()>& unbalanced,
+                             Solution& solution);
+
+}  // namespace airybench

@@ -1,0 +1,58 @@
+#include "solvers/method.hpp"
+
+#include <new>
+
+#include "assembly/control_points.hpp"
+
+namespace airybench {
+namespace {
+
+Solution failed(Status status, const std::string& message) {
+  Solution solution;
+  solution.status = status;
+  solution.message = message;
+  return solution;
+}
+
+// What is wrong with a result that claims success; null: nothing that can be seen here.
+const char* flaw(const Solution& solution, const DualSystem& system) {
+  const Problem& problem = *system.problem;
+  const bool in_displacements = solution.displacement.cols() > 0;
+  const int forces = in_displacements ? control_points(problem).law.size() : system.contact.size();
+  if (solution.F_C.size() != forces) return "contact forces are missing";
+  if (in_displacements && solution.displacement.cols() != displacement_nodes(problem))
+    return "displacements are missing";
+  if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
+  bool finite =
+      solution.F_C.allFinite() && solution.phi.allFinite() && solution.displacement.allFinite();
+  for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
+  return finite ? nullptr : "the result is not finite";
+}
+
+}  // namespace
+
+Solution run(const Solve& solve, const DualSystem& system, const RunControl& control) {
+  try {
+    Solution solution = solve(system, control);
+    if (solution.status == Status::ok) {
+      if (const char* what = flaw(solution, system)) {
+        solution.status = Status::breakdown;
+        solution.message = what;
+      }
+    }
+    return solution;
+  } catch (const TimeoutReached& timeout) {
+    Solution solution = failed(Status::timeout, timeout.what());
+    solution.done_fraction = timeout.done_fraction;
+    solution.error_so_far = timeout.error_so_far;
+    return solution;
+  } catch (const std::bad_alloc&) {
+    return failed(Status::out_of_memory, "an allocation was refused");
+  } catch (const Breakdown& breakdown) {
+    return failed(Status::breakdown, breakdown.what());
+  } catch (const std::exception& error) {
+    return failed(Status::crashed, error.what());
+  }
+}
+
+}  // namespace airybench

@@ -1,0 +1,200 @@
+// ALM: the augmented Lagrangian method with given parameters, ALM:r=…,rho=…, and with the best of
+// the paper's grid.
+#include "solvers/uzawa/augmented_lagrangian.hpp"
+
+#include <algorithm>
+#include <array>
+#include <sstream>
+
+#include "solvers/condensation/finish.hpp"
+#include "solvers/direct/factor_counts.hpp"
+#include "solvers/general_names.hpp"
+
+namespace airybench {
+namespace {
+
+UzawaOptions uzawa_options(const RunControl& control) {
+  UzawaOptions options;
+  options.stop = control.stop;
+  options.tolerance = control.tolerance;
+  options.most_iterations = control.uzawa_iterations;
+  return options;
+}
+
+std::string describe(double r, double rho) {
+  std::ostringstream text;
+  text << "r=" << r << ", rho=" << rho;
+  return text.str();
+}
+
+std::string residuals(const UzawaResult& result) {
+  std::ostringstream text;
+  text << "i_C " << result.primal_N << " N, relative residuals " << result.primal << " and "
+       << result.dual << " after " << result.iterations << " iterations";
+  return text.str();
+}
+
+std::string name_of(UzawaOutcome outcome) {
+  switch (outcome) {
+    case UzawaOutcome::converged:
+      return "converged";
+    case UzawaOutcome::diverged:
+      return "diverged";
+    default:
+      return "given up";
+  }
+}
+
+// D's diagonal, roughly, mm/N: in the plane a force spread over an edge moves it by a multiple of
+// the material's compliance whatever the edge's size, 3 to 7 times along the normal and 11 to 20
+// times along the tangent on Mesh0..Mesh4.
+Eigen::VectorXd rough_diagonal(const DualSystem& system) {
+  const Problem& problem = *system.problem;
+  std::vector<double> of_edge(static_cast<std::size_t>(problem.edges.count()));
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
+    for (const int edge : problem.edges.of_triangle[t])
+      of_edge[edge] = problem.compliance_of(t)(0, 0);
+  Eigen::VectorXd compliance(system.n_c());
+  const int m = system.contact.components;
+  for (int p = 0; p < system.contact.count; ++p)
+    for (int k = 0; k < m; ++k)
+      compliance(m * p + k) =
+          (k == 0 ? 5 : 15) * of_edge[problem.edges.of_boundary[system.contact.boundary[p]]];
+  return compliance;
+}
+
+void check_uzawa_result(const DualSystem& system, const AugmentedFactor& augmented,
+                        const UzawaResult& result, const RunControl& control, Solution& solution) {
+  bool solved = true;
+  run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
+    check_airy_answer(
+        system, rough_diagonal(system),
+        [&](SaddleVector& v) { solved = solve_saddle(system, augmented, v, control.deadline); },
+        {result.x, result.lambda, result.lambda_c}, control, solution);
+  });
+  if (solved || solution.status != Status::ok) return;
+  solution.status = Status::inaccurate;
+  solution.message = "its error could not be estimated: " + solution.parameters +
+                     " leave too badly conditioned a system";
+}
+
+Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& control, double r,
+                                    double rho) {
+  Solution solution;
+  const AugmentedFactor augmented =
+      run_stage(solution.times, Stage::factor, MemoryOwner::factor,
+                [&] { return factor_augmented(system, r, control.deadline); });
+  count_factor(augmented.factor, solution);
+  solution.storage[MemoryOwner::iteration] = uzawa_bytes(system, 1);
+  const UzawaOptions options = uzawa_options(control);
+  UzawaResult result = [&] {
+    // Without contact the iteration only finds the multipliers of the prescribed forces.
+    const StageTimer timer(solution.times, system.n_c() > 0 ? Stage::contact : Stage::recover);
+    return iterate_uzawa(system, augmented, {rho}, options, false, control.deadline).front();
+  }();
+  solution.parameters = describe(r, rho);
+  solution.uzawa_iterations = result.iterations;
+  solution.F_C = std::move(result.F_C);
+  run_stage(solution.times, Stage::recover, MemoryOwner::answer,
+            [&] { store_airy_answer(system, result.x, solution); });
+  if (control.histories)
+    solution.histories.push_back({control.stop == Stop::paper
+                                      ? "i_C of the Uzawa iteration, N"
+                                      : "relative residual of the Uzawa iteration",
+                                  std::move(result.history)});
+  if (result.outcome == UzawaOutcome::converged) {
+    solution.status = Status::ok;
+    solution.message.clear();
+  } else {
+    solution.status = Status::not_converged;
+    solution.message = "Uzawa iteration (" + solution.parameters + ") " +
+                       (result.outcome == UzawaOutcome::diverged ? "diverged: " : "too slow: ") +
+                       residuals(result);
+  }
+  if (solution.status == Status::ok && control.stop == Stop::target)
+    check_uzawa_result(system, augmented, result, control, solution);
+  return solution;
+}
+
+// The paper's 8 × 8 grid, [1, 20, 40, 60, 80, 100, 200, 300]² for (r, ρ): the combination that
+// meets the stop in the fewest iterations. One factorisation per r; the ρ of one r run side by
+// side; a combination is given up at as many iterations as the best so far needed. When time is up,
+// what was found until then counts. Throws Breakdown when none converges, TimeoutReached when none
+// has until then.
+Tuning tune_augmented_lagrangian(const DualSystem& system, const RunControl& control) {
+  constexpr std::array<double, 8> grid = {1, 20, 40, 60, 80, 100, 200, 300};
+  // From the ones that are often best, so that the others can be given up early.
+  constexpr std::array<double, 8> order = {20, 40, 60, 80, 100, 1, 200, 300};
+  UzawaOptions options = uzawa_options(control);
+  Tuning tuning;
+  const GridPoint* best = nullptr;
+  tuning.grid.reserve(grid.size() * grid.size());
+  const std::vector<double> rhos(grid.begin(), grid.end());
+  for (const double r : order) {
+    if (best != nullptr && control.deadline.passed()) {  // what there is will do
+      for (const double rho : rhos) tuning.grid.push_back({r, rho, 0, "not tried"});
+      continue;
+    }
+    std::vector<UzawaResult> results;
+    try {
+      const AugmentedFactor augmented = factor_augmented(system, r, control.deadline);
+      results = iterate_uzawa(system, augmented, rhos, options, true, control.deadline);
+    } catch (const TimeoutReached&) {
+      if (best == nullptr) throw;
+      for (const double rho : rhos) tuning.grid.push_back({r, rho, 0, "not tried"});
+      continue;
+    }
+    for (const UzawaResult& result : results) {
+      tuning.grid.push_back({r, result.rho, result.iterations, name_of(result.outcome)});
+      if (result.outcome == UzawaOutcome::converged &&
+          (best == nullptr || result.iterations < best->iterations))
+        best = &tuning.grid.back();
+    }
+    if (best != nullptr) options.most_iterations = best->iterations;  // more cannot win
+  }
+  if (best == nullptr)
+    throw Breakdown("no combination of the grid of r and rho converges within " +
+                    std::to_string(options.most_iterations) + " iterations");
+  tuning.parameters = describe(best->r, best->rho);
+  tuning.solve = [r = best->r, rho = best->rho](const DualSystem& s, const RunControl& c) {
+    return solve_augmented_lagrangian(s, c, r, rho);
+  };
+  return tuning;
+}
+
+Method alm_method(const std::string& name, const std::string& summary) {
+  Method method;
+  method.name = name;
+  method.family = "ALM";
+  method.summary = "augmented Lagrangian, Uzawa's algorithm with " + summary;
+  method.stages = {Stage::factor, Stage::contact, Stage::recover, Stage::check};
+  method.first_tolerance = 2e-2;
+  return method;
+}
+
+}  // namespace
+
+Method alm(GeneralName name) {
+  if (!name.first().empty()) name.refuse("'" + name.first() + "' is no parameter (valid: r, rho)");
+  const double r = name.positive("r"), rho = name.positive("rho");
+  name.refuse_rest("r, rho");
+  Method method = alm_method(name.name(), "given parameters");
+  method.knob = AccuracyKnob::uzawa_iterations;
+  method.solve = [r, rho](const DualSystem& system, const RunControl& control) {
+    return solve_augmented_lagrangian(system, control, r, rho);
+  };
+  return method;
+}
+
+Method tuned_alm() {
+  Method method = alm_method("ALM", "the best of the paper's grid");
+  method.in_paper = true;
+  method.knob = AccuracyKnob::stop;
+  method.tune = tune_augmented_lagrangian;
+  method.solve = [](const DualSystem& system, const RunControl& control) {
+    return tune_augmented_lagrangian(system, control).solve(system, control);
+  };
+  return method;
+}
+
+}  // namespace airybench

@@ -1,0 +1,43 @@
+// HYBRID: hybridized equilibrium elements, K_II factorised by CHOLMOD.
+#include "solvers/condensation/hybridized.hpp"
+
+#include "solvers/condensation/finish.hpp"
+#include "solvers/direct/condition.hpp"
+#include "solvers/method.hpp"
+
+namespace airybench {
+namespace {
+
+Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
+  const Problem& problem = *airy.problem;
+  Solution solution;
+  const HybridizedSystem system =
+      run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
+                [&] { return assemble_hybridized(problem, airy.contact); });
+  solution.storage[MemoryOwner::system_matrix] = system.bytes();
+  StiffnessFactor factor;
+  const CondensedSystem condensed = factorise_and_condense(
+      system.K, system.b, system.n_c, "hybridized system", control, factor, solution);
+  if (control.condition)
+    solution.condition_estimate = estimate_condition(system.K, [&](Eigen::Ref<Eigen::MatrixXd> X) {
+      factor.cholesky.solve_in_place(X, control.deadline);
+    });
+  finish_in_displacements(
+      problem, airy.contact, control, condensed, factor,
+      [&](const Eigen::VectorXd& u) { solution.stress = hybridized_stress(problem, system, u); },
+      [&] { return unbalanced_forces(problem, system, solution.stress, solution.F_C); }, solution);
+  return solution;
+}
+
+}  // namespace
+
+Method hybrid() {
+  return {.name = "HYBRID",
+          .family = "HYBRID",
+          .summary = "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
+          .blocks = Blocks::contact_points,
+          .solve = solve_hybridized,
+          .knob = AccuracyKnob::contact_sweeps};
+}
+
+}  // namespace airybench

@@ -1,0 +1,26 @@
+#include "support/status.hpp"
+
+namespace airybench {
+
+std::string_view name_of(Status status) {
+  constexpr std::array<std::string_view, 8> names = {"ok",        "inaccurate", "not_converged",
+                                                     "breakdown", "timeout",    "out_of_memory",
+                                                     "crashed",   "skipped"};
+  return names[static_cast<std::size_t>(status)];
+}
+
+std::optional<Status> status_of(std::string_view name) {
+  for (const Status status : all_statuses)
+    if (name_of(status) == name) return status;
+  return {};
+}
+
+std::string_view name_of(Stop stop) { return stop == Stop::paper ? "paper" : "target"; }
+
+std::optional<Stop> stop_of(std::string_view name) {
+  for (const Stop stop : {Stop::target, Stop::paper})
+    if (name_of(stop) == name) return stop;
+  return {};
+}
+
+}  // namespace airybench

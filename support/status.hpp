@@ -1,0 +1,34 @@
+// What becomes of a case, and when its iterations stop: words that travel from a solver into the
+// records.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace airybench {
+
+enum class Status {
+  ok,
+  inaccurate,     // finished, with an error above the target by the method's own estimate, or the
+                  // verifier's finding
+  not_converged,  // an iteration ended before its tolerance was met
+  breakdown,      // a pivot, a scalar or a result that the method cannot go on with
+  timeout,
+  out_of_memory,
+  crashed,
+  skipped,
+};
+inline constexpr std::array<Status, 8> all_statuses = {
+    Status::ok,      Status::inaccurate,    Status::not_converged, Status::breakdown,
+    Status::timeout, Status::out_of_memory, Status::crashed,       Status::skipped};
+std::string_view name_of(Status status);  // "not_converged"
+std::optional<Status> status_of(std::string_view name);
+
+// When an iterative method stops: by a tolerance that is tightened until the error is below its
+// target; or as the paper does it.
+enum class Stop { target, paper };
+std::string_view name_of(Stop stop);  // "paper"
+std::optional<Stop> stop_of(std::string_view name);
+
+}  // namespace airybench

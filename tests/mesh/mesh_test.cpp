@@ -1,0 +1,294 @@
+#include "mesh/mesh.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace airybench::mesh_test {
+namespace {
+
+constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
+               contact = BoundaryRole::contact;
+
+// Unit squares side by side, each with a middle vertex and four triangles around it.
+//
+//   3 ---- 4 ---- 5      square k: middle vertex 6+k
+//   | \/   |  \/  |
+//   | /\   |  /\  |
+//   0 ---- 1 ---- 2      left: displacement, right: contact, bottom and top: force
+Mesh two_squares() {
+  Mesh mesh;
+  mesh.name = "squares";
+  mesh.vertices = {{0, 0}, {1, 0}, {2, 0}, {0, 1}, {1, 1}, {2, 1}, {0.5, 0.5}, {1.5, 0.5}};
+  mesh.triangles = {{0, 1, 6}, {1, 4, 6}, {4, 3, 6}, {3, 0, 6},
+                    {1, 2, 7}, {2, 5, 7}, {5, 4, 7}, {4, 1, 7}};
+  mesh.triangle_body.assign(8, 0);
+  mesh.body_names = {"body"};
+  mesh.boundary = {{{0, 1}, force}, {{1, 2}, force}, {{2, 5}, contact},
+                   {{5, 4}, force}, {{4, 3}, force}, {{3, 0}, displacement}};
+  return mesh;
+}
+
+// A 3 × 3 grid of squares of two triangles each; all of its boundary is displacement.
+Mesh grid_without(std::set<int> missing_squares) {
+  Mesh mesh;
+  mesh.name = "grid";
+  mesh.body_names = {"body"};
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i) mesh.vertices.emplace_back(i, j);
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < 3; ++i) {
+      if (missing_squares.contains(3 * j + i)) continue;
+      const int a = 4 * j + i;
+      mesh.triangles.push_back({a, a + 1, a + 5});
+      mesh.triangles.push_back({a, a + 5, a + 4});
+    }
+  }
+  mesh.triangle_body.assign(mesh.triangles.size(), 0);
+  std::set<std::array<int, 2>> sides;
+  for (const auto& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k) sides.insert({triangle[k], triangle[(k + 1) % 3]});
+  for (const auto& [a, b] : sides)
+    if (!sides.contains({b, a})) mesh.boundary.push_back({{a, b}, displacement});
+  return mesh;
+}
+
+std::string complaint(const Mesh& mesh) {
+  try {
+    validate(mesh);
+  } catch (const MeshError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(MeshValidate, AcceptsAValidMesh) {
+  EXPECT_EQ(complaint(two_squares()), "no complaint");
+  EXPECT_EQ(complaint(grid_without({})), "no complaint");
+  EXPECT_EQ(complaint(grid_without({1})), "no complaint");  // a notch is no hole
+}
+
+TEST(MeshValidate, NoTriangles) {
+  Mesh mesh = two_squares();
+  mesh.triangles.clear();
+  mesh.triangle_body.clear();
+  EXPECT_EQ(complaint(mesh), "squares: no triangles; at least one is needed");
+}
+
+TEST(MeshValidate, TriangleWithoutBody) {
+  Mesh mesh = two_squares();
+  mesh.triangle_body.pop_back();
+  EXPECT_EQ(complaint(mesh), "squares: every triangle needs a body: 7 bodies for 8 triangles");
+}
+
+TEST(MeshValidate, NotANumberAndInfiniteCoordinates) {
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    Mesh mesh = two_squares();
+    mesh.vertices[6].y() = bad;
+    EXPECT_EQ(complaint(mesh), "squares: vertex 7: coordinates must be finite numbers");
+  }
+}
+
+TEST(MeshValidate, TriangleVertexOutOfRange) {
+  Mesh mesh = two_squares();
+  mesh.triangles[2][1] = 8;
+  EXPECT_EQ(complaint(mesh), "squares: triangle 3: vertex 9 does not exist (1..8)");
+  mesh.triangles[2][1] = -1;
+  EXPECT_EQ(complaint(mesh), "squares: triangle 3: vertex 0 does not exist (1..8)");
+}
+
+TEST(MeshValidate, BodyOutOfRange) {
+  Mesh mesh = two_squares();
+  mesh.triangle_body[7] = 1;
+  EXPECT_EQ(complaint(mesh), "squares: triangle 8: body 2 does not exist (1..1)");
+}
+
+TEST(MeshValidate, ZeroArea) {
+  Mesh mesh = two_squares();
+  mesh.vertices[6] = {0.5, 0};
+  EXPECT_EQ(complaint(mesh), "squares: triangle 1: zero area");
+  mesh.vertices[6] = {0.5, 1e-14};  // numerically flat
+  EXPECT_EQ(complaint(mesh), "squares: triangle 1: zero area");
+  mesh.vertices[6] = {0.5, 1e-6};  // thin but not flat
+  EXPECT_EQ(complaint(mesh), "no complaint");
+}
+
+TEST(MeshValidate, CoincidentVerticesHaveZeroArea) {
+  Mesh mesh = two_squares();
+  for (auto& vertex : mesh.vertices) vertex = {1, 1};
+  EXPECT_EQ(complaint(mesh), "squares: triangle 1: zero area");
+}
+
+TEST(MeshValidate, Inverted) {
+  Mesh mesh = two_squares();
+  std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+  EXPECT_EQ(complaint(mesh),
+            "squares: triangle 4: inverted (its vertices must run counter-clockwise)");
+}
+
+TEST(MeshValidate, DanglingVertex) {
+  Mesh mesh = two_squares();
+  mesh.vertices.emplace_back(0.2, 0.1);
+  EXPECT_EQ(complaint(mesh), "squares: vertex 9: dangling (in no triangle)");
+}
+
+TEST(MeshValidate, EdgeOfThreeTriangles) {
+  Mesh mesh = two_squares();
+  mesh.vertices.emplace_back(0.7, 0.6);
+  mesh.triangles.push_back({4, 8, 1});
+  mesh.triangle_body.push_back(0);
+  EXPECT_EQ(complaint(mesh), "squares: edge 2-5: shared by 3 triangles; at most two can meet");
+}
+
+TEST(MeshValidate, OverlappingTriangles) {
+  Mesh mesh = two_squares();
+  mesh.vertices.emplace_back(0.5, 2);
+  mesh.triangles.push_back({0, 1, 8});
+  mesh.triangle_body.push_back(0);
+  EXPECT_EQ(complaint(mesh), "squares: edge 1-2: its two triangles overlap");
+}
+
+TEST(MeshValidate, BoundaryThatTouchesItself) {
+  EXPECT_EQ(complaint(grid_without({3, 7})), "grid: vertex 10: the boundary touches itself there");
+}
+
+TEST(MeshValidate, BoundaryVertexOutOfRange) {
+  Mesh mesh = two_squares();
+  mesh.boundary[0].vertices[1] = 8;
+  EXPECT_EQ(complaint(mesh), "squares: boundary edge 1-9: a vertex does not exist (1..8)");
+}
+
+TEST(MeshValidate, BoundaryEdgeWalkedClockwise) {
+  Mesh mesh = two_squares();
+  std::swap(mesh.boundary[2].vertices[0], mesh.boundary[2].vertices[1]);
+  EXPECT_EQ(complaint(mesh),
+            "squares: boundary edge 6-3: walked clockwise; the body must lie on its left");
+}
+
+TEST(MeshValidate, BoundaryEdgeInside) {
+  Mesh mesh = two_squares();
+  mesh.boundary.push_back({{1, 4}, force});
+  EXPECT_EQ(complaint(mesh), "squares: boundary edge 2-5: not on the boundary of the triangles");
+}
+
+TEST(MeshValidate, BoundaryEdgeGivenTwice) {
+  Mesh mesh = two_squares();
+  mesh.boundary.push_back({{1, 2}, contact});
+  EXPECT_EQ(complaint(mesh), "squares: boundary edge 2-3: given twice");
+}
+
+TEST(MeshValidate, BoundaryEdgeWithoutRole) {
+  Mesh mesh = two_squares();
+  mesh.boundary.erase(mesh.boundary.begin() + 4);
+  EXPECT_EQ(complaint(mesh),
+            "squares: edge 5-4: a boundary edge without a role (displacement, force or contact)");
+}
+
+TEST(MeshValidate, NoDisplacementEdge) {
+  Mesh mesh = two_squares();
+  mesh.boundary[5].role = force;
+  EXPECT_EQ(complaint(mesh),
+            "squares: no displacement edge; at least one is needed to hold the body");
+}
+
+TEST(MeshValidate, TwoPieces) {
+  Mesh mesh = two_squares();
+  const Mesh other = two_squares();
+  for (const auto& vertex : other.vertices) mesh.vertices.emplace_back(vertex.x() + 5, vertex.y());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + 8, b + 8, c + 8});
+  mesh.triangle_body.assign(16, 0);
+  for (const auto& edge : other.boundary)
+    mesh.boundary.push_back({{edge.vertices[0] + 8, edge.vertices[1] + 8}, edge.role});
+  EXPECT_EQ(complaint(mesh), "squares: 2 separate pieces; the body must be one");
+}
+
+TEST(MeshValidate, Hole) {
+  EXPECT_EQ(complaint(grid_without({4})),
+            "grid: 1 hole(s); a single-valued Airy function needs a body without holes");
+}
+
+TEST(MeshValidate, EveryComplaintIsOneLine) {
+  for (const auto& missing : {std::set{4}, std::set{3, 7}})
+    EXPECT_EQ(complaint(grid_without(missing)).find('\n'), std::string::npos);
+}
+
+TEST(NumberEdges, EveryEdgeOnceFromLowToHigh) {
+  const Mesh mesh = two_squares();
+  const MeshEdges edges = number_edges(mesh);
+  const std::set<std::array<int, 2>> distinct(edges.vertices.begin(), edges.vertices.end());
+  EXPECT_EQ(edges.count(), 8 + 8 - 1);  // Euler: E = V + T − 1
+  EXPECT_EQ(distinct.size(), edges.vertices.size());
+  for (const auto& [low, high] : edges.vertices) EXPECT_LT(low, high);
+}
+
+TEST(NumberEdges, TriangleEdgeKJoinsItsVerticesKAndKPlusOne) {
+  const Mesh mesh = two_squares();
+  const MeshEdges edges = number_edges(mesh);
+  ASSERT_EQ(edges.of_triangle.size(), mesh.triangles.size());
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      EXPECT_EQ(edges.vertices[edges.of_triangle[t][k]], (std::array{low, high}));
+    }
+  }
+}
+
+TEST(NumberEdges, BoundaryRowsPointToTheirEdge) {
+  const Mesh mesh = two_squares();
+  const MeshEdges edges = number_edges(mesh);
+  ASSERT_EQ(edges.of_boundary.size(), mesh.boundary.size());
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+    const auto [low, high] =
+        std::minmax(mesh.boundary[row].vertices[0], mesh.boundary[row].vertices[1]);
+    EXPECT_EQ(edges.vertices[edges.of_boundary[row]], (std::array{low, high}));
+  }
+}
+
+using Chains = std::vector<std::vector<int>>;
+
+TEST(BoundaryChains, TwoChainsFollowTheBoundaryCounterClockwise) {
+  EXPECT_EQ(boundary_chains(two_squares(), force), (Chains{{0, 1}, {3, 4}}));
+  EXPECT_EQ(boundary_chains(two_squares(), contact), (Chains{{2}}));
+  EXPECT_EQ(boundary_chains(two_squares(), displacement), (Chains{{5}}));
+}
+
+TEST(BoundaryChains, RowsInAnyOrder) {
+  Mesh mesh = two_squares();
+  std::reverse(mesh.boundary.begin(), mesh.boundary.end());
+  // The rows are now 5: 0→1, 4: 1→2, 2: 5→4, 1: 4→3.
+  EXPECT_EQ(boundary_chains(mesh, force), (Chains{{2, 1}, {5, 4}}));
+}
+
+TEST(BoundaryChains, ClosedChainStartsAtTheLowestRow) {
+  Mesh mesh = two_squares();
+  for (auto& edge : mesh.boundary) edge.role = displacement;
+  std::swap(mesh.boundary[0], mesh.boundary[4]);
+  EXPECT_EQ(boundary_chains(mesh, displacement), (Chains{{0, 5, 4, 1, 2, 3}}));
+}
+
+TEST(BoundaryChains, NoneOfARole) {
+  EXPECT_TRUE(boundary_chains(grid_without({}), contact).empty());
+}
+
+TEST(MeshSizes, CountAsThePaperDoes) {
+  const Mesh mesh = two_squares();
+  const MeshSizes sizes = mesh_sizes(mesh);
+  EXPECT_EQ(sizes.n_phi, 3 * 8 + number_edges(mesh).count());
+  EXPECT_EQ(sizes.n_phi, 6 * 8 - 6 - 3);  // 6V − B − 3
+  EXPECT_EQ(sizes.n_f, 4 * 4);
+  EXPECT_EQ(sizes.n_c, 4 * 1);
+  EXPECT_EQ(sizes.displacement_edges, 1);
+  EXPECT_EQ(sizes.force_edges, 4);
+  EXPECT_EQ(sizes.contact_edges, 1);
+}
+
+TEST(CrossArea, IsTwiceTheSignedArea) {
+  EXPECT_DOUBLE_EQ(cross_area({0, 0}, {3, 0}, {0, 2}), 6);
+  EXPECT_DOUBLE_EQ(cross_area({0, 0}, {0, 2}, {3, 0}), -6);
+}
+
+}  // namespace
+}  // namespace airybench::mesh_test

@@ -1,0 +1,281 @@
+#include "mesh/transform.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesh/msh_format.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::mesh_transform_test {
+namespace {
+
+using testing::catalogue_mesh, testing::small_tooth;
+
+double area(const Mesh& mesh, int body = -1) {
+  double sum = 0;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    if (body < 0 || mesh.triangle_body[t] == body)
+      sum += cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
+  }
+  return sum;
+}
+
+double boundary_length(const Mesh& mesh, BoundaryRole role) {
+  double sum = 0;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == role)
+      sum += (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  return sum;
+}
+
+// Of one triangle: its longest edge over its height there; its smallest angle in degrees.
+struct Shape {
+  double aspect, angle;
+};
+Shape shape(const Mesh& mesh, std::size_t t) {
+  const auto& triangle = mesh.triangles[t];
+  double longest = 0, angle = 180;
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector2d &a = mesh.vertices[triangle[k]],
+                          &b = mesh.vertices[triangle[(k + 1) % 3]],
+                          &c = mesh.vertices[triangle[(k + 2) % 3]];
+    longest = std::max(longest, (b - a).norm());
+    angle = std::min(angle, std::atan2(cross_area(a, b, c), (b - a).dot(c - a)));
+  }
+  const auto& [a, b, c] = triangle;
+  return {longest * longest / cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]),
+          angle * 180 / std::numbers::pi};
+}
+double smallest_angle(const Mesh& mesh) {
+  double smallest = 180;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    smallest = std::min(smallest, shape(mesh, t).angle);
+  return smallest;
+}
+
+double longest_edge_at(const Mesh& mesh, const Eigen::Vector2d& x) {
+  const auto nearest = std::ranges::min_element(
+      mesh.vertices, {}, [&](const Eigen::Vector2d& v) { return (v - x).squaredNorm(); });
+  const int v = static_cast<int>(nearest - mesh.vertices.begin());
+  double longest = 0;
+  for (const auto& triangle : mesh.triangles)
+    if (std::ranges::count(triangle, v) > 0)
+      for (const int w : triangle)
+        longest = std::max(longest, (mesh.vertices[w] - *nearest).norm());
+  return longest;
+}
+
+// The same body with the same roles on its boundary.
+void expect_same_body(const Mesh& fine, const Mesh& coarse) {
+  EXPECT_NO_THROW(validate(fine));
+  EXPECT_EQ(fine.name, coarse.name);
+  EXPECT_EQ(fine.body_names, coarse.body_names);
+  for (int body = 0; body < static_cast<int>(coarse.body_names.size()); ++body)
+    EXPECT_NEAR(area(fine, body), area(coarse, body), 1e-12 * area(coarse));
+  for (const auto role : {BoundaryRole::displacement, BoundaryRole::force, BoundaryRole::contact})
+    EXPECT_NEAR(boundary_length(fine, role), boundary_length(coarse, role), 1e-12);
+}
+
+std::string complaint(const MeshTransform& transform, Mesh mesh = small_tooth(4, 4)) {
+  try {
+    transformed(std::move(mesh), transform);
+  } catch (const TransformError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+Mesh two_bodies() {
+  Mesh mesh = small_tooth(5, 4);
+  mesh.body_names = {"root", "tip"};
+  for (std::size_t t = 20; t < mesh.triangles.size(); ++t) mesh.triangle_body[t] = 1;
+  return mesh;
+}
+
+TEST(MeshTransform, NothingGivenChangesNothing) {
+  const Mesh mesh = small_tooth(4, 4), same = transformed(mesh, {});
+  EXPECT_EQ(same.vertices, mesh.vertices);
+  EXPECT_EQ(same.triangles, mesh.triangles);
+}
+
+TEST(MeshTransform, RefinementCountsByEulerAndKeepsShapes) {
+  for (const Mesh& coarse : {two_bodies(), catalogue_mesh("Mesh4")}) {
+    const std::size_t V = coarse.vertices.size(), T = coarse.triangles.size(), E = V + T - 1;
+    MeshTransform transform;
+    transform.refine = 1;
+    const Mesh once = transformed(coarse, transform);
+    EXPECT_EQ(once.vertices.size(), V + E);
+    EXPECT_EQ(once.triangles.size(), 4 * T);
+    EXPECT_EQ(number_edges(once).vertices.size(), 2 * E + 3 * T);
+    EXPECT_EQ(once.boundary.size(), 2 * coarse.boundary.size());
+    expect_same_body(once, coarse);
+    EXPECT_NEAR(smallest_angle(once), smallest_angle(coarse), 1e-9);
+    transform.refine = 2;
+    const Mesh twice = transformed(coarse, transform);
+    EXPECT_EQ(twice.triangles.size(), 16 * T);
+    EXPECT_EQ(mesh_sizes(twice).n_c, 4 * mesh_sizes(coarse).n_c);
+    expect_same_body(twice, coarse);
+  }
+}
+
+TEST(MeshTransform, GradingReachesItsRatioAndKeepsAngles) {
+  for (const Eigen::Vector2d& at : {Eigen::Vector2d(10, 0), Eigen::Vector2d(4, 1)})
+    for (const double ratio : {3., 1e4, 1e9}) {
+      const Mesh coarse = two_bodies();
+      MeshTransform transform;
+      transform.grade = {at, ratio};
+      const Mesh graded = transformed(coarse, transform);
+      expect_same_body(graded, coarse);
+      const Eigen::Vector2d v = *std::ranges::min_element(
+          coarse.vertices, {}, [&](const Eigen::Vector2d& x) { return (x - at).squaredNorm(); });
+      const double reached = longest_edge_at(coarse, v) / longest_edge_at(graded, v);
+      EXPECT_GE(reached, ratio);
+      EXPECT_LE(reached, 8 * ratio);
+      EXPECT_GE(smallest_angle(graded), smallest_angle(coarse) / 2);
+      // A few triangles for every halving.
+      EXPECT_LE(graded.triangles.size(), coarse.triangles.size() + 60 * (1 + std::log2(ratio)));
+    }
+}
+
+TEST(MeshTransform, SliversHaveTheirAspectRatio) {
+  for (const double aspect : {10., 1e3, 1e5}) {
+    const Mesh coarse = catalogue_mesh("Mesh0");
+    MeshTransform transform;
+    transform.slivers = {aspect, 5};
+    const Mesh mesh = transformed(coarse, transform);
+    expect_same_body(mesh, coarse);
+    EXPECT_EQ(mesh.vertices.size(), coarse.vertices.size() + 5);
+    EXPECT_EQ(mesh.triangles.size(), coarse.triangles.size() + 10);
+    int slivers = 0;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+      slivers += std::abs(shape(mesh, t).aspect / aspect - 1) < 1e-9;
+    EXPECT_EQ(slivers, 5) << aspect;
+  }
+}
+
+TEST(MeshTransform, GeometryIsMovedInOrder) {
+  const Mesh before = small_tooth(4, 4);
+  MeshTransform transform;
+  transform.scale = 2;
+  transform.stretch = {3, 0.5};
+  transform.move_mm = {100, -7};
+  const Mesh after = transformed(before, transform);
+  for (std::size_t v = 0; v < before.vertices.size(); ++v) {
+    const Eigen::Vector2d& x = before.vertices[v];
+    EXPECT_EQ(after.vertices[v], Eigen::Vector2d(6 * x.x() + 100, x.y() - 7));
+  }
+  EXPECT_NEAR(area(after), 6 * area(before), 1e-10);
+}
+
+TEST(MeshTransform, FarAwayTheShapeIsRoundedNoMoreThanCoordinatesAre) {
+  const Mesh before = catalogue_mesh("Mesh3");
+  for (const double lengths : {1e3, 1e6}) {
+    MeshTransform transform;
+    transform.move_mm = {10 * lengths, 5 * lengths};
+    const Mesh after = transformed(before, transform);
+    for (std::size_t v = 0; v < before.vertices.size(); ++v)
+      EXPECT_LE((after.vertices[v] - transform.move_mm - before.vertices[v]).norm(),
+                2.3e-16 * transform.move_mm.norm());
+  }
+}
+
+TEST(MeshTransform, TheMiddleEdgesKeepTheirRole) {
+  const auto with = [](auto change) {
+    MeshTransform transform;
+    change(transform);
+    const Mesh mesh = transformed(small_tooth(4, 5), transform);
+    EXPECT_NO_THROW(validate(mesh));
+    return mesh;
+  };
+  const Mesh one = with([](MeshTransform& t) { t.keep_contact_edges = 1; });
+  EXPECT_EQ(mesh_sizes(one).contact_edges, 1);
+  EXPECT_EQ(mesh_sizes(one).force_edges, 8 + 4);
+  for (const BoundaryEdge& edge : one.boundary) {
+    if (edge.role != BoundaryRole::contact) continue;
+    const auto [a, b] = edge.vertices;
+    EXPECT_NEAR((one.vertices[a] + one.vertices[b]).y(), 0, 1e-12);
+  }
+
+  const Mesh held = with([](MeshTransform& t) { t.keep_displacement_edges = 3; });
+  EXPECT_EQ(mesh_sizes(held).displacement_edges, 3);
+  EXPECT_EQ(mesh_sizes(held).force_edges, 8 + 2);
+
+  const Mesh free_of_force = with([](MeshTransform& t) { t.keep_force_edges = 0; });
+  EXPECT_EQ(mesh_sizes(free_of_force).n_f, 0);
+  EXPECT_EQ(mesh_sizes(free_of_force).displacement_edges, 5 + 8);
+
+  const Mesh all_held =
+      with([](MeshTransform& t) { t.keep_contact_edges = t.keep_force_edges = 0; });
+  EXPECT_EQ(mesh_sizes(all_held).displacement_edges, 18);
+}
+
+TEST(MeshTransform, OnARackTheMiddleIsCountedFaceByFace) {
+  MeshTransform transform;
+  transform.keep_contact_edges = 2;
+  const Mesh mesh = transformed(catalogue_mesh("Mesh4"), transform);
+  EXPECT_EQ(mesh_sizes(mesh).contact_edges, 2);
+}
+
+TEST(MeshTransform, ImpossibleValuesAreNamed) {
+  const auto with = [](auto change) {
+    MeshTransform transform;
+    change(transform);
+    return complaint(transform);
+  };
+  EXPECT_EQ(with([](auto& t) { t.refine = 7; }), "refine: 7 (allowed: a whole number from 0 to 6)");
+  EXPECT_EQ(with([](auto& t) { t.refine = -1; }),
+            "refine: -1 (allowed: a whole number from 0 to 6)");
+  EXPECT_EQ(with([](auto& t) {
+              t.grade = Grading{{10, 0}, 0.5};
+            }),
+            "grade: ratio: 0.5 (allowed: >= 1)");
+  EXPECT_EQ(with([](auto& t) { t.slivers = Slivers{2, 1}; }), "slivers: aspect: 2 (allowed: > 2)");
+  EXPECT_EQ(with([](auto& t) { t.slivers = Slivers{10, 0}; }), "slivers: count: 0 (allowed: >= 1)");
+  EXPECT_EQ(with([](auto& t) {
+              t.slivers = Slivers{10, 33};
+            }),
+            "slivers: count: 33 (allowed: 1 to 32, the triangles that such a sliver fits into)");
+  EXPECT_EQ(with([](auto& t) { t.scale = 0; }), "scale: 0 (allowed: > 0)");
+  EXPECT_EQ(with([](auto& t) {
+              t.stretch = {1, -1};
+            }),
+            "stretch: [1, -1] (allowed: two numbers > 0)");
+  EXPECT_EQ(with([](auto& t) { t.move_mm.x() = std::nan(""); }),
+            "move_mm: [nan, 0] (allowed: finite numbers)");
+  EXPECT_EQ(with([](auto& t) { t.keep_contact_edges = 5; }),
+            "keep_contact_edges: 5 (the mesh small tooth has 4)");
+  EXPECT_EQ(with([](auto& t) { t.keep_displacement_edges = 0; }),
+            "keep_displacement_edges: 0 (allowed: a whole number >= 1)");
+  EXPECT_EQ(with([](auto& t) { t.keep_force_edges = -1; }),
+            "keep_force_edges: -1 (allowed: a whole number >= 0)");
+}
+
+TEST(MeshTransform, WhatFlattensATriangleIsNamed) {
+  const auto with = [](auto change) {
+    MeshTransform transform;
+    change(transform);
+    return complaint(transform);
+  };
+  EXPECT_EQ(with([](auto& t) {
+              t.stretch = {1, 1e-14};
+            }),
+            "stretch: [1, 1e-14] cannot be: small tooth: triangle 1: zero area");
+  EXPECT_EQ(with([](auto& t) {
+              t.slivers = Slivers{1e14, 1};
+            }),
+            "slivers: aspect: 1e+14 cannot be: small tooth: triangle 17: zero area");
+  EXPECT_EQ(with([](auto& t) {
+              t.move_mm = {1e17, 0};
+            }).substr(0, 54),
+            "move_mm: [1e+17, 0] cannot be: small tooth: triangle 1");
+  EXPECT_EQ(with([](auto& t) { t.scale = 1e200; }),
+            "scale: 1e+200 cannot be: small tooth: triangle 1: zero area");
+}
+
+}  // namespace
+}  // namespace airybench::mesh_transform_test

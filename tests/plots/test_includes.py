@@ -1,0 +1,113 @@
+"""Files include what their room may use, and the rooms one way only.  /usr/bin/python3 -m unittest FILE"""
+import re
+import unittest
+from pathlib import Path
+
+PROJECT = Path(__file__).resolve().parents[2]
+INCLUDE = re.compile(r'^#include "([^"]+)"', re.M)
+
+# What a room may use besides itself, from the top of the house down; CMake links the same.
+ROOMS = {
+    "support": [],
+    "mesh": ["support"],
+    "meshgen": ["mesh", "support"],
+    "assembly": ["mesh", "support"],
+    "solvers": ["assembly", "mesh", "support"],
+    "bench/statistics": [],
+    "bench/judging": ["solvers", "assembly", "mesh", "support"],
+    # Records, and what is made of them: without solvers.
+    "bench/records": ["bench/statistics", "support"],
+    "bench/tracking": ["bench/records", "bench/statistics", "support"],
+    "bench/exports": ["bench/records", "bench/tracking", "bench/statistics", "support"],
+    "bench/claims": ["bench/records", "bench/statistics", "support"],
+    "bench/forecast": ["bench/records", "support"],
+    "bench/output": ["bench/records", "bench/exports", "support"],
+    # What runs cases.
+    "bench/heap": ["support"],
+    "bench/cases": ["bench/records", "solvers", "assembly", "mesh", "support"],
+    "bench/measuring": ["bench/cases", "bench/judging", "bench/heap", "bench/records",
+                        "bench/statistics", "solvers", "assembly", "mesh", "support"],
+    "bench/isolation": ["bench/measuring", "bench/cases", "bench/heap", "bench/records", "solvers",
+                        "support"],
+    "bench/running": ["bench/isolation", "bench/measuring", "bench/cases", "bench/output",
+                      "bench/records", "support"],
+    "bench/commands": ["bench/running", "bench/isolation", "bench/measuring", "bench/cases",
+                       "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
+                       "bench/output", "bench/records", "solvers", "mesh", "support"],
+    "bench": ["bench/commands", "bench/isolation", "support"],
+}
+
+# Inside solvers/: what a folder may use besides itself and the base, the files that all may use.
+BASE = {"solution", "stage_times", "method", "lanes", "parallel"}
+PIECES = ["direct", "preconditioners", "krylov", "contact", "condensation", "uzawa", "displacement"]
+FOLDERS_OF_SOLVERS = {
+    "direct": [],
+    "preconditioners": ["direct"],
+    "krylov": ["preconditioners"],
+    "contact": [],
+    "condensation": ["direct", "preconditioners", "krylov", "contact"],
+    "uzawa": ["direct", "contact", "condensation"],
+    "displacement": [],
+    "general_names": ["preconditioners", "condensation"],
+    "methods": [*PIECES, "general_names"],
+    "the table": ["preconditioners", "general_names"],
+}
+
+
+def room(file: str) -> str:
+    return Path(file).parent.as_posix() if file.startswith("bench/") else Path(file).parts[0]
+
+
+def folder_of_solvers(file: str) -> str:
+    """The folder of a file; of those in solvers/ itself the level. "" elsewhere."""
+    parts = Path(file).parts
+    if parts[0] != "solvers":
+        return ""
+    stem = Path(file).stem
+    return parts[1] if len(parts) > 2 else "base" if stem in BASE else \
+        "the table" if stem == "methods" else stem
+
+
+def forbidden(file: str, text: str) -> list[str]:
+    """What the file must not include."""
+    wrong = []
+    for included in INCLUDE.findall(text):
+        if "/" not in included:
+            continue  # of a library, in quotes
+        rooms = {room(file), *ROOMS[room(file)]}
+        here = folder_of_solvers(file)
+        folders = {"", "base", here, *FOLDERS_OF_SOLVERS.get(here, [])}
+        if room(included) not in rooms or (here and folder_of_solvers(included) not in folders):
+            wrong.append(f"{file} includes {included}")
+    return wrong
+
+
+class IncludesTest(unittest.TestCase):
+    def test_files_include_what_their_room_may_use(self) -> None:
+        files = [file for top in ("support", "mesh", "meshgen", "assembly", "solvers", "bench")
+                 for file in sorted((PROJECT / top).rglob("*.?pp"))]
+        self.assertGreater(len(files), 200)
+        wrong = [line for file in files for line in
+                 forbidden(file.relative_to(PROJECT).as_posix(), file.read_text(encoding="utf-8"))]
+        self.assertEqual([], wrong)
+
+    def test_planted_violations_are_seen(self) -> None:
+        for file, included in (("bench/claims/claims.cpp", "solvers/methods.hpp"),
+                               ("solvers/methods/blind.cpp", "bench/judging/verifier.hpp"),
+                               ("mesh/mesh.cpp", "assembly/problem.hpp"),
+                               ("solvers/contact/gauss_seidel.cpp",
+                                "solvers/condensation/three_step.hpp"),
+                               ("bench/records/record.cpp", "bench/running/runner.hpp")):
+            line = f'#include "{included}"\n'
+            self.assertEqual([f"{file} includes {included}"], forbidden(file, line))
+
+    def test_one_way_is_one_way(self) -> None:
+        for table in (ROOMS, FOLDERS_OF_SOLVERS):
+            order = list(table)
+            for user, used in table.items():
+                for below in used:
+                    self.assertLess(order.index(below), order.index(user), user)
+
+
+if __name__ == "__main__":
+    unittest.main()
