@@ -7,34 +7,16 @@ import pandas as pd
 
 from case_names import case_name
 from night_history import Night, moment
+from record_keys import FIELDS
 from records import with_derived
 
-# Key, name, head of its column in the table, group; the unit is in the key. In the order shown.
-QUANTITIES = (
-    ("time_s", "time of one solve", "time", "time"),
-    ("assembly_s", "assembly of the blocks", "assembly", "time"),
-    ("tuning_s", "choosing parameters", "tuning", "time"),
-    ("peak_heap_bytes", "peak heap", "heap", "memory"),
-    ("peak_rss_bytes", "peak resident set", "resident", "memory"),
-    ("storage_bytes", "storage of the matrices", "storage", "memory"),
-    ("heap_allocated_bytes", "heap allocated", "allocated", "memory"),
-    ("heap_allocations", "heap allocations", "allocations", "memory"),
-    ("error_stress", "error of the stresses", "error stress", "error"),
-    ("error_force", "error of the contact forces", "error force", "error"),
-    ("equilibrium_residual", "equilibrium residual", "equilibrium", "error"),
-    ("linear_iterations", "linear iterations", "linear iterations", "work"),
-    ("contact_iterations", "contact sweeps", "contact sweeps", "work"),
-    ("uzawa_iterations", "Uzawa iterations", "Uzawa iterations", "work"),
-    ("factor_entries", "entries of the factors", "factor entries", "work"),
-    ("factor_flops", "operations of the factorisation", "factor flops", "work"),
-    ("instructions", "instructions", "instructions", "work"),
-    ("noise_kernel_s", "noise kernel beside the case", "noise kernel", "time"),
-)
+GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
+QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
 # The table's columns, in the order shown.
-COLUMNS = (("mesh", "mesh"), ("scene", "scene"), ("method", "method"), ("stop", "stop"),
-           ("status", "status"), ("n_phi", "n_phi"), ("time_s", "time"), ("time_mad_s", "±"),
-           *((key, head) for key, _, head, _ in QUANTITIES if key != "time_s"))
-OF_SERIES = [*(key for key, *_ in QUANTITIES), "time_low_s", "time_high_s"]
+COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s",
+           *(key for key in QUANTITIES if key != "time_s"))
+HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
+OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
 OF_A_CASE = ["name", "mesh", "scene", "family", "body"]  # its name, and by what cases are grouped
 # Different in every night, so that a difference says nothing.
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
@@ -54,18 +36,23 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
         "bodies": bodies,
         "cases": sorted(series(cases, len(nights)), key=lambda case: (
             bodies.index(case["body"]), case["mesh"], case["scene"])),
-        "quantities": [{"key": key, "name": name, "group": group}
-                       for key, name, _, group in QUANTITIES if cases[key].notna().any()],
+        "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
+                       for key, f in QUANTITIES.items() if cases[key].notna().any()],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},
-        "columns": [{"key": key, "name": head} for key, head in COLUMNS
+        "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
                     if run[key].map(is_there).any()],
         "rows": [{key: value for key, value in row.items() if is_there(value)}
-                 for row in run[list(dict.fromkeys((*OF_A_CASE, *dict(COLUMNS), "status_reason")))]
+                 for row in run[list(dict.fromkeys((*OF_A_CASE, *COLUMNS, "status_reason")))]
                  .to_dict("records")],
         "context": environment(last, before),
     }
+
+
+def head_of(key: str) -> str:
+    """peak_heap_bytes -> peak heap."""
+    return key.removesuffix("_s").removesuffix("_bytes").replace("_", " ")
 
 
 def named(cases: pd.DataFrame) -> pd.DataFrame:

@@ -1,12 +1,14 @@
-"""The keys of a record: a key stands once, in Row, with its type and what it may be.
+"""The keys of a record, with their types and what they may be; results/README.md says what each is.
 
-results/README.md says what each is.
+A key that figures use stands once, in Row; numbers that are only shown are bench's own list.
 """
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, fields
+from pathlib import Path
 
 from looks import Look
 
@@ -117,27 +119,16 @@ class Row:
     repetitions: int = key(COUNT, needed=True)
     time_s: float | None = key(POSITIVE, needed=True)
     time_mad_s: float | None = key(NOT_NEGATIVE)
-    time_low_s: float | None = key(NOT_NEGATIVE)
-    time_high_s: float | None = key(NOT_NEGATIVE)
     assembly_s: float | None = key(NOT_NEGATIVE)
     stage_contact_s: float | None = key(NOT_NEGATIVE)
     stage_check_s: float | None = key(NOT_NEGATIVE)
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
-    noise_kernel_s: float | None = key(NOT_NEGATIVE)
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
-    peak_rss_bytes: float | None = key(POSITIVE)
-    storage_bytes: float | None = key(NOT_NEGATIVE)
-    heap_allocated_bytes: float | None = key(NOT_NEGATIVE)
-    heap_allocations: float | None = key(NOT_NEGATIVE)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)
     memory_counts_differ: bool = key(FLAG)
     linear_iterations: float | None = key(NOT_NEGATIVE)
-    contact_iterations: float | None = key(NOT_NEGATIVE)
     uzawa_iterations: float | None = key(NOT_NEGATIVE)
-    factor_entries: float | None = key(NOT_NEGATIVE)
-    factor_flops: float | None = key(NOT_NEGATIVE)
-    instructions: float | None = key(NOT_NEGATIVE)
     parameters: str = key(TEXT)                   # chosen: r=20, rho=20
     done_fraction: float | None = key(SHARE, needed=True)           # timeout only
     extrapolated_time_s: float | None = key(POSITIVE, needed=True)  # timeout only
@@ -146,7 +137,6 @@ class Row:
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)
-    equilibrium_residual: float | None = key(NOT_NEGATIVE)
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
     study: str = key(words(("error", "stability"), may_be_empty=True))
@@ -171,5 +161,12 @@ class Row:
             f"{text}, {percent:.1g}\u00a0% done"
 
 
-KEYS: dict[str, Kind] = {f.name: f.metadata["kind"] for f in fields(Row) if f.metadata}
+# As bench lists them (bench/records/record_fields.def).
+FIELDS: list[dict] = json.loads(
+    Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))
+# Those that are shown as they are: a label, or a unit in the nights, and no type of their own in Row.
+NUMBERS = [f["name"] for f in FIELDS
+           if not isinstance(f["empty"], list) and (f["label"] or (f["nightly"] and f["unit"]))]
+OF_ROW: dict[str, Kind] = {f.name: f.metadata["kind"] for f in fields(Row) if f.metadata}
+KEYS = OF_ROW | {name: FINITE for name in NUMBERS if name not in OF_ROW}
 NEEDED = tuple(f.name for f in fields(Row) if f.metadata.get("needed"))

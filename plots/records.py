@@ -9,6 +9,7 @@ import csv
 import io
 import json
 from collections.abc import Callable, Collection
+from dataclasses import fields
 from pathlib import Path
 
 import pandas as pd
@@ -146,7 +147,8 @@ def json_of(text: str, place: str) -> object:
 
 
 def rows_of(table: pd.DataFrame) -> list[Row]:
-    return [Row(**values) for values in table.to_dict("records")]
+    own = [field.name for field in fields(Row)]
+    return [Row(**values) for values in table[own].to_dict("records")]
 
 
 def read_run(folder: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
