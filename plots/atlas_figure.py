@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
+from collections.abc import Iterator
 from itertools import groupby
 
 import numpy as np
@@ -13,8 +14,10 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import study_parts as parts
+from figure_files import Drawing
 from figure_words import plain
-from results_table import OUTCOMES, Row
+from record_keys import OUTCOMES, Row
+from selection import by_mesh
 
 # Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
 MARKS = {
@@ -62,12 +65,18 @@ def columns_of(rows: list[Row]) -> list[tuple[str, str]]:
     return sorted({(row.scene_group, row.scene) for row in rows}, key=key)
 
 
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    for mesh, own in by_mesh([row for row in rows if row.study == "stability"]).items():
+        yield Drawing(parts.file_name("stability", mesh), own, draw)
+
+
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of a stability study's mesh. The figure, or why there is none."""
     if not rows:
         return "no rows"
     columns = columns_of(rows)
-    methods = sorted({row.method for row in rows}, key=parts.order)
+    families = {row.method: row.family for row in sorted(rows, key=parts.order)}
+    methods = list(families)
     groups = [(name, len(list(g))) for name, g in groupby(columns, key=lambda c: c[0])]
     left = 0.25 + LETTER * max(map(len, methods))
     above = 0.3 + 0.62 * LETTER * max(len(name) for name, _ in groups)
@@ -75,7 +84,8 @@ def draw(rows: list[Row]) -> Figure | str:
     width = max(left + CELL * len(columns) + max(RIGHT, above), 9)
     top = TITLE + above
     body = top + ROW * len(methods) + below + KEY
-    figure = parts.sheet(width, body, [
+    figure = parts.sheet(width, body, f"Stability on {rows[0].mesh}: {len(methods)} methods in "
+                         f"{len(columns)} scenes", [
         "A row is a method, a column an extreme scene; scenes by group. ok: all errors and "
         "residuals at most the target; its number n says that the errors of stresses and contact "
         "forces are at most 1e-n; +: no such error is known. Empty: not in the study. "
@@ -84,10 +94,8 @@ def draw(rows: list[Row]) -> Figure | str:
     axes = figure.add_axes([left / width, (height - top - ROW * len(methods)) / height,
                             CELL * len(columns) / width, ROW * len(methods) / height],
                            xlim=(0, len(columns)), ylim=(len(methods), 0))
-    figure.text(parts.MARGIN / width, 1 - 0.08 / height, va="top", fontsize=12, weight="bold",
-                s=f"Stability on {rows[0].mesh}: {len(methods)} methods in {len(columns)} scenes")
     draw_cells(axes, rows, columns, methods)
-    draw_names(axes, rows, columns, methods)
+    draw_names(axes, rows, columns, families)
     draw_groups(axes, groups)
     draw_key(figure, rows, parts.MARGIN, body - KEY + 0.1, width)
     return figure
@@ -110,7 +118,8 @@ def draw_cells(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
 
 
 def draw_names(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
-               methods: list[str]) -> None:
+               families: dict[str, str]) -> None:
+    methods = list(families)
     axes.set_xticks([k + 0.5 for k in range(len(columns))],
                     [plain(scene) for _, scene in columns], rotation=90, fontsize=SIZE)
     axes.set_yticks([k + 0.5 for k in range(len(methods))], map(plain, methods), fontsize=8)
@@ -122,7 +131,7 @@ def draw_names(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
         axes.annotate(f"{ok[method]} of {count[method]}", (1, k + 0.53), xytext=(5, 0),
                       xycoords=axes.get_yaxis_transform(), textcoords="offset points",
                       va="center", fontsize=SIZE, color="0.3")
-        if k and parts.family(method) != parts.family(methods[k - 1]):
+        if k and families[method] != families[methods[k - 1]]:
             axes.plot([0, len(columns)], [k, k], color="0.25", linewidth=0.8, zorder=2.5)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 
 def case_name(case: Mapping) -> str:
-    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper] of a record or a row of results.csv."""
+    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper] of a record."""
     name = "/".join(case[key] for key in ("mesh", "scene", "method"))
     if case.get("study"):
         name += f"/study={case['study']}"

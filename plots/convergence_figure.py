@@ -2,7 +2,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from itertools import cycle
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -10,12 +12,15 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_parts import axes_at, log_axis, log_limits
-from paper_sizes import body_of
-from results_table import Row, scene_of
+from figure_files import Drawing
+from figure_parts import axes_at, log_limits, log_log
+from figure_words import plain
+from record_keys import Row
+from selection import by_mesh, scene_of
 
 LEFT, TOP, HEIGHT, BOTTOM, GAP, MAIN, BESIDE = 0.72, 0.4, 4.0, 0.5, 0.85, 5.0, 3.6
-MARKS = {"one tooth": ("#0072B2", "o"), "rack of four teeth": ("#D55E00", "s")}
+MARKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#00805C", "^"), ("#8A3FA0", "D"), ("#C98500", "v"),
+         ("#56B4E9", "P"), ("#777777", "X"))  # of the bodies, in turn
 H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
 
 
@@ -33,18 +38,26 @@ class Point:
         return 1 / math.sqrt(self.n_phi)
 
 
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = [row for row in rows if row.study == "error"]
+    if study:
+        yield Drawing("convergence", study, draw)
+
+
+def marks_of(bodies: Iterable[str]) -> dict[str, tuple[str, str]]:
+    """Colour and marker."""
+    return dict(zip(bodies, cycle(MARKS)))
+
+
 def points_of(rows: list[Row]) -> dict[str, list[Point]]:
     """Body -> its meshes, the coarsest first. The error is of mesh and scene: any row has it."""
-    meshes: dict[str, list[Row]] = {}
-    for row in rows:
-        if row.error_discretisation and row.n_phi:
-            meshes.setdefault(row.mesh, []).append(row)
+    known = [row for row in rows if row.error_discretisation and row.n_phi]
     bodies: dict[str, list[Point]] = {}
-    for mesh, own in sorted(meshes.items(), key=lambda item: item[1][0].n_phi):
+    for mesh, own in by_mesh(known).items():
         bounds = [(row.lower_bound_Nmm, row.upper_bound_Nmm) for row in own
                   if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]
         error = float(np.median([row.error_discretisation for row in own]))
-        bodies.setdefault(body_of(mesh), []).append(
+        bodies.setdefault(own[0].body, []).append(
             Point(mesh, own[0].n_phi, error, bounds[0] if bounds else None))
     return bodies
 
@@ -78,40 +91,39 @@ def draw(rows: list[Row]) -> Figure | str:
         return "fewer than two meshes have error_discretisation"
     bounded_scene, bounded = bounded_of(rows)
     width = LEFT + MAIN + 0.15 + len(bounded) * (GAP + BESIDE)
-    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM, [
+    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM,
+                         "Discretisation error", [
         f"Scene {scene}. Relative constitutive relation error between the equilibrated "
         "stresses and the compatible P2 displacements on the same mesh. h^p: power law fitted by "
         "least squares of logarithms."
         + (f" Right: scene {bounded_scene}; the bounds of the energy are guaranteed where there is "
            "no friction." if bounded else "")])
-    figure.text(parts.MARGIN / width, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s="Discretisation error", fontsize=11, weight="bold")
-    draw_errors(axes_at(figure, LEFT, TOP, MAIN, HEIGHT), bodies)
+    marks = marks_of(dict.fromkeys([*bodies, *bounded]))
+    draw_errors(axes_at(figure, LEFT, TOP, MAIN, HEIGHT), bodies, marks)
     for k, (body, points) in enumerate(bounded.items(), 1):
         axes = axes_at(figure, LEFT + MAIN + k * GAP + (k - 1) * BESIDE, TOP, BESIDE, HEIGHT)
-        draw_bounds(axes, body, points)
+        draw_bounds(axes, body, points, marks[body][0])
     return figure
 
 
-def draw_errors(axes: Axes, bodies: dict[str, list[Point]]) -> None:
+def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
+                marks: dict[str, tuple[str, str]]) -> None:
     every = [point for points in bodies.values() for point in points]
-    axes.set(xscale="log", yscale="log", xlim=log_limits([point.h for point in every], 1.25),
-             ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
-             ylabel="relative discretisation error of the stresses, 1")
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlim=log_limits([point.h for point in every], 1.25),
+            ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
+            ylabel="relative discretisation error of the stresses, 1")
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels = Labels(axes)
     for body, points in bodies.items():
         labels.avoid([p.h for p in points], [p.error for p in points])
     for body, points in bodies.items():
-        colour, marker = MARKS.get(body, parts.OTHERS)
+        colour, marker = marks[body]
         h, errors = [p.h for p in points], [p.error for p in points]
         power = rate(points)
         axes.plot(h, errors, color=colour, marker=marker, markersize=6,
                   linestyle="none" if power else "-")
-        words = body
+        words = plain(body)
         if power:
             scale = math.exp(np.mean(np.log(errors) - power * np.log(h)))
             ends = np.array([min(h), max(h)])
@@ -125,8 +137,7 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]]) -> None:
                    formula=True, color=colour, fontsize=10)
 
 
-def draw_bounds(axes: Axes, body: str, points: list[Point]) -> None:
-    colour, _ = MARKS.get(body, parts.OTHERS)
+def draw_bounds(axes: Axes, body: str, points: list[Point], colour: str) -> None:
     h = [point.h for point in points]
     lower, upper = zip(*(point.bounds_Nmm for point in points))
     axes.set_xlim(0, 1.25 * max(h))
@@ -135,6 +146,6 @@ def draw_bounds(axes: Axes, body: str, points: list[Point]) -> None:
     axes.plot(h, lower, color=colour, marker="^", linestyle=(0, (4, 1.5)), label="lower bound")
     axes.margins(y=0.12)
     axes.legend(frameon=False, loc="best")
-    axes.set(xlabel=H, ylabel="energy, N mm", title=f"bounds of the energy, {body}")
+    axes.set(xlabel=H, ylabel="energy, N mm", title=f"bounds of the energy, {plain(body)}")
     axes.ticklabel_format(axis="y", useOffset=False)
     axes.spines[["top", "right"]].set_visible(False)

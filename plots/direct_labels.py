@@ -5,11 +5,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.font_manager import FontProperties
 from matplotlib.patheffects import withStroke
-from matplotlib.textpath import TextToPath
 
-from figure_words import plain
+from figure_words import plain, width_of
 
 DISTANCES = (5, 11, 18, 27, 38, 52, 70)
 DIRECTIONS = 16
@@ -44,21 +42,16 @@ class Labels:
     def reserve(self, words: str, right: float, y: float, size: float) -> None:
         """The place of words that end at (right, y) and stand upon it."""
         corner = self.points(right, y)[0]
-        width = self.width_of(words, FontProperties(size=size))
+        width = width_of(words, size)
         self.boxes.append(np.r_[corner - [width + 3, 0], corner + [0, 1.4 * size]])
-
-    @staticmethod
-    def width_of(words: str, font: FontProperties) -> float:
-        return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
 
     def add(self, words: str, x: object, y: object, formula: bool = False,
             **text: object) -> None:
         """Beside one of the points (x, y), the first rather than the last. formula: $ is math."""
         anchors = self.points(x, y)
         size = float(text.pop("fontsize", self.size))
-        font = FontProperties(size=size, weight=text.get("weight", "normal"))
         lines = words.split("\n")
-        width = max(self.width_of(line, font) for line in lines)
+        width = max(width_of(line, size, text.get("weight", "normal")) for line in lines)
         half = np.array([width / 2 + 1, 0.62 * size * len(lines)])
         anchor, centre = self.best(anchors, half)
         self.boxes.append(np.r_[centre - half, centre + half])

@@ -10,8 +10,8 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
-from field_drawing import COLORMAP, draw_boundary, turned
-from field_panel import body_height, view_mm, width_of
+from field_drawing import COLORMAP, draw_boundary
+from field_panel import body_height, view_of, width_of
 from fields import Fields
 from figure_words import plain
 
@@ -29,22 +29,22 @@ def draw(s: Fields, share: np.ndarray) -> Figure:
     width = max(width, 5.5)
     figure = Figure(figsize=(width, TOP + height + BOTTOM))
     top = figure.get_size_inches()[1]
-    y0, y1, x0, x1 = view_mm(s)
-    across = height * (y1 - y0) / (x1 - x0)
+    view = view_of(s)
+    across = height / view.height
     axes = figure.add_axes([((width + LEFT - RIGHT) / 2 - across / 2) / width, BOTTOM / top,
-                            across / width, height / top], xlim=(y0, y1), ylim=(x1, x0))
+                            across / width, height / top], xlim=view.across, ylim=view.upward)
     high = 10.0 ** math.ceil(math.log10(share.max()))
     low = max(share[share > 0].min(), high / 10**DECADES)
     norm = LogNorm(10.0 ** math.floor(math.log10(low)), high, clip=True)
     shades = colormaps[COLORMAP].resampled(SHADES)
     axes.add_collection(PolyCollection(
-        turned(s.triangles), array=np.maximum(share, norm.vmin), norm=norm, cmap=shades,
+        s.placed(s.triangles), array=np.maximum(share, norm.vmin), norm=norm, cmap=shades,
         edgecolor="white", linewidths=np.clip(10 / math.sqrt(len(share)), 0.06, 0.4),
         rasterized=True))
     draw_boundary(axes, s)
     axes.tick_params(length=2)
-    axes.set_ylabel("x in mm", labelpad=2)
-    axes.set_xlabel("y in mm", labelpad=1)
+    axes.set_ylabel(view.names[1], labelpad=2)
+    axes.set_xlabel(view.names[0], labelpad=1)
     axes.spines[:].set_visible(False)
     figure.text(0.1 / width, 1 - 0.1 / top, plain(f"{s.name}: where the discretisation error is"),
                 va="top", fontsize=10, weight="bold")

@@ -1,6 +1,6 @@
 """Draws the stress in a body, and the points and the pressure of a contact face, into given axes.
 
-Pictures are turned by 90 degrees: y to the right, x down, so that a tip rests on its foundation.
+A body lies as its Fields say; a face has its outward normal down.
 """
 from __future__ import annotations
 
@@ -52,11 +52,6 @@ def marker(state: str) -> dict[str, str]:
                 markerfacecolor="none" if state == "open" else style["color"])
 
 
-def turned(points: np.ndarray) -> np.ndarray:
-    """(..., 2) x, y -> y, x; the vertical axis points down."""
-    return points[..., ::-1]
-
-
 def cut(values: np.ndarray, parts: int) -> np.ndarray:
     """Linear functions by their corner values (N, 3, c), on parts^2 triangles each: (., 3, c)."""
     k = range(parts)
@@ -70,20 +65,21 @@ def cut(values: np.ndarray, parts: int) -> np.ndarray:
 def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> None:
     """tau_max on the chosen triangles (T,); the stress is linear on each third, tau_max is not."""
     parts = int(np.clip(np.sqrt(6e4 / (3 * chosen.sum())), 2, 8))
-    xy = cut(turned(s.corners[chosen]).reshape(-1, 3, 2), parts).reshape(-1, 2)
+    xy = cut(s.placed(s.corners[chosen]).reshape(-1, 3, 2), parts).reshape(-1, 2)
     tau = largest_shear(cut(s.stress[chosen].reshape(-1, 3, 3), parts)).ravel()
     mesh = Triangulation(*xy.T, np.arange(len(xy)).reshape(-1, 3))
     axes.tripcolor(mesh, tau, shading="gouraud", cmap=COLORMAP, norm=scales.shear, rasterized=True)
-    corners = axes.transData.transform(turned(s.triangles[chosen]).reshape(-1, 2)).reshape(-1, 3, 2)
+    triangles = s.placed(s.triangles[chosen])
+    corners = axes.transData.transform(triangles.reshape(-1, 2)).reshape(-1, 3, 2)
     size_pt = np.hypot(*(corners - corners[:, [1, 2, 0]]).T).mean(0) * 72 / axes.figure.dpi
-    axes.add_collection(PolyCollection(turned(s.triangles[chosen]), facecolor="none", alpha=0.4,
+    axes.add_collection(PolyCollection(triangles, facecolor="none", alpha=0.4,
                                        edgecolor="black", rasterized=True,
                                        linewidths=np.clip(0.04 * size_pt, 0.05, 0.3)))
 
 
 def draw_boundary(axes: Axes, s: Fields) -> None:
     for role, style in ROLE.items():
-        edges = turned(s.boundary[s.role == role])
+        edges = s.placed(s.boundary[s.role == role])
         for chain in chains(edges):
             points = np.vstack([edges[chain, 0], edges[chain[-1:], 1]])
             line, = axes.plot(*points.T, **style, zorder=3, solid_capstyle="butt")
@@ -97,15 +93,23 @@ def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
     draw_boundary(axes, s)
 
 
-def face_frame(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, bool]:
-    """Origin (2,), frame (2, 2) of outward normal and tangent, and whether the tangent is y.
+def face_frame(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, str]:
+    """Origin (2,), frame (2, 2) of outward normal and tangent, and the axis that the tangent is.
 
     edges (n, 2, 2): a face, the body on its left.
     """
     tangent = edges[-1, 1] - edges[0, 0]
     tangent = tangent / np.hypot(*tangent)
     normal = np.array([tangent[1], -tangent[0]])
-    return edges[0, 0] @ normal * normal, np.stack([normal, tangent], 1), tangent[1] > 0.999
+    return edges[0, 0] @ normal * normal, np.stack([normal, tangent], 1), \
+        "x in mm" if tangent[0] > 0.999 else "y in mm" if tangent[1] > 0.999 \
+        else "along the face, mm"
+
+
+def looks_down(s: Fields, face: np.ndarray) -> bool:
+    """In the picture of the body; more down than sideways."""
+    normal = face_frame(s.edges[face])[1][:, 0]
+    return (normal[0] if s.sideways else -normal[1]) > 0.7
 
 
 def draw_strip(axes: Axes, s: Fields, face: np.ndarray, scales: Scales, marker_pt: float) -> None:

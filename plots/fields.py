@@ -5,13 +5,15 @@ T triangles, B boundary edges, P = 2 x (contact edges) contact points.
 """
 from __future__ import annotations
 
-import csv
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 
 from case_names import case_name, file_of
+from paper_sizes import catalogue_mesh
+from records import RecordsError, cells_of, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
@@ -19,10 +21,6 @@ BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,role"
 ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
-
-
-class FieldsError(Exception):
-    """Names a file or folder, what is wrong with it and what is expected."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +35,9 @@ class Fields:
     edges: np.ndarray     # (P/2, 2, 2) mm: contact edges; contact point 2e is the start of edge e
     traction: np.ndarray  # (P/2, 2, 2) MPa: start, end; normal (pressure < 0), tangential
     state: np.ndarray     # (P/2, 2) of STATES
-    n_phi: int | None     # from results.csv; None: it has no such row
+    mesh: str
+    n_phi: int | None     # from the record; None: there is none
+    sideways: bool        # drawn with y to the right and x down: a tooth rests on its foundation
 
     @property
     def triangles(self) -> np.ndarray:
@@ -45,9 +45,14 @@ class Fields:
         return self.corners[:, :, 0]
 
     def moved(self, origin: np.ndarray, frame: np.ndarray) -> Fields:
-        """Positions seen from origin (2,) along the frame's columns (2, 2); stresses stay."""
-        return replace(self, **{key: (getattr(self, key) - origin) @ frame
-                                for key in ("corners", "boundary", "edges")})
+        """Positions seen from origin (2,) along the frame's columns (2, 2), drawn with the first
+        down and the second to the right; stresses stay."""
+        return replace(self, sideways=True, **{key: (getattr(self, key) - origin) @ frame
+                                               for key in ("corners", "boundary", "edges")})
+
+    def placed(self, points: np.ndarray) -> np.ndarray:
+        """(..., 2) x, y -> to the right and along the vertical axis of a picture."""
+        return points[..., ::-1] if self.sideways else points
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face."""
@@ -84,49 +89,28 @@ def area(starts: np.ndarray, ends: np.ndarray) -> float:
 def read_table(path: Path, header: str,
                words: tuple[str, ...] = ()) -> tuple[np.ndarray, np.ndarray]:
     """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them."""
-    try:
-        lines = path.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "not text"
-        raise FieldsError(f"{path}: cannot be read: {reason}; expected the CSV of bench --fields")
-    if not lines or lines[0] != header:
-        raise FieldsError(f"{path}:1: expected the header {header}")
-    columns = header.split(",")
-    numbers, last = [], []
-    for at, line in enumerate(lines[1:], 2):
-        cells = line.split(",")
-        if len(cells) != len(columns):
-            raise FieldsError(f"{path}:{at}: {len(cells)} values, expected "
-                              f"{len(columns)}: {header}")
-        if words and cells[-1] not in words:
-            raise FieldsError(f"{path}:{at}: {columns[-1]} is '{cells[-1]}', expected one of "
-                              + ", ".join(words))
-        row = []
-        for cell, column in zip(cells[:-1] if words else cells, columns):
-            try:
-                row.append(float(cell))
-            except ValueError:
-                row.append(np.nan)
-            if not np.isfinite(row[-1]):
-                raise FieldsError(f"{path}:{at}: {column} is '{cell}', expected a finite number")
-        numbers.append(row)
-        last.append(cells[-1])
-    width = len(columns) - bool(words)
-    return np.array(numbers).reshape(-1, width), np.array(last, dtype=object)
+    lines, columns = cells_of(path), header.split(",")
+    if not lines or lines[0] != columns:
+        raise RecordsError(f"{path}:1: expected the header {header}")
+    cells = np.array(lines[1:], dtype=object).reshape(-1, len(columns))
+    for at in np.flatnonzero(~np.isin(cells[:, -1], words)) if words else []:
+        raise RecordsError(f"{path}:{at + 2}: {columns[-1]} is '{cells[at, -1]}', expected one of "
+                           + ", ".join(words))
+    cells, last = cells[:, : len(columns) - bool(words)], cells[:, -1]
+    numbers = pd.to_numeric(cells.ravel(), errors="coerce").astype(float).reshape(cells.shape)
+    for at, column in np.argwhere(~np.isfinite(numbers)):
+        raise RecordsError(f"{path}:{at + 2}: {columns[column]} is '{cells[at, column]}', expected "
+                           "a finite number")
+    return numbers, last
 
 
-def read_n_phi(results: Path, name: str) -> int | None:
-    """n_phi of the row whose case gave the file name; None without file or row."""
-    if not results.is_file():
-        return None
-    try:
-        with results.open(newline="", encoding="utf-8") as file:
-            for row in csv.DictReader(file):
-                if file_of(case_name(row)) == name:
-                    return int(row["n_phi"])
-    except (OSError, UnicodeDecodeError, csv.Error, KeyError, ValueError, TypeError) as error:
-        raise FieldsError(f"{results}: {error!r}; expected columns mesh, scene, method, n_phi")
-    return None
+def cases_of(results: Path) -> dict[str, tuple[str, int]]:
+    """Name of a case's files -> mesh, n_phi."""
+    if not any((results / file).is_file() for file in ("records.jsonl", "results.csv")):
+        return {}
+    table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))
+    return {file_of(case_name(case)): (case["mesh"], case["n_phi"])
+            for case in table.to_dict("records")}
 
 
 def error_names_in(results: Path) -> list[str]:
@@ -137,15 +121,15 @@ def error_names_in(results: Path) -> list[str]:
 
 def read_error_share(results: Path, s: Fields) -> np.ndarray:
     """(T,) share of each triangle in the squared discretisation error, all 0 where there is none;
-    throws FieldsError."""
+    throws RecordsError."""
     path = results / "fields" / f"{s.name}.error.csv"
     rows, _ = read_table(path, ERROR)
     if not np.array_equal(rows[:, 0], np.arange(len(s.corners)) + 1):
-        raise FieldsError(f"{path}: {len(rows)} rows; expected one for each of the "
+        raise RecordsError(f"{path}: {len(rows)} rows; expected one for each of the "
                           f"{len(s.corners)} triangles of {s.name}.stress.csv, from 1")
     wrong = np.flatnonzero((rows[:, 1] < 0) | (rows[:, 1] > 1))
     if wrong.size:
-        raise FieldsError(f"{path}:{wrong[0] + 2}: error_share is '{rows[wrong[0], 1]:g}', "
+        raise RecordsError(f"{path}:{wrong[0] + 2}: error_share is '{rows[wrong[0], 1]:g}', "
                           "expected a number from 0 to 1")
     return rows[:, 1]
 
@@ -154,15 +138,16 @@ def names_in(results: Path) -> list[str]:
     """Names of the solutions in results/fields, sorted."""
     folder = results / "fields"
     if not results.is_dir():
-        raise FieldsError(f"{results}: no such folder; expected the --out of bench --fields")
+        raise RecordsError(f"{results}: no such folder; expected the --out of bench --fields")
     names = sorted(path.name[: -len(".stress.csv")] for path in folder.glob("*.stress.csv"))
     if not names:
-        raise FieldsError(f"{folder}: no fields; expected NAME.stress.csv from bench --fields")
+        raise RecordsError(f"{folder}: no fields; expected NAME.stress.csv from bench --fields")
     return names
 
 
-def read_fields(results: Path, name: str) -> Fields:
-    """One solution; throws FieldsError. The three files must describe the same body."""
+def read_fields(results: Path, name: str, cases: dict[str, tuple[str, int]]) -> Fields:
+    """One solution; throws RecordsError. The three files must describe the same body. Without a
+    case of that name the mesh is read from it."""
     path = {part: results / "fields" / f"{name}.{part}.csv"
             for part in ("stress", "contact", "boundary")}
     rows, _ = read_table(path["stress"], STRESS)
@@ -170,7 +155,7 @@ def read_fields(results: Path, name: str) -> Fields:
     count = np.arange(len(rows))
     order = np.stack([count // 9, count // 3 % 3, count % 3], axis=1) + 1
     if n == 0 or len(rows) % 9 or (rows[:, :3] != order).any():
-        raise FieldsError(f"{path['stress']}: {len(rows)} rows; expected nine per triangle, "
+        raise RecordsError(f"{path['stress']}: {len(rows)} rows; expected nine per triangle, "
                           "thirds 1 to 3 with corners 1 to 3, triangles from 1")
     corners = rows[:, 3:5].reshape(n, 3, 3, 2)
     boundary, role = read_table(path["boundary"], BOUNDARY, ROLES)
@@ -178,14 +163,16 @@ def read_fields(results: Path, name: str) -> Fields:
 
     inside, outline = area(corners[:, :, 0], corners[:, :, 1]), area(*boundary.swapaxes(0, 1))
     if not np.isclose(inside, outline, rtol=1e-9):
-        raise FieldsError(f"{path['boundary']}: encloses {outline:.9g} mm^2; expected the "
+        raise RecordsError(f"{path['boundary']}: encloses {outline:.9g} mm^2; expected the "
                           f"{inside:.9g} mm^2 of the triangles in {path['stress'].name}")
     points, state = read_table(path["contact"], CONTACT, STATES)
     contact = boundary[role == "contact"]
     if not np.array_equal(points[:, :2], contact.reshape(-1, 2)):
-        raise FieldsError(f"{path['contact']}: {len(points)} points; expected start and end of "
+        raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
+    mesh, n_phi = cases.get(name, (name.partition("-")[0], None))
     half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), n_phi=read_n_phi(results / "results.csv", name))
+                  state=state.reshape(-1, 2), mesh=mesh, n_phi=n_phi,
+                  sideways=catalogue_mesh(mesh) is not None)

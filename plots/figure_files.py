@@ -1,9 +1,9 @@
-"""Writes files all together or not at all, and pictures small."""
+"""What is drawn of a run, and how it is written: pictures small."""
 from __future__ import annotations
 
-import os
-import tempfile
 from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,18 +11,35 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from record_keys import Row
+
 # Of a colour's value: what is left of it in steps of 6.
 STEPS = (255 - (255 - np.arange(256) + 2) // 6 * 6).astype(np.uint8)
+VECTOR_DPI, DPI, COLOURS = 200, 120, 128
 
 
-def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
-    """Each writer writes its file beside its place; when all are there they are moved to it."""
-    folder.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".figures-") as temporary:
-        for name, write in writers.items():
-            write(Path(temporary) / name)
-        for name in writers:
-            os.replace(Path(temporary) / name, folder / name)
+@dataclass(frozen=True)
+class Drawing:
+    """A figure of a run, as the `drawings` of its module plans it."""
+
+    name: str                          # of its files
+    rows: list[Row]                    # that it shows, or names
+    draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
+    vector: bool = False               # as .svg and .png; else as a small .png
+    options: dict[str, object] = field(default_factory=dict)
+
+    @property
+    def suffixes(self) -> tuple[str, ...]:
+        return (".svg", ".png") if self.vector else (".png",)
+
+    def writer(self, figure: Figure) -> Callable[[Path], object]:
+        return partial(write, figure) if self.vector else \
+            partial(write_small_png, figure, DPI, colours=COLOURS)
+
+
+def write(figure: Figure, path: Path) -> None:
+    metadata = {"Date": None} if path.suffix == ".svg" else {"Software": None}
+    figure.savefig(path, dpi=VECTOR_DPI, metadata=metadata)
 
 
 def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = None) -> None:
@@ -31,6 +48,9 @@ def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = 
     canvas = FigureCanvasAgg(figure)
     canvas.draw()
     image = Image.fromarray(STEPS[np.asarray(canvas.buffer_rgba())[..., :3]])
-    if colours:
-        image = image.quantize(colours, dither=Image.Dither.NONE)
+    if colours:  # the commonest as they are, the others as the nearest of them
+        known = sorted(image.getcolors(image.width * image.height), reverse=True)[:colours]
+        palette = Image.new("P", (1, 1))
+        palette.putpalette([value for _, colour in known for value in colour])
+        image = image.quantize(palette=palette, dither=Image.Dither.NONE)
     image.save(path, format="PNG", optimize=True, dpi=(dpi, dpi))

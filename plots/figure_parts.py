@@ -6,7 +6,7 @@ arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from matplotlib import colormaps, ticker
@@ -18,7 +18,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from figure_words import heap_caption, plain, short, time_caption, wrapped
-from results_table import Row
+from record_keys import STOPS, Row
+from selection import of_scene
 
 WIDTH = 6.3  # inches: 16 cm
 TYPE, SMALL, MATH = 8, 7, 10  # points; indices and exponents are set at 0.7 MATH
@@ -97,6 +98,16 @@ class ErrorScale:
         bar.ax.tick_params(pad=1.5, labelsize=SMALL)
         bar.outline.set_linewidth(0.4)
         bar.ax.set_title("error of the contact forces", pad=2)
+
+
+def by_stop(rows: list[Row]) -> Iterator[tuple[str, list[Row], ErrorScale]]:
+    """End of the figures' names, rows of an ordinary run's scene and the stop, common colours."""
+    own = of_scene([row for row in rows if not row.study])
+    scale = ErrorScale(own)
+    for stop in STOPS:
+        of_stop = [row for row in own if row.stop == stop]
+        if of_stop:
+            yield "_paper_stop" if stop == "paper" else "", of_stop, scale
 
 
 def draw_point(axes: Axes, x: float, y: float | None, row: Row, mark: str, scale: ErrorScale,
@@ -183,6 +194,14 @@ def log_axis(axis: Axis) -> None:
     axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))
     axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10), numticks=99))
     axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def log_log(axes: Axes, **properties: object) -> None:
+    """With its limits among the properties."""
+    axes.set(xscale="log", yscale="log", **properties)
+    log_axis(axes.xaxis)
+    log_axis(axes.yaxis)
+    axes.spines[["right"]].set_visible(False)
 
 
 def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, float]:

@@ -8,7 +8,8 @@ from dataclasses import dataclass, field
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 
-from results_table import Row
+from record_keys import Row
+from selection import grouped
 
 
 def short(value: float) -> str:
@@ -22,13 +23,18 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+def width_of(words: str, size_pt: float, weight: str = "normal") -> float:
+    """In points."""
+    font = FontProperties(size=size_pt, weight=weight)
+    return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
+
+
 def wrapped(text: str, width: float, size_pt: float) -> list[str]:
     """Lines of at most so many inches; no-break spaces stay."""
-    measure, font, lines = TextToPath(), FontProperties(size=size_pt), [""]
+    lines = [""]
     for word in text.split(" "):
         longer = f"{lines[-1]} {word}".strip()
-        # At 72 dots an inch, a dot is a point.
-        if measure.get_text_width_height_descent(longer, font, False)[0] > 72 * width and lines[-1]:
+        if width_of(longer, size_pt) > 72 * width and lines[-1]:
             lines.append(word)
         else:
             lines[-1] = longer
@@ -58,12 +64,9 @@ class Notes:
 
 def merged(cases: list[str]) -> str:
     """'ALM on Mesh1', 'ALM on Mesh2' -> 'ALM on Mesh1, Mesh2'."""
-    meshes: dict[str, list[str]] = {}
-    for case in cases:
-        method, _, mesh = case.partition(" on ")
-        meshes.setdefault(method, []).append(mesh)
-    return ", ".join(f"{method} on {', '.join(on)}" if on[0] else method
-                     for method, on in meshes.items())
+    methods = grouped((case.partition(" on ") for case in cases), lambda parts: parts[0])
+    return ", ".join(f"{method} on {', '.join(mesh for *_, mesh in on)}" if on[0][2] else method
+                     for method, on in methods.items())
 
 
 def span(values: Iterable[int]) -> str:

@@ -11,19 +11,19 @@ which, and nothing is written.
 from __future__ import annotations
 
 import argparse
-import sys
 from functools import partial
 from pathlib import Path
 
 import matplotlib
 from matplotlib.figure import Figure
 
+import command
 import error_map
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
-from fields import (Fields, FieldsError, error_names_in, names_in, read_error_share,
+from fields import (Fields, cases_of, error_names_in, names_in, read_error_share,
                     read_fields)
-from figure_files import replace_all, write_small_png
+from figure_files import write_small_png
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -68,7 +68,7 @@ def write(figure: Figure, path: Path) -> None:
 
 
 def save(figure: Figure, targets: list[Path]) -> None:
-    replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
+    command.replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
     print(*targets, sep="\n")
 
 
@@ -81,49 +81,41 @@ def choose(names: list[str]) -> list[str] | None:
     return None
 
 
-def fail(message: object) -> None:
-    print(f"gallery.py: {message}", file=sys.stderr)
-    sys.exit(2)
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("results", type=Path, metavar="RESULTS_DIR",
-                        help="the --out of bench --fields")
-    parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    command.results_and_out(parser)
     parser.add_argument("--each", action="store_true", help="also a picture per solution")
-    parser.error = fail
-    args = parser.parse_args()
+
+
+def draw(args: argparse.Namespace) -> None:
     out = args.out or args.results / "figures"
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
-    try:
-        names = names_in(args.results)
-        chosen = choose(names)
-        wanted = names if args.each or not chosen else chosen
-        solutions = {name: read_fields(args.results, name) for name in wanted}
-        mapped = {name: solutions.get(name) or read_fields(args.results, name)
-                  for name in error_names_in(args.results)}
-        maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
-        if chosen:
-            *teeth, rack = (solutions[name] for name in chosen)
-            save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
-        if args.each or not chosen:
-            for name, s in solutions.items():
-                save(compose([[s]]), [out / f"fields_{name}.png"])
-        for name, (s, share) in maps.items():
-            if not share.any():
-                print(f"error_map_{name}: left out: the solution has no discretisation error")
-                continue
-            path = out / f"error_map_{name}.png"
-            replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
-                                                 error_map.DPI, colours=200)})
-            print(path)
-    except FieldsError as error:
-        fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}; expected a folder to write to")
+    names, cases = names_in(args.results), cases_of(args.results)
+    chosen = choose(names)
+    wanted = names if args.each or not chosen else chosen
+    solutions = {name: read_fields(args.results, name, cases) for name in wanted}
+    mapped = {name: solutions.get(name) or read_fields(args.results, name, cases)
+              for name in error_names_in(args.results)}
+    maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
+    out.mkdir(parents=True, exist_ok=True)
+    if chosen:
+        *teeth, rack = (solutions[name] for name in chosen)
+        save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
+    if args.each or not chosen:
+        for name, s in solutions.items():
+            save(compose([[s]]), [out / f"fields_{name}.png"])
+    for name, (s, share) in maps.items():
+        if not share.any():
+            print(f"error_map_{name}: left out: the solution has no discretisation error")
+            continue
+        path = out / f"error_map_{name}.png"
+        command.replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
+                                             error_map.DPI, colours=200)})
+        print(path)
+
+
+def main() -> None:
+    command.run(__doc__, add_arguments, draw, "a folder to write to")
 
 
 if __name__ == "__main__":

@@ -1,15 +1,21 @@
 """Whose the heap of a solve is at its peak, method by method, beside what the methods count."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import study_parts as parts
+from figure_files import Drawing
 from figure_parts import axes_at
-from memory_records import OWNERS, Split
-from method_names import KRYLOV, compared
+from figure_words import plain, width_of
+from record_keys import OWNERS, Row
+from selection import by_body, by_mesh, compared, grouped, of_scene
 
 WIDTH, LEFT, RIGHT, TOP, BOTTOM, BAR = 8.6, 1.5, 1.75, 0.92, 0.45, 0.27
+BETWEEN = 0.75  # the axes of two meshes
+ROOM = 24  # bars
 MIB = 2**20
 # Okabe and Ito's colours, and what they stand for.
 LOOKS = {"blocks": ("#999999", "blocks S, C, q"),
@@ -26,72 +32,87 @@ COUNT = dict(marker="D", markersize=5.5, markerfacecolor="white", markeredgecolo
              markeredgewidth=1.1, linestyle="none")
 
 
-def is_shown(method: str) -> bool:
-    """All but the preconditioners' variants, of which the paper's stand for the others."""
-    return compared(method) is not None or parts.family(method) not in KRYLOV
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    split = of_scene([row for row in rows if row.memory_by_owner and row.completed
+                      and row.stop == "target" and not row.study])
+    if split:
+        bars = [bar for own in by_body(split).values() for bar in chosen(own)]
+        yield Drawing("memory_by_owner", bars, draw)
 
 
-def chosen(splits: list[Split]) -> list[Split]:
-    """Of the largest mesh that has two methods or more; by peak, each method once."""
-    meshes: dict[tuple[int, str], dict[str, Split]] = {}
-    for split in splits:
-        if is_shown(split.method):
-            known = meshes.setdefault((split.n_phi, split.mesh), {})
-            known[compared(split.method) or split.method] = split
-    shown = max(((size, known) for size, known in meshes.items() if len(known) > 1),
-                key=lambda of_mesh: of_mesh[0], default=(None, {}))[1]
-    return sorted(shown.values(), key=total_peak)
+def chosen(rows: list[Row]) -> list[Row]:
+    """Of a body's largest mesh that has two methods or more; by peak."""
+    meshes = [compared(own, ROOM) for own in by_mesh(rows).values()]
+    return sorted(next((own for own in reversed(meshes) if len(own) > 1), []), key=peak_of)
 
 
-def total_peak(split: Split) -> int:
-    return sum(split.peak_bytes.values())
+def peaks_of(row: Row) -> dict[str, int]:
+    """Bytes by owner, at the overall peak."""
+    return {owner: own["peak_bytes"] for owner, own in row.memory_by_owner.items()}
 
 
-def draw(splits: list[Split]) -> Figure | str:
-    """splits: of one scene. The figure, or why there is none."""
-    bars = chosen(splits)
-    if not bars:
+def peak_of(row: Row) -> int:
+    return sum(peaks_of(row).values())
+
+
+def counted(row: Row) -> int:
+    """Bytes of the owners that have a count of their own."""
+    return sum(own.get("counted_bytes") or 0 for own in row.memory_by_owner.values())
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    """rows: bars in their order, a mesh of each body. The figure, or why there is none."""
+    if not rows:
         return "no mesh has two methods whose heap was split"
-    used = [owner for owner in OWNERS if any(bar.peak_bytes.get(owner, 0) > 0 for bar in bars)]
-    height = BAR * len(bars)
-    figure = parts.sheet(WIDTH, TOP + height + BOTTOM, [
-        f"{bars[0].mesh}, n_φ = {bars[0].n_phi}, scene {bars[0].scene}, {parts.threads(bars)}. "
+    used = [owner for owner in OWNERS if any(peaks_of(row).get(owner, 0) > 0 for row in rows)]
+    meshes = grouped(rows, lambda row: row.mesh)
+    sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
+    differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
+              if row.memory_counts_differ]
+    body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
+    figure = parts.sheet(WIDTH, TOP + body + BOTTOM,
+                         "Where the memory goes", [
+        f"{'; '.join(sizes)}, scene {rows[0].scene}, {parts.threads(rows)}. "
         "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
         "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
         "count, entries times size, and the blocks. A bar that ends beyond it is workspace; one "
         "that ends before it never holds everything at once.",
-        "The count differs from the heap by more than 10 %: "
-        + ", ".join(bar.method for bar in bars if bar.differs) + "."
-        if any(bar.differs for bar in bars) else ""])
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s="Where the memory goes", fontsize=11, weight="bold")
-    axes = axes_at(figure, LEFT, TOP, WIDTH - LEFT - RIGHT, height)
-    draw_bars(axes, bars, used)
+        f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
+        else ""])
+    height = figure.get_size_inches()[1]
+    left = max(LEFT, max(width_of(row.method, parts.TYPE) for row in rows) / 72 + 0.2)
+    top = TOP
+    for mesh, own in meshes.items():
+        axes = axes_at(figure, left, top, WIDTH - left - RIGHT, BAR * len(own))
+        draw_bars(axes, own, used)
+        if len(meshes) > 1:
+            axes.set_title(plain(mesh), loc="left", pad=2, weight="bold")
+        top += BAR * len(own) + BETWEEN
     figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
-                  bbox_to_anchor=(LEFT / WIDTH - 0.01, 1 - 0.26 / figure.get_size_inches()[1]),
+                  bbox_to_anchor=(left / WIDTH - 0.01, 1 - 0.26 / height),
                   borderpad=0, columnspacing=1.4, handlelength=1.2, labelspacing=0.3)
     return figure
 
 
-def draw_bars(axes: Axes, bars: list[Split], used: list[str]) -> None:
-    counts = [sum(bar.counted_bytes.values()) / MIB for bar in bars]
-    places = range(len(bars))
-    start = [0.0] * len(bars)
+def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
+    counts = [counted(row) / MIB for row in rows]
+    places = range(len(rows))
+    start = [0.0] * len(rows)
     for owner in used:
         colour, words = LOOKS[owner]
-        widths = [max(bar.peak_bytes.get(owner, 0), 0) / MIB for bar in bars]
+        widths = [max(peaks_of(row).get(owner, 0), 0) / MIB for row in rows]
         axes.barh(places, widths, left=start, height=0.72, color=colour, label=words,
                   edgecolor="white", linewidth=0.4)
         start = [left + width for left, width in zip(start, widths)]
     axes.plot(counts, places, label="the method's own count", **COUNT)
-    axes.set(xlim=(0, 1.04 * max(*start, *counts)), ylim=(-0.6, len(bars) - 0.4),
+    axes.set(xlim=(0, 1.04 * max(*start, *counts)), ylim=(-0.6, len(rows) - 0.4),
              xlabel="heap at the peak of the solve, MiB")
-    axes.set_yticks(places, [bar.method for bar in bars])
+    axes.set_yticks(places, [plain(row.method) for row in rows])
     axes.invert_yaxis()
     axes.tick_params(axis="y", length=0)
     axes.grid(axis="x")
     axes.spines[["top", "right"]].set_visible(False)
-    for place, bar, count in zip(places, bars, counts):
-        axes.annotate(f"{parts.mebibytes(total_peak(bar))}, counted "
-                      f"{parts.mebibytes(count * MIB)}", (1.01, place), va="center",
-                      xycoords=axes.get_yaxis_transform(), fontsize=7, annotation_clip=False)
+    for place, row, count in zip(places, rows, counts):
+        axes.annotate(f"{parts.mebibytes(peak_of(row))}, counted {parts.mebibytes(count * MIB)}",
+                      (1.01, place), va="center", xycoords=axes.get_yaxis_transform(), fontsize=7,
+                      annotation_clip=False)

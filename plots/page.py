@@ -16,42 +16,40 @@ import base64
 import hashlib
 import html
 import json
-import os
-import sys
-import tempfile
 from pathlib import Path
 
-from night_history import read_history, read_records
+import command
+from night_history import OF_A_CASE, read_history
 from page_data import page_data
-from results_table import ResultsError
+from records import RecordsError, read
 
 PARTS = Path(__file__).resolve().parent / "page"
 SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    command.run(__doc__, add_arguments, make, "a file to write")
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("history", type=Path, metavar="HISTORY")
     parser.add_argument("results", type=Path, metavar="RESULTS", nargs="?")
     parser.add_argument("--out", type=Path, default=Path("page.html"))
-    parser.error = fail
-    args = parser.parse_args()
-    try:
-        write_whole(args.out, page(args.history, args.results))
-    except ResultsError as error:
-        fail(error)
-    except OSError as error:
-        fail(f"{error.filename}: {error.strerror}; expected a file to write")
+
+
+def make(args: argparse.Namespace) -> None:
+    text = page(args.history, args.results)
+    command.replace_all(args.out.parent, {
+        args.out.name: lambda path: path.write_text(text, encoding="utf-8")})
     print(args.out)
 
 
 def page(history: Path, results: Path | None) -> str:
     nights, records = read_history(history), None
     if results and not results.is_dir():
-        raise ResultsError(f"{results}: no such folder; expected the --out of bench")
+        raise RecordsError(f"{results}: no such folder; expected the --out of bench")
     if results and (results / "records.jsonl").exists():
-        records = read_records(results / "records.jsonl")
+        records = read(results / "records.jsonl", OF_A_CASE)
     data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
                       separators=(",", ":")).replace("<", "\\u003c")
     style = part("page.css")
@@ -81,24 +79,6 @@ def figures(folder: Path) -> str:
                      f'<img alt="{name}" src="data:image/png;base64,{image}"></button>'
                      f'<figcaption>{name}</figcaption></figure>')
     return "\n".join(shown)
-
-
-def write_whole(file: Path, text: str) -> None:
-    """The old file or the new one, never a part."""
-    descriptor, temporary = tempfile.mkstemp(dir=file.parent, prefix=f".{file.name}-")
-    try:
-        with os.fdopen(descriptor, "w", encoding="utf-8") as out:
-            out.write(text)
-        os.chmod(temporary, 0o644)  # mkstemp's files are their owner's alone
-        os.replace(temporary, file)
-    except BaseException:
-        os.unlink(temporary)
-        raise
-
-
-def fail(message: object) -> None:
-    print(f"page.py: {message}", file=sys.stderr)
-    sys.exit(2)
 
 
 if __name__ == "__main__":

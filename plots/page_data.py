@@ -1,76 +1,80 @@
 """What the page shows, from the nights of a history: series, marks, the last run, its context."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import pandas as pd
+
 from case_names import case_name
 from night_history import Night, moment
+from record_keys import FIELDS
+from records import with_derived
 
-# Key, name, head of its column in the table, group; the unit is in the key. In the order shown.
-QUANTITIES = (
-    ("time_s", "time of one solve", "time", "time"),
-    ("assembly_s", "assembly of the blocks", "assembly", "time"),
-    ("tuning_s", "choosing parameters", "tuning", "time"),
-    ("peak_heap_bytes", "peak heap", "heap", "memory"),
-    ("peak_rss_bytes", "peak resident set", "resident", "memory"),
-    ("storage_bytes", "storage of the matrices", "storage", "memory"),
-    ("heap_allocated_bytes", "heap allocated", "allocated", "memory"),
-    ("heap_allocations", "heap allocations", "allocations", "memory"),
-    ("error_stress", "error of the stresses", "error stress", "error"),
-    ("error_force", "error of the contact forces", "error force", "error"),
-    ("equilibrium_residual", "equilibrium residual", "equilibrium", "error"),
-    ("linear_iterations", "linear iterations", "linear iterations", "work"),
-    ("contact_iterations", "contact sweeps", "contact sweeps", "work"),
-    ("uzawa_iterations", "Uzawa iterations", "Uzawa iterations", "work"),
-    ("factor_entries", "entries of the factors", "factor entries", "work"),
-    ("factor_flops", "operations of the factorisation", "factor flops", "work"),
-    ("instructions", "instructions", "instructions", "work"),
-    ("noise_kernel_s", "noise kernel beside the case", "noise kernel", "time"),
-)
+GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
+QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
 # The table's columns, in the order shown.
-COLUMNS = (("mesh", "mesh"), ("scene", "scene"), ("method", "method"), ("stop", "stop"),
-           ("status", "status"), ("n_phi", "n_phi"), ("time_s", "time"), ("time_mad_s", "±"),
-           *((key, head) for key, _, head, _ in QUANTITIES if key != "time_s"))
+COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s",
+           *(key for key in QUANTITIES if key != "time_s"))
+HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
+OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
+OF_A_CASE = ["name", "mesh", "scene", "family", "body"]  # its name, and by what cases are grouped
 # Different in every night, so that a difference says nothing.
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
-def page_data(nights: list[Night], records: list[dict] | None) -> dict:
+def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
     """JSON for the page's script. records: of the run to list; None: the last night's cases."""
     last, before = nights[-1], nights[-2] if len(nights) > 1 else None
-    run = last.cases if records is None else records
+    cases = named(pd.concat([night.cases.assign(night=k) for k, night in enumerate(nights)],
+                            ignore_index=True))
+    run = cases[cases.night == len(nights) - 1] if records is None else named(records)
+    bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
     return {
         "nights": [{"date": night.date, "revision": night.revision, "failed": night.failed}
                    for night in nights],
         "noise": {key: [night.noise.get(key) for night in nights] for key in ("median_s", "mad_s")},
-        "cases": series(nights),
-        "quantities": [{"key": key, "name": name, "group": group}
-                       for key, name, _, group in QUANTITIES
-                       if any(case.get(key) is not None
-                              for night in nights for case in night.cases)],
+        "bodies": bodies,
+        "cases": sorted(series(cases, len(nights)), key=lambda case: (
+            bodies.index(case["body"]), case["mesh"], case["scene"])),
+        "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
+                       for key, f in QUANTITIES.items() if cases[key].notna().any()],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
-                 "verdicts": last.verdicts,
-                 "statuses": [case["status"] for case in last.cases]},
-        "columns": columns(run),
-        "rows": [{key: case[key] for key in (*dict(COLUMNS), "status_reason")
-                  if case.get(key) is not None} for case in run],
+                 "verdicts": last.verdicts, "statuses": list(last.cases.status)},
+        "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
+                    if run[key].map(is_there).any()],
+        "rows": [{key: value for key, value in row.items() if is_there(value)}
+                 for row in run[list(dict.fromkeys((*OF_A_CASE, *COLUMNS, "status_reason")))]
+                 .to_dict("records")],
         "context": environment(last, before),
     }
 
 
-def series(nights: list[Night]) -> list[dict]:
+def head_of(key: str) -> str:
+    """peak_heap_bytes -> peak heap."""
+    return key.removesuffix("_s").removesuffix("_bytes").replace("_", " ")
+
+
+def named(cases: pd.DataFrame) -> pd.DataFrame:
+    """With the name of each case, and what follows from the others."""
+    cases = with_derived(cases)
+    return cases.assign(name=[case_name(case) for case in cases.to_dict("records")])
+
+
+def is_there(value: object) -> bool:
+    return value is not None and value != ""
+
+
+def series(cases: pd.DataFrame, nights: int) -> Iterator[dict]:
     """Per case a list over the nights for every quantity that it ever had; None: no value."""
-    cases: dict[str, dict] = {}
-    for k, night in enumerate(nights):
-        for case in night.cases:
-            found = cases.setdefault(case_name(case), {
-                "name": case_name(case), "mesh": case["mesh"], "scene": case["scene"],
-                "method": case_name(case).split("/", 2)[2],
-                "status": [None] * len(nights), "values": {}})
-            found["status"][k] = case["status"]
-            for key in (*(key for key, *_ in QUANTITIES), "time_low_s", "time_high_s"):
-                if case.get(key) is not None:
-                    found["values"].setdefault(key, [None] * len(nights))[k] = case[key]
-    return sorted(cases.values(), key=lambda case: (case["mesh"], case["scene"]))
+    for name, own in cases.groupby("name", sort=False):
+        by_night = own.drop_duplicates("night", keep="last").set_index("night") \
+            .reindex(range(nights)).astype(object)
+        by_night = by_night.where(by_night.notna(), None)
+        yield own.iloc[-1][OF_A_CASE].to_dict() | {
+            "method": name.split("/", 2)[2], "status": list(by_night.status),
+            "values": {key: list(by_night[key]) for key in OF_SERIES
+                       if by_night[key].notna().any()}}
 
 
 def marks(nights: list[Night]) -> list[dict]:
@@ -88,12 +92,6 @@ def marks(nights: list[Night]) -> list[dict]:
                          {key: verdict[key] for key in ("lane", "quantity", "kind", "since",
                                                         "sentence")})
     return found
-
-
-def columns(run: list[dict]) -> list[dict]:
-    """Those that some record has a value for."""
-    return [{"key": key, "name": name} for key, name in COLUMNS
-            if any(case.get(key) is not None for case in run)]
 
 
 def environment(last: Night, before: Night | None) -> list[dict]:

@@ -1,9 +1,11 @@
 """The paper's Tab. 1 beside the records' sizes."""
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 
-from results_table import Row
+from record_keys import Row
+from selection import of_scene
 
 
 @dataclass(frozen=True)
@@ -28,14 +30,17 @@ NOTE = ("*n_C of Mesh0*: 40 instead of the printed 38, which is no multiple of 4
 BODIES = {1: "one tooth", 4: "rack of four teeth"}
 
 
-def body_of(mesh: str) -> str:
-    """The body that a mesh of the paper, or one refined from it, divides; else 'other meshes'."""
-    sizes = SIZES.get(mesh[:5]) if not mesh[5:6].isdigit() else None
-    return BODIES[sizes.teeth] if sizes else "other meshes"
+def catalogue_mesh(mesh: str) -> str | None:
+    """Mesh7 of Mesh7, Mesh7-refined2, Mesh7_refined_twice; None: not of the catalogue."""
+    found = re.fullmatch(r"(Mesh\d+)([-_.].*)?", mesh)
+    return found[1] if found and found[1] in SIZES else None
 
 
 def table1(rows: list[Row]) -> str:
-    """Markdown; rows of one scene. Bold: what differs from the paper."""
+    """Markdown, of one scene; empty without meshes of the catalogue. Bold: not as in the paper."""
+    rows = of_scene(rows)
+    if not any(row.mesh in SIZES for row in rows):
+        return ""
     lines = ["# The paper's Tab. 1 and the sizes of the records", "",
              f"Scene {rows[0].scene}. Bold: not as printed. –: no records.", "",
              "| mesh | teeth | n_φ, paper | records | n_f, paper | records | n_C, paper "

@@ -2,16 +2,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_parts import axes_at, log_axis, log_limits
-from paper_sizes import body_of
-from results_table import Row
-from work_precision_figure import AXES, curves_of, is_paper_stop, value_of
+from figure_files import Drawing
+from figure_parts import axes_at, log_limits, log_log
+from figure_words import plain
+from record_keys import Row
+from selection import by_body, given, grouped, is_paper_stop, of_scene
+from work_precision_figure import AXES, curves_of, value_of
 
 WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP = 11.5, 0.72, 0.55, (6.0, 4.3), 4.3, 0.3
 BELOW, TABLE_LINE = 0.62, 0.19  # inches; under the axes, and a line of the table
@@ -20,8 +23,14 @@ GAIN = 0.01  # of the error: less is not worth a point of the front
 STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
 TABLE = ("total error at most", "cheapest method", "mesh", "time", "peak heap",
-         "P2 displacements: mesh", "time", "peak heap")
+         "displacements: mesh", "time", "peak heap")
 TABLE_AT = (0.0, 0.13, 0.39, 0.47, 0.55, 0.65, 0.83, 0.91)  # of the sheet's width
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "error"])
+    if study:
+        yield Drawing("pareto", study, draw)
 
 
 def front(rows: list[Row], column: str) -> list[Row]:
@@ -43,6 +52,11 @@ def levels(errors: list[float]) -> list[float]:
     return [level for level in found if level <= max(high, found[0])][:LEVELS]
 
 
+def displacements_of(rows: list[Row]) -> list[str]:
+    """Methods."""
+    return list(dict.fromkeys(row.method for row in rows if row.in_displacements))
+
+
 def cheapest(rows: list[Row], level: float) -> Row | None:
     """In time."""
     reach = [row for row in rows if row.error_total <= level]
@@ -56,12 +70,13 @@ def with_knob(row: Row) -> str:
 
 def table_of(rows: list[Row]) -> list[tuple[str, ...]]:
     """Cells of TABLE for each level, the largest error first."""
-    stress = [row for row in rows if row.method != parts.DISPLACEMENTS]
+    stress = [row for row in rows if not row.in_displacements]
     lines = []
     for level in reversed(levels([row.error_total for row in rows])):
         cells = [parts.percent(level)]
         for best, named in ((cheapest(stress, level), True),
-                            (cheapest([row for row in rows if row not in stress], level), False)):
+                            (cheapest([row for row in rows if row.in_displacements], level),
+                             False)):
             own = [with_knob(best) if best else "–"] if named else []
             cells += own + ([best.mesh, parts.seconds(best.time_s),
                              parts.mebibytes(best.peak_heap_bytes)] if best else ["–"] * 3)
@@ -74,44 +89,43 @@ def draw(rows: list[Row]) -> Figure | str:
     known = [row for row in rows if row.time_s and row.error_total and row.error_total <= HIGHEST]
     if not known:
         return "no row has time_s and an error_total up to 1"
-    bodies: dict[str, list[Row]] = {}
-    for row in sorted(known, key=lambda row: row.n_phi):
-        bodies.setdefault(body_of(row.mesh), []).append(row)
+    bodies = by_body(sorted(known, key=lambda row: row.n_phi))
     tables = {body: table_of(of_body) for body, of_body in bodies.items()}
     heights = {body: TOP + HEIGHT + BELOW + TABLE_LINE * (len(table) + 1.5)
                for body, table in tables.items()}
-    figure = parts.sheet(WIDTH, sum(heights.values()) + 0.3, [
+    names = displacements_of(known)
+    others = (f"The displacement method {' and '.join(names)} has its own curve; by definition it "
+              "has the mesh's error. ") if names else ""
+    tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
+    tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
+    figure = parts.sheet(WIDTH, sum(heights.values()) + 0.3,
+                         "What a total error costs: method and mesh together", [
         f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Dotted: the "
         "mesh's discretisation error, the lowest that a method can reach on it; a method's curve "
         "ends there however many more digits it computes. Thick line: the Pareto front of the "
-        "stress methods: nothing cheaper has its error, give or take 1 %. The displacement "
-        "method P2 has its own curve; by definition it has the mesh's error. Small points: all "
-        "solves of the study; finding r and ρ of ALM is not in the time."])
+        "stress methods: nothing cheaper has its error, give or take 1 %. "
+        f"{others}Small points: all solves of the study{tuned}."])
     top = 0.3
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s="What a total error costs: method and mesh together", fontsize=11, weight="bold")
     for body, of_body in bodies.items():
         draw_body(figure, top, body, of_body)
-        draw_table(figure, top + TOP + HEIGHT + BELOW, tables[body])
+        draw_table(figure, top + TOP + HEIGHT + BELOW, displacements_of(of_body), tables[body])
         top += heights[body]
     return figure
 
 
 def draw_body(figure: Figure, top: float, body: str, rows: list[Row]) -> None:
     left, height = LEFT, figure.get_size_inches()[1]
-    figure.text(LEFT / WIDTH, 1 - (top + 0.25) / height, body, fontsize=10, weight="bold")
+    figure.text(LEFT / WIDTH, 1 - (top + 0.25) / height, plain(body), fontsize=10, weight="bold")
     errors = [row.error_total for row in rows]
     for column, width in zip(AXES, PANELS):
         if not any(value_of(row, column) for row in rows):
             continue
         axes = axes_at(figure, left, top + TOP, width, HEIGHT)
         known = [row for row in rows if value_of(row, column)]
-        axes.set(xscale="log", yscale="log", xlabel=AXES[column],
-                 ylim=(min(errors) / 1.25, max(errors) * 1.25),
-                 xlim=log_limits([value_of(row, column) for row in known], 1.6))
-        log_axis(axes.xaxis)
-        log_axis(axes.yaxis)
+        log_log(axes, xlabel=AXES[column],
+                ylim=(min(errors) / 1.25, max(errors) * 1.25),
+                xlim=log_limits([value_of(row, column) for row in known], 1.6))
         axes.spines[["top", "right"]].set_visible(False)
         if column == "time_s":
             axes.set_ylabel("total relative error of the stresses, 1")
@@ -124,31 +138,30 @@ def draw_body(figure: Figure, top: float, body: str, rows: list[Row]) -> None:
 def draw_panel(axes: Axes, rows: list[Row], column: str) -> None:
     labels = Labels(axes)
     draw_floors(axes, rows, labels)
-    stress = [row for row in rows if row.method != parts.DISPLACEMENTS]
+    stress = [row for row in rows if not row.in_displacements]
     for mesh in dict.fromkeys(row.mesh for row in stress):
-        for (method, _), curve in curves_of([row for row in stress if row.mesh == mesh]).items():
-            colour, marker = parts.style(method)
+        for curve in curves_of([row for row in stress if row.mesh == mesh]).values():
+            look = curve[0].look
             axes.plot([value_of(row, column) for row in curve], [row.error_total for row in curve],
-                      color=colour, marker=marker, markersize=3, linewidth=0.7, alpha=0.3,
-                      linestyle=parts.dashes(method), zorder=2)
+                      color=look.colour, marker=look.marker, markersize=3, linewidth=0.7, alpha=0.3,
+                      linestyle=look.dashes, zorder=2)
     best = front(stress, column)
     line = [value_of(row, column) for row in best], [row.error_total for row in best]
     axes.step(*line, where="post", color="black", linewidth=2.2, alpha=0.85, zorder=4)
     labels.avoid(*line)
     for row in best:
-        colour, marker = parts.style(row.method)
-        axes.plot(value_of(row, column), row.error_total, color=colour, marker=marker,
-                  markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
-    other = sorted((row for row in rows if row.method == parts.DISPLACEMENTS),
-                   key=lambda row: row.n_phi)
-    if other:
-        draw_displacements(axes, labels, other, column)
+        axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
+                  marker=row.look.marker, markersize=8, markeredgecolor="white",
+                  markeredgewidth=0.7, zorder=6)
+    for method in displacements_of(rows):
+        own = [row for row in rows if row.method == method]
+        draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column)
     draw_stops(axes, labels, stress, column)
     named: set[tuple[str, str]] = set()
     for row in reversed(best):  # the lowest point of a method on a mesh has its name
         if (row.method, row.mesh) not in named:
             labels.add(f"{row.method}, {row.mesh}", value_of(row, column), row.error_total,
-                       weight="bold", color=parts.style(row.method)[0])
+                       weight="bold", color=row.look.colour)
         named.add((row.method, row.mesh))
 
 
@@ -165,30 +178,33 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
 
 
 def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
-    colour, marker = parts.style(parts.DISPLACEMENTS)
+    colour, marker, *_ = rows[0].look
     line = [value_of(row, column) for row in rows], [row.error_total for row in rows]
     axes.plot(*line, color=colour, marker=marker, markersize=8, linewidth=1.5, zorder=5,
               linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
     labels.avoid(*line)
-    labels.add("P2 displacements", line[0], line[1], color=colour, weight="bold", fontsize=8.5)
+    labels.add(f"{rows[0].method} displacements", *line, color=colour, weight="bold",
+               fontsize=8.5)
 
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
-    """ALM with the paper's stop on each mesh."""
-    stops = [row for row in rows if is_paper_stop(row) and row.method == "ALM"]
-    for row in stops:
-        axes.plot(value_of(row, column), row.error_total, markerfacecolor=parts.style("ALM")[0],
-                  **{**parts.STOP, "markersize": 12})
-        labels.avoid(value_of(row, column), row.error_total)
-    if stops:
-        labels.add("ALM with the paper's stop", [value_of(row, column) for row in stops],
-                   [row.error_total for row in stops], color=parts.style("ALM")[0], weight="bold",
-                   fontsize=8.5)
+    """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
+    stops = [row for row in rows if is_paper_stop(row) and not given(row)]
+    for method, own in grouped(stops, lambda row: row.method).items():
+        x, y = [value_of(row, column) for row in own], [row.error_total for row in own]
+        for at in zip(x, y):
+            axes.plot(*at, markerfacecolor=own[0].look.colour, **parts.STOP | {"markersize": 12})
+            labels.avoid(*at)
+        labels.add(f"{method} with the paper's stop", x, y, color=own[0].look.colour,
+                   weight="bold", fontsize=8.5)
 
 
-def draw_table(figure: Figure, top: float, lines: list[tuple[str, ...]]) -> None:
+def draw_table(figure: Figure, top: float, displacements: list[str],
+               lines: list[tuple[str, ...]]) -> None:
     height = figure.get_size_inches()[1]
-    for k, line in enumerate([TABLE, *lines]):
-        for at, cell in zip(TABLE_AT, line):
+    heads = [f"{'/'.join(displacements)} {head}" if head.startswith("displ") else head
+             for head in TABLE]
+    for k, line in enumerate([heads, *lines]):
+        for at, cell in zip(TABLE_AT if displacements else TABLE_AT[:5], line):
             figure.text((LEFT + at * (WIDTH - LEFT)) / WIDTH, 1 - (top + k * TABLE_LINE) / height,
-                        cell, va="top", fontsize=8, weight="bold" if k == 0 else "normal")
+                        plain(cell), va="top", fontsize=8, weight="bold" if k == 0 else "normal")

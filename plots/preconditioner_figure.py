@@ -1,93 +1,122 @@
-"""Fig. 3: time and memory of the preconditioners, for SYMMLQ and 3STEPCG side by side."""
+"""Fig. 3: time and memory of the preconditioners, for the families that have them side by side."""
 from __future__ import annotations
 
 import math
+import re
+from collections.abc import Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import figure_parts as parts
+from figure_files import Drawing
 from figure_parts import HEAP, TIME, ErrorScale, Footer, axes_at, draw_point
-from figure_words import Notes, short
-from method_names import KRYLOV, PAPER_NAMES, general, preconditioned
-from results_table import Row
+from figure_words import Notes, plain, short
+from record_keys import Row
+from selection import by_body, by_mesh, grouped
 
-GROUPS = ("DTIC", "FLIC", "SSOR", "SKY", "NONE")
 HEADS = {"SSOR": r"SSOR $\omega$"}
-MARKERS = {"DTIC": "o", "FLIC": "s", "SSOR": "D", "SKY": "^", "NONE": "v"}
+MARKERS = "osD^v<>pPX*hd"
 LEFT, RIGHT, GAP, TOP, ERRORS = 0.62, 0.08, 0.14, 0.24, 0.46
 TIME_HEIGHT, HEAP_HEIGHT, BETWEEN, LABELS = 2.2, 1.5, 0.12, 0.6
+BLOCK = TOP + ERRORS + TIME_HEIGHT + BETWEEN + HEAP_HEIGHT + LABELS  # of a body
 BETWEEN_GROUPS = 0.5  # of a slot
 NARROWEST = 8.5 / 72  # a slot whose upright label does not touch its neighbour's
 
-Slot = tuple[str, float]  # family and parameter
+Slot = tuple[str, float | None]  # group and parameter: DTIC 3, SKY without
+Columns = dict[str, dict[Slot, Row]]  # family -> slot -> row
 
 
-def choose_mesh(rows: list[Row]) -> str | None:
-    """Mesh3; else the one with most preconditioners; None: only those of Figs 4 and 5 anywhere."""
-    seen: dict[str, set[str]] = {}
-    for row in rows:
-        if preconditioned(row.method):
-            seen.setdefault(row.mesh, set()).add(general(row.method))
-    full = {mesh: names for mesh, names in seen.items() if names - PAPER_NAMES.keys()}
-    return max(full, key=lambda mesh: (mesh == "Mesh3", len(full[mesh])), default=None)
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    for suffix, own, scale in parts.by_stop(rows):
+        shown = [row for of_body in by_body(own).values()
+                 for column in columns_of(chosen(of_body)).values() for row in column.values()]
+        yield Drawing(f"figure3{suffix}", shown, draw, vector=True,
+                      options=dict(run=own, scale=scale))
 
 
-def columns_of(rows: list[Row]) -> dict[str, dict[Slot, Row]]:
-    """Krylov method -> slot -> row. A method asked for by two names is there once."""
-    columns: dict[str, dict[Slot, Row]] = {krylov: {} for krylov in KRYLOV}
-    for row in rows:
-        krylov, *slot = preconditioned(row.method) or (None,)
-        if krylov and (tuple(slot) not in columns[krylov] or row.method == general(row.method)):
-            columns[krylov][tuple(slot)] = row
-    return {krylov: column for krylov, column in columns.items() if column}
+def chosen(rows: list[Row]) -> list[Row]:
+    """Those with a preconditioner on the mesh that has most of them, if any is not one of Figs 4
+    and 5."""
+    meshes = by_mesh([row for row in rows if row.preconditioner])
+    in_paper = {row.general_name for row in rows if row.in_paper}
+    full = [own for own in meshes.values() if {row.general_name for row in own} - in_paper]
+    return max(reversed(full), default=[], key=lambda own: len({row.general_name for row in own}))
 
 
-def places_of(columns: dict[str, dict[Slot, Row]]) -> dict[Slot, float]:
-    """Slot -> position, in slots from the left."""
-    slots = sorted({slot for column in columns.values() for slot in column},
-                   key=lambda slot: (GROUPS.index(slot[0]), slot[1]))
-    families = [family for family, _ in slots]
-    gaps = [sum(a != b for a, b in zip(families[:k], families[1:k + 1]))
+def slot_of(row: Row) -> Slot:
+    group, number = re.fullmatch(r"(.*?)(\d+(?:\.\d+)?)?", row.preconditioner).groups()
+    return group, None if number is None else float(number)
+
+
+def columns_of(rows: list[Row]) -> Columns:
+    """A preconditioner is there once: as FAMILY:PRECONDITIONER rather than with further options or
+    by an alias."""
+    columns: Columns = {row.family: {} for row in rows}
+    for row in sorted(rows, key=lambda row: (
+            f"{row.family}:{row.preconditioner}" != row.general_name,
+            row.method != row.general_name)):
+        columns[row.family].setdefault(slot_of(row), row)
+    return columns
+
+
+def places_of(rows: list[Row]) -> dict[Slot, float]:
+    """Slot -> position, in slots from the left: groups with parameters first, as they come."""
+    groups = list(dict.fromkeys(slot_of(row)[0] for row in rows))
+    slots = sorted({slot_of(row) for row in rows},
+                   key=lambda slot: (slot[1] is None, groups.index(slot[0]), slot[1]))
+    gaps = [sum(a[0] != b[0] for a, b in zip(slots[:k], slots[1:k + 1]))
             for k in range(len(slots))]
     return {slot: k + BETWEEN_GROUPS * gap for k, (slot, gap) in enumerate(zip(slots, gaps))}
 
 
-def draw(rows: list[Row], scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
-    """The figure and its rows, or why there is none. rows: of one scene, one stop."""
-    mesh = choose_mesh(rows)
-    if mesh is None:
-        return "no rows of preconditioners beyond those of figures 4 and 5"
-    columns = columns_of([row for row in rows if row.mesh == mesh])
-    used = [row for column in columns.values() for row in column.values()]
+def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
+    """The figure, or why there is none. rows: a mesh of each body. run: all of the scene and the
+    stop."""
+    if not rows:
+        return "no preconditioners beyond those of figures 4 and 5"
+    meshes = grouped(rows, lambda row: row.mesh)
     notes = {TIME: Notes(), HEAP: Notes()}
-    for row in used:
+    for row in rows:
+        case = row.general_name + (f" on {row.mesh}" if len(meshes) > 1 else "")
         for quantity in (TIME, HEAP):
             value, mark = quantity.of(row)
-            notes[quantity].add(row, general(row.method), mark, value)
+            notes[quantity].add(row, case, mark, value)
             if mark == "none":
                 break  # said once
-    texts = [f"{mesh}, {used[0].n_phi} degrees of freedom. " + TIME.caption(used, rows)
-             + " Below: highest heap during one solve, its blocks and result included.",
+    sizes = [f"{mesh}, {own[0].n_phi}" for mesh, own in meshes.items()]
+    texts = [f"{'; '.join(sizes)} degrees of freedom. {TIME.caption(rows, run)}"
+             " Below: highest heap during one solve, its blocks and result included.",
              *notes[TIME].lines()]
     texts += [line.replace("no point", "no point below") for line in notes[HEAP].lines()]
-    footer = Footer(used, TIME, texts, scale)
-    body = ERRORS + TIME_HEIGHT + BETWEEN + HEAP_HEIGHT + LABELS
-    figure = Figure(figsize=(parts.WIDTH, TOP + body + footer.height))
-    places = places_of(columns)
+    footer = Footer(rows, TIME, texts, scale)
+    figure = Figure(figsize=(parts.WIDTH, BLOCK * len(meshes) + footer.height))
+    for k, (mesh, own) in enumerate(meshes.items()):
+        if len(meshes) > 1:
+            figure.text(parts.MARGIN / parts.WIDTH,
+                        1 - (k * BLOCK + TOP - 0.06) / figure.get_size_inches()[1], plain(mesh),
+                        va="bottom", weight="bold")
+        draw_block(figure, k * BLOCK + TOP, own, scale)
+    footer.draw(figure)
+    return figure
+
+
+def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -> None:
+    """Of a mesh: a column per family, time above memory."""
+    columns, places = columns_of(rows), places_of(rows)
     width = (parts.WIDTH - LEFT - RIGHT - GAP * (len(columns) - 1)) / len(columns)
-    for k, (krylov, column) in enumerate(columns.items()):
+    limits = dict(xlim=(-0.7, max(places.values()) + 0.7))
+    for k, (family, column) in enumerate(columns.items()):
         left = LEFT + k * (width + GAP)
-        limits = dict(xlim=(-0.7, max(places.values()) + 0.7))
-        upper = axes_at(figure, left, TOP + ERRORS, width, TIME_HEIGHT, yscale="log", **limits,
-                        ylim=limits_of(used, TIME))
-        lower = axes_at(figure, left, TOP + ERRORS + TIME_HEIGHT + BETWEEN, width, HEAP_HEIGHT,
-                        **limits, ylim=limits_of(used, HEAP))
+        upper = axes_at(figure, left, top + ERRORS, width, TIME_HEIGHT, yscale="log", **limits,
+                        ylim=limits_of(rows, TIME))
+        lower = axes_at(figure, left, top + ERRORS + TIME_HEIGHT + BETWEEN, width, HEAP_HEIGHT,
+                        **limits, ylim=limits_of(rows, HEAP))
         parts.log_axis(upper.yaxis)
         if k == 0:
             upper.annotate("error", (0, 1), xycoords="axes fraction", xytext=(-4, 6), ha="right",
                            textcoords="offset points", fontsize=parts.SMALL)
-        upper.set_title(krylov, pad=72 * ERRORS + 3, fontsize=parts.TYPE + 1)
+        upper.set_title(plain(family), pad=72 * ERRORS + 3, fontsize=parts.TYPE + 1)
         for axes, quantity in ((upper, TIME), (lower, HEAP)):
             axes.grid(axis="y")
             axes.spines[["top", "right"]].set_visible(False)
@@ -96,10 +125,7 @@ def draw(rows: list[Row], scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
                 axes.set_ylabel(quantity.axis)
                 axes.yaxis.set_label_coords(-0.44 / width, 0.5)
             draw_column(axes, column, places, quantity, scale)
-        slot_inches = width / (max(places.values()) + 1.4)
-        name_slots(upper, lower, places, column, slot_inches)
-    footer.draw(figure)
-    return figure, used
+        name_slots(upper, lower, places, column, width / (max(places.values()) + 1.4))
 
 
 def limits_of(rows: list[Row], quantity: parts.Quantity) -> tuple[float, float]:
@@ -111,10 +137,11 @@ def limits_of(rows: list[Row], quantity: parts.Quantity) -> tuple[float, float]:
 
 def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
                 quantity: parts.Quantity, scale: ErrorScale) -> None:
-    """Points, those of a family joined; memory on stems."""
-    for family in GROUPS:
+    """Points, those of a group joined; memory on stems."""
+    groups = list(dict.fromkeys(group for group, _ in places))
+    for group in groups:
         line = [(places[slot], quantity.of(column[slot])[0])
-                for slot in places if slot[0] == family and slot in column
+                for slot in places if slot[0] == group and slot in column
                 and quantity.of(column[slot])[1] == "done"]
         if quantity is TIME:
             axes.plot(*zip(*line), color="0.55", linewidth=0.7, zorder=2) if line else None
@@ -124,35 +151,39 @@ def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
     for slot, row in column.items():
         value, mark = quantity.of(row)
         if mark != "none":
-            draw_point(axes, places[slot], value, row, mark, scale, MARKERS[slot[0]])
+            marker = MARKERS[groups.index(slot[0]) % len(MARKERS)]
+            draw_point(axes, places[slot], value, row, mark, scale, marker)
 
 
 def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict[Slot, Row],
                slot_inches: float) -> None:
-    """Parameters and groups below, errors above; of a dense sweep of omega every second, third."""
+    """Parameters and groups below, errors above; of a dense sweep every second, third."""
     step = math.ceil(NARROWEST / slot_inches)
-    sweep = [slot for slot in places if slot[0] == "SSOR"]
-    named = [slot for slot in places if slot[0] != "SSOR" or sweep.index(slot) % step == 0]
+    groups = grouped(places, lambda slot: slot[0])
+    upright = {group for group, slots in groups.items()
+               if max(len(label_of(slot)) for slot in slots) > 1}
+    named = [slot for slot in places if slot[0] not in upright
+             or groups[slot[0]].index(slot) % step == 0]
     for axes in (upper, lower):
         axes.set_xticks([places[slot] for slot in named],
                         [label_of(slot) for slot in named] if axes is lower else [])
         axes.set_xticks([places[slot] for slot in places if slot not in named], minor=True)
     for slot, tick in zip(named, lower.get_xticklabels()):
-        tick.set(rotation=90 if slot[0] in ("SSOR", "SKY", "NONE") else 0, fontsize=parts.SMALL)
+        tick.set(rotation=90 if slot[0] in upright else 0, fontsize=parts.SMALL)
     for slot in named:
         row = column.get(slot)
         known = row and row.completed and row.error_force is not None
         upper.annotate(short(row.error_force) if known else "–", (places[slot], 1),
                        xycoords=upper.get_xaxis_transform(), xytext=(0, 4), ha="center",
                        textcoords="offset points", rotation=90, fontsize=parts.SMALL, va="bottom")
-    for family in ("DTIC", "FLIC", "SSOR"):
-        at = [place for slot, place in places.items() if slot[0] == family]
-        if at:
-            lower.annotate(HEADS.get(family, family), (sum(at) / len(at), 0),
+    for group, slots in groups.items():
+        at = [places[slot] for slot in slots]
+        if slots[0][1] is not None:
+            lower.annotate(HEADS.get(group, plain(group)), (sum(at) / len(at), 0),
                            xycoords=lower.get_xaxis_transform(), xytext=(0, -27), ha="center",
                            textcoords="offset points", va="top")
 
 
 def label_of(slot: Slot) -> str:
-    family, parameter = slot
-    return family if family in ("SKY", "NONE") else f"{parameter:g}"
+    group, parameter = slot
+    return plain(group) if parameter is None else f"{parameter:g}"

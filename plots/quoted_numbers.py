@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Holds the numbers quoted in README.md and docs/ against the committed records.
 
 docs/numbers.txt quotes phrases, with {} where a number stands, and says below each phrase what the
@@ -26,36 +26,24 @@ Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of tab
 from __future__ import annotations
 
 import argparse
-import math
 import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
-from fnmatch import fnmatchcase
+from decimal import Decimal
 from pathlib import Path
 
 from case_names import case_name
-from results_table import ResultsError, Row, read_results
+from quoted_values import QuoteError, Runs, chosen, value_of
+from record_keys import Row
+from records import RecordsError, rows_of
 
 PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 NUMBER = r"\d{1,3}(?: \d{3})+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|" + "|".join(rf"\b{w}\b" for w in WORDS)
-UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "MiB": 2**20,
-         "GiB": 2**30}
-ROUNDING = {"at most": ROUND_CEILING, "at least": ROUND_FLOOR, None: ROUND_HALF_EVEN}
-EXPRESSION = re.compile(
-    r"(?P<folder>[\w/]+): (?:(?P<bound>at most|at least) )?(?:(?P<which>least|greatest) )?"
-    r"(?P<quantity>[\w+*/().-]+) of (?P<mesh>[^\s/]+)/(?P<method>\S+?)"
-    r"(?: per (?:(?P<divisor>[\w+*/().-]+) of )?(?P<per>\S+?))?"
-    r"(?P<filters>(?:, \w+=\S*?)*)(?: in (?P<unit>\S+))?")
 CONDITION = re.compile(r"(?P<expression>.+) is (?P<relation>below |above |)(?P<number>\S+)")
 TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
                    r"(?P<body>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
-
-
-class QuoteError(Exception):
-    """A quotation or an expression with which nothing can be done: place and reason."""
 
 
 @dataclass(frozen=True)
@@ -82,77 +70,6 @@ class Difference:
     def sentence(self) -> str:
         return (f"{self.file}:{self.line}: '{self.written}', but the records give "
                 f"'{self.records}' ({self.source})")
-
-
-class Records:
-    """The committed runs, each read once."""
-
-    def __init__(self, results: Path) -> None:
-        self.results = results
-        self.rows: dict[str, list[Row]] = {}
-
-    def of(self, folder: str) -> list[Row]:
-        if folder not in self.rows:
-            self.rows[folder] = read_results(self.results / folder / "results.csv")
-        return self.rows[folder]
-
-
-def fits(value: object, choices: str) -> bool:
-    text = "" if value is None else str(value)
-    return any(fnmatchcase(text, choice) for choice in choices.split("|"))
-
-
-def chosen(rows: list[Row], mesh: str, method: str, filters: dict[str, str]) -> list[Row]:
-    return [row for row in rows
-            if fits(row.mesh, mesh) and fits(row.method, method)
-            and all(fits(getattr(row, key), value) for key, value in filters.items())]
-
-
-def quantity_of(row: Row, quantity: str) -> float | None:
-    """None where one of its columns is empty."""
-    names = set(re.findall(r"[a-z]\w*", quantity))
-    values = {name: getattr(row, name) for name in names}
-    if any(value is None for value in values.values()):
-        return None
-    return eval(quantity, {"__builtins__": {}}, values)  # numbers and + - * / ( ) by EXPRESSION
-
-
-def value_of(expression: str, records: Records) -> tuple[float, str]:
-    """What the records give, and how it is rounded."""
-    match = EXPRESSION.fullmatch(expression)
-    if not match:
-        raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "
-                         "[least|greatest] QUANTITY of MESH/METHOD [per [QUANTITY of] "
-                         "METHODS] [, KEY=VALUE] [in UNIT]")
-    if match["unit"] not in UNITS:
-        raise QuoteError(f"'{expression}': unit '{match['unit']}', expected one of "
-                         f"{', '.join(filter(None, UNITS))}")
-    filters = {"stop": "target", "knob": ""}
-    filters |= dict(pair.split("=", 1) for pair in match["filters"].split(", ")[1:])
-    rows = records.of(match["folder"])
-    names = re.findall(r"[a-z]\w*", f"{match['quantity']} {match['divisor'] or ''}")
-    for name in {*filters, *names} - {"count"}:
-        if name not in Row.__dataclass_fields__:
-            raise QuoteError(f"'{expression}': no column {name}")
-    cases = chosen(rows, match["mesh"], match["method"], filters)
-    if match["quantity"] == "count":
-        return float(len(cases)), ROUNDING[None]
-    values = []
-    for case in cases:
-        value = quantity_of(case, match["quantity"])
-        others = [case] if match["per"] is None else [
-            other for other in chosen(rows, case.mesh, match["per"], filters)
-            if other.scene == case.scene]
-        for other in others:
-            divisor = 1 if match["per"] is None else \
-                quantity_of(other, match["divisor"] or match["quantity"])
-            if value is not None and divisor:
-                values.append(value / divisor)
-    if not values or (match["which"] is None and len(values) > 1):
-        raise QuoteError(f"'{expression}': {len(values) or 'no'} values, expected "
-                         f"{'one' if match['which'] is None else 'some'}")
-    value = max(values) if match["which"] == "greatest" else min(values)
-    return value / UNITS[match["unit"]], ROUNDING[match["bound"]]
 
 
 def shown(value: float, rounding: str, like: str) -> str:
@@ -219,12 +136,12 @@ def holds(condition: re.Match, value: float) -> bool:
         condition["relation"]]
 
 
-def differences_of(quote: Quote, text: str, records: Records) -> Iterator[Difference]:
+def differences_of(quote: Quote, text: str, runs: Runs) -> Iterator[Difference]:
     match = found(quote, text)
 
     def value(expression: str) -> tuple[float, str]:
         try:
-            return value_of(expression, records)
+            return value_of(expression, runs)
         except QuoteError as error:
             raise QuoteError(f"{quote.place}: {error}")
 
@@ -259,9 +176,9 @@ def table(rows: list[Row]) -> str:
     for row in rows:
         heap = None if row.peak_heap_bytes is None else row.peak_heap_bytes / 2**20
         cells.append([case_name(vars(row)), str(row.n_phi), seconds(row.time_s),
-                      "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0), number(heap, ".1f") + " MiB",
-                      number(row.error_stress, ".1e"), number(row.error_force, ".1e"),
-                      row.status])
+                      "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
+                      number(heap, ".1f") + " MiB", number(row.error_stress, ".1e"),
+                      number(row.error_force, ".1e"), row.status])
     widths = [max(map(len, column)) for column in zip(*cells)]
     lines = []
     for i, line in enumerate(cells):
@@ -272,15 +189,16 @@ def table(rows: list[Row]) -> str:
     return "```\n" + "\n".join(lines) + "\n```\n"
 
 
-def differing_tables(file: str, text: str, records: Records) -> Iterator[Difference]:
+def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
     tables = list(TABLE.finditer(text))
     if len(tables) != text.count("<!-- table"):
         raise QuoteError(f"{file}: {text.count('<!-- table')} comments begin a table, "
                          f"{len(tables)} of them can be read; expected <!-- table FOLDER: MESHES / "
                          "METHODS --> and <!-- end of table -->")
     for match in tables:
+        cases = runs.of(match["folder"])
         rows = [row for mesh in match["mesh"].split("|") for method in match["method"].split("|")
-                for row in chosen(records.of(match["folder"]), mesh, method, {"stop": "target"})
+                for row in rows_of(chosen(cases, mesh=mesh, method=method, stop="target"))
                 if row.completed]
         right = table(rows)
         if match["body"] != right:
@@ -296,15 +214,15 @@ def differing_tables(file: str, text: str, records: Records) -> Iterator[Differe
 
 def differences(project: Path) -> dict[str, list[Difference]]:
     """By file, in the order of the text."""
-    records = Records(project / "results")
+    runs = Runs(project / "results")
     by_file: dict[str, list[Difference]] = {}
     quotes = list(quotes_in(project / "docs" / "numbers.txt"))
     texts = {quote.file: (project / quote.file).read_text(encoding="utf-8") for quote in quotes}
     for file, text in texts.items():
-        of_file = list(differing_tables(file, text, records))
+        of_file = list(differing_tables(file, text, runs))
         for quote in quotes:
             if quote.file == file:
-                of_file += differences_of(quote, text, records)
+                of_file += differences_of(quote, text, runs)
         by_file[file] = sorted(of_file, key=lambda d: d.start)
     return by_file
 
@@ -330,7 +248,7 @@ def main() -> None:
     arguments = parser.parse_args()
     try:
         by_file = differences(arguments.project)
-    except (QuoteError, ResultsError, OSError) as error:
+    except (QuoteError, RecordsError, OSError) as error:
         print(f"quoted_numbers: {error}", file=sys.stderr)
         sys.exit(2)
     for of_file in by_file.values():

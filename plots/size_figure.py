@@ -2,34 +2,45 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import figure_parts as parts
-from figure_parts import EDGE_AT, ErrorScale, Footer, Quantity, axes_at, draw_point
-from figure_words import Notes
-from method_names import COMPARED, compared
-from paper_sizes import BODIES, SIZES
-from results_table import Row
+from bodies import sharing_axes
+from figure_files import Drawing
+from figure_parts import EDGE_AT, HEAP, TIME, ErrorScale, Footer, Quantity, axes_at, draw_point
+from figure_words import Notes, plain, width_of
+from looks import plain_looks
+from record_keys import Row
+from selection import by_body, compared, grouped
 
-# Marker and dashes; black and white will do.
-STYLES = {
-    "SDTIC3": ("^", (0, (3, 1.5))), "3STEPCG3": ("s", (0, (3, 1.5))),
-    "SDTIC6": ("v", (0, (5, 1.5, 1, 1.5))), "3STEPCG6": ("D", (0, (5, 1.5, 1, 1.5))),
-    "SSKY": (">", (0, (1, 1.2))), "3STEPD": ("o", "-"), "ALM": ("*", "-"),
-    "BLIND": ("<", (0, (8, 2))), "HYBRID": ("P", "-"),
-}
-LEFT, RIGHT, TOP, HEIGHT, BOTTOM = 0.62, 1.7, 0.66, 3.9, 0.42
+LEFT, BESIDE, TOP, HEIGHT, BOTTOM = 0.62, 1.04, 0.36, 3.9, 0.42  # BESIDE: and a name
+NAMES = 0.66  # place for them at least
+ROOM = 12  # methods
 LINE_COLOR = "0.35"
 LABEL_PT = 14  # between labels
 BESIDE_PT = 7  # between points that would cover each other
 
+PlainLooks = dict[str, tuple[str, object]]  # method -> marker, dashes
 
-def n_of(row: Row) -> int:
-    """n_phi; that of Tab. 1 for a case that ended before it was counted."""
-    return row.n_phi or SIZES[row.mesh].n_phi
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    for suffix, own, scale in parts.by_stop(rows):
+        shown = compared(sized([row for row in own if not row.in_displacements]), ROOM)
+        for name, quantity in (("figure4", TIME), ("figure5", HEAP)):
+            yield Drawing(name + suffix, shown, draw, vector=True,
+                          options=dict(run=own, quantity=quantity, scale=scale))
+
+
+def sized(rows: list[Row]) -> list[Row]:
+    """With the size of its mesh for a case that ended before it was counted."""
+    sizes = {row.mesh: row.n_phi for row in rows if row.n_phi}
+    return [row if row.n_phi else replace(row, n_phi=sizes[row.mesh]) for row in rows
+            if row.mesh in sizes]
 
 
 def exponent(n_phi: list[int], values: list[float]) -> float | None:
@@ -53,48 +64,60 @@ def spread(wanted: list[float], spacing: float, low: float, high: float) -> list
 
 
 def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
-    """Method -> its rows by size. A method asked for by two names is there once."""
-    lines: dict[str, dict[str, Row]] = {}
-    for method in COMPARED:
-        for row in rows:
-            known = lines.setdefault(method, {})
-            if compared(row.method) == method and (row.mesh not in known or row.method == method):
-                known[row.mesh] = row
-    return {method: sorted(known.values(), key=n_of)
-            for method, known in lines.items() if known}
+    """Method, by its name in the figure, -> its rows by body, then by size."""
+    names = {}
+    for row in rows:
+        if row.general_name not in names or row.method != row.general_name:
+            names[row.general_name] = row.method
+    bodies = list(dict.fromkeys(row.body for row in sorted(rows, key=lambda row: row.n_phi)))
+    return {name: sorted(line, key=lambda row: (bodies.index(row.body), row.n_phi))
+            for name, line in grouped(rows, lambda row: names[row.general_name]).items()}
 
 
-def draw(rows: list[Row], quantity: Quantity, scale: ErrorScale) -> tuple[Figure, list[Row]] | str:
-    """The figure and its rows, or why there is none. rows: of one scene, one stop."""
-    lines = lines_of([row for row in rows if row.mesh in SIZES])
-    used = [row for line in lines.values() for row in line]
-    if not used:
-        return "no rows of its methods on Mesh0..Mesh7"
-    if all(quantity.of(row)[1] == "none" for row in used):
-        return f"none of its {len(used)} rows has a {quantity.name}"
+def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale) -> Figure | str:
+    """The figure, or why there is none. rows: of the compared methods; run: of all."""
+    if not rows:
+        return "no methods to compare"
+    if all(quantity.of(row)[1] == "none" for row in rows):
+        return f"none of its {len(rows)} cases has a {quantity.name}"
+    lines = lines_of(rows)
+    looks = plain_looks({name: (line[0].family, line[0].preconditioner)
+                         for name, line in lines.items()})
     notes = Notes()
-    for method, line in lines.items():
+    for name, line in lines.items():
         for row in line:
             value, mark = quantity.of(row)
-            notes.add(row, f"{method} on {row.mesh}", mark, value)
-    missing = [method for method in COMPARED if method not in lines]
-    texts = [quantity.caption(used, rows) + " n^p: power law fitted over a method's "
+            notes.add(row, f"{name} on {row.mesh}", mark, value)
+    texts = [quantity.caption(rows, run) + " n^p: power law fitted over a method's "
              "completed cases, three or more. Points that would cover each other stand side by "
              "side.", *notes.lines()]
-    if missing:
-        texts.append("no rows: " + ", ".join(missing))
-    footer = Footer(used, quantity, texts, scale)
-    figure = Figure(figsize=(parts.WIDTH, TOP + HEIGHT + BOTTOM + footer.height))
-    axes = axes_at(figure, LEFT, TOP, parts.WIDTH - LEFT - RIGHT, HEIGHT)
-    set_scales(axes, used, quantity)
-    mark_meshes(axes, used)
-    places = side_by_side(axes, used, quantity)
-    ends = {method: draw_line(axes, method, line, quantity, scale, places)
-            for method, line in lines.items()}
-    fits = {method: fit(line, quantity) for method, line in lines.items()}
-    draw_labels(axes, ends, fits)
+    footer = Footer(rows, quantity, texts, scale)
+    shared = sharing_axes(rows)
+    top = TOP + names_pt(rows) / 72
+    block = top + HEIGHT + BOTTOM
+    figure = Figure(figsize=(parts.WIDTH, len(shared) * block + footer.height))
+    names = max(NAMES, *(width_of(name, parts.TYPE) / 72 for name in lines))
+    for k, own in enumerate(shared):
+        axes = axes_at(figure, LEFT, k * block + top, parts.WIDTH - LEFT - BESIDE - names, HEIGHT)
+        bodies = {row.body for row in own}
+        kept = {name: [row for row in line if row.body in bodies] for name, line in lines.items()}
+        draw_block(axes, {name: line for name, line in kept.items() if line}, looks, quantity,
+                   scale)
     footer.draw(figure)
-    return figure, used
+    return figure
+
+
+def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quantity: Quantity,
+               scale: ErrorScale) -> None:
+    """Of bodies whose sizes do not overlap."""
+    rows = [row for line in lines.values() for row in line]
+    set_scales(axes, rows, quantity)
+    mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, parts.TYPE)
+    name_bodies(axes, rows, 8 + names_pt(rows))
+    places = side_by_side(axes, rows, quantity)
+    ends = {name: draw_line(axes, line, looks[name], quantity, scale, places)
+            for name, line in lines.items()}
+    draw_labels(axes, ends, {name: fit(line, quantity) for name, line in lines.items()}, looks)
 
 
 def fit(line: list[Row], quantity: Quantity) -> float | None:
@@ -103,51 +126,67 @@ def fit(line: list[Row], quantity: Quantity) -> float | None:
     return exponent([n for n, _ in done], [value for _, value in done])
 
 
+def names_pt(rows: list[Row]) -> float:
+    """Height of the meshes' names, at 45 degrees."""
+    return 0.71 * max(width_of(row.mesh, parts.TYPE) for row in rows) + parts.TYPE
+
+
+def width_in(axes: Axes) -> float:
+    """Inches."""
+    return axes.get_position().width * parts.WIDTH
+
+
 def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
-    axes.set(xscale="log", yscale="log", xlim=parts.log_limits(list(map(n_of, rows)), 1.25),
-             ylim=parts.log_limits(values))
-    parts.log_axis(axes.xaxis)
-    parts.log_axis(axes.yaxis)
+    parts.log_log(axes, xlim=parts.log_limits([row.n_phi for row in rows], 1.25),
+                  ylim=parts.log_limits(values))
     axes.set_ylabel(quantity.axis)
-    axes.yaxis.set_label_coords(-0.44 / (parts.WIDTH - LEFT - RIGHT), 0.5)
+    axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
     axes.set_xlabel(r"$n_\varphi$", fontsize=parts.MATH, labelpad=2)
     axes.grid(axis="y")
-    axes.spines[["right"]].set_visible(False)
 
 
-def mark_meshes(axes: Axes, rows: list[Row]) -> None:
-    """Names on the upper edge, and a gap between tooth and rack."""
-    sizes = {row.mesh: n_of(row) for row in sorted(rows, key=n_of)}
-    for mesh, n_phi in sizes.items():
+def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: float) -> None:
+    """Names on the upper edge, apart."""
+    names = sorted(sizes, key=sizes.get)
+    at = [axes.transAxes.inverted().transform(axes.transData.transform((sizes[name], 1)))[0]
+          for name in names]
+    width, height = 72 * axes.get_position().size * axes.figure.get_size_inches()  # points
+    for name, x, place in zip(names, at, spread(at, 1.64 * size_pt / width, 0, 1.05)):
+        axes.plot([x, x, place], [1, 1 + 2.5 / height, 1 + 6 / height], transform=axes.transAxes,
+                  clip_on=False, color="0.3", linewidth=0.6)
+        axes.text(place, 1 + 8 / height, plain(name), transform=axes.transAxes,
+                  rotation=rotation, ha="left", va="bottom", rotation_mode="anchor",
+                  fontsize=size_pt)
+
+
+def name_bodies(axes: Axes, rows: list[Row], above_pt: float) -> None:
+    """And gaps between them."""
+    by_size = sorted(rows, key=lambda row: row.n_phi)
+    bodies = {body: [row.n_phi for row in own] for body, own in by_body(by_size).items()}
+    for n_phi in {row.n_phi for row in rows}:
         axes.axvline(n_phi, color="0.88", linewidth=0.4, zorder=0)
-    top = axes.secondary_xaxis("top")
-    top.set_ticks(list(sizes.values()), list(sizes), rotation=45, ha="left",
-                  rotation_mode="anchor", minor=False)
-    top.minorticks_off()
-    top.tick_params(length=2.5, pad=1)
-    ends = [[n for mesh, n in sizes.items() if SIZES[mesh].teeth == teeth] for teeth in BODIES]
-    if all(ends):
-        border = math.sqrt(max(ends[0]) * min(ends[1]))
-        axes.axvline(border, color="0.45", linewidth=0.6, linestyle=(0, (1, 2)), zorder=0)
-    for words, sizes_there in zip(BODIES.values(), ends):
-        if sizes_there:
-            centre = math.sqrt(min(sizes_there) * max(sizes_there))
-            axes.annotate(words, (centre, 1), xycoords=axes.get_xaxis_transform(),
-                          xytext=(0, 33), textcoords="offset points", ha="center", color="0.25")
+    ends = list(bodies.values())
+    for before, after in zip(ends, ends[1:]):
+        axes.axvline(math.sqrt(before[-1] * after[0]), color="0.45", linewidth=0.6,
+                     linestyle=(0, (1, 2)), zorder=0)
+    for body, of_body in bodies.items():
+        axes.annotate(plain(body), (math.sqrt(of_body[0] * of_body[-1]), 1), ha="center",
+                      xycoords=axes.get_xaxis_transform(), xytext=(0, above_pt),
+                      textcoords="offset points", color="0.25")
 
 
 def side_by_side(axes: Axes, rows: list[Row], quantity: Quantity) -> dict[int, float]:
     """Row's line -> x of its point, moved off n_phi where points would cover each other."""
-    size_pt = 72 * np.array([parts.WIDTH - LEFT - RIGHT, HEIGHT])
+    size_pt = 72 * np.array([width_in(axes), HEIGHT])
     to_pt = axes.transData + axes.transAxes.inverted()
     taken: list[np.ndarray] = []
     places = {}
-    for row in sorted(rows, key=lambda row: COMPARED.index(compared(row.method))):
+    for row in rows:
         value, mark = quantity.of(row)
         if mark == "none":
             continue
-        x, y = to_pt.transform((n_of(row), value or 1))
+        x, y = to_pt.transform((row.n_phi, value or 1))
         point = np.array([x, EDGE_AT if value is None else y]) * size_pt
         tried = (point + [shift * BESIDE_PT, 0] for k in range(99) for shift in (k, -k))
         point = next(p for p in tried if all(max(abs(p - q)) > 0.99 * BESIDE_PT for q in taken))
@@ -156,10 +195,10 @@ def side_by_side(axes: Axes, rows: list[Row], quantity: Quantity) -> dict[int, f
     return places
 
 
-def draw_line(axes: Axes, method: str, line: list[Row], quantity: Quantity, scale: ErrorScale,
-              places: dict[int, float]) -> tuple[float, float] | None:
+def draw_line(axes: Axes, line: list[Row], look: tuple[str, object], quantity: Quantity,
+              scale: ErrorScale, places: dict[int, float]) -> tuple[float, float] | None:
     """Its last point that has a value."""
-    marker, dashes = STYLES[method]
+    marker, dashes = look
     last = None
     for row, following in zip(line, [*line[1:], None]):
         value, mark = quantity.of(row)
@@ -171,34 +210,39 @@ def draw_line(axes: Axes, method: str, line: list[Row], quantity: Quantity, scal
             continue
         last = (x, value)
         end = quantity.of(following)[0] if following else None
-        if end is not None and SIZES[row.mesh].teeth == SIZES[following.mesh].teeth:
+        if end is not None and row.body == following.body:
             axes.plot([x, places[following.line]], [value, end], color=LINE_COLOR,
                       linestyle=dashes, linewidth=0.8, zorder=2)
     return last
 
 
-def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
-                fits: dict[str, float | None]) -> None:
-    """Name and exponent beside the last points, in their order."""
-    def fraction(point: tuple[float, float] | None) -> tuple[float, float]:
-        return tuple(axes.transAxes.inverted().transform(axes.transData.transform(point))) \
-            if point else (1, 1.0)
-
-    height_pt = HEIGHT * 72
-    at = {method: fraction(end) for method, end in ends.items()}
+def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
+           apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
+    """Method, its last point and the height of its name, of the axes' size; from below."""
+    to_axes = axes.transData + axes.transAxes.inverted()
+    at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
+          for method, end in ends.items()}
     order = sorted(at, key=lambda method: at[method][1])
-    places = spread([at[method][1] for method in order], LABEL_PT / height_pt, 0.01, 0.99)
-    inch = 1 / (parts.WIDTH - LEFT - RIGHT)  # of the axes' width
-    for method, y in zip(order, places):
-        marker, dashes = STYLES[method]
+    height_pt = 72 * axes.get_position().height * axes.figure.get_size_inches()[1]
+    places = spread([at[method][1] for method in order], apart_pt / height_pt, 0.01, 0.99)
+    return zip(order, map(at.get, order), places)
+
+
+def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
+                fits: dict[str, float | None], looks: PlainLooks) -> None:
+    """Name and exponent beside the last points, in their order."""
+    inch = 1 / width_in(axes)
+    exponents = (parts.WIDTH - LEFT - 0.49) * inch
+    for method, at, y in beside(axes, ends, LABEL_PT):
+        marker, dashes = looks[method]
         style = dict(transform=axes.transAxes, clip_on=False)
         if ends[method]:
-            axes.plot([at[method][0], 1 + 0.12 * inch], [at[method][1], y], **style,
+            axes.plot([at[0], 1 + 0.12 * inch], [at[1], y], **style,
                       color="0.6", linewidth=0.4, zorder=1)
         axes.plot([1 + 0.14 * inch, 1 + 0.46 * inch], [y, y], **style, color=LINE_COLOR,
                   linestyle=dashes, linewidth=0.8)
         axes.plot(1 + 0.3 * inch, y, **style, **parts.marker_style(marker, "white"))
-        axes.text(1 + 0.52 * inch, y, method, va="center", **style)
+        axes.text(1 + 0.52 * inch, y, plain(method), va="center", **style)
         if fits[method] is not None:
-            axes.text(1 + 1.21 * inch, y, rf"$n^{{{fits[method]:.2f}}}$", va="center",
+            axes.text(exponents, y, rf"$n^{{{fits[method]:.2f}}}$", va="center",
                       fontsize=parts.MATH, **style)

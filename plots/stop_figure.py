@@ -1,7 +1,7 @@
 """What the paper's stop of ALM does to the answer, for given parameters r and rho."""
 from __future__ import annotations
 
-import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
@@ -9,14 +9,15 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_parts import axes_at, log_axis, log_limits
+from figure_files import Drawing
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
-from results_table import Row
+from record_keys import Row
+from selection import given, grouped, is_paper_stop, of_scene
 
 WIDTH, LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 10.5, 0.72, 0.4, 4.5, 0.72, 4.0, 0.5
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
 MARKERS = "o^sDvP<X"
-NAME = re.compile(r"ALM:r=([^,]+),rho=([^,]+)")
 
 
 @dataclass(frozen=True)
@@ -28,43 +29,48 @@ class Stop:
     ratio: float  # rho / r
 
 
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "error"])
+    if study:
+        yield Drawing("stop_and_error", [row for row in study if stop_of(row)], draw)
+
+
 def stop_of(row: Row) -> Stop | None:
-    """None: not ALM with given parameters under the paper's stop, or no error is known."""
-    found = NAME.fullmatch(row.method)
-    if row.stop != "paper" or not found or not row.error_force:
+    """None: not of given parameters under the paper's stop, or no error is known."""
+    parameters = given(row)
+    if not is_paper_stop(row) or not parameters or not row.error_force:
         return None
-    try:
-        r, rho = float(found[1]), float(found[2])
-    except ValueError:
-        return None
+    r, rho = parameters
     return Stop(row, r, float(f"{rho / r:.6g}")) if r > 0 else None
 
 
 def curves_of(rows: list[Row]) -> dict[str, list[Stop]]:
     """'Mesh3, rho = 2 r' -> its cases by r."""
     stops = [stop for row in rows if (stop := stop_of(row))]
-    curves: dict[str, list[Stop]] = {}
-    for stop in sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)):
+    families = {stop.row.family for stop in stops}
+
+    def name(stop: Stop) -> str:
         ratio = "r" if stop.ratio == 1 else f"{stop.ratio:g} r"
-        curves.setdefault(f"{stop.row.mesh}, ρ = {ratio}", []).append(stop)
-    return curves
+        family = f"{stop.row.family}, " if len(families) > 1 else ""
+        return f"{family}{stop.row.mesh}, ρ = {ratio}"
+    return grouped(sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)), name)
 
 
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of one scene. The figure, or why there is none."""
     curves = curves_of(rows)
     if not any(len(curve) > 1 for curve in curves.values()):
-        return "no two rows ALM:r=..,rho=.. with stop=paper and error_force"
+        return "no two methods NAME:r=..,rho=.. with stop=paper and error_force"
     stops = [stop for curve in curves.values() for stop in curve]
+    families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [
-        f"Scene {rows[0].scene}. ALM with given r and ρ, ended by the paper's stop: no force is "
-        "out of balance by more than 1e-3 N. Left: the error of its contact forces then, which the "
-        f"stop does not see; dashed: the target error {short(target)} of the other figures. "
-        "Right: the iterations it took."])
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s=f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
-                f"{parts.percent(max(errors_of(stops)))}", fontsize=11, weight="bold")
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+                         f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
+                         f"{parts.percent(max(errors_of(stops)))}", [
+        f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
+        "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
+        f"which the stop does not see; dashed: the target error {short(target)} of the other "
+        "figures. Right: the iterations it took."])
     left = axes_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
@@ -83,11 +89,9 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                included: list[float]) -> None:
     stops = [stop for curve in curves.values() for stop in curve if getattr(stop.row, column)]
     values = [getattr(stop.row, column) for stop in stops]
-    axes.set(xscale="log", yscale="log", xlabel="penalty r, relative to the stiffness, 1",
-             xlim=log_limits([stop.r for stop in stops], 1.5),
-             ylim=log_limits([*values, *included], 1.8))
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
+            xlim=log_limits([stop.r for stop in stops], 1.5),
+            ylim=log_limits([*values, *included], 1.8))
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels, lines = Labels(axes), {}

@@ -2,49 +2,32 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 
 from matplotlib.figure import Figure
 
 from figure_words import plain, short, span, wrapped
-from method_names import general
-from results_table import Row
+from record_keys import Row
 
 TYPE, LINE, MARGIN = 8, 0.155, 0.1  # points; inches
-# Okabe and Ito's colours; the markers say the same in grey.
-FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s"), "3STEPD": ("#D55E00", "D"),
-            "ALM": ("#00805C", "^"), "BLIND": ("#56B4E9", "<"), "HYBRID": ("#000000", "P"),
-            "P2": ("#C98500", "X")}
-OTHERS = ("#777777", "v")
-ALARM = "#D00060"
 STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=0.8,
             linestyle="none", zorder=7)  # the paper's stop
-DISPLACEMENTS = "P2"  # the method in displacements: another discrete problem
 
 
-def family(method: str) -> str:
-    """SDTIC3 -> SYMMLQ, 3STEPD:CHOLMOD -> 3STEPD."""
-    return general(method).partition(":")[0]
+def order(row: Row) -> tuple[int, str]:
+    """Sorts by family, then by method."""
+    return row.look.rank, row.method
 
 
-def style(method: str) -> tuple[str, str]:
-    """Colour and marker."""
-    return FAMILIES.get(family(method), OTHERS)
-
-
-def dashes(method: str) -> object:
-    return (0, (5, 1.5)) if family(method) == "3STEPCG" else "-"
+def file_name(stem: str, mesh: str) -> str:
+    """The mesh may be named anyhow."""
+    return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
 
 
 def threads(rows: list[Row]) -> str:
     count = span(row.threads for row in rows)
     return f"{count} thread{'' if count == '1' else 's'}"
-
-
-def order(method: str) -> tuple[int, str]:
-    """Sorts methods by family."""
-    names = [*FAMILIES]
-    return names.index(f) if (f := family(method)) in names else len(names), method
 
 
 def percent(value: float) -> str:
@@ -65,11 +48,13 @@ def mebibytes(value: float | None) -> str:
     return f"{mib:.2g}\u00a0MiB" if mib < 99.5 else f"{mib:.0f}\u00a0MiB"
 
 
-def sheet(width: float, body: float, texts: Iterable[str]) -> Figure:
+def sheet(width: float, body: float, title: str, texts: Iterable[str]) -> Figure:
     """A figure of so many inches, made higher by the lines of its caption below."""
     lines = [line for text in texts if text for line in wrapped(text, width - 2 * MARGIN, TYPE)]
     height = body + LINE * len(lines) + MARGIN
     figure = Figure(figsize=(width, height))
+    figure.text(MARGIN / width, 1 - 0.08 / height, plain(title), va="top", fontsize=11,
+                weight="bold")
     for k, line in enumerate(lines):
         figure.text(MARGIN / width, (height - body - 0.02 - k * LINE) / height, plain(line),
                     va="top", fontsize=TYPE)

@@ -1,14 +1,18 @@
 """Error of the contact forces against time and memory: what each method pays for each digit."""
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_parts import axes_at, log_axis, log_limits
+from figure_files import Drawing
+from figure_parts import axes_at, log_limits, log_log
 from figure_words import short
-from results_table import Row
+from record_keys import Row
+from selection import by_mesh, given, grouped, is_paper_stop, of_scene
 
 WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 11.5, 0.72, 0.35, (6.6, 3.6), 5.6, 0.42, 0.5
 HIGHEST = 1e3  # errors above are drawn here
@@ -16,24 +20,23 @@ SIZE = 4.5
 AXES = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB"}
 
 
-def is_paper_stop(row: Row) -> bool:
-    return row.stop == "paper" and parts.family(row.method) == "ALM"
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "error"])
+    for mesh, own in by_mesh(study).items():
+        yield Drawing(parts.file_name("work_precision", mesh), own, draw)
 
 
 def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     """Method and knob -> points in the order of the knob, by family; without the paper's stop."""
-    curves: dict[tuple[str, str], list[Row]] = {}
-    for row in sorted(rows, key=lambda row: (parts.order(row.method), row.knob,
-                                             row.knob_value or 0)):
-        if not is_paper_stop(row) and row.method != parts.DISPLACEMENTS:
-            curves.setdefault((row.method, row.knob), []).append(row)
-    return curves
+    shown = [row for row in rows if not is_paper_stop(row) and not row.in_displacements]
+    shown.sort(key=lambda row: (parts.order(row), row.knob, row.knob_value or 0))
+    return grouped(shown, lambda row: (row.method, row.knob))
 
 
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of an error study's mesh and scene. The figure, or why there is none."""
     known = [row for row in rows if row.time_s and row.error_force is not None
-             and row.method != parts.DISPLACEMENTS]
+             and not row.in_displacements]
     if not known:
         return "no row has time_s and error_force"
     curves = curves_of(known)
@@ -41,7 +44,7 @@ def draw(rows: list[Row]) -> Figure | str:
     heap = any(row.peak_heap_bytes for row in known)
     floor = parts.error_floor(row.error_force for row in known)
     absent = [f"{row.method} ({row.status_words()})" for row in rows
-              if row not in known and row.method != parts.DISPLACEMENTS]
+              if row not in known and not row.in_displacements]
     target = next((row.target_error for row in known if row.target_error), 1e-6)
     knobs = sorted({row.knob for row in known if row.knob})
     words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
@@ -49,13 +52,13 @@ def draw(rows: list[Row]) -> Figure | str:
              f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
              f"single points: methods run to their end. Dashed: the target error {short(target)}.")
     if stops:
-        words += " Stars: ALM ended by the paper's stop, small ones with given r and ρ."
+        words += (f" Stars: {' and '.join(grouped(stops, lambda row: row.family))} ended by the paper's stop, small "
+                  "ones with given r and ρ.")
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     notes = [f"No point: {'; '.join(dict.fromkeys(absent))}."] if absent else []
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, [words, *notes])
-    figure.text(parts.MARGIN / WIDTH, 1 - 0.08 / figure.get_size_inches()[1], va="top",
-                s=f"{known[0].mesh}: what each digit costs", fontsize=11, weight="bold")
+    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+                         f"{known[0].mesh}: what each digit costs", [words, *notes])
     left = LEFT
     for column, width in zip(AXES if heap else ["time_s"], PANELS):
         axes = axes_at(figure, left, TOP, width if heap else sum(PANELS), HEIGHT)
@@ -75,10 +78,8 @@ def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]]
              if (known := [row for row in curve if value_of(row, column)])}
     rows = [row for curve in [*shown.values(), stops] for row in curve if value_of(row, column)]
     highest = min(max([row.error_force for row in rows] + [target]), HIGHEST)
-    axes.set(xscale="log", yscale="log", xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
-             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
+    log_log(axes, xlabel=AXES[column], ylim=(floor / 2, 4 * highest),
+            xlim=log_limits([value_of(row, column) for row in rows], 1.7))
     axes.grid(axis="both")
     axes.spines[["top", "right"]].set_visible(False)
     axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)
@@ -91,20 +92,21 @@ def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]]
         axes.tick_params(labelleft=False)
     ends: dict[str, list[tuple[float, float]]] = {}
     for (method, knob), curve in shown.items():
-        colour, marker = parts.style(method)
+        look = curve[0].look
         x = [value_of(row, column) for row in curve]
         y = [min(max(row.error_force, floor), HIGHEST) for row in curve]
-        axes.plot(x, y, color=colour, marker=marker, markersize=SIZE if knob else 7,
-                  linewidth=1.1, linestyle=parts.dashes(method), markeredgecolor="white",
+        axes.plot(x, y, color=look.colour, marker=look.marker, markersize=SIZE if knob else 7,
+                  linewidth=1.1, linestyle=look.dashes, markeredgecolor="white",
                   markeredgewidth=0.4, zorder=4 if knob else 5)
         labels.avoid(x, y)
         ends.setdefault(method, sorted(zip(y, x)))  # without knob first
     draw_stops(axes, labels, stops, column)
+    one = {method: curve[0] for (method, _), curve in shown.items()}
     for method, points in ends.items():
-        if not first and method.startswith("ALM:") and "ALM" in ends:
-            continue  # its memory is that of ALM
+        if not first and given(one[method]) and one[method].family in ends:
+            continue  # its memory is that of the method that chooses r and rho
         y, x = zip(*points)
-        labels.add(method, x, y, color=parts.style(method)[0] if len(points) > 1 else "0.1")
+        labels.add(method, x, y, color=one[method].look.colour if len(points) > 1 else "0.1")
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
@@ -113,16 +115,17 @@ def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> Non
     stops = [row for row in stops if value_of(row, column)]
     for row in stops:
         at = value_of(row, column), min(row.error_force, HIGHEST)
-        size = parts.STOP["markersize"] * (1 if row.method == "ALM" else 0.6)
-        axes.plot(*at, markerfacecolor=parts.style("ALM")[0], **parts.STOP | {"markersize": size})
+        size = parts.STOP["markersize"] * (0.6 if given(row) else 1)
+        axes.plot(*at, markerfacecolor=row.look.colour, **parts.STOP | {"markersize": size})
         labels.obstacles.append(labels.points(*at) + [[-4, 0], [0, 0], [4, 0]])
-    shown = [row for row in stops if row.method == "ALM"] or stops
-    if shown and column == "time_s":
+    families = grouped(stops, lambda row: row.family) if column == "time_s" else {}
+    for family, own in families.items():
+        shown = [row for row in own if not given(row)] or own
         errors = [row.error_force for row in shown]
         words = parts.percent(max(errors))
         if len(shown) > 1:
             words = f"{parts.percent(min(errors))} to {words}"
-        labels.add(f"ALM with the paper's stop:\nerror {words}",
+        labels.add(f"{family} with the paper's stop:\nerror {words}",
                    [value_of(row, column) for row in shown],
                    [min(error, HIGHEST) for error in errors], weight="bold", fontsize=9,
-                   color=parts.style("ALM")[0])
+                   color=shown[0].look.colour)

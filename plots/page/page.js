@@ -56,22 +56,26 @@ const marksOf = (name, key) => data.marks.filter(
 
 function fillPanels() {
   const matches = matcher(state.filter), key = state.quantity;
-  const panels =
-      data.cases.filter((one) => matches(`${one.name}/`) && one.values[key]).map((one) => {
-        const bounds =
-            key === "time_s" ? {low: one.values.time_low_s, high: one.values.time_high_s} : {};
-        return panel(
-            one.method, `${one.mesh} · ${one.scene}`, key,
-            {name: one.name, values: one.values[key], status: one.status, ...bounds}, data.nights,
-            marksOf(one.name, key));
-      });
+  const shown = data.cases.filter((one) => matches(wordsOf(one)) && one.values[key]);
+  const panels = data.bodies.flatMap((body) => {
+    const own = shown.filter((one) => one.body === body).map((one) => {
+      const bounds =
+          key === "time_s" ? {low: one.values.time_low_s, high: one.values.time_high_s} : {};
+      return panel(
+          one.method, `${one.mesh} · ${one.scene}`, key,
+          {name: one.name, values: one.values[key], status: one.status, ...bounds}, data.nights,
+          marksOf(one.name, key));
+    });
+    return own.length && data.bodies.length > 1 ? [element("h3", {class: "body"}, body), ...own] :
+                                                  own;
+  });
   byId("panels").replaceChildren(...(panels.length ? panels : [
     element("p", {class: "none"}, "No case has both these words and this quantity.")
   ]));
   const log = isError(key) ? " The axis is logarithmic." : "";
   const band = key === "time_s" ? " Band: the interval of the median." : "";
   byId("legend").replaceChildren(
-      `${panels.length} of ${data.cases.length} cases.${band}${log} Changes, where they began: `,
+      `${shown.length} of ${data.cases.length} cases.${band}${log} Changes, where they began: `,
       ...["worse", "better", "changed"].flatMap(
           (kind) => [element("b", {class: `glyph ${kind}`}, GLYPHS[kind]), ` ${kind}  `]),
       element("b", {class: "glyph worse"}, "✕"), " not ok");

@@ -29,8 +29,11 @@ function fragment(state) {
 
 const writeState = (state) => history.replaceState(null, "", fragment(state));
 
-// All words must be found, in any order and case. A name in the text ends with a slash, so that
-// "3STEPD/" is not 3STEPD:LEAN.
+// What cases are filtered by. The case's name ends with a slash, so that "3STEPD/" is not
+// 3STEPD:LEAN.
+const wordsOf = (one) => `${one.name}/ ${one.family} ${one.body}`;
+
+// All words must be found, in any order and case.
 function matcher(filter) {
   const words = filter.toLowerCase().split(/\s+/).filter(Boolean);
   return (text) => words.every((word) => text.toLowerCase().includes(word));

@@ -15,9 +15,6 @@ function sorted(rows, sort) {
   });
 }
 
-const wordsOf = (row) =>
-    `${row.mesh}/${row.scene}/${row.method}/stop=${row.stop || "target"}/${row.status}/`;
-
 function cell(row, column, numeric) {
   const value = row[column.key];
   if (column.key === "method") return element("th", {scope: "row"}, show(column.key, value));
@@ -33,7 +30,7 @@ function cell(row, column, numeric) {
 // sortBy: called with the new order when a head is used.
 function fillTable(data, state, sortBy) {
   const {columns, rows} = data, matches = matcher(state.filter);
-  const shown = sorted(rows.filter((row) => matches(wordsOf(row))), state.sort);
+  const shown = sorted(rows.filter((row) => matches(`${wordsOf(row)} ${row.status}`)), state.sort);
   const key = state.sort.replace(/^-/, ""), descending = state.sort.startsWith("-");
   const heads = columns.map((column) => {
     const here = column.key === key;

@@ -196,7 +196,8 @@ class GalleryTest(unittest.TestCase):
     def test_damaged_table_of_results(self) -> None:
         self.edit("stress", lambda lines: lines)
         (self.results / "results.csv").write_text("mesh,scene\nMesh1,default\n")
-        self.assert_refused(str(self.results / "results.csv"), "expected columns mesh, scene")
+        self.assert_refused(str(self.results / "results.csv"),
+                            "no columns method; expected one each of mesh")
 
     def test_wrong_option_and_unusable_out(self) -> None:
         write_solution(self.fields, NAMES[0])
@@ -215,7 +216,7 @@ class ErrorMapTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             (Path(folder) / "fields").mkdir()
             write_solution(Path(folder) / "fields", NAMES[0])
-            s = fields.read_fields(Path(folder), NAMES[0])
+            s = fields.read_fields(Path(folder), NAMES[0], {})
         drawn = error_map.draw(s, np.array([1e-9, 0.9])).axes[0].collections[0]
         self.assertEqual(len(drawn.get_paths()), 2)
         np.testing.assert_allclose(drawn.get_array(), [1e-5, 0.9])  # five decades, no more
@@ -229,8 +230,8 @@ class FieldsTest(unittest.TestCase):
             write_solution(results / "fields", NAMES[0])
             (results / "results.csv").write_text(
                 "mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
-            s = fields.read_fields(results, NAMES[0])
-        self.assertEqual((s.corners.shape, s.n_phi), ((2, 3, 3, 2), 761))
+            s = fields.read_fields(results, NAMES[0], fields.cases_of(results))
+        self.assertEqual((s.corners.shape, s.mesh, s.n_phi), ((2, 3, 3, 2), "Mesh0", 761))
         np.testing.assert_array_equal(s.triangles[1], [CORNERS[0], CORNERS[2], CORNERS[3]])
         np.testing.assert_allclose(s.traction, [[[-30, -6], [0, 0]]])  # F = (L/2) t, L = 2
         self.assertEqual(s.state.tolist(), [["slip", "open"]])

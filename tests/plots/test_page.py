@@ -159,6 +159,20 @@ class PageTest(unittest.TestCase):
         self.assertNotIn("hidden", document.one("section", id="figures").attributes)
         self.assertIn("hidden", self.shown().one("section", id="figures").attributes)
 
+    def test_bodies_have_their_headings(self) -> None:
+        history = made_up.write_history(self.folder / "own", nights=2)
+        for file in (history / "nights").iterdir():
+            text = file.read_text(encoding="utf-8").replace("Mesh0", "punch1")
+            file.write_text(text.replace("Mesh3", "dovetail3"), encoding="utf-8")
+        page = self.make(history, name="own.html")
+        panels = self.shown(page=page).one("div", id="panels")
+        self.assertEqual([head.text for head in panels.all("h3", class_="body")],
+                         ["punch", "dovetail"])
+        document = self.shown("#filter=dovetail+hybrid", page)
+        self.assertEqual(list(self.panels(document)), ["dovetail3/default/HYBRID"])
+        self.assertEqual(self.column(document, "mesh"), ["dovetail3"])
+        self.assertEqual(self.shown().all("h3", class_="body"), [])  # one body
+
     def test_one_night_is_enough(self) -> None:
         history = made_up.write_history(self.folder / "first", nights=1)
         document = self.shown(page=self.make(history, name="first.html"))
@@ -260,7 +274,7 @@ class WrongInputTest(unittest.TestCase):
         self.file.write_text('{"format":\n', encoding="utf-8")
         self.expect(f"{self.file}:2: not JSON: Expecting value; expected an object")
         self.file.write_bytes(b"\xff")
-        self.expect(f"{self.file}: cannot be read: not UTF-8")
+        self.expect(f"{self.file}: cannot be read: not UTF-8; expected what bench writes")
         self.file.write_text("[]", encoding="utf-8")
         self.expect(f"{self.file}: not a night; expected an object with format airybench-night-1")
         self.spoil({"noise": {"median_s": float("nan")}})
@@ -270,10 +284,10 @@ class WrongInputTest(unittest.TestCase):
         for change, line in (
                 ({"date": "yesterday"}, "date is 'yesterday', expected a date in ISO 8601"),
                 ({"failed": 1}, "failed is 1, expected true or false"),
-                ({"context": {"cpus": 2}}, "cpus is 2, expected a text"),
+                ({"context": {"cpus": 2}}, "cpus is 2, expected a text, or empty"),
                 ({"cases": [7]}, "cases[0]: 7, expected an object"),
                 ({"cases": {"time_s": "1"}},
-                 'cases[0]: time_s is "1", expected a number or null'),
+                 "cases[0]: time_s is '1', expected a number above 0, or empty"),
                 ({"cases": {"stop": "never"}},
                  "cases[0]: stop is 'never', expected one of target, paper"),
                 ({"verdicts": {"kind": "odd"}},
@@ -286,7 +300,7 @@ class WrongInputTest(unittest.TestCase):
         results = self.folder / "results"
         results.mkdir()
         (results / "records.jsonl").write_text("{}\n", encoding="utf-8")
-        self.expect(f"{results}/records.jsonl:1: mesh is null, expected a text", self.history,
+        self.expect(f"{results}/records.jsonl:1: mesh is null, expected a name", self.history,
                     results)
 
     def test_a_file_that_cannot_be_written(self) -> None:

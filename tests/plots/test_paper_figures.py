@@ -1,5 +1,4 @@
-"""plots/paper_figures.py on made-up results.  /usr/bin/python3 -m unittest FILE"""
-import csv
+"""The paper's figures of made-up results.  /usr/bin/python3 -m unittest FILE"""
 import shutil
 import subprocess
 import sys
@@ -15,38 +14,34 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
-PLOTS = Path(__file__).resolve().parents[2] / "plots"
-sys.path.insert(0, str(PLOTS))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import made_up  # noqa: E402; finds plots
 
 import drawn  # noqa: E402
+import command  # noqa: E402
 import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
 import figure_words  # noqa: E402
-import method_names  # noqa: E402
-import paper_figures  # noqa: E402
-import results_table  # noqa: E402
+import figures  # noqa: E402
+import preconditioner_figure  # noqa: E402
+import records  # noqa: E402
 import size_figure  # noqa: E402
+from made_up import case  # noqa: E402
 from paper_sizes import SIZES  # noqa: E402
 from running import run  # noqa: E402
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
-POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(method_names.COMPARED)}
-
-
-def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
-    size = SIZES.get(mesh, SIZES["Mesh0"])
-    row = dict.fromkeys(results_table.COLUMNS, "")
-    row |= dict(mesh=mesh, scene="default", method=method, stop="target", status="ok",
-                n_phi=size.n_phi, n_f=size.n_f, n_c=40 if mesh == "Mesh0" else size.n_c,
-                threads=1, repetitions=5, time_s=0.5, peak_heap_bytes=2.0**22, error_force=1e-9)
-    return row | cells
+POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(made_up.COMPARED)}
+RUN = Path(__file__).resolve().parents[2] / "run"
+ALIASES = {general: alias for alias, general in made_up.SEVEN.items()}
 
 
 def power_laws(**cells: object) -> list[dict[str, object]]:
     """The nine compared methods on all meshes; n_phi^POWER."""
     return [case(mesh, method, time_s=1e-7 * size.n_phi**POWER[method],
                  peak_heap_bytes=50 * size.n_phi**1.25, **cells)
-            for mesh, size in SIZES.items() for method in method_names.COMPARED]
+            for mesh, size in SIZES.items() for method in POWER]
 
 
 def without_heap(rows: list[dict[str, object]]) -> list[dict[str, object]]:
@@ -57,7 +52,7 @@ def without_heap(rows: list[dict[str, object]]) -> list[dict[str, object]]:
 def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
     names = [*(f"DTIC{k}" for k in range(3, 7)), *(f"FLIC{k}" for k in range(1, 6)), "SSOR0.5",
              "SSOR1.0", "SSOR1.5", "SKY", "NONE"]
-    return [case(mesh, f"{krylov}:{name}", time_s=1 + k) for krylov in method_names.KRYLOV
+    return [case(mesh, f"{krylov}:{name}", time_s=1 + k) for krylov in ("SYMMLQ", "3STEPCG")
             for k, name in enumerate(names)]
 
 
@@ -69,13 +64,10 @@ class PaperFiguresTest(unittest.TestCase):
         self.figures = self.results / "figures"
 
     def write(self, rows: list[dict[str, object]]) -> None:
-        with self.csv.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        made_up.write(self.csv, rows)
 
     def draw(self, rows: list[dict[str, object]]) -> tuple[str, dict[str, str]]:
-        """stdout, and the words in each figure; nothing is rendered."""
+        """stdout, and the words in each of the paper's figures; nothing is rendered."""
         self.write(rows)
         words = {}
 
@@ -83,14 +75,20 @@ class PaperFiguresTest(unittest.TestCase):
             if path.stem not in words:  # as .svg and .png
                 words[path.stem] = drawn.words_of(figure)
             path.touch()
-        with mock.patch.object(paper_figures, "write", keep):
-            status, out, err = run(paper_figures, self.results)
+        with mock.patch.object(figure_files, "write", keep), \
+                mock.patch.object(figure_files, "write_small_png",
+                                  lambda figure, dpi, path, colours: path.touch()):
+            status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         return out, words
 
+    def read(self, rows: list[dict[str, object]]) -> list[records.Row]:
+        self.write(rows)
+        return records.rows_of(records.read(self.csv))
+
     def assert_refused(self, *parts: str) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = run(paper_figures, self.results)
+        status, out, err = run(figures, self.results)
         self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
         for part in parts:
             self.assertIn(part, err)
@@ -103,13 +101,14 @@ class PaperFiguresTest(unittest.TestCase):
     def test_all_figures_of_both_stops(self) -> None:
         rows = power_laws()[:9] + [row for row in preconditioners() if "DTIC4" in row["method"]]
         self.write(rows + [row | {"stop": "paper"} for row in rows])
-        with drawn.without_minor_ticks(), mock.patch.object(paper_figures, "DPI", 50):
-            status, out, err = run(paper_figures, self.results)
+        with drawn.without_minor_ticks(), mock.patch.object(figure_files, "VECTOR_DPI", 50):
+            status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
                  for kind in ("svg", "png")} | {"table1.md"}
         self.assertEqual({path.name for path in self.figures.iterdir()}, names)
-        self.assertEqual(out.count("\n"), 7)
+        self.assertEqual(out.count("\n"), 8)
+        self.assertIn("all_methods: left out: no method has two sizes\n", out)
         for name in names - {"table1.md"}:
             start = (self.figures / name).read_bytes()[:8]
             self.assertIn(start, (b"\x89PNG\r\n\x1a\n", b"<?xml ve"), name)
@@ -117,7 +116,7 @@ class PaperFiguresTest(unittest.TestCase):
     def test_the_same_input_gives_the_same_files(self) -> None:
         self.write(without_heap(power_laws()[:9]))
         for out in ("a", "b"):
-            self.assertEqual(run(paper_figures, self.results, "--out", self.results / out)[0], 0)
+            self.assertEqual(run(figures, self.results, "--out", self.results / out)[0], 0)
         for name in ("figure4.svg", "figure4.png", "table1.md"):
             self.assertEqual((self.results / "a" / name).read_bytes(),
                              (self.results / "b" / name).read_bytes(), name)
@@ -125,8 +124,8 @@ class PaperFiguresTest(unittest.TestCase):
     def test_without_rows_of_a_figure_it_is_left_out_and_said(self) -> None:
         out, words = self.draw(power_laws()[:9])
         self.assertEqual(set(words), {"figure4", "figure5"})
-        self.assertIn("figure3: left out: no rows of preconditioners beyond those", out)
-        self.assertIn("figure4_paper_stop: left out: no rows with stop=paper", out)
+        self.assertIn("figure3: left out: no preconditioners beyond those of figures 4 and 5", out)
+        self.assertNotIn("paper_stop", out)
         (self.figures / "figure3.svg").touch()
         self.assertIn("an earlier figure3.svg stays", self.draw(power_laws()[:9])[0])
 
@@ -148,15 +147,15 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn(f"$n^{{{POWER['3STEPD']:.2f}}}$", self.draw(rows)[1]["figure4"])
 
     def test_no_case_is_dropped_silently(self) -> None:
-        rows = power_laws()[-18:]
+        rows = power_laws()[-18:]  # Mesh6, Mesh7
         outcomes = [dict(status="timeout", done_fraction=0.12, extrapolated_time_s=5e3),
                     dict(status="timeout", done_fraction=0.001),
                     dict(status="not_converged"), dict(status="breakdown"),
                     dict(status="out_of_memory"), dict(status="crashed"), dict(status="skipped")]
         for row, outcome in zip(rows[-9:], outcomes):
             row |= UNFINISHED | outcome
-        out, words = self.draw([*rows, case("Mesh3", "3STEPD:CHOLMOD"), case("part", "3STEPD"),
-                                case("Mesh3", "3STEPD", scene="flat")])
+        out, words = self.draw([*rows, case("Mesh3", "3STEPD", scene="flat"),
+                                case("Mesh3", "3STEPCG:DTIC3"), case("Mesh3", "3STEPCG3")])
         time, heap = (words[name].replace("\u00a0", " ") for name in ("figure4", "figure5"))
         self.assertIn("no estimate: 3STEPCG3 on Mesh7 (timeout, 0.1 % done)", time)
         self.assertIn("no point: SDTIC6 on Mesh7 (not converged); 3STEPCG6 on Mesh7 (breakdown); "
@@ -164,15 +163,14 @@ class PaperFiguresTest(unittest.TestCase):
                       "(skipped)", time)
         self.assertNotIn("SDTIC3 on Mesh7", time)  # an open symbol
         self.assertIn("no point: SDTIC3 on Mesh7 (timeout, 12 % done); 3STEPCG3 on Mesh7", heap)
-        self.assertIn("in no figure: 3STEPD:CHOLMOD on Mesh3 (not of the paper's figures); "
-                      "3STEPD on part (not of Mesh0..Mesh7); 3STEPD on Mesh3 (scene flat)", out)
+        self.assertIn("in no figure: 3STEPD on Mesh3 (scene flat)\n", out)
 
     def test_every_case_has_its_point(self) -> None:
         rows = power_laws()
-        self.write(rows)
-        read = results_table.read_results(self.csv)
+        read = self.read(rows)
+        time, _ = size_figure.drawings(read)
         with mock.patch.object(size_figure, "draw_point") as point:
-            size_figure.draw(read, figure_parts.TIME, figure_parts.ErrorScale(read))
+            time.draw(time.rows, **time.options)
         drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
                  for call in point.call_args_list}
         self.assertEqual(drawn, {(row["mesh"], row["method"]): row["time_s"] for row in rows})
@@ -186,12 +184,12 @@ class PaperFiguresTest(unittest.TestCase):
             row["peak_heap_bytes"] = ""
         out, words = self.draw(rows)
         self.assertNotIn("figure5", words)
-        self.assertIn("figure5: left out: none of its 72 rows has a memory", out)
+        self.assertIn("figure5: left out: none of its 72 cases has a memory", out)
 
     def test_preconditioners_under_either_name(self) -> None:
         rows = preconditioners()
         for row in rows:
-            row["method"] = method_names.PAPER_NAMES.get(row["method"], row["method"])
+            row |= made_up.of_method(ALIASES.get(row["method"], row["method"]))
         rows[-1] |= UNFINISHED | dict(status="timeout", done_fraction=0.03)
         out, words = self.draw([*rows, case("Mesh1", "SYMMLQ:NONE"),
                                 case("Mesh3", "SYMMLQ:DTIC3,schur=sparse"),
@@ -199,9 +197,8 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn("figure3.svg, .png: 28 cases", out)
         self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
         self.assertIn("no estimate: 3STEPCG:NONE (timeout, 3\u00a0% done)", words["figure3"])
-        self.assertIn("SYMMLQ:NONE on Mesh1 (only Figs 4, 5 have more than one mesh)", out)
-        self.assertIn("SYMMLQ:DTIC3,schur=sparse on Mesh3 (not of the paper's figures)", out)
-        self.assertNotIn("SDTIC3 on", out)  # in figure 4, and in figure 3 as SYMMLQ:DTIC3
+        self.assertNotIn("schur", words["figure3"])
+        self.assertNotIn("no figure", out)  # all_methods has it
 
     def test_preconditioners_of_another_mesh_and_scene(self) -> None:
         rows = [row | {"scene": "flat"} for row in preconditioners("part")]
@@ -227,35 +224,12 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn("| Mesh7 | 4 | 50483 | – | 920 | – | 640 | – |", table)
         self.assertIn("*n_C of Mesh0*: 40 instead of the printed 38", table)
 
-    def test_cells_that_cannot_be(self) -> None:
-        self.refuse_cell("stop", "soon", "one of target, paper")
-        self.refuse_cell("status", "fine", "one of ok, inaccurate, not_converged")
-        self.refuse_cell("mesh", "", "a name")
-        self.refuse_cell("n_phi", "76.1", "a whole number, 0 or more")
-        for word in ("abc", "nan", "-1", "0"):
-            self.refuse_cell("time_s", word, "a number above 0, or empty")
-        self.refuse_cell("time_s", "", "a number above 0, since status is ok")
-        self.refuse_cell("error_force", "-1e-9", "a number, 0 or more, or empty")
-        self.refuse_cell("done_fraction", "1.2", "a number from 0 to 1, or empty")
-
-    def test_tables_that_cannot_be(self) -> None:
-        self.assert_refused(f"{self.csv}: cannot be read: No such file")
-        self.write([{"mesh": "Mesh0", "scene": "default"}])
-        self.assert_refused(f"{self.csv}:1: no columns method", "mesh, scene, method, stop")
-        row = case("Mesh0", "3STEPD")
-        self.write([row, row])
-        self.assert_refused(f"{self.csv}:3:", "'Mesh0, default, 3STEPD, target' as in line 2")
-        self.csv.write_text(self.csv.read_text().rsplit(",", 3)[0] + "\n")
-        self.assert_refused(f"{self.csv}:3: 14 values, expected 17 as in line 1")
-        self.csv.write_text(self.csv.read_text().splitlines()[0] + "\n")
-        self.assert_refused(f"{self.csv}: no rows")
-
     def test_wrong_option_and_unusable_out(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         for arguments, part in ((("--nonsense",), "--nonsense"),
                                 (("--out", self.csv), "expected a folder to write to")):
-            with mock.patch.object(paper_figures, "write"):
-                status, _, err = run(paper_figures, self.results, *arguments)
+            with mock.patch.object(figure_files, "write"):
+                status, _, err = run(figures, self.results, *arguments)
             self.assertEqual((status, err.count("\n")), (2, 1), err)
             self.assertIn(part, err)
 
@@ -265,26 +239,9 @@ class PaperFiguresTest(unittest.TestCase):
         self.figures.mkdir()
         (self.figures / "a").write_text("earlier")
         with self.assertRaises(OSError):
-            figure_files.replace_all(self.figures, {"a": Path.touch, "b": fail})
+            command.replace_all(self.figures, {"a": Path.touch, "b": fail})
         self.assertEqual([path.name for path in self.figures.iterdir()], ["a"])
         self.assertEqual((self.figures / "a").read_text(), "earlier")
-
-
-class MethodNamesTest(unittest.TestCase):
-    def test_aliases(self) -> None:
-        for name, general in (("SDTIC3", "SYMMLQ:DTIC3"), ("SSKY", "SYMMLQ:SKY"),
-                              ("3STEPCG6", "3STEPCG:DTIC6"), ("SYMMLQ:SSOR1", "SYMMLQ:SSOR1.0"),
-                              ("SYMMLQ:SSOR1.00", "SYMMLQ:SSOR1.0"), ("3STEPD", "3STEPD"),
-                              ("ALM:r=20,rho=40", "ALM:r=20,rho=40")):
-            self.assertEqual(method_names.general(name), general)
-
-    def test_which_figure(self) -> None:
-        self.assertEqual(method_names.compared("SYMMLQ:DTIC6"), "SDTIC6")
-        self.assertIsNone(method_names.compared("SYMMLQ:DTIC5"))
-        self.assertEqual(method_names.preconditioned("SSKY"), ("SYMMLQ", "SKY", 0))
-        self.assertEqual(method_names.preconditioned("3STEPCG:SSOR0.5"), ("3STEPCG", "SSOR", 0.5))
-        for name in ("3STEPD", "SYMMLQ:DTIC7", "SYMMLQ:SSOR2", "SYMMLQ:DTIC3,schur=sparse"):
-            self.assertIsNone(method_names.preconditioned(name), name)
 
 
 class LayoutTest(unittest.TestCase):
@@ -308,22 +265,19 @@ class LayoutTest(unittest.TestCase):
         self.assertLess(len(lines), 7)
 
     def test_type_is_legible_and_apart(self) -> None:
-        rows = power_laws() + preconditioners()
-        for k, row in enumerate(rows):
-            row["line"] = k + 2
-            row |= {key: None for key, value in row.items() if value == ""} | {"status_reason": ""}
-        read = [results_table.Row(**row, target_error=None) for row in rows]
-        scale = figure_parts.ErrorScale(read)
+        with tempfile.TemporaryDirectory() as folder:
+            made_up.write(Path(folder) / "results.csv", power_laws() + preconditioners())
+            read = records.rows_of(records.read_run(Path(folder)))
         painted: list[Text] = []
         paint = Text.draw
 
         def keep(words: Text, renderer: object) -> None:
             painted.append(words)
             paint(words, renderer)
-        for draw in paper_figures.FIGURES.values():
+        for drawing in (*preconditioner_figure.drawings(read), *size_figure.drawings(read)):
             painted.clear()
             with matplotlib.rc_context(figure_parts.STYLE), mock.patch.object(Text, "draw", keep):
-                figure, _ = draw(read, scale=scale)
+                figure = drawing.draw(drawing.rows, **drawing.options)
                 renderer = FigureCanvasAgg(figure).get_renderer()
                 figure.draw(renderer)
             boxes: list[tuple[Text, Bbox]] = []
@@ -338,14 +292,13 @@ class LayoutTest(unittest.TestCase):
                 boxes.append((words, box))
 
 
-
 class RunTest(unittest.TestCase):
     def test_a_folder_with_nothing_to_draw(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            done = subprocess.run([PLOTS.parent / "run", "figures", folder], capture_output=True,
+            done = subprocess.run([RUN, "figures", folder], capture_output=True,
                                   text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
-        self.assertIn(f"{folder} has neither results.csv nor fields/", done.stderr)
+        self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
 
 
 if __name__ == "__main__":

@@ -8,9 +8,10 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import made_up_studies as made_up  # noqa: E402; finds plots
+import made_up  # noqa: E402; finds plots
 
 import quoted_numbers  # noqa: E402
+import quoted_values  # noqa: E402
 from running import run  # noqa: E402
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -47,7 +48,7 @@ def other(number: str) -> str:
 
 class CommittedNumbersTest(unittest.TestCase):
     def setUp(self) -> None:
-        self.records = quoted_numbers.Records(PROJECT / "results")
+        self.runs = quoted_numbers.Runs(PROJECT / "results")
         self.quotes = list(quoted_numbers.quotes_in(PROJECT / "docs" / "numbers.txt"))
         self.texts = {quote.file: (PROJECT / quote.file).read_text(encoding="utf-8")
                       for quote in self.quotes}
@@ -66,7 +67,7 @@ class CommittedNumbersTest(unittest.TestCase):
                 wrong = other(place[group])
                 planted = text[:start] + wrong + text[end:]
                 with self.subTest(quote.phrase, wrong=wrong):
-                    found = list(quoted_numbers.differences_of(quote, planted, self.records))
+                    found = list(quoted_numbers.differences_of(quote, planted, self.runs))
                     self.assertEqual([(d.line, d.written, d.records) for d in found],
                                      [(text.count("\n", 0, start) + 1, wrong, place[group])])
 
@@ -76,7 +77,7 @@ class CommittedNumbersTest(unittest.TestCase):
         cell = re.search(r"\d+ ms", table["body"])[0]
         at = text.index(cell, table.start("body"))
         planted = text[:at] + other(cell[:-3]) + text[at + len(cell) - 3:]
-        found = list(quoted_numbers.differing_tables("README.md", planted, self.records))
+        found = list(quoted_numbers.differing_tables("README.md", planted, self.runs))
         self.assertEqual([d.line for d in found], [text.count("\n", 0, at) + 1])
 
 
@@ -138,7 +139,7 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertIn("HYBRID takes 1.1 of\n", self.readme.read_text(encoding="utf-8"))
 
     def test_numbers_keep_their_form(self) -> None:
-        even, up = quoted_numbers.ROUNDING[None], quoted_numbers.ROUNDING["at most"]
+        even, up = quoted_values.ROUNDING[None], quoted_values.ROUNDING["at most"]
         for value, rounding, like, shown in (
                 (0.0905, even, "0.08", "0.09"), (0.2007, even, "0.31", "0.20"),
                 (9.96, even, "3", "10"), (12.3, even, "4", "12"), (2604.0, even, "2603", "2604"),

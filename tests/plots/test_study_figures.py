@@ -1,6 +1,5 @@
-"""plots/study_figures.py on made-up studies.  /usr/bin/python3 -m unittest FILE"""
+"""The studies' figures of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import functools
-import json
 import shutil
 import struct
 import sys
@@ -17,7 +16,7 @@ from matplotlib.text import Text
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-import made_up_studies as made_up  # noqa: E402; finds plots
+import made_up  # noqa: E402; finds plots
 
 import atlas_figure  # noqa: E402
 import convergence_figure  # noqa: E402
@@ -25,16 +24,14 @@ import direct_labels  # noqa: E402
 import drawn  # noqa: E402
 import figure_files  # noqa: E402
 import figure_parts  # noqa: E402
+import figures  # noqa: E402
 import memory_figure  # noqa: E402
-import memory_records  # noqa: E402
-import paper_figures  # noqa: E402
 import pareto_figure  # noqa: E402
-import results_table  # noqa: E402
+import records  # noqa: E402
 import stop_figure  # noqa: E402
-import study_figures  # noqa: E402
 import study_parts  # noqa: E402
 import work_precision_figure  # noqa: E402
-from paper_sizes import SIZES, body_of  # noqa: E402
+from paper_sizes import SIZES  # noqa: E402
 from running import run  # noqa: E402
 
 
@@ -49,6 +46,9 @@ class Drawn:
     run: tuple[int, str, str]
 
 
+write_small_png = figure_files.write_small_png
+
+
 @functools.cache
 def everything() -> Drawn:
     """A results folder with all studies, drawn once for the tests that look at its figures."""
@@ -57,14 +57,15 @@ def everything() -> Drawn:
     few = [row for row in made_up.error_study(["Mesh0"], sweep=False) if not row["knob"]]
     made_up.write(results / "results.csv", few + made_up.error_study(["Mesh1"])
                   + made_up.stability_study("Mesh0") + made_up.sizes_to_the_limit())
-    figures: dict[str, Figure] = {}
+    kept: dict[str, Figure] = {}
 
     def keep(figure: Figure, dpi: int, path: Path, colours: int) -> None:
-        figures[path.stem] = figure
-        figure_files.write_small_png(figure, dpi, path, colours)
-    with mock.patch.object(study_figures, "write_small_png", keep), drawn.without_minor_ticks():
-        done = run(study_figures, results)
-    return Drawn(results / "figures", figures, done)
+        kept[path.stem] = figure
+        write_small_png(figure, dpi, path, colours)
+    with mock.patch.object(figure_files, "write_small_png", keep), drawn.without_minor_ticks(), \
+            mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+        done = run(figures, results)
+    return Drawn(results / "figures", kept, done)
 
 
 class StudiesTest(unittest.TestCase):
@@ -76,13 +77,13 @@ class StudiesTest(unittest.TestCase):
         matplotlib.rcdefaults()
         matplotlib.rcParams.update(figure_parts.STYLE)
 
-    def read(self, rows: list[dict[str, object]]) -> list[results_table.Row]:
+    def read(self, rows: list[dict[str, object]]) -> list[records.Row]:
         made_up.write(self.csv, rows)
-        return results_table.read_results(self.csv)
+        return records.rows_of(records.read(self.csv))
 
     def assert_refused(self, *parts: str) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = run(study_figures, self.results)
+        status, out, err = run(figures, self.results)
         self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
         for part in parts:
             self.assertIn(part, err)
@@ -91,13 +92,14 @@ class StudiesTest(unittest.TestCase):
 
 class StudyFiguresTest(StudiesTest):
     def test_a_folder_with_everything(self) -> None:
-        figures, (status, out, err) = everything().folder, everything().run
+        folder, (status, out, err) = everything().folder, everything().run
         self.assertEqual((status, err), (0, ""))
         names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
                  "convergence", "stability_Mesh0", "all_methods"}
-        self.assertEqual({path.stem for path in figures.iterdir()}, names)
-        self.assertEqual(out.count("\n"), len(names))
-        for path in figures.iterdir():
+        self.assertEqual({path.stem for path in folder.iterdir()},
+                         names | {"figure4", "figure5", "table1"})
+        self.assertEqual(out.count("\n"), len(names) + 4)  # figure3 is left out
+        for path in (folder / f"{name}.png" for name in names):
             data = path.read_bytes()
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
             self.assertLess(len(data), 300_000, path.name)
@@ -107,50 +109,28 @@ class StudyFiguresTest(StudiesTest):
         rows = [row | dict(error_discretisation="", error_total="")
                 for row in made_up.error_study(["Mesh0"], sweep=False)[:12]]
         made_up.write(self.csv, rows)
-        with mock.patch.object(study_figures, "write_small_png",
+        with mock.patch.object(figure_files, "write_small_png",
                                lambda figure, dpi, path, colours: path.touch()):
             self.figures.mkdir()
             (self.figures / "pareto.png").touch()
-            out = run(study_figures, self.results)[1]
+            out = run(figures, self.results)[1]
         self.assertIn("pareto: left out: no row has time_s and an error_total up to 1; an earlier "
                       "pareto.png stays", out)
         self.assertIn("convergence: left out: fewer than two meshes", out)
-        self.assertIn("stop_and_error: left out: no two rows ALM:r=..,rho=..", out)
+        self.assertIn("stop_and_error: left out: no two methods NAME:r=..,rho=..", out)
 
     def test_one_size_makes_no_line(self) -> None:
         made_up.write(self.csv, [row for row in made_up.sizes_to_the_limit()
                                  if row["mesh"] == "Mesh0"])
-        out = "all_methods: left out: no method has two sizes\n"
-        self.assertEqual(run(study_figures, self.results), (0, out, ""))
+        with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+            status, out, err = run(figures, self.results)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("all_methods: left out: no method has two sizes\n", out)
 
     def test_the_papers_figures_pass_over_studies(self) -> None:
-        made_up.write(self.csv, made_up.error_study(["Mesh0"])[:5])
-        out = "paper_figures.py: nothing to draw: all rows are of studies\n"
-        self.assertEqual(run(paper_figures, self.results), (0, out, ""))
-
-    def test_wrong_cells(self) -> None:
-        for column, cell, allowed in (
-                ("study", "speed", "one of (empty), error, stability"),
-                ("outcome", "fine", "one of (empty), ok, inaccurate"),
-                ("outcome", "", "a value in the study 'error'"),
-                ("knob_value", "-1", "a number, 0 or more, or empty"),
-                ("error_total", "-1", "a number, 0 or more, or empty"),
-                ("upper_bound_Nmm", "high", "a number, or empty")):
-            rows = made_up.error_study(["Mesh0"])[:2]
-            made_up.write(self.csv, [rows[0], rows[1] | {column: cell}])
-            self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
-
-    def test_missing_columns(self) -> None:
-        for rows, column in ((made_up.error_study(["Mesh0"])[:2], "error_total"),
-                             (made_up.stability_study()[:2], "scene_group")):
-            made_up.write(self.csv, rows, [c for c in made_up.COLUMNS if c != column])
-            self.assert_refused(f"{self.csv}:1: no column {column}", "study of line 2 needs it")
-
-    def test_a_point_is_there_once(self) -> None:
-        rows = [row for row in made_up.error_study(["Mesh0"]) if row["knob"] == "tolerance"]
-        self.assertEqual(len(self.read(rows[:6])), 6)  # they differ in knob_value
-        made_up.write(self.csv, [rows[0], rows[0]])
-        self.assert_refused(f"{self.csv}:3:", "SYMMLQ:DTIC6, target, 0.1' as in line 2")
+        planned = figures.drawings_of(self.read(made_up.error_study(["Mesh0"])[:5]))
+        self.assertEqual([drawing.name for drawing in planned],
+                         ["convergence", "pareto", "stop_and_error", "work_precision_Mesh0"])
 
 
 class WorkPrecisionTest(StudiesTest):
@@ -224,8 +204,6 @@ class ParetoTest(StudiesTest):
         words = words_of(pareto_figure.draw(self.read(made_up.error_study(["Mesh3", "Mesh4"]))))
         self.assertIn("one tooth", words)
         self.assertIn("rack of four teeth", words)
-        self.assertEqual([body_of(mesh) for mesh in ("Mesh0", "Mesh7-refined2", "Mesh70", "part")],
-                         ["one tooth", "rack of four teeth", "other meshes", "other meshes"])
 
 
 class ConvergenceTest(StudiesTest):
@@ -296,21 +274,18 @@ class AtlasTest(StudiesTest):
 
 
 class MemoryFigureTest(StudiesTest):
-    def write_records(self, *records: dict) -> None:
-        lines = "".join(json.dumps(record) + "\n" for record in records)
-        (self.results / "records.jsonl").write_text(lines, encoding="utf-8")
-
-    def splits(self, *records: dict) -> list[memory_records.Split]:
-        self.write_records(*records)
-        return memory_records.read_splits(self.results / "records.jsonl")
+    def bars(self, *lines: dict) -> list[records.Row]:
+        made_up.write_lines(self.results / "records.jsonl", list(lines))
+        drawings = list(memory_figure.drawings(records.rows_of(records.read_run(self.results))))
+        return drawings[0].rows if drawings else []
 
     def test_bars_of_the_largest_mesh_by_their_peaks(self) -> None:
-        splits = self.splits(made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID"),
-                             made_up.split("Mesh1", "SSKY", preconditioner=(9, 9)),
-                             made_up.split("Mesh1", "BLIND", factor=(30, 10), other=(1, None)),
-                             made_up.split("Mesh1", "SYMMLQ:FLIC2"),  # not among the compared
-                             made_up.split("Mesh2", "3STEPD"))        # alone
-        figure = memory_figure.draw(splits)
+        bars = self.bars(made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID"),
+                         made_up.split("Mesh1", "SSKY", preconditioner=(9, 9)),
+                         made_up.split("Mesh1", "BLIND", factor=(30, 10), other=(1, None)),
+                         *(made_up.split("Mesh1", f"SYMMLQ:SSOR{k}") for k in range(30)),
+                         made_up.split("Mesh2", "3STEPD"))        # alone
+        figure = memory_figure.draw(bars)
         axes, = figure.axes
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["SSKY", "BLIND"])
         ends = [max(bar.get_x() + bar.get_width() for bar in axes.patches
@@ -327,28 +302,29 @@ class MemoryFigureTest(StudiesTest):
 
     def test_a_count_that_differs_is_named(self) -> None:
         record = made_up.split("Mesh0", "3STEPD") | {"memory_counts_differ": True}
-        words = words_of(memory_figure.draw(self.splits(record, made_up.split("Mesh0", "HYBRID"))))
+        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID"))))
         self.assertIn("differs from the heap by more than 10 %: 3STEPD.", words)
 
     def test_other_records_are_passed_over(self) -> None:
         other = made_up.split("Mesh0", "3STEPD")
-        splits = self.splits(other | {"study": "error"}, other | {"stop": "paper"},
-                             other | {"status": "timeout"}, other | {"memory_by_owner": None})
-        self.assertEqual(splits, [])
-        self.assertIsInstance(memory_figure.draw(splits), str)
+        self.assertEqual(self.bars(
+            other | {"stop": "paper"}, other | {"method": "a", "memory_by_owner": None},
+            other | {"method": "b", "status": "timeout"},
+            other | {"study": "error"}), [])
 
     def test_is_drawn_from_the_folder_and_bad_lines_are_refused(self) -> None:
-        made_up.write(self.csv, [made_up.case("Mesh0", "3STEPD"), made_up.case("Mesh0", "HYBRID")])
+        lines = self.results / "records.jsonl"
         good = [made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID")]
-        self.write_records(*good)
-        status, out, err = run(study_figures, self.results)
+        made_up.write_lines(lines, good)
+        with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+            status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
-        self.assertIn("memory_by_owner.png: 2 records", out)
+        self.assertIn("memory_by_owner.png: 2 cases", out)
         shutil.rmtree(self.figures)
-        self.write_records(*good, made_up.split("Mesh0", "P2", wings=(1, 1)))
+        made_up.write_lines(lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
         self.assert_refused("records.jsonl:3", "memory_by_owner", "wings", "blocks")
-        (self.results / "records.jsonl").write_text("no JSON\n", encoding="utf-8")
-        self.assert_refused("records.jsonl:1", "not a record")
+        lines.write_text("no JSON\n", encoding="utf-8")
+        self.assert_refused("records.jsonl:1", "not JSON")
 
 
 class OtherFiguresTest(StudiesTest):

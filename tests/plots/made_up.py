@@ -1,5 +1,7 @@
-"""Made-up results.csv of both studies, with the shapes that the figures have to cope with."""
+"""Made-up records: of the catalogue and of bodies and methods of one's own, of ordinary runs and of
+both studies, with the shapes that the figures have to cope with."""
 import csv
+import json
 import sys
 from pathlib import Path
 
@@ -7,27 +9,52 @@ import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
 
-import results_table  # noqa: E402
-from paper_sizes import SIZES  # noqa: E402
+import record_keys  # noqa: E402
+from paper_sizes import SIZES, Sizes  # noqa: E402
 
-COLUMNS = [*results_table.COLUMNS, *results_table.OPTIONAL]
+COLUMNS = [key for key in record_keys.KEYS if not key.startswith("memory_")]
+SEVEN = {"SDTIC3": "SYMMLQ:DTIC3", "3STEPCG3": "3STEPCG:DTIC3", "SDTIC6": "SYMMLQ:DTIC6",
+         "3STEPCG6": "3STEPCG:DTIC6", "SSKY": "SYMMLQ:SKY", "3STEPD": "3STEPD", "ALM": "ALM"}
+IN_PAPER = (*SEVEN, "BLIND")
+COMPARED = (*IN_PAPER, "HYBRID")
+ITERATIVE = ("SYMMLQ", "3STEPCG", "ALM")
+OWN = {mesh: Sizes(0, n_phi, 40, 16) for mesh, n_phi in (
+    ("punch1", 300), ("punch2", 1100), ("punch3", 2500), ("dovetail1", 430), ("dovetail2", 1300),
+    ("dovetail3", 2700))}
+MEASURES = {"Mesh": (80, 6, 10, 10), "rack": (620, 24, 16, 50), "punch": (96, 6, 12, 8),
+            "dovetail": (210, 13.4, 20, 18)}  # area, contact length, width, height
 DIRECT = {"3STEPD": 1, "3STEPD:FILE": 1.3, "3STEPD:LEAN": 0.9, "3STEPD:CHOLMOD": 0.4, "BLIND": 0.5,
           "BLIND:SCHUR": 0.2, "BLIND:SKY": 0.7, "HYBRID": 0.03}
 KRYLOV = {f"{krylov}:{preconditioner}": (2 + k) * (1 if krylov == "SYMMLQ" else 1.4)
           for krylov in ("SYMMLQ", "3STEPCG")
           for k, preconditioner in enumerate(("DTIC6", "DTIC3", "FLIC3", "SSOR1.0", "NONE"))}
 OUTCOMES = ("inaccurate", "not_converged", "breakdown", "timeout", "out_of_memory")
-
-
 LARGEST = {"3STEPD": 6e4, "3STEPD:CHOLMOD": 3e5, "BLIND:SCHUR": 3e5, "HYBRID": 1e6, "ALM": 6e4,
            "SDTIC6": 3e4}  # n_phi that it can do
 
 
+def of_method(method: str) -> dict[str, object]:
+    general = SEVEN.get(method, method)
+    family, _, detail = general.partition(":")
+    preconditioner = detail.partition(",")[0] if family in ("SYMMLQ", "3STEPCG") else ""
+    return dict(method=method, general_name=general, family=family, preconditioner=preconditioner,
+                iterative="true" if family in ITERATIVE else "false",
+                in_paper="true" if method in IN_PAPER else "false",
+                in_displacements="true" if family == "P2" else "false")
+
+
+def of_mesh(mesh: str) -> dict[str, object]:
+    size = OWN.get(mesh) or SIZES.get(mesh[:5], SIZES["Mesh0"])
+    body = "rack" if size.teeth == 4 else mesh.rstrip("0123456789")
+    measures = dict(zip(("area_mm2", "contact_length_mm", "width_mm", "height_mm"),
+                        MEASURES.get(body, MEASURES["Mesh"])))
+    return measures | dict(mesh=mesh, n_phi=size.n_phi, n_f=size.n_f,
+                           n_c=40 if mesh == "Mesh0" else size.n_c)
+
+
 def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
-    size = SIZES[mesh[:5]]
-    row = dict.fromkeys(COLUMNS, "")
-    row |= dict(mesh=mesh, scene="default", method=method, stop="target", status="ok",
-                outcome="ok", n_phi=size.n_phi, n_f=size.n_f, n_c=size.n_c, threads=1,
+    row = dict.fromkeys(COLUMNS, "") | of_method(method) | of_mesh(mesh)
+    row |= dict(scene="default", stop="target", status="ok", outcome="ok", threads=1,
                 repetitions=5, time_s=0.5, peak_heap_bytes=2.0**22, error_force=1e-9,
                 error_stress=1e-10, target_error=1e-6)
     return row | cells
@@ -38,15 +65,21 @@ def split(mesh: str, method: str, **owners: tuple[float, float | None]) -> dict[
     by_owner = {owner: {"peak_bytes": int(peak * 2**20), "held_bytes": int(peak * 2**20),
                         "counted_bytes": None if counted is None else int(counted * 2**20)}
                 for owner, (peak, counted) in ({"blocks": (2, 2)} | owners).items()}
-    return {"mesh": mesh, "scene": "default", "method": method, "n_phi": SIZES[mesh].n_phi,
-            "threads": 1, "stop": "target", "status": "ok", "study": None,
-            "memory_by_owner": by_owner, "memory_counts_differ": False}
+    return record(case(mesh, method)) | {"memory_by_owner": by_owner, "memory_counts_differ": False}
+
+
+def record(row: dict[str, object]) -> dict[str, object]:
+    """The same as a line of records.jsonl."""
+    flags = {"true": True, "false": False}
+    return {key: None if value == "" else flags.get(value, value) if isinstance(value, str)
+            else value for key, value in row.items()}
 
 
 def discretisation(mesh: str) -> float:
     """Relative; first order in h from 20 %, the rack starting anew."""
-    first = SIZES["Mesh0" if SIZES[mesh].teeth == 1 else "Mesh4"].n_phi
-    return 0.2 * (SIZES[mesh].n_phi / first) ** -0.45
+    size = of_mesh(mesh)["n_phi"]
+    first = {"Mesh": "Mesh4" if size > 8000 else "Mesh0"}.get(mesh[:-1], mesh[:-1] + "1")
+    return 0.2 * (size / of_mesh(first)["n_phi"]) ** -0.45
 
 
 def point(mesh: str, method: str, time_s: float, error: float, **cells: object) -> dict:
@@ -55,13 +88,13 @@ def point(mesh: str, method: str, time_s: float, error: float, **cells: object) 
     return case(mesh, method, study="error", time_s=time_s, error_force=error, status=outcome
                 if outcome != "wrong_success" else "inaccurate", outcome=outcome,
                 error_stress=error / 3, error_discretisation=floor, error_total=floor + error / 3,
-                peak_heap_bytes=30.0 * SIZES[mesh].n_phi**1.3 * (2 + time_s**0.3)) | cells
+                peak_heap_bytes=30.0 * of_mesh(mesh)["n_phi"]**1.3 * (2 + time_s**0.3)) | cells
 
 
 def error_study(meshes: list[str], sweep: bool = True) -> list[dict[str, object]]:
     rows = []
     for mesh in meshes:
-        unit = 2e-7 * SIZES[mesh].n_phi ** 1.5
+        unit = 2e-7 * of_mesh(mesh)["n_phi"] ** 1.5
         for method, factor in DIRECT.items():
             rows.append(point(mesh, method, unit * factor, 1e-12 * factor))
         rows[-1] |= dict(error_force=0, error_stress=0)  # HYBRID
@@ -129,3 +162,9 @@ def write(path: Path, rows: list[dict[str, object]], columns: list[str] = COLUMN
         writer = csv.DictWriter(file, columns, lineterminator="\n", extrasaction="ignore")
         writer.writeheader()
         writer.writerows(rows)
+
+
+def write_lines(path: Path, records: list[dict[str, object]]) -> None:
+    """records.jsonl."""
+    lines = "".join(json.dumps(record) + "\n" for record in records)
+    path.write_text(lines, encoding="utf-8")

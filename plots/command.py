@@ -1,0 +1,45 @@
+"""What the programs share: wrong input ends them with one line and exit status 2, and files are
+written whole."""
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from records import RecordsError
+
+
+def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
+        act: Callable[[argparse.Namespace], object], expected: str) -> None:
+    """expected: in the words for a place that cannot be written."""
+    def fail(message: object) -> None:
+        print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
+        sys.exit(2)
+
+    parser = argparse.ArgumentParser(description=doc,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.error = fail
+    add_arguments(parser)
+    try:
+        act(parser.parse_args())
+    except RecordsError as error:
+        fail(error)
+    except OSError as error:
+        fail(f"{error.filename}: {error.strerror}; expected {expected}")
+
+
+def results_and_out(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("results", type=Path, metavar="RESULTS_DIR", help="the --out of bench")
+    parser.add_argument("--out", type=Path, metavar="DIR", help="default: RESULTS_DIR/figures")
+
+
+def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
+    """All files or none: each is written beside its place; when all are there they are moved."""
+    with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as temporary:
+        for name, write in writers.items():
+            write(Path(temporary) / name)
+        for name in writers:
+            os.replace(Path(temporary) / name, folder / name)

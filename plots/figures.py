@@ -1,0 +1,93 @@
+#!/usr/bin/python3
+"""Draws the figures of a run from its records.jsonl, or from its results.csv alone.
+
+    figures.py RESULTS_DIR [--out DIR]
+
+The figures are those that the modules *_figure.py beside this program plan: each has a function
+drawings(rows), which names them and says which rows they show (../results/README.md lists them).
+table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue.
+
+Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
+figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
+line says which, and nothing is written.
+"""
+from __future__ import annotations
+
+import argparse
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+
+import matplotlib
+
+import command
+from figure_files import Drawing
+from figure_parts import STYLE
+from figure_words import merged
+from paper_sizes import table1
+from record_keys import Row
+from records import read_run, rows_of
+
+
+def drawings_of(rows: list[Row]) -> list[Drawing]:
+    modules = sorted(path.stem for path in Path(__file__).parent.glob("*_figure.py"))
+    return [drawing for name in modules for drawing in import_module(name).drawings(rows)]
+
+
+def why_undrawn(row: Row, drawn: list[Row]) -> str:
+    scenes = {other.scene for other in drawn if other.study == row.study}
+    if row.scene not in scenes:
+        return f"scene {row.scene}"
+    same = next((other for other in drawn if other.general_name == row.general_name
+                 and (other.mesh, other.stop) == (row.mesh, row.stop)), None)
+    return f"the same method as {same.method}" if same else "no figure of its kind has room"
+
+
+def listed(rows: list[Row], drawn: list[Row]) -> str:
+    """The rows that are in no figure, by reason."""
+    lines, reasons = {row.line for row in drawn}, {}
+    for row in rows:
+        if row.line not in lines:
+            cases = reasons.setdefault(why_undrawn(row, drawn), {})
+            cases[f"{row.method} on {row.mesh}"] = None
+    return "; ".join(f"{merged(list(cases))} ({reason})" for reason, cases in reasons.items())
+
+
+def draw_all(rows: list[Row], out: Path) -> None:
+    report, drawn = [], []
+    writers: dict[str, Callable[[Path], object]] = {}
+    for drawing in drawings_of(rows):
+        result = drawing.draw(drawing.rows, **drawing.options)
+        if isinstance(result, str):
+            old = [drawing.name + suffix for suffix in drawing.suffixes
+                   if (out / (drawing.name + suffix)).exists()]
+            stays = f"; an earlier {old[0]} stays" if old else ""
+            report.append(f"{drawing.name}: left out: {result}{stays}")
+            continue
+        drawn += drawing.rows
+        writers |= {drawing.name + suffix: drawing.writer(result) for suffix in drawing.suffixes}
+        report.append(f"{out / drawing.name}{', '.join(drawing.suffixes)}: "
+                      f"{len(drawing.rows)} cases")
+    sizes = table1([row for row in rows if not row.study])
+    if sizes:
+        writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
+        report.append(f"{out / 'table1.md'}")
+    if writers:
+        out.mkdir(parents=True, exist_ok=True)
+        command.replace_all(out, writers)
+    undrawn = listed(rows, drawn)
+    print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
+
+
+def draw(args: argparse.Namespace) -> None:
+    matplotlib.rcdefaults()
+    matplotlib.rcParams.update(STYLE)
+    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures")
+
+
+def main() -> None:
+    command.run(__doc__, command.results_and_out, draw, "a folder to write to")
+
+
+if __name__ == "__main__":
+    main()

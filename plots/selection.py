@@ -1,0 +1,83 @@
+"""Which cases belong in a figure, by the columns of their records."""
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Hashable, Iterable
+from typing import TypeVar
+
+from record_keys import Row
+
+Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
+GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
+
+
+def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
+    """In the order in which the keys come."""
+    groups: dict[Key, list[Item]] = {}
+    for item in items:
+        groups.setdefault(key(item), []).append(item)
+    return groups
+
+
+def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
+    """By size."""
+    return grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
+
+
+def by_body(rows: list[Row]) -> dict[str, list[Row]]:
+    return grouped(rows, lambda row: row.body)
+
+
+def scene_of(rows: list[Row]) -> str:
+    """The scene to draw where there is room for one."""
+    scenes = sorted({row.scene for row in rows})
+    return "default" if "default" in scenes else scenes[0]
+
+
+def of_scene(rows: list[Row]) -> list[Row]:
+    return [row for row in rows if row.scene == scene_of(rows)] if rows else []
+
+
+def tier(row: Row) -> int:
+    """The paper's method; one with a name of its own; a variant of another; a preconditioner's."""
+    return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2
+
+
+def compared(rows: list[Row], room: int) -> list[Row]:
+    """Of the paper's methods and those with names of their own; of variants, and then of
+    preconditioners, if the methods are then at most `room`. A method under two names, an alias
+    and the general one, is there once for each mesh and stop: by its alias."""
+    tiers: dict[str, int] = {}
+    for row in rows:
+        tiers[row.general_name] = min(tier(row), tiers.get(row.general_name, 9))
+    shown: set[str] = set()
+    for level in range(4):
+        more = {method for method, own in tiers.items() if own == level}
+        if level > 1 and len(shown | more) > room:
+            break
+        shown |= more
+    return once([row for row in rows if row.general_name in shown], by_alias=True)
+
+
+def once(rows: list[Row], by_alias: bool) -> list[Row]:
+    """Each method for each mesh and stop."""
+    chosen: dict[tuple[str, str, str], Row] = {}
+    for row in rows:
+        case = (row.general_name, row.mesh, row.stop)
+        if case not in chosen or (row.method != row.general_name) == by_alias:
+            chosen[case] = row
+    return list(chosen.values())
+
+
+def given(row: Row) -> tuple[float, float] | None:
+    """r and rho in the method's name; None: they are not given, or not numbers."""
+    found = GIVEN.search(row.method)
+    try:
+        return (float(found[1]), float(found[2])) if found else None
+    except ValueError:
+        return None
+
+
+def is_paper_stop(row: Row) -> bool:
+    """A point of an error study that the paper's stop ended."""
+    return row.iterative and row.stop == "paper"
