@@ -126,6 +126,17 @@ TEST_F(Command, TakesAUsersMeshAndScene) {
   EXPECT_TRUE(record["coulomb_violation_N"].is_null());
 }
 
+#ifndef AIRYBENCH_SANITIZED  // which needs more address space than any limit
+TEST_F(Command, ALackOfMemoryIsNotWrongUsage) {
+  file("fine.json", R"({"mesh": {"refine": 6}})");
+  const Result result =
+      testing::run_bench(folder_.path(), "--mesh=Mesh7 --method=3STEPD --scene=fine.json --explain",
+                         "ulimit -v 700000; ");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "bench: out of memory\n");
+}
+#endif
+
 TEST_F(Command, ListsPlansAndExplainsWithoutMeasuring) {
   EXPECT_NE(bench("--list").out.find("*3STEPD "), std::string::npos);
   const Result plan = bench("--mesh=Mesh0..Mesh7 --method='*' --dry-run");
