@@ -36,9 +36,15 @@ bool is_general_name(const std::string& name) {
   return name.find(':') != name.npos && families().contains(name.substr(0, name.find(':')));
 }
 
+// SYMMLQ:SSOR1 is an alias of SYMMLQ:SSOR1.0.
 static Method method_of_general_name(const std::string& text) {
-  GeneralName name(text);
-  return families().at(name.family())(std::move(name));
+  const GeneralName name(text);
+  Method method = families().at(name.family())(name);
+  std::string general = text;
+  if (!method.preconditioner.empty())
+    general.replace(name.family().size() + 1, name.first().size(), method.preconditioner);
+  if (general != text) method.general_name = general;
+  return method;
 }
 
 // One of the paper's names for a method that has a general one.

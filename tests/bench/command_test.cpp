@@ -130,7 +130,7 @@ TEST_F(Command, TakesAUsersMeshAndScene) {
 TEST_F(Command, ALackOfMemoryIsNotWrongUsage) {
   file("fine.json", R"({"mesh": {"refine": 6}})");
   const Result result =
-      testing::run_bench(folder_.path(), "--mesh=Mesh7 --method=3STEPD --scene=fine.json --explain",
+      testing::run_bench(folder_, "--mesh=Mesh7 --method=3STEPD --scene=fine.json --explain",
                          "ulimit -v 700000; ");
   EXPECT_EQ(result.code, 3);
   EXPECT_EQ(result.err, "bench: out of memory\n");
