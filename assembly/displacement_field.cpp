@@ -1,8 +1,7 @@
 #include "assembly/displacement_field.hpp"
 
-#include <Eigen/Cholesky>
-
 #include "assembly/edge_forces.hpp"
+#include "assembly/small_cholesky.hpp"
 
 namespace airybench {
 namespace {
@@ -66,7 +65,9 @@ QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double are
 }
 
 Eigen::Matrix3d elasticity_of(const Problem& problem, int triangle) {
-  return problem.compliance_of(triangle).llt().solve(Eigen::Matrix3d::Identity());
+  Eigen::Matrix3d elasticity = Eigen::Matrix3d::Identity();
+  SmallCholesky<double, 3>(problem.compliance_of(triangle)).solve(elasticity);
+  return elasticity;
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {

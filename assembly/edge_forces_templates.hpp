@@ -1,6 +1,8 @@
 // The formula of edge_forces.hpp, for whoever instantiates it for a scalar of their own.
 #pragma once
 
+#include <array>
+
 #include "assembly/edge_forces.hpp"
 
 namespace airybench {
@@ -11,23 +13,21 @@ EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d
   const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(a, b);
   const Eigen::Vector2<Scalar>& s = frame.tangent;
 
-  using Gradient = Eigen::Matrix<Scalar, 2, 7>;
-  Gradient start = Gradient::Zero(), end = Gradient::Zero(), middle = Gradient::Zero();
-  start(0, 1) = start(1, 2) = 1;
-  end(0, 4) = end(1, 5) = 1;
   // Hermite: φ'(L/2) = 3 (φ_b − φ_a)/(2L) − (φ'_a + φ'_b)/4.
-  Eigen::Matrix<Scalar, 1, 7> slope = -s.transpose() * (start + end) / Scalar(4);
-  slope(0) -= Scalar(1.5) / frame.length_mm;
-  slope(3) += Scalar(1.5) / frame.length_mm;
-  middle = s * slope;
-  middle.col(6) += Scalar(outward) * frame.normal;
-
-  Eigen::Matrix2<Scalar> turn;
-  turn << 0, 1, -1, 0;
-  const Scalar two = 2, three = 3, four = 4;
+  const Scalar chord = Scalar(1.5) / frame.length_mm, quarter = Scalar(0.25);
+  const std::array<Scalar, 7> slope = {
+      -chord, -quarter * s.x(), -quarter * s.y(), chord, -quarter * s.x(), -quarter * s.y(), 0};
   EdgeForcesIn<Scalar> forces;
-  forces.template topRows<2>() = turn * (-three * start + four * middle - end) / two;
-  forces.template bottomRows<2>() = turn * (start - four * middle + three * end) / two;
+  for (int dof = 0; dof < 7; ++dof) {
+    Scalar at_a[2], at_b[2];  // −3 g_a + 4 g_m − g_b and g_a − 4 g_m + 3 g_b
+    for (int k = 0; k < 2; ++k) {
+      const Scalar a_k = dof == 1 + k, b_k = dof == 4 + k;
+      const Scalar middle = dof == 6 ? Scalar(outward) * frame.normal(k) : s(k) * slope[dof];
+      at_a[k] = -3 * a_k + 4 * middle - b_k;
+      at_b[k] = a_k - 4 * middle + 3 * b_k;
+    }
+    forces.col(dof) << at_a[1] / 2, -at_a[0] / 2, at_b[1] / 2, -at_b[0] / 2;
+  }
   return forces;
 }
 

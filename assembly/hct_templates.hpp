@@ -1,10 +1,10 @@
 // The formulas of hct.hpp, for whoever instantiates them for a scalar of their own.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "assembly/hct.hpp"
+#include "assembly/small_cholesky.hpp"
 
 namespace airybench {
 namespace hct_formulas {
@@ -14,13 +14,13 @@ constexpr int next(int i) { return (i + 1) % 3; }
 template <typename Scalar>
 using Corners = Eigen::Matrix<Scalar, 2, 3>;  // columns V1 V2 V3
 
+// The row of a coefficient: the one at a vertex, plus the derivative there along a direction.
 template <typename Scalar>
-Eigen::Matrix<Scalar, 1, 12> directional_derivative(int vertex,
-                                                    const Eigen::Vector2<Scalar>& direction) {
-  Eigen::Matrix<Scalar, 1, 12> row = Eigen::Matrix<Scalar, 1, 12>::Zero();
-  row(3 * vertex + 1) = direction.x();
-  row(3 * vertex + 2) = direction.y();
-  return row;
+void extrapolate(HctCoefficientsIn<Scalar>& c, int row, int vertex,
+                 const Eigen::Vector2<Scalar>& direction) {
+  for (int dof = 0; dof < 12; ++dof) c(row, dof) = c(vertex, dof);
+  c(row, 3 * vertex + 1) += direction.x();
+  c(row, 3 * vertex + 2) += direction.y();
 }
 
 // Gradients of the barycentric coordinates of triangle abc (columns), 1/mm.
@@ -61,29 +61,34 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& vertices,
   HctCoefficientsIn<Scalar> c = HctCoefficientsIn<Scalar>::Zero();
   for (int i = 0; i < 3; ++i) {
     c(i, 3 * i) = 1;
-    c.row(9 + i) = c.row(i) + directional_derivative<Scalar>(i, (centroid - v.col(i)) / three);
+    extrapolate<Scalar>(c, 9 + i, i, (centroid - v.col(i)) / three);
   }
   for (int t = 0; t < 3; ++t) {
     const int i = t, j = next(t);
     const Vector edge = v.col(j) - v.col(i);
-    c.row(3 + 2 * t) = c.row(i) + directional_derivative<Scalar>(i, edge / three);
-    c.row(4 + 2 * t) = c.row(j) - directional_derivative<Scalar>(j, edge / three);
+    extrapolate<Scalar>(c, 3 + 2 * t, i, edge / three);
+    extrapolate<Scalar>(c, 4 + 2 * t, j, edge / -three);
 
     // The derivative along α_i V_i + α_j V_j + α_4 V_4 = n at the edge's middle is
     // 3/4 Σ_p α_p (c_{200+p} + 2 c_{110+p} + c_{020+p}); solve for c_111, which comes with α_4.
     const Vector normal = Vector(edge.y(), -edge.x()) / edge.norm();
     const Eigen::Vector3<Scalar> alpha =
         barycentric_gradients<Scalar>(v.col(i), v.col(j), centroid).transpose() * normal;
-    auto inner = c.row(12 + t);
-    inner(9 + t) = Scalar(outward[t] * 4) / three;
-    inner -= alpha(0) * (c.row(i) + two * c.row(3 + 2 * t) + c.row(4 + 2 * t));
-    inner -= alpha(1) * (c.row(3 + 2 * t) + two * c.row(4 + 2 * t) + c.row(j));
-    inner -= alpha(2) * (c.row(9 + i) + c.row(9 + j));
-    inner /= two * alpha(2);
+    for (int dof = 0; dof < 12; ++dof) {
+      const auto at = [&](int row) { return c(row, dof); };
+      Scalar inner = dof == 9 + t ? Scalar(outward[t] * 4) / three : Scalar(0);
+      inner -= alpha(0) * (at(i) + two * at(3 + 2 * t) + at(4 + 2 * t));
+      inner -= alpha(1) * (at(3 + 2 * t) + two * at(4 + 2 * t) + at(j));
+      inner -= alpha(2) * (at(9 + i) + at(9 + j));
+      c(12 + t, dof) = inner / (two * alpha(2));
+    }
   }
-  for (int i = 0; i < 3; ++i)
-    c.row(15 + i) = (c.row(9 + i) + c.row(12 + i) + c.row(12 + next(next(i)))) / three;
-  c.row(18) = (c.row(15) + c.row(16) + c.row(17)) / three;
+  for (int dof = 0; dof < 12; ++dof) {
+    const auto at = [&](int row) { return c(row, dof); };
+    for (int i = 0; i < 3; ++i)
+      c(15 + i, dof) = (at(9 + i) + at(12 + i) + at(12 + next(next(i)))) / three;
+    c(18, dof) = (at(15) + at(16) + at(17)) / three;
+  }
   return c;
 }
 
@@ -126,8 +131,8 @@ HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& st
   using std::sqrt;
   // With compliance = RᵀR the flexibility is MᵀM, where M stacks √(a/12) R σ for the sum and the
   // three corner values of every third.
-  const Eigen::Matrix3<Scalar> root = compliance.cast<Scalar>().llt().matrixU();
-  const Eigen::Matrix3<Scalar> weight = root * sqrt(area_mm2 / Scalar(36));
+  const SmallCholesky<Scalar, 3> cholesky(compliance.cast<Scalar>());
+  const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
   Eigen::Matrix<Scalar, 36, 12> m;
   for (int t = 0; t < 3; ++t) {
     for (int corner = 0; corner < 3; ++corner)

@@ -8,23 +8,23 @@
 // semidefinite to rounding.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <vector>
 
 #include "assembly/problem.hpp"
+#include "assembly/small_cholesky.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench {
 
 template <typename Scalar>
 struct HybridElement {
-  HctStressIn<Scalar> stress;                           // of all twelve unknowns
-  Eigen::LLT<Eigen::Matrix<Scalar, 9, 9>> flexibility;  // S_e, factorised
-  Eigen::Matrix<Scalar, 9, 12> forces;                  // T_eᵀ
-  bool loaded = false;                                  // by a body force; else the rest is zero
-  ElementStressIn<Scalar> particular;                   // σ_p
-  Eigen::Matrix<Scalar, 9, 1> particular_load;          // p_e
-  Eigen::Matrix<Scalar, 12, 1> particular_forces;       // F_p
+  HctStressIn<Scalar> stress;                      // of all twelve unknowns
+  SmallCholesky<Scalar, 9> flexibility;            // S_e, factorised
+  Eigen::Matrix<Scalar, 9, 12> forces;             // T_eᵀ
+  bool loaded = false;                             // by a body force; else the rest is zero
+  ElementStressIn<Scalar> particular;              // σ_p
+  Eigen::Matrix<Scalar, 9, 1> particular_load;     // p_e
+  Eigen::Matrix<Scalar, 12, 1> particular_forces;  // F_p
 
   Eigen::Matrix<Scalar, 12, 12> stiffness() const;  // K_e
   Eigen::Matrix<Scalar, 12, 1> load() const;        // f_e

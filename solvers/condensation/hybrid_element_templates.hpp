@@ -36,8 +36,8 @@ HybridElement<Scalar> make_hybrid_element(const Problem& problem,
   element.stress = hct_stress<Scalar>(v, outward);
   const HctFlexibilityIn<Scalar> flexibility =
       hct_flexibility<Scalar>(element.stress, area, compliance);
-  element.flexibility.compute(flexibility.template bottomRightCorner<9, 9>());
-  if (element.flexibility.info() != Eigen::Success)
+  element.flexibility = SmallCholesky<Scalar, 9>(flexibility.template bottomRightCorner<9, 9>());
+  if (!element.flexibility.positive())
     throw Breakdown("hybridized: triangle " + std::to_string(t + 1) +
                     ": its flexibility is not positive definite to rounding");
 
@@ -48,40 +48,45 @@ HybridElement<Scalar> make_hybrid_element(const Problem& problem,
     element.particular = particular_element_stress<Scalar>(problem, t);
     const Eigen::Matrix<Scalar, 27, 1> dual =
         stress_dual<Scalar>(element.particular, area, compliance).reshaped();
-    element.particular_load = (element.stress.transpose() * dual).template tail<9>();
+    for (int i = 0; i < 9; ++i) element.particular_load(i) = element.stress.col(3 + i).dot(dual);
   }
 
-  Eigen::Matrix<Scalar, 12, 12> T = Eigen::Matrix<Scalar, 12, 12>::Zero();
+  element.forces.setZero();
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3, edge = problem.edges.of_triangle[t][k];
     const EdgeForcesIn<Scalar> f = edge_forces<Scalar>(v.col(k), v.col(next), outward[k]);
     const Eigen::Matrix4<Scalar> q =
         edge_components<Scalar>(problem.mesh, t, k, is_contact_edge[edge]);
-    Eigen::Matrix<Scalar, 4, 12> rows = Eigen::Matrix<Scalar, 4, 12>::Zero();
-    rows.template middleCols<3>(3 * k) = f.template leftCols<3>();
-    rows.template middleCols<3>(3 * next) = f.template middleCols<3>(3);
-    rows.col(9 + k) = f.col(6);
-    T.template middleRows<4>(4 * k) = q.transpose() * rows;
     const Eigen::Vector4<Scalar> particular =
         element_edge_forces<Scalar>(v, element.particular, k).reshaped();
-    element.particular_forces.template segment<4>(4 * k) = q.transpose() * particular;
+    const std::array<int, 7> dofs = {3 * k,        3 * k + 1,    3 * k + 2, 3 * next,
+                                     3 * next + 1, 3 * next + 2, 9 + k};
+    for (int i = 0; i < 4; ++i) {
+      for (int j = 0; j < 7; ++j)
+        if (dofs[j] >= 3) element.forces(dofs[j] - 3, 4 * k + i) = q.col(i).dot(f.col(j));
+      element.particular_forces(4 * k + i) = q.col(i).dot(particular);
+    }
   }
-  element.forces = T.template rightCols<9>().transpose();
   return element;
 }
 
 template <typename Scalar>
 Eigen::Matrix<Scalar, 12, 12> HybridElement<Scalar>::stiffness() const {
-  const Eigen::Matrix<Scalar, 9, 12> root = flexibility.matrixL().solve(forces);
-  return root.transpose() * root;
+  Eigen::Matrix<Scalar, 9, 12> root = forces;
+  flexibility.solve_lower(root);
+  Eigen::Matrix<Scalar, 12, 12> K;
+  for (int j = 0; j < 12; ++j)
+    for (int i = 0; i <= j; ++i) K(i, j) = K(j, i) = root.col(i).dot(root.col(j));
+  return K;
 }
 
 template <typename Scalar>
 Eigen::Matrix<Scalar, 12, 1> HybridElement<Scalar>::load() const {
   Eigen::Matrix<Scalar, 12, 1> f = particular_forces;
   if (loaded) {
-    const Eigen::Matrix<Scalar, 9, 1> phi = flexibility.solve(particular_load);
-    f -= forces.transpose() * phi;
+    Eigen::Matrix<Scalar, 9, 1> phi = particular_load;
+    flexibility.solve(phi);
+    f -= forces.transpose().lazyProduct(phi);
   }
   return f;
 }
@@ -89,10 +94,10 @@ Eigen::Matrix<Scalar, 12, 1> HybridElement<Scalar>::load() const {
 template <typename Scalar>
 ElementStressIn<Scalar> HybridElement<Scalar>::stress_at(
     const Eigen::Matrix<Scalar, 12, 1>& displacement) const {
-  const Eigen::Matrix<Scalar, 9, 1> right_side = forces * displacement - particular_load;
-  const Eigen::Matrix<Scalar, 9, 1> phi = flexibility.solve(right_side);
+  Eigen::Matrix<Scalar, 9, 1> phi = forces.lazyProduct(displacement) - particular_load;
+  flexibility.solve(phi);
   ElementStressIn<Scalar> total;
-  total.reshaped() = stress.template rightCols<9>() * phi;
+  total.reshaped() = stress.template rightCols<9>().lazyProduct(phi);
   if (loaded) total += particular;
   return total;
 }

@@ -1,0 +1,61 @@
+// Cholesky factorisation S = L Lᵀ of a small matrix, written out: Eigen's, made for large ones too,
+// takes the compiler seconds for every scalar.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+namespace airybench {
+
+template <typename Scalar, int n>
+class SmallCholesky {
+ public:
+  SmallCholesky() = default;
+  // S: symmetric; its lower triangle is read.
+  explicit SmallCholesky(const Eigen::Matrix<Scalar, n, n>& S) {
+    using std::sqrt;
+    for (int j = 0; j < n; ++j) {
+      Scalar pivot = 0;
+      for (int k = 0; k < j; ++k) pivot += L_(j, k) * L_(j, k);
+      pivot = S(j, j) - pivot;
+      positive_ = positive_ && pivot > 0;
+      L_(j, j) = sqrt(pivot);
+      for (int i = j + 1; i < n; ++i) {
+        Scalar sum = 0;
+        for (int k = 0; k < j; ++k) sum += L_(i, k) * L_(j, k);
+        L_(i, j) = (S(i, j) - sum) / L_(j, j);
+      }
+    }
+  }
+  bool positive() const { return positive_; }  // S is positive definite to rounding
+  const Eigen::Matrix<Scalar, n, n>& L() const { return L_; }
+
+  // X ← S⁻¹ X, L⁻¹ X, L⁻ᵀ X.
+  template <int columns>
+  void solve(Eigen::Matrix<Scalar, n, columns>& X) const {
+    solve_lower(X);
+    solve_upper(X);
+  }
+  template <int columns>
+  void solve_lower(Eigen::Matrix<Scalar, n, columns>& X) const {
+    for (int c = 0; c < columns; ++c)
+      for (int i = 0; i < n; ++i) {
+        for (int k = 0; k < i; ++k) X(i, c) -= L_(i, k) * X(k, c);
+        X(i, c) /= L_(i, i);
+      }
+  }
+  template <int columns>
+  void solve_upper(Eigen::Matrix<Scalar, n, columns>& X) const {
+    for (int c = 0; c < columns; ++c)
+      for (int i = n - 1; i >= 0; --i) {
+        for (int k = i + 1; k < n; ++k) X(i, c) -= L_(k, i) * X(k, c);
+        X(i, c) /= L_(i, i);
+      }
+  }
+
+ private:
+  Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
+  bool positive_ = true;
+};
+
+}  // namespace airybench
