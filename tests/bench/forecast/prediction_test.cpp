@@ -67,9 +67,9 @@ TEST(Prediction, AnAliasIsItsMethod) {
   const Prediction p =
       predict_one(planned("SYMMLQ:DTIC3", small), {made_up("SDTIC3", small, 0.25)});
   EXPECT_EQ(p.time_s->value, 0.25);
-  EXPECT_EQ(predict_one(planned("SYMMLQ:SSOR1", small), {made_up("SYMMLQ:SSOR1.0", small, 0.5)})
-                .basis,
-            "measured");
+  EXPECT_EQ(
+      predict_one(planned("SYMMLQ:SSOR1", small), {made_up("SYMMLQ:SSOR1.0", small, 0.5)}).basis,
+      "measured");
 }
 
 TEST(Prediction, OtherMeshesGiveAPowerLaw) {
