@@ -32,12 +32,13 @@ std::vector<MeshFile> read_meshes(const std::string& selection) {
 }
 
 std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
-  using std::filesystem::weakly_canonical;
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
+  };
   std::error_code ignored;
   if (std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored))
     return file.filename().string();
-  const std::filesystem::path from_folder =
-      weakly_canonical(file).lexically_relative(weakly_canonical(folder));
+  const std::filesystem::path from_folder = whole(file).lexically_relative(whole(folder));
   return from_folder.has_parent_path() ? from_folder.string() : "./" + from_folder.string();
 }
 

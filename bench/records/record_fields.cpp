@@ -159,14 +159,14 @@ void read_member(const Json& value, const std::string& place, const char* key, R
 
 const std::vector<Field>& record_fields() {
   static const std::vector<Field> fields = {
-#define FIELD(kind, name, unit, use, label, meaning) \
-  {#name,                                            \
-   unit,                                             \
-   use,                                              \
-   label,                                            \
-   meaning,                                          \
-   value_of<&Record::name>,                          \
-   [](Record& record) { record.name = {}; },         \
+#define FIELD(kind, name, unit, use, label, meaning)    \
+  {#name,                                               \
+   unit,                                                \
+   use,                                                 \
+   label,                                               \
+   meaning,                                             \
+   value_of<&Record::name>,                             \
+   [](Record& record) { record.name = Record().name; }, \
    read_member<field_kind::kind, &Record::name>},
 #include "bench/records/record_fields.def"
   };
