@@ -64,7 +64,11 @@ struct Method {
 
   const std::string& identity() const { return general_name.empty() ? name : general_name; }
   // The tolerance of an iteration decides when it ends: it has a stop to choose.
-  bool is_iterative() const { return first_tolerance > 0; }
+  bool is_iterative() const {
+    return is_tightened() || knob == AccuracyKnob::krylov_tolerance ||
+           knob == AccuracyKnob::uzawa_iterations || knob == AccuracyKnob::stop;
+  }
+  bool is_tightened() const { return first_tolerance > 0; }  // by the harness
 };
 
 // Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other

@@ -40,6 +40,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   record.n_phi = sizes.n_phi;
   record.n_f = sizes.n_f;
   record.n_c = sizes.n_c;
+  record.stages_left_out = Json::object();
   for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {
     if (decision.run)
       record.stages_run.push_back(decision.stage);

@@ -8,7 +8,7 @@
 namespace airybench {
 
 // argv[0] is "claims". Returns the exit code. Prints, and writes --out where asked. Throws
-// HelpRequested, UsageError, RecordError, std::runtime_error (a file that cannot be written).
+// HelpRequested, UsageError, FileError.
 int claims_command(int argc, const char* const* argv);
 
 // A verdict and its sentence on a line, what it rests on below.

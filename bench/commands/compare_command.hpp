@@ -4,7 +4,7 @@
 namespace airybench {
 
 // argv[0] is "compare". Prints, and writes --out where asked. 0, or 1 for a regression. Throws
-// HelpRequested, UsageError, RecordError, std::runtime_error (a file that cannot be written).
+// HelpRequested, UsageError, FileError.
 int compare_command(int argc, const char* const* argv);
 
 }  // namespace airybench

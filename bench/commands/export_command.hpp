@@ -4,7 +4,7 @@
 namespace airybench {
 
 // argv[0] is "export". Prints, or writes --out; returns the exit code. Throws HelpRequested,
-// UsageError, RecordError, FileError, std::runtime_error (a file that cannot be written).
+// UsageError, FileError.
 int export_command(int argc, const char* const* argv);
 
 }  // namespace airybench

@@ -20,10 +20,10 @@
 
 namespace airybench {
 
-// Writes the first three files folder/NAME.*.csv; throws std::runtime_error.
+// Writes the first three files folder/NAME.*.csv; throws FileError.
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const DualSystem& system, const Solution& solution);
-// Writes folder/NAME.error.csv; throws std::runtime_error.
+// Writes folder/NAME.error.csv; throws FileError.
 void write_error_field(const std::filesystem::path& folder, const std::string& name,
                        const ConstitutiveError& error);
 

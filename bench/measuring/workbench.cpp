@@ -213,7 +213,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
 Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
                                     Record& record) {
   Choice choice{method.solve, 0};
-  if (method.is_iterative()) {
+  if (method.is_tightened()) {
     choice.tolerance = options_.stop == Stop::paper
                            ? method.paper_tolerance
                            : std::max(tightest, method.first_tolerance * options_.target_error);
@@ -257,7 +257,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& b
       choice.tolerance = finished_with;
       return std::move(*finished);
     }
-    if (!method.is_iterative() || options_.stop == Stop::paper || solution.stress.empty() ||
+    if (!method.is_tightened() || options_.stop == Stop::paper || solution.stress.empty() ||
         !has_answer(solution) || attempt == most_attempts)
       return run;
     verify_run(blocks, run);

@@ -53,9 +53,10 @@ void finish_in_displacements(const Problem& problem, const ContactPoints& contac
   finish(
       condensed, contact, control,
       [&] {
-        const OwnerScope scope(MemoryOwner::answer);
         if (contact.size() > 0) u_C = condensed.D * solution.F_C - condensed.G;
-        recover(all_displacements(factor, u_C));
+        Eigen::VectorXd u = all_displacements(factor, u_C);
+        const OwnerScope scope(MemoryOwner::answer);
+        recover(std::move(u));
       },
       [&] {
         check_stiffness_answer(problem, contact, condensed, unbalanced(), u_C, factor, control,

@@ -37,7 +37,8 @@ TEST(Study, PointsTurnTheKnobOfTheMethod) {
     int at_paper_stop = 0;
     for (const TurnedMethod& point : error_points(method(name))) {
       EXPECT_EQ(point.method.name, name);
-      EXPECT_FALSE(point.method.is_iterative());  // the harness shall not tighten it
+      EXPECT_EQ(point.method.is_iterative(), method(name).is_iterative());
+      EXPECT_FALSE(point.method.is_tightened());  // the harness shall not tighten it
       if (point.knob.value) {
         EXPECT_EQ(point.knob.name, knob);
         EXPECT_FALSE(point.knob.stop);
