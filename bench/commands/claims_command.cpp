@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "bench/cases/options.hpp"
 #include "bench/claims/claims_evidence.hpp"
 #include "bench/commands/command_line.hpp"
 #include "support/atomic_file.hpp"
+#include "support/errors.hpp"
 
 namespace airybench {
 namespace {

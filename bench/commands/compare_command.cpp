@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "bench/cases/options.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/tracking/compare_report.hpp"
 #include "support/atomic_file.hpp"
+#include "support/errors.hpp"
 
 namespace airybench {
 namespace {

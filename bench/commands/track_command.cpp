@@ -8,10 +8,10 @@
 #include <cstring>
 #include <filesystem>
 
-#include "bench/cases/options.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_command.hpp"
 #include "bench/tracking/judge.hpp"
+#include "support/errors.hpp"
 
 namespace airybench {
 namespace {

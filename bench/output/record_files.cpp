@@ -62,27 +62,27 @@ RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep kee
   lines_ = std::move(there.lines);
   torn_ = there.torn;
   if (keep_ == Keep::finished)
-    for (const RecordLine& line : lines_) {
+    for (std::size_t i = 0; i < lines_.size(); ++i) {
+      const RecordLine& line = lines_[i];
       const std::string differs =
           differences(line.record.context, context_, Sameness::same_program);
       if (!differs.empty())
         throw FileError(fmt::format("{}: of another run, which does not mix with this one: {}",
                                     line.place, differs));
+      finished_.emplace(name_of(line.record).text(), i);
     }
   if (torn_) rewrite();
 }
 
 std::optional<Record> RecordFiles::finished(const Record& blank) const {
-  if (keep_ != Keep::finished) return {};
   const std::string name = name_of(blank).text();
-  for (const RecordLine& line : lines_) {
-    if (name_of(line.record).text() != name) continue;
-    for (const char* key : {"mesh_sha256", "scene_definition"})
-      if (field_named(key).value(line.record) != field_named(key).value(blank))
-        throw FileError(fmt::format("{}: {}: another than now, for {}", line.place, key, name));
-    return line.record;
-  }
-  return {};
+  const auto found = finished_.find(name);
+  if (found == finished_.end()) return {};
+  const RecordLine& line = lines_[found->second];
+  for (const char* key : {"mesh_sha256", "scene_definition"})
+    if (field_named(key).value(line.record) != field_named(key).value(blank))
+      throw FileError(fmt::format("{}: {}: another than now, for {}", line.place, key, name));
+  return line.record;
 }
 
 void RecordFiles::rewrite() {

@@ -46,7 +46,8 @@ class RecordFiles {
   std::filesystem::path folder_;
   Context context_;
   Keep keep_;
-  std::vector<RecordLine> lines_;  // those of the folder
+  std::vector<RecordLine> lines_;                // those of the folder
+  std::map<std::string, std::size_t> finished_;  // with Keep::finished: name → place there
   bool torn_ = false;
   Journal journal_;
 };
