@@ -13,11 +13,15 @@ const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host
 constexpr int most_named = 6;
 
 std::string value_of(const Context& context, const std::string& key) {
-  const auto found = context.find(key);
-  return found == context.end() ? "(not said)" : found->second;
+  return context.contains(key) ? context.at(key) : "(not said)";
 }
 
 }  // namespace
+
+std::string context_word(const Context& context, const std::string& key) {
+  const auto found = context.find(key);
+  return found == context.end() ? "" : found->second;
+}
 
 std::string differences(const Context& a, const Context& b, Sameness sameness) {
   std::set<std::string> keys;

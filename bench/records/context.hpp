@@ -9,6 +9,8 @@ namespace airybench {
 
 using Context = std::map<std::string, std::string>;  // Record's `context`
 
+std::string context_word(const Context& context, const std::string& key);  // "": it has none
+
 // For going on with a run the program must be the same file; for joining shards, which other
 // machines' compilers may have built, it is enough that the sources are (unless they were changed
 // since the revision).

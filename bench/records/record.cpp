@@ -1,5 +1,7 @@
 #include "bench/records/record.hpp"
 
+#include "bench/records/context.hpp"
+
 namespace airybench {
 
 CaseName name_of(const Record& r) {
@@ -7,8 +9,7 @@ CaseName name_of(const Record& r) {
 }
 
 std::string context_word(const Record& record, const std::string& key) {
-  const auto found = record.context.find(key);
-  return found == record.context.end() ? "" : found->second;
+  return context_word(record.context, key);
 }
 
 bool has_answer(const Record& record) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "bench/records/context.hpp"
 #include "bench/records/json.hpp"
 #include "bench/statistics/robust.hpp"
 #include "support/atomic_file.hpp"
@@ -116,8 +117,7 @@ const Record* Night::find(const std::string& case_name) const {
 }
 
 std::string Night::context_value(const std::string& key) const {
-  const auto found = context.find(key);
-  return found == context.end() ? "" : found->second;
+  return context_word(context, key);
 }
 
 std::string Night::machine() const {
