@@ -21,15 +21,16 @@ ControlPoints control_points(const Problem& problem) {
   points.law.friction = problem.friction;
   points.law.components = problem.friction > 0 ? 2 : 1;
   const Mesh& mesh = problem.mesh;
-  std::vector<double> gap;
+  std::vector<double> gap;              // g0
+  std::vector<Eigen::Vector2d> motion;  // ρ
   std::vector<bool> prescribed;
   std::map<int, int> point_of_node;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     if (edge.role != BoundaryRole::contact) continue;
     if (prescribed.empty()) prescribed = prescribed_displacement(problem).at;
-    const EdgeFrame frame =
-        edge_frame(mesh.vertices[edge.vertices[0]], mesh.vertices[edge.vertices[1]]);
+    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    const EdgeFrame frame = edge_frame(a, b);
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
     const std::array<double, 3> gaps = gap_coefficients(problem, row);
     for (int k = 0; k < 3; ++k) {
@@ -41,6 +42,7 @@ ControlPoints control_points(const Problem& problem) {
         points.normal.push_back(frame.normal);
         points.law.boundary.push_back(row);
         gap.push_back(gaps[k]);
+        motion.push_back(problem.motion.at(a + k * (b - a) / 2));  // ρ is linear: its coefficients
       } else {
         const int p = found->second;
         points.normal[p] = (points.normal[p] + frame.normal).normalized();
@@ -49,8 +51,14 @@ ControlPoints control_points(const Problem& problem) {
     }
   }
   points.law.count = static_cast<int>(points.node.size());
-  if (problem.loads.gap_mm)
-    points.law.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
+  if (problem.has_gap()) {
+    const int m = points.law.components;
+    points.law.gap.resize(points.law.size());
+    for (int p = 0; p < points.law.count; ++p) {
+      const Eigen::Vector2d rho = points.frame(p).transpose() * motion[p];
+      points.law.gap.segment(m * p, m) = Eigen::Vector2d(gap[p] - rho.x(), -rho.y()).head(m);
+    }
+  }
   return points;
 }
 

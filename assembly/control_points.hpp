@@ -16,8 +16,9 @@
 namespace airybench {
 
 struct ControlPoints {
-  ContactPoints law;      // gap: coefficients; where two edges share a vertex, the smaller one
-  std::vector<int> node;  // per point
+  ContactPoints law;                    // gap: coefficients of g0 − ρ_n, −ρ_t; of g0 at
+                                        // a vertex of two edges the smaller one
+  std::vector<int> node;                // per point
   std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
 
   Eigen::Matrix2d frame(int point) const {  // columns normal, tangent

@@ -70,6 +70,18 @@ Eigen::Matrix3d elasticity_of(const Problem& problem, int triangle) {
   return elasticity;
 }
 
+DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
+  const auto& x = problem.mesh.vertices;
+  const auto vertices = static_cast<Eigen::Index>(x.size());
+  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
+  for (int e = 0; e < problem.edges.count();
+       ++e) {  // linear: the coefficient is the middle's value
+    const auto [a, b] = problem.edges.vertices[e];
+    w.col(vertices + e) += problem.motion.at((x[a] + x[b]) / 2);
+  }
+  return w;
+}
+
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
   StressField field(problem.mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {

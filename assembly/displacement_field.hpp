@@ -44,6 +44,9 @@ QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double are
                                        const Eigen::Matrix3d& elasticity);
 Eigen::Matrix3d elasticity_of(const Problem& problem, int triangle);
 
+// u = w + ρ: with the rigid motion that the problem has been freed of.
+DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
+
 // A ε(u), MPa.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 

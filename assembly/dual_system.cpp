@@ -69,17 +69,20 @@ ContactPoints contact_points(const Problem& problem) {
   contact.friction = problem.friction;
   contact.components = problem.friction > 0 ? 2 : 1;
   std::vector<double> gap;
-  const auto& gap_at = problem.loads.gap_mm;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = problem.mesh.boundary[row];
     if (edge.role != BoundaryRole::contact) continue;
     contact.boundary.insert(contact.boundary.end(), {row, row});
-    if (!gap_at) continue;
+    if (!problem.has_gap()) continue;
     const auto &a = problem.mesh.vertices[edge.vertices[0]],
                &b = problem.mesh.vertices[edge.vertices[1]];
-    const auto [start, end] =
-        edge_moments(gap_at(a, row), gap_at((a + b) / 2, row), gap_at(b, row));
-    gap.insert(gap.end(), {start, end});
+    const EdgeFrame frame = edge_frame(a, b);
+    const auto distance = [&](const Eigen::Vector2d& x) {
+      return problem.wall_distance(x, row, frame);
+    };
+    const auto [start, end] = edge_moments(distance(a), distance((a + b) / 2), distance(b));
+    for (const Eigen::Vector2d& moment : {Eigen::Vector2d(start), Eigen::Vector2d(end)})
+      gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
   }
   contact.count = static_cast<int>(contact.boundary.size());
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));

@@ -7,6 +7,7 @@
 //
 // with the contact law between F_C and r = ū_C − ḡ at every contact point (two per edge, its ends):
 //   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;   |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n.
+// ū_C belongs to w, ḡ has g0 and the rigid motion in it (problem.hpp).
 //
 // Forces and displacements on edges are those of edge_forces.hpp. As an unknown the φ here is
 // x = φ/scale: S is equilibrated, its diagonal is 1, and q, C_F, C_C are scaled alike. Rows are
@@ -30,11 +31,12 @@ using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 struct ContactPoints {
-  int count = 0;              // two per contact edge: its start, its end
-  int components = 2;         // per point: normal and tangential, or with μ = 0 normal only
-  double friction = 0;        // μ
-  Eigen::VectorXd gap;        // ḡ per point, mm; empty: zero
-  std::vector<int> boundary;  // per point: row of Mesh::boundary
+  int count = 0;        // two per contact edge: its start, its end
+  int components = 2;   // per point: normal and tangential, or with μ = 0 normal only
+  double friction = 0;  // μ
+  Eigen::VectorXd gap;  // ḡ, mm: the normal and, where the body is moved along the wall, the
+                        // tangential one of every point, in the order of F_C; empty: zero
+  std::vector<int> boundary;                       // per point: row of Mesh::boundary
   int size() const { return count * components; }  // n_c
 };
 

@@ -1,5 +1,5 @@
-// The size of what the loads would do, for bodies that they leave next to free of stress: where a
-// quantity is nothing but rounding, errors are relative to this instead.
+// The size of what the loads, the rigid motion with them, could do to a body: for bodies that they
+// leave without any stress. Only there errors are relative to it.
 #pragma once
 
 #include "assembly/problem.hpp"
@@ -12,9 +12,7 @@ struct LoadScale {
 };
 LoadScale load_scale(const Problem& problem);
 
-// Only rounding: ≤ 1e-9 · scale.
-bool is_rounding(double quantity, double scale);
-// error / quantity, or error / scale where the quantity is only rounding. A zero error is zero.
+// error / quantity, or error / scale where the quantity is zero. A zero error is zero.
 double relative_error(double error, double quantity, double scale);
 
 }  // namespace airybench

@@ -4,6 +4,20 @@
 #include <limits>
 
 namespace airybench {
+namespace {
+
+void take_out_rigid_motion(Problem& problem) {
+  std::vector<PrescribedEdge> edges;
+  const auto& x = problem.mesh.vertices;
+  for (const BoundaryEdge& edge : problem.mesh.boundary)
+    if (edge.role == BoundaryRole::displacement)
+      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]]});
+  SplitDisplacement split = split_rigid_motion(problem.loads.displacement_mm, edges);
+  problem.motion = split.motion;
+  problem.loads.displacement_mm = std::move(split.rest_mm);
+}
+
+}  // namespace
 
 TriangleVertices Problem::vertices_of(int triangle) const {
   const auto& [a, b, c] = mesh.triangles[triangle];
@@ -17,11 +31,19 @@ EdgeSigns Problem::edge_signs(int triangle) const {
   return {a < b ? 1. : -1., b < c ? 1. : -1., c < a ? 1. : -1.};
 }
 
+Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_row,
+                                       const EdgeFrame& frame) const {
+  const Eigen::Vector2d rho = motion.at(x);
+  const double gap = loads.gap_mm ? loads.gap_mm(x, boundary_row) : 0;
+  return {gap - frame.normal.dot(rho), -frame.tangent.dot(rho)};
+}
+
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction) {
   assert(compliance.size() == mesh.body_names.size());
-  Problem problem{std::move(mesh), {}, std::move(compliance), std::move(loads), friction, 0};
+  Problem problem{std::move(mesh), {}, std::move(compliance), std::move(loads), {}, friction, 0};
   problem.edges = number_edges(problem.mesh);
+  take_out_rigid_motion(problem);
 
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   double area = 0;

@@ -4,6 +4,10 @@
 //   on Γ_C, with gap g0 along the outward normal and the solution's own σ_n as threshold:
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
 //
+// The rigid motion ρ that is nearest to u0 is taken out: unknown is w = u − ρ, with u0 − ρ on Γ_D;
+// on Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (wall_distance). Energies are those
+// of w: with b or f they differ from those of u by the constant work of these on ρ.
+//
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
 //
 // Coordinates, compliances and the values of the loads are doubles and exact: they are the data of
@@ -14,15 +18,18 @@
 #include <type_traits>
 #include <vector>
 
+#include "assembly/edge_forces.hpp"
 #include "assembly/elasticity.hpp"
 #include "assembly/hct.hpp"
+#include "assembly/rigid_motion.hpp"
 #include "mesh/mesh.hpp"
 
 namespace airybench {
 
 // Boundary data and body force. An empty function is zero and costs nothing.
 struct Loads {
-  std::function<Eigen::Vector2d(const Eigen::Vector2d& x)> displacement_mm;  // u0 on Γ_D
+  std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>
+      displacement_mm;  // on Γ_D: u0, or what a Problem has left of it
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal)>
       traction_MPa;  // f on Γ_F; linear on every edge
   std::function<double(const Eigen::Vector2d& x, int boundary_row)>
@@ -36,10 +43,10 @@ struct Problem {
   Mesh mesh;
   MeshEdges edges;
   std::vector<Eigen::Matrix3d> compliance;  // per row of mesh.body_names, 1/MPa
-  Loads loads;
-  double friction = 0;  // μ ≥ 0
-  int central_vertex =
-      0;  // nearest to the centroid; φ and the particular stress are anchored there
+  Loads loads;                              // without the rigid motion
+  RigidMotion motion;                       // ρ
+  double friction = 0;                      // μ ≥ 0
+  int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
     return compliance[mesh.triangle_body[triangle]];
@@ -52,6 +59,12 @@ struct Problem {
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
 
+  bool has_gap() const { return loads.gap_mm || !motion.is_zero(); }
+  // How far w may go at x on an edge of Γ_C, along its outward normal and tangent: (g0 − ρ_n,
+  // −ρ_t).
+  Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,
+                                const EdgeFrame& frame) const;
+
   // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
   template <typename Scalar = double>
   Eigen::Vector3<Scalar> particular_stress(
@@ -62,7 +75,7 @@ struct Problem {
   }
 };
 
-// Takes a valid mesh (see validate()) and one compliance per body.
+// Takes a valid mesh (see validate()), one compliance per body, and the loads with all of u0.
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
 

@@ -22,7 +22,9 @@ from selection import by_mesh
 # Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
 MARKS = {
     "ok": ("", "#EAF3FA", "#123A5A"),
+    "other_solution": ("2", "#CFE8D5", "#12402A"),
     "inaccurate": ("i", "#F5D76E", "black"),
+    "unstressed": ("0", "#FFFFFF", "0.4"),
     "not_converged": ("n", "#E8A33D", "black"),
     "breakdown": ("b", "#B07A4A", "white"),
     "unverified": ("?", "#FFFFFF", "black"),
@@ -33,6 +35,8 @@ MARKS = {
     "skipped": ("–", "#FFFFFF", "0.4"),
 }
 WORDS = {"ok": "ok, with the digits of its largest error",
+         "other_solution": "another solution than the reference's",
+         "unstressed": "no stress, so no relative error",
          "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached"}
 CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches

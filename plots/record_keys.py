@@ -12,10 +12,10 @@ from pathlib import Path
 
 from looks import Look
 
-STATUSES = ("ok", "inaccurate", "not_converged", "breakdown", "timeout", "out_of_memory", "crashed",
-            "skipped")
+STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
+            "out_of_memory", "crashed", "skipped")
 COMPLETED = STATUSES[:2]
-OUTCOMES = (*STATUSES[:4], "unverified", "wrong_success", *STATUSES[4:])
+OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
 # As in memory_by_owner, from what every method has to what few have.
 OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",

@@ -33,7 +33,8 @@ struct Solution {
   Eigen::VectorXd F_C;
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
-  // Displacement methods only: Bernstein coefficients, mm; columns: every vertex, then every edge.
+  // Displacement methods only: Bernstein coefficients of w, without the problem's rigid motion, mm;
+  // columns: every vertex, then every edge.
   Eigen::Matrix2Xd displacement;
   StageTimes times;
   // By the method's own count, entries × size: what it holds from one stage to the next, and the

@@ -12,6 +12,7 @@ enum class Status {
   ok,
   inaccurate,     // finished, with an error above the target by the method's own estimate, or the
                   // verifier's finding
+  unstressed,     // the body has no stress at all: no error can be relative to one
   not_converged,  // an iteration ended before its tolerance was met
   breakdown,      // a pivot, a scalar or a result that the method cannot go on with
   timeout,
@@ -19,9 +20,10 @@ enum class Status {
   crashed,
   skipped,
 };
-inline constexpr std::array<Status, 8> all_statuses = {
-    Status::ok,      Status::inaccurate,    Status::not_converged, Status::breakdown,
-    Status::timeout, Status::out_of_memory, Status::crashed,       Status::skipped};
+inline constexpr std::array<Status, 9> all_statuses = {
+    Status::ok,        Status::inaccurate, Status::unstressed,    Status::not_converged,
+    Status::breakdown, Status::timeout,    Status::out_of_memory, Status::crashed,
+    Status::skipped};
 std::string_view name_of(Status status);  // "not_converged"
 std::optional<Status> status_of(std::string_view name);
 

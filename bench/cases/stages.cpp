@@ -30,12 +30,13 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
   decide("assemble S", airy, unused);
   decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
   decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
-  decide("assemble q", airy && loaded, airy ? "no prescribed displacement, no body force" : unused);
+  decide("assemble q", airy && loaded,
+         airy ? "no displacement that strains the body, no body force" : unused);
   decide("assemble F", airy && constrained && forced,
          !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
   decide("assemble F0", airy && contact && loads.has_body_force(),
          !airy ? unused : (contact ? "no body force" : "no contact boundary"));
-  decide("assemble gap", contact && loads.gap_mm != nullptr,
+  decide("assemble gap", contact && problem.has_gap(),
          contact ? "the gap is zero" : "no contact boundary");
   for (const Stage stage : method.stages) {
     const bool for_contact =

@@ -36,6 +36,7 @@ const char* element_for(Status status) {
     case Status::ok:
       return "";
     case Status::skipped:
+    case Status::unstressed:
       return "skipped";
     case Status::crashed:
     case Status::timeout:

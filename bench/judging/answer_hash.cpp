@@ -23,8 +23,7 @@ std::string answer_hash(const Verification& v) {
   const double normal = v.normal_resultant_N.value_or(0);
   const double tangential = v.tangential_resultant_N.value_or(0);
   const double complementary = v.complementary_energy_Nmm.value_or(0);
-  if (v.relative_to_loads ||
-      !std::isfinite(v.strain_energy_Nmm + complementary + normal + tangential))
+  if (v.unstressed || !std::isfinite(v.strain_energy_Nmm + complementary + normal + tangential))
     return "";
   const std::string rounded =
       fmt::format("W {} N {} C {} T {}", digits(v.strain_energy_Nmm), digits(normal),

@@ -1,5 +1,7 @@
 #include "bench/judging/discretisation_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,10 +44,10 @@ double friction_gap(double mu, const Eigen::Vector2d& normal, const Eigen::Vecto
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double middle = (places[i - 1] + places[i]) / 2, half = (places[i] - places[i - 1]) / 2;
     for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
+      // |u| (t sgn(u) − μ n), the bracket at the ends first: zero where they slip, however far.
       const double s = middle + half * xi, u = value_at(u_t, s);
-      const double n = (1 - s) * normal(0) + s * normal(1),
-                   t = (1 - s) * tangential(0) + s * tangential(1);
-      sum += 2 * half * (-mu * n * std::abs(u) + t * u);  // 2/L · L/2 · (…) · 2
+      const Eigen::Vector2d left = std::copysign(1, u) * tangential - mu * normal;
+      sum += 2 * half * std::abs(u) * ((1 - s) * left(0) + s * left(1));  // 2/L · L/2 · (…) · 2
     }
   }
   return sum;
@@ -62,13 +64,14 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   const Problem& problem = *system.problem;
   const int row = system.contact.boundary[point], m = system.contact.components;
   const std::array<int, 3> nodes = boundary_nodes(problem, row);
-  const EdgeFrame frame =
-      edge_frame(problem.mesh.vertices[nodes[0]], problem.mesh.vertices[nodes[2]]);
-  const EdgeValues gap = gap_coefficients(problem, row);
+  const auto &a = problem.mesh.vertices[nodes[0]], &b = problem.mesh.vertices[nodes[2]];
+  const EdgeFrame frame = edge_frame(a, b);
+  const std::array<double, 3> gap = gap_coefficients(problem, row);
   EdgeValues r, u_t;
   for (int k = 0; k < 3; ++k) {
-    r[k] = frame.normal.dot(u.col(nodes[k])) - gap[k];
-    u_t[k] = frame.tangent.dot(u.col(nodes[k]));
+    const Eigen::Vector2d rho = problem.motion.at(a + k * (b - a) / 2);
+    r[k] = frame.normal.dot(u.col(nodes[k])) - (gap[k] - frame.normal.dot(rho));
+    u_t[k] = frame.tangent.dot(u.col(nodes[k])) + frame.tangent.dot(rho);
   }
   const Eigen::Vector2d normal(F_C(m * point), F_C(m * (point + 1)));
   ContactTerms terms{};
@@ -81,6 +84,40 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   terms.highest_gap = std::max({r[0], r[1], r[2]});
   terms.highest_force = normal.maxCoeff();
   return terms;
+}
+
+double largest(const auto& values) { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0; }
+
+// Both fields may leave Γ_C's inequalities by the rounding of what solved them, and no more.
+void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u, double highest_gap,
+                         double highest_force, ConstitutiveError& error) {
+  constexpr double rounding = 1e-9;
+  if (highest_gap > rounding * largest(u))
+    error.flaw = fmt::format("the displacements go {:.1e} mm through the wall", highest_gap);
+  else if (highest_force > rounding * largest(F_C))
+    error.flaw = fmt::format("the contact forces pull with {:.1e} N", highest_force);
+  else if (error.squared_Nmm() < -rounding * error.body_Nmm)
+    error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
+}
+
+// What is left of the inequalities' violation, and rounding, could have moved each bound by the
+// allowance.
+void note_bounds(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+                 const DisplacementField& u, double highest_gap, ConstitutiveError& error) {
+  constexpr double rounding = 1e-12;
+  const double energy = stress_norm_squared(*system.problem, stress) / 2;
+  const double lower = -complementary_energy(system, stress, F_C),
+               upper = potential_energy(*system.problem, u);
+  const double allowance = F_C.lpNorm<1>() * std::max(0.0, highest_gap) +
+                           F_C.cwiseMax(0).sum() * largest(u) +
+                           rounding * (energy + std::abs(lower) + std::abs(upper));
+  error.lower_bound_Nmm = lower - allowance;
+  error.upper_bound_Nmm = upper + allowance;
+  const bool frictionless = system.contact.count == 0 || system.contact.components == 1;
+  if (frictionless && error.flaw.empty() && error.lower_bound_Nmm > error.upper_bound_Nmm)
+    error.flaw = fmt::format("the bounds cross: {} N mm is above {} N mm", error.lower_bound_Nmm,
+                             error.upper_bound_Nmm);
+  error.guaranteed = frictionless && error.flaw.empty();
 }
 
 }  // namespace
@@ -111,13 +148,8 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
     highest_gap = std::max(highest_gap, terms.highest_gap);
     highest_force = std::max(highest_force, terms.highest_force);
   }
-  error.lower_bound_Nmm = -complementary_energy(system, stress, F_C);
-  error.upper_bound_Nmm = potential_energy(problem, u);
-  constexpr double rounding = 1e-9;
-  const double largest_force = F_C.size() > 0 ? F_C.cwiseAbs().maxCoeff() : 0;
-  error.guaranteed = system.contact.count == 0 ||
-                     (system.contact.components == 1 && highest_force <= rounding * largest_force &&
-                      highest_gap <= rounding * u.cwiseAbs().maxCoeff());
+  judge_admissibility(F_C, u, highest_gap, highest_force, error);
+  note_bounds(system, stress, F_C, u, highest_gap, error);
   error.relative = relative_error(std::sqrt(std::max(0.0, error.squared_Nmm())),
                                   std::sqrt(stress_norm_squared(problem, stress)),
                                   load_scale(problem).energy_norm);

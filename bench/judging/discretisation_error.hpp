@@ -16,20 +16,25 @@
 // is an estimator only.
 #pragma once
 
+#include <string>
+
 #include "assembly/displacement_field.hpp"
 #include "assembly/dual_system.hpp"
 
 namespace airybench {
 
 struct ConstitutiveError {
-  // The terms of e², N mm. A negative one: a field is not admissible.
+  // The terms of e², N mm.
   double body_Nmm = 0, normal_contact_Nmm = 0, tangential_contact_Nmm = 0;
   std::vector<double> of_triangle_Nmm;  // they sum to e²; contact terms are with their triangles
-  double relative = 0;         // e / ‖σ‖, or to the loads where there is next to no stress
-  double lower_bound_Nmm = 0;  // −Π*(σ)
-  double upper_bound_Nmm = 0;  // Π(u)
-  // e and the two are bounds: no friction, and both fields keep to Γ_C's inequalities.
+  double relative = 0;                  // e / ‖σ‖, or to the loads where there is no stress
+  double lower_bound_Nmm = 0;           // −Π*(σ), less an allowance for rounding
+  double upper_bound_Nmm = 0;           // Π(u), and more by it
+  // e and the two are bounds: no friction, and no flaw.
   bool guaranteed = false;
+  // Why e is no error: a field that is not admissible, as where Γ_D is pushed through the wall at
+  // its end on Γ_C, which no displacement of finite energy can do. Empty: it is one.
+  std::string flaw;
 
   double squared_Nmm() const { return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm; }
 };

@@ -65,6 +65,7 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
   Verification result;
   result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
   result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
+  result.unstressed = result.strain_energy_Nmm == 0;
   if (control.law.count > 0) {
     note_contact_forces(control.law, solution.F_C, result);
     note_contact_law(control.law, solution.F_C, displacement, D_diagonal, scale, result);

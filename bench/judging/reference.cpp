@@ -32,13 +32,14 @@ double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
 
 // F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
 double solve_contact(const HybridizedSystemIn<long double>& system, const ContactPoints& contact,
-                     const LoadScale& scale, CholmodFactor& factor, Reference& reference,
-                     Refined& refined) {
+                     const LoadScale& scale, const Eigen::VectorXd& start, CholmodFactor& factor,
+                     Reference& reference, Refined& refined) {
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   ContactPoints without_gap = contact;  // its displacement is r
   without_gap.gap.resize(0);
-  Eigen::VectorXd F = solve_contact_in_double(reference.condensed, contact);
+  Eigen::VectorXd F =
+      start.size() > 0 ? start : solve_contact_in_double(reference.condensed, contact);
   Refined at_F;
   double error = 0, best = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && F.allFinite(); ++step) {
@@ -66,7 +67,7 @@ double solve_contact(const HybridizedSystemIn<long double>& system, const Contac
 
 }  // namespace
 
-Reference compute_reference(const DualSystem& airy) {
+Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start) {
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
@@ -82,7 +83,8 @@ Reference compute_reference(const DualSystem& airy) {
   if (system.n_c > 0) {
     factor.y = factor.cholesky.forward(system.b.cast<double>());
     reference.condensed = condense(factor);
-    force_error = solve_contact(system, airy.contact, scale, factor.cholesky, reference, refined);
+    force_error =
+        solve_contact(system, airy.contact, scale, start, factor.cholesky, reference, refined);
   } else {
     refine(system, factor.cholesky, {}, refined);
   }

@@ -27,6 +27,8 @@ struct Reference {
 };
 
 // Throws Breakdown when the factorisation fails. What is good enough is for the caller to say.
-Reference compute_reference(const DualSystem& system);
+// start: contact forces to begin with, instead of those of the sweeps. Where the problem has
+// several solutions, the one found is near them.
+Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {});
 
 }  // namespace airybench

@@ -121,13 +121,18 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   };
   result.error_force =
       relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
+  if (contact.components == 1) return;
+  double coupling = 0;
+  for (int p = 0; p < contact.count; ++p)
+    coupling = std::max(coupling, contact.friction * std::abs(condensed.D(2 * p, 2 * p + 1)) /
+                                      condensed.D(2 * p, 2 * p));
+  result.friction_coupling = coupling;
 }
 
 double complementary_energy(const DualSystem& system, const StressField& stress,
                             const Eigen::VectorXd& F_C, const EdgeBalance& balance) {
   double work = work_of_prescribed_displacement(*system.problem, balance);
-  for (Eigen::Index p = 0; p < system.contact.gap.size(); ++p)
-    work += system.contact.gap(p) * F_C(system.contact.components * p);
+  if (system.contact.gap.size() > 0) work += system.contact.gap.dot(F_C);
   return stress_norm_squared(*system.problem, stress) / 2 - work;
 }
 
@@ -202,11 +207,11 @@ Verification verify(const DualSystem& system, const Solution& solution,
       complementary_energy(system, solution.stress, solution.F_C, balance);
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
-    result.relative_to_loads =
-        scale.energy_norm > 0 && is_rounding(reference_norm, scale.energy_norm);
-    result.error_stress =
-        relative_error(stress_distance(problem, solution.stress, reference->stress), reference_norm,
-                       scale.energy_norm);
+    const double distance = stress_distance(problem, solution.stress, reference->stress);
+    result.unstressed = reference_norm == 0;
+    result.error_stress = relative_error(distance, reference_norm, scale.energy_norm);
+    result.error_stress_absolute = distance;
+    result.reference_error = reference->error_estimate;
   }
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   return result;

@@ -25,7 +25,11 @@ namespace airybench {
 struct Verification {
   std::optional<double> error_stress;
   std::optional<double> error_force;
-  bool relative_to_loads = false;  // a denominator was replaced by the load scale
+  std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
+  std::optional<double> reference_error;        // of the reference, by its own estimate
+  // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
+  // relative to the loads then.
+  bool unstressed = false;
   double equilibrium_residual = std::numeric_limits<double>::infinity();
   std::optional<double> natural_map_residual;
   std::optional<double> signorini_violation_N;   // largest normal component of the natural map
@@ -35,6 +39,8 @@ struct Verification {
   double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ
   std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
+  // The largest μ|D_nt| / D_nn of a contact point. From 1 on, its law may have several solutions.
+  std::optional<double> friction_coupling;
 };
 
 // reference: may be null.

@@ -51,8 +51,9 @@ class Workbench {
     Choice choice;
   };
   // A record with the sizes, assembly figures and the detail run's verdict: status, errors, counts.
-  // An iterative method is run again with a tighter tolerance until its errors are below the
-  // target. fields: where to write the solution's fields, or empty.
+  // An iterative method is run again with a tighter tolerance until by its own estimate its error
+  // is below the target; the verifier has no say in that. fields: where to write the solution's
+  // fields, or empty.
   Examination examine(const Method& method, const std::filesystem::path& fields);
   // The memory run: heap and resident set at their peak during one solve.
   void measure_memory(const Method& method, const Choice& choice, Record& record);
@@ -68,16 +69,23 @@ class Workbench {
     std::optional<Verification> verification;  // where it has been asked for
   };
   const AssembledBlocks& blocks(Blocks which);
+  double reference_error_at_most() const;
   const Reference* reference();  // null when there is none; no_reference_ says why
   // Of the reference's stresses against the displacements of P2; null when one of them is missing.
   const ConstitutiveError* discretisation();
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
-  Run tighten(const Method& method, const AssembledBlocks& blocks, Choice& choice, Record& record);
+  Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
+              Record& record);
+  void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
   static void note_memory(const Run& run, Record& record);
-  void judge(const Method& method, const Verification& verification, Record& record);
+  // Sets what the verifier decides, from a run that is verified.
+  void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
+  // Against the solution that is nearest to it, where that is none of the reference's.
+  std::optional<Verification> verify_as_other_solution(const AssembledBlocks& blocks,
+                                                       const Run& run);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;

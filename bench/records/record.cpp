@@ -13,7 +13,8 @@ std::string context_word(const Record& record, const std::string& key) {
 }
 
 bool has_answer(const Record& record) {
-  return record.status == Status::ok || record.status == Status::inaccurate;
+  return record.status == Status::ok || record.status == Status::inaccurate ||
+         record.status == Status::unstressed;
 }
 
 bool is_verified(const Record& record) {

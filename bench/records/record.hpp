@@ -48,7 +48,7 @@ CaseName name_of(const Record& record);
 // Of the run's context; "": it has none.
 std::string context_word(const Record& record, const std::string& key);
 
-// Ended with something whose time counts: ok or inaccurate.
+// Ended with something whose time counts: ok, inaccurate or unstressed.
 bool has_answer(const Record& record);
 
 // Has the verifier seen it?

@@ -67,7 +67,7 @@ void summarise_grid(Record& r) {
 std::string outcome_of(const Record& r) {
   if (r.status == Status::inaccurate && r.claimed_status == Status::ok)
     return r.error_stress ? "wrong_success" : "unverified";
-  return std::string(name_of(r.status));
+  return r.other_solution ? "other_solution" : std::string(name_of(r.status));
 }
 
 std::string column_of_stage(const std::string& stage) { return "stage_" + stage + "_s"; }

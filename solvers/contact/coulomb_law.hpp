@@ -24,8 +24,7 @@ Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
 // r = ū_C − ḡ, in the precision of ū_C.
 template <typename Vector>
 Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
-  for (Eigen::Index p = 0; p < contact.gap.size(); ++p)
-    displacement(contact.components * p) -= contact.gap(p);
+  if (contact.gap.size() > 0) displacement -= contact.gap.template cast<typename Vector::Scalar>();
   return displacement;
 }
 

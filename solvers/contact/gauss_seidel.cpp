@@ -40,8 +40,7 @@ ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
                                             const Eigen::VectorXd& start) {
   ContactResult result;
   Eigen::VectorXd offset = condensed.G;  // G + ḡ
-  if (contact.gap.size() > 0)
-    for (int p = 0; p < contact.count; ++p) offset(contact.components * p) += contact.gap(p);
+  if (contact.gap.size() > 0) offset += contact.gap;
   Eigen::VectorXd& F = result.F_C;
   if (start.size() > 0)
     F = start;

@@ -106,9 +106,7 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
   if (system.n_c() > 0) {
     change = F_C;
     F_C = contact + it.lambda_c.col(k) / a.r_C;
-    if (system.contact.gap.size() > 0)
-      for (int p = 0; p < system.contact.count; ++p)
-        F_C(system.contact.components * p) += system.contact.gap(p) / a.r_C;
+    if (system.contact.gap.size() > 0) F_C += system.contact.gap / a.r_C;
     project(system.contact, F_C);
     change -= F_C;
     moved = a.r_C * change.norm();

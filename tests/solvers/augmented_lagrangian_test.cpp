@@ -189,7 +189,7 @@ TEST(AugmentedLagrangian, TuningTriesTheWholeGridAndTakesTheFewestIterations) {
 TEST(AugmentedLagrangian, WhatIsNotFiniteNeitherConvergesNorIsChosen) {
   for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
     DualSystem system = system_of();
-    system.q(3) = poison;
+    system.q = Eigen::VectorXd::Constant(system.n(), poison);
     EXPECT_THROW(tune(system, with(1e-6)), Breakdown);
     EXPECT_EQ(solve("ALM:r=20,rho=20", system).status, Status::not_converged);
     system = system_of();

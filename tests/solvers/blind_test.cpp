@@ -104,7 +104,7 @@ TEST(Blind, NotFiniteInputIsABreakdown) {
       EXPECT_EQ(run(select_methods(method).front(), system, {}).status, Status::breakdown)
           << method;
       system = system_of();
-      system.q(3) = poison;
+      system.q = Eigen::VectorXd::Constant(system.n(), poison);
       EXPECT_NE(run(select_methods(method).front(), system, {}).status, Status::ok) << method;
     }
   }

@@ -148,7 +148,9 @@ TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
 }
 
 TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
-  const DualSystem system = system_of();
+  Scene body_force;
+  body_force.body_force_N_per_mm3 = {3, -1};
+  const DualSystem system = system_of(body_force);
   const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
   const SolveInPlace solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); };
   const ThreeStep whole = condense_in_three_steps(system, solve_S);

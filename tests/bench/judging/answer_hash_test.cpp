@@ -73,7 +73,7 @@ TEST(AnswerHash, RoundingAboutZeroDoesNotShow) {
 
 TEST(AnswerHash, ThereIsNoneWhereAllDigitsAreRounding) {
   Verification v = some_answer();
-  v.relative_to_loads = true;
+  v.unstressed = true;
   EXPECT_EQ(answer_hash(v), "");
   v = some_answer();
   v.strain_energy_Nmm = std::numeric_limits<double>::quiet_NaN();

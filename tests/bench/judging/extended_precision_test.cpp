@@ -77,8 +77,7 @@ QuadSolution solve_in_quad(const DualSystem& airy, const Eigen::VectorXd& like) 
   solution.D = X.bottomRows(system.n_c);
   solution.G = -x.tail(system.n_c);
   QuadVector offset = solution.G;
-  for (Eigen::Index p = 0; p < contact.gap.size(); ++p)
-    offset(contact.components * p) += contact.gap(p);
+  if (contact.gap.size() > 0) offset += contact.gap.cast<Quad>();
   solution.F_C = solve_law(solution.D, offset, contact, contact_states(contact, like), like);
   solution.stress = hybridized_stress(*airy.problem, system, QuadVector(x + X * solution.F_C));
   return solution;

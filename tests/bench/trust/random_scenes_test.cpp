@@ -1,0 +1,116 @@
+// The promise: no method is wrong and says ok, and none has a true error of more than ten times its
+// own estimate. Here on scenes with two to four extremes at random (random_scenes.hpp); no scene is
+// expected to be solved, but every answer to know how good it is.
+//
+// AIRYBENCH_RANDOM_SCENES=FIRST,COUNT[,MESH] in the environment tries others, and more.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+
+#include "bench/measuring/workbench.hpp"
+#include "bench/records/summary.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/random_scenes.hpp"
+
+namespace airybench::random_scenes_test {
+namespace {
+
+constexpr unsigned seed = 1;
+constexpr double most_times_the_estimate = 10;
+// Below, an error is the rounding of the stresses, of which no estimate speaks.
+constexpr double rounding = 1e-12;
+
+struct Campaign {
+  int first = 0, count = 60;
+  std::string mesh = "Mesh0";
+};
+
+Campaign campaign() {
+  Campaign campaign;
+  if (const char* given = std::getenv("AIRYBENCH_RANDOM_SCENES")) {
+    std::istringstream text(given);
+    char comma = 0;
+    text >> campaign.first >> comma >> campaign.count >> comma;
+    if (text >> campaign.mesh) return campaign;
+  }
+  return campaign;
+}
+
+// Every kind of method on every scene would take long: the direct ones, and an iterative one in
+// turn.
+std::vector<Method> methods(int number) {
+  static const std::vector<Method> direct =
+      select_methods("3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,BLIND:SKY,HYBRID,P2");
+  static const std::vector<Method> iterative = select_methods(
+      "SSKY,ALM:r=20,rho=20,3STEPCG:DTIC6,SYMMLQ:DTIC6,3STEPCG:DTIC3,SDTIC3,3STEPCG:FLIC2,"
+      "SYMMLQ:FLIC5,3STEPD:REFINED");
+  std::vector<Method> all = direct;
+  all.push_back(iterative[static_cast<std::size_t>(number) % iterative.size()]);
+  return all;
+}
+
+struct Tally {
+  int tried = 0, not_posed = 0;
+  std::map<std::string, int> outcomes;
+  double worst_ratio = 0;
+  std::string worst;
+};
+
+// What the verifier found, largest; of a displacement method what it can.
+double true_error(const Record& r) {
+  double worst = 0;
+  for (const auto& error :
+       {r.error_stress, r.error_force, r.equilibrium_residual, r.natural_map_residual})
+    worst = std::max(worst, error.value_or(0));
+  return worst;
+}
+
+void hold(const std::string& name, const Record& record, Tally& tally) {
+  ++tally.tried;
+  ++tally.outcomes[outcome_of(record)];
+  EXPECT_NE(outcome_of(record), "wrong_success") << name << ": " << record.status_reason;
+  if (!record.error_estimate || !is_verified(record) ||
+      (!record.error_stress && !record.in_displacements))
+    return;
+  const double error = true_error(record), noise = 10 * record.reference_error.value_or(0);
+  const double ratio = error / std::max({*record.error_estimate, noise, rounding});
+  if (ratio > tally.worst_ratio) {
+    tally.worst_ratio = ratio;
+    tally.worst = name;
+  }
+  EXPECT_LE(ratio, most_times_the_estimate)
+      << name << ": " << outcome_of(record) << ", error " << error << ", its own estimate "
+      << *record.error_estimate << ", of the reference " << record.reference_error.value_or(0);
+}
+
+TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
+  const Campaign wanted = campaign();
+  Tally tally;
+  for (int k = wanted.first; k < wanted.first + wanted.count; ++k) {
+    const Scene scene = testing::random_scene(seed, k);
+    std::shared_ptr<const Problem> problem;
+    try {
+      problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(wanted.mesh)));
+    } catch (const SceneError&) {
+      ++tally.not_posed;
+      continue;
+    }
+    Options options;
+    options.study = Study::stability;
+    options.repetitions = 1;
+    options.timeout_s = 20;
+    Workbench bench(problem, options);
+    for (const Method& method : methods(k))
+      hold(fmt::format("{} ({}), {}", k, scene.about, method.name),
+           bench.examine(method, {}).record, tally);
+  }
+  std::cout << fmt::format("tried {}, scenes that cannot be posed {}", tally.tried,
+                           tally.not_posed);
+  for (const auto& [outcome, count] : tally.outcomes) std::cout << fmt::format(", {} {}", outcome, count);
+  std::cout << fmt::format("; worst error / estimate {:.1f}: {}\n", tally.worst_ratio, tally.worst);
+}
+
+}  // namespace
+}  // namespace airybench::random_scenes_test
