@@ -1,5 +1,7 @@
 #include "assembly/displacement_field.hpp"
 
+#include <algorithm>
+
 #include "assembly/edge_forces.hpp"
 #include "assembly/small_cholesky.hpp"
 
@@ -94,6 +96,22 @@ StressField stress_of_displacement(const Problem& problem, const DisplacementFie
           corners.rowwise().mean();
   }
   return field;
+}
+
+NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
+  NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem))};
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    Eigen::Matrix3d corners;  // the stress is linear: its values at the vertices say all
+    corners << stress[t].col(0), stress[t].col(3), stress[t].col(6);
+    const Eigen::Matrix3d dual =
+        problem.area_mm2(t) / 12 * (corners.colwise() + corners.rowwise().sum());
+    const Eigen::Matrix<double, 2, 6> force =
+        (quadratic_strain(problem.vertices_of(t)).transpose() * dual.reshaped()).reshaped(2, 6);
+    forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
+    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    for (int m = 0; m < 6; ++m) forces.sum.col(nodes[m]) += force.col(m);
+  }
+  return forces;
 }
 
 Eigen::Matrix2Xd nodal_loads(const Problem& problem) {

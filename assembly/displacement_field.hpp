@@ -50,6 +50,14 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 // A ε(u), MPa.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 
+// ∫ σ:ε(u_i) of stresses that are linear on each triangle, N, per node; and the largest that a
+// triangle contributes.
+struct NodalForces {
+  Eigen::Matrix2Xd sum;
+  double largest = 0;
+};
+NodalForces nodal_forces(const Problem& problem, const StressField& stress);
+
 // The work partners of the coefficients: ∫ b B_i + ∫_{Γ_F} f B_i, N.
 Eigen::Matrix2Xd nodal_loads(const Problem& problem);
 

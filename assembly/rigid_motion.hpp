@@ -1,8 +1,8 @@
 // Rigid motions of the plane, u(x) = t + ω J (x − x_c) with J a quarter turn: no strain, no stress.
 //
-// A prescribed displacement is split into the rigid motion that is nearest to it and the rest, which
-// alone strains the body. Numbers then have the size of the deformation, however far the body is
-// moved.
+// A prescribed displacement is split into the rigid motion that is nearest to it and the rest,
+// which alone strains the body. Numbers then have the size of the deformation, however far the body
+// is moved.
 #pragma once
 
 #include <Eigen/Core>

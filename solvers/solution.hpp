@@ -47,7 +47,8 @@ struct Solution {
   std::optional<std::int64_t> factor_entries;
   std::optional<double> factor_flops;
   std::optional<std::int64_t> linear_iterations;  // of all right-hand sides
-  std::optional<int> contact_iterations;
+  std::optional<int> contact_iterations;          // Gauss–Seidel sweeps
+  std::optional<int> newton_steps;                // active sets of the contact law
   std::optional<int> uzawa_iterations;
   std::vector<IterationHistory> histories;
   std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
@@ -111,7 +112,7 @@ struct RunControl {
   double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
   int contact_sweeps = 100000;        // at most
   int uzawa_iterations = 20000;       // at most
-  bool active_sets = true;            // finish the contact law by them where the sweeps did not
+  bool active_sets = true;            // for the contact law, after a few sweeps
 };
 
 // What all checks end with: the estimate into the solution, and `inaccurate` where it is above the

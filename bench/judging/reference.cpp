@@ -12,34 +12,21 @@
 namespace airybench {
 namespace {
 
-// With D and G from the factor: what the defect correction starts from.
-Eigen::VectorXd solve_contact_in_double(const CondensedSystem& condensed,
-                                        const ContactPoints& contact) {
-  ContactResult result;
-  for (const int sweeps : {3000, 100000}) {  // long sweeps only where active sets do not help
-    RunControl control;
-    control.contact_sweeps = sweeps;
-    result = solve_contact_by_gauss_seidel(condensed, contact, control, result.F_C);
-    if (!result.converged) finish_by_active_set(condensed, contact, control, result);
-    if (result.converged) break;
-  }
-  return result.F_C;
-}
-
 double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
   return std::sqrt(std::max(0.0, F.dot(D * F)));
 }
 
 // F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
-double solve_contact(const HybridizedSystemIn<long double>& system, const ContactPoints& contact,
-                     const LoadScale& scale, const Eigen::VectorXd& start, CholmodFactor& factor,
-                     Reference& reference, Refined& refined) {
+double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
+                                 const ContactPoints& contact, const LoadScale& scale,
+                                 const Eigen::VectorXd& start, CholmodFactor& factor,
+                                 Reference& reference, Refined& refined) {
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   ContactPoints without_gap = contact;  // its displacement is r
   without_gap.gap.resize(0);
   Eigen::VectorXd F =
-      start.size() > 0 ? start : solve_contact_in_double(reference.condensed, contact);
+      start.size() > 0 ? start : solve_contact(reference.condensed, contact, {}).F_C;
   Refined at_F;
   double error = 0, best = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && F.allFinite(); ++step) {
@@ -83,8 +70,8 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   if (system.n_c > 0) {
     factor.y = factor.cholesky.forward(system.b.cast<double>());
     reference.condensed = condense(factor);
-    force_error =
-        solve_contact(system, airy.contact, scale, start, factor.cholesky, reference, refined);
+    force_error = solve_contact_to_rounding(system, airy.contact, scale, start, factor.cholesky,
+                                            reference, refined);
   } else {
     refine(system, factor.cholesky, {}, refined);
   }

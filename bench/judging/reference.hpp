@@ -3,8 +3,8 @@
 //
 // Element matrices, residuals and stresses are long doubles; the factor of K in double is only what
 // corrections are made with (refinement.hpp). For contact forces F the refined system gives ū_C(F).
-// The law is first solved with D and G from the factor, by Gauss–Seidel and, where that does not
-// end, by active sets; then active-set steps follow, with the r of the refined system (a defect
+// The law is first solved with D and G from the factor, as methods do it; then active-set steps
+// follow, with the r of the refined system (a defect
 // correction: D is off by 1e-12, r is not), until the natural map no longer halves.
 //
 // How far that is from the exact solution of the discrete problem, it says itself: the last

@@ -22,7 +22,8 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
   EdgeBalance balance;
   balance.sum.assign(static_cast<std::size_t>(problem.edges.count()), Eigen::Matrix2d::Zero());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const TriangleVertices v = problem.vertices_of(t);
+    TriangleVertices v = problem.vertices_of(t);
+    v.colwise() -= v.col(0).eval();  // a body far from the origin keeps its digits
     const Eigen::Vector2d centroid = v.rowwise().mean();
     for (int k = 0; k < 3; ++k) {
       const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];

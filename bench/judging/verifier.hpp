@@ -51,7 +51,7 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 // error_force, no complementary energy.
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
 //                         points, over the largest nodal force of an element
-//   natural_map_residual  with r from u, and the stiffness K_ii of a control point for ρ
+//   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
 // Π*(σ) = ½ ∫ σ:C:σ − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n, N mm; F_C at the contact points.

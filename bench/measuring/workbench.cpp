@@ -381,6 +381,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (solution.factor_flops) record.factor_flops = std::llround(*solution.factor_flops);
   record.linear_iterations = solution.linear_iterations;
   record.contact_iterations = solution.contact_iterations;
+  record.newton_steps = solution.newton_steps;
   record.uzawa_iterations = solution.uzawa_iterations;
   record.parameters = solution.parameters;
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;

@@ -15,11 +15,12 @@
 // is the error of a solve to its leading digits (Higham, Accuracy and Stability of Numerical
 // Algorithms, ch. 12). The estimate is the largest of
 //
-//   ‖δx‖_S / ‖x‖_S                      stress, in the energy norm
+//   (‖δx‖_S + ‖ΔF‖_D) / ‖x‖_S          stress, in the energy norm; ΔF: see active_set.hpp
+//   ‖ΔF‖_D / ‖F‖_D                      contact forces
 //   ‖F − P(F − ρ r)‖ / ‖F‖              contact law, with the corrected displacements
 //   ‖(r_F, r_C)‖_∞ / ‖(F, F_C)‖_∞       equilibrium on the boundary
 //
-// or relative to the loads where there is next to no stress (load_scale.hpp).
+// or relative to the loads where there is no stress (load_scale.hpp).
 //
 // Refinement applies the correction, takes a Newton step of the contact law (active_set.hpp) with
 // the corrected displacements, and repeats while the estimate falls.
@@ -40,10 +41,14 @@ struct SaddleVector {
 using SaddleSolve = std::function<void(SaddleVector&)>;
 
 // What belongs to the solution's F_C: sets its error estimate, and says `inaccurate` where it is ok
-// so far and the estimate is above the target. D_diagonal: of D, or of its order of magnitude.
-void check_airy_answer(const DualSystem& system, const Eigen::VectorXd& D_diagonal,
-                       const SaddleSolve& solve, const SaddleVector& answer,
-                       const RunControl& control, Solution& solution);
+// so far and the estimate is above the target.
+void check_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D, const SaddleSolve& solve,
+                       const SaddleVector& answer, const RunControl& control, Solution& solution);
+// For a method that has no D: with a rough diagonal (rough_compliance.hpp), the error of the
+// contact forces is taken to be ten times the natural map.
+void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
+                                 const SaddleVector& answer, const RunControl& control,
+                                 Solution& solution);
 
 // The same after refinement of F_C, φ and stresses.
 void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,

@@ -1,5 +1,8 @@
 #include "solvers/condensation/airy_residual.hpp"
 
+#include <limits>
+#include <random>
+
 #include "assembly/edge_forces.hpp"
 
 namespace airybench {
@@ -20,6 +23,30 @@ LongColumn<static_cast<int>(count)> gather(const DualSystem& system, const LongV
   return phi;
 }
 
+// As much as rounding may have moved sums of such magnitudes, to one side or the other: by which is
+// as good as random, and the same in every run.
+class Rounding {
+ public:
+  explicit Rounding(const DualSystem& system)
+      : system_(system), of_(Eigen::VectorXd::Zero(system.n())) {}
+  template <std::size_t count, typename Magnitudes>
+  void add(const std::array<int, count>& dofs, const Magnitudes& magnitudes) {
+    for (std::size_t k = 0; k < count; ++k)
+      if (dofs[k] != DofNumbering::gauge)
+        of_(dofs[k]) += system_.scale(dofs[k]) * magnitudes(static_cast<int>(k));
+  }
+  void add_to(LongVector& r, int number) const {
+    std::minstd_rand sign(static_cast<unsigned>(number) + 1);
+    constexpr Long part = std::numeric_limits<Long>::epsilon() / 4;
+    for (Eigen::Index i = 0; i < of_.size(); ++i)
+      r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(of_(i));
+  }
+
+ private:
+  const DualSystem& system_;
+  Eigen::VectorXd of_;
+};
+
 template <std::size_t count>
 void scatter(const DualSystem& system, const std::array<int, count>& dofs,
              const LongColumn<static_cast<int>(count)>& values, LongVector& r) {
@@ -30,6 +57,7 @@ void scatter(const DualSystem& system, const std::array<int, count>& dofs,
 
 struct TriangleStress {
   HctStressIn<Long> from_dofs;
+  LongColumn<12> phi;            // without its affine part
   ElementStressIn<Long> stress;  // with the particular stress
   std::array<int, 12> dofs;
 };
@@ -40,10 +68,10 @@ TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, in
   const EdgeSigns outward = problem.edge_signs(t);
   TriangleStress result;
   result.dofs = system.dofs.of_triangle(problem, t);
-  LongColumn<12> phi = gather(system, x, result.dofs);
-  subtract_affine_part(v, outward, phi);
+  result.phi = gather(system, x, result.dofs);
+  subtract_affine_part(v, outward, result.phi);
   result.from_dofs = hct_stress<Long>(v, outward);
-  result.stress.reshaped() = result.from_dofs * phi;
+  result.stress.reshaped() = result.from_dofs * result.phi;
   if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);
   return result;
 }
@@ -121,19 +149,29 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
 }  // namespace
 
 LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                               const Eigen::VectorXd& F_C) {
+                               const Eigen::VectorXd& F_C, int number) {
   const Problem& problem = *system.problem;
   LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
                             LongVector::Zero(system.n_c())};
+  Rounding rounding(system);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleStress at = triangle_stress(system, answer.x, t);
     const ElementStressIn<Long> dual =
         stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
     const LongColumn<12> work = at.from_dofs.transpose() * dual.reshaped();
     scatter<12>(system, at.dofs, -work, residual.x);
+    const HctStress size = at.from_dofs.cast<double>().cwiseAbs();
+    ElementStress stress_size;
+    stress_size.reshaped() = size * at.phi.cast<double>().cwiseAbs();
+    const Eigen::Matrix3d compliance = problem.compliance_of(t).cwiseAbs();
+    rounding.add<12>(at.dofs,
+                     (size.transpose() *
+                      stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped())
+                         .eval());
   }
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
+  rounding.add_to(residual.x, number);
   return residual;
 }
 

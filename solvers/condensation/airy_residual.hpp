@@ -12,9 +12,12 @@ struct LongSaddleVector {
   LongVector x, lambda_F, lambda_C;
 };
 
-// r, r_F, r_C as in airy_refinement.hpp.
+// r, r_F, r_C as in airy_refinement.hpp, and r moved by about as much as it is uncertain: by ± the
+// rounding of a long double in the terms |σ(φ_i)|:|C|:Σ|σ(φ_j) φ_j| that it sums. So corrections do
+// not fall below what rounding, through the system's condition, makes of the answer. number: of the
+// correction; each has other signs.
 LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                               const Eigen::VectorXd& F_C);
+                               const Eigen::VectorXd& F_C, int number = 0);
 
 // The stresses of x, rounded to double.
 StressField airy_stress(const DualSystem& system, const LongVector& x);

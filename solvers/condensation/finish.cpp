@@ -38,7 +38,7 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
         if (refine == Refine::yes)
           refine_airy_answer(system, condensed.D, solve, answer, control, solution);
         else
-          check_airy_answer(system, condensed.D.diagonal(), solve, answer, control, solution);
+          check_airy_answer(system, condensed.D, solve, answer, control, solution);
       },
       solution);
 }

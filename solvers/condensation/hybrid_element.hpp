@@ -30,6 +30,11 @@ struct HybridElement {
   Eigen::Matrix<Scalar, 12, 1> load() const;        // f_e
   ElementStressIn<Scalar> stress_at(
       const Eigen::Matrix<Scalar, 12, 1>& displacement) const;  // the total stress that ū_e makes
+  // T_eᵀ ū_e − ∫ σ(φ_i):C:σ: zero for the stress that ū_e makes, but for rounding, that of S_e and
+  // its factor, too, which are not in it. mm
+  Eigen::Matrix<Scalar, 9, 1> incompatibility(const Problem& problem, int triangle,
+                                              const Eigen::Matrix<Scalar, 12, 1>& displacement,
+                                              const ElementStressIn<Scalar>& total) const;
 };
 
 // How the components of EdgeUnknowns make an element's edge components: x, y at the

@@ -102,4 +102,14 @@ ElementStressIn<Scalar> HybridElement<Scalar>::stress_at(
   return total;
 }
 
+template <typename Scalar>
+Eigen::Matrix<Scalar, 9, 1> HybridElement<Scalar>::incompatibility(
+    const Problem& problem, int t, const Eigen::Matrix<Scalar, 12, 1>& displacement,
+    const ElementStressIn<Scalar>& total) const {
+  const Eigen::Matrix<Scalar, 27, 1> dual =
+      stress_dual<Scalar>(total, problem.area_mm2<Scalar>(t), problem.compliance_of(t)).reshaped();
+  return forces.lazyProduct(displacement) -
+         stress.template rightCols<9>().transpose().lazyProduct(dual);
+}
+
 }  // namespace airybench

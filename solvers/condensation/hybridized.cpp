@@ -4,6 +4,27 @@
 
 namespace airybench {
 
+HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem& system,
+                                  const Eigen::VectorXd& u) {
+  HybridizedAnswer answer;
+  answer.stress.resize(problem.mesh.triangles.size());
+  answer.defect.setZero(system.b.size());
+  visit_stresses(
+      problem, system, u,
+      [&](int t, const HybridElement<double>& element, const auto& local,
+          const std::array<int, 12>& unknown, const ElementStress& stress) {
+        answer.stress[t] = stress;
+        const Eigen::Matrix<double, 9, 1> g = element.incompatibility(problem, t, local, stress);
+        Eigen::Matrix<double, 9, 1> phi = g;
+        element.flexibility.solve(phi);
+        answer.defect_energy += std::max(0.0, g.dot(phi));
+        const Eigen::Matrix<double, 12, 1> forces = element.forces.transpose().lazyProduct(phi);
+        for (int k = 0; k < 12; ++k)
+          if (unknown[k] != prescribed_unknown) answer.defect(unknown[k]) -= forces(k);
+      });
+  return answer;
+}
+
 UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
                                    const StressField& stress, const Eigen::VectorXd& F_C) {
   const std::vector<bool> is_contact = contact_edges(problem);

@@ -53,7 +53,18 @@ template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u);
 
-// The forces that stresses, the tractions on Γ_F and F_C leave unbalanced.
+// Stresses of u, and how far each is from what its edges' displacements ask of it, g_e of
+// HybridElement::incompatibility(): its correction S_e⁻¹ g_e has the energy g_eᵀ S_e⁻¹ g_e and the
+// forces T_e S_e⁻¹ g_e.
+struct HybridizedAnswer {
+  StressField stress;
+  double defect_energy = 0;  // Σ g_eᵀ S_e⁻¹ g_e, N mm
+  Eigen::VectorXd defect;    // −Σ T_e S_e⁻¹ g_e, N, one per unknown
+};
+HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem& system,
+                                  const Eigen::VectorXd& u);
+
+// The forces that stresses, the tractions on Γ_F and F_C leave unbalanced; no defect.
 UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
                                    const StressField& stress, const Eigen::VectorXd& F_C);
 

@@ -69,12 +69,12 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   return system;
 }
 
-template <typename Scalar>
-StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
-                              const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
+// Calls visit(triangle, element, its edge displacements, its unknowns, the stress that they make).
+template <typename Scalar, typename Visit>
+void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
+                    const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
   const std::vector<bool> is_contact = contact_edges(problem);
-  StressField field(problem.mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
     Eigen::Matrix<Scalar, 12, 1> local;
     for (int k = 0; k < 12; ++k) {
@@ -84,10 +84,19 @@ StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<S
       else
         local(k) = system.displacement.empty() ? 0 : system.displacement[edge](k % 4);
     }
-    field[t] = make_hybrid_element<Scalar>(problem, is_contact, t)
-                   .stress_at(local)
-                   .template cast<double>();
+    const auto element = make_hybrid_element<Scalar>(problem, is_contact, t);
+    visit(t, element, local, unknown, element.stress_at(local));
   }
+}
+
+template <typename Scalar>
+StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
+                              const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
+  StressField field(problem.mesh.triangles.size());
+  visit_stresses(problem, system, u,
+                 [&](int t, const auto&, const auto&, const auto&, const auto& stress) {
+                   field[t] = stress.template cast<double>();
+                 });
   return field;
 }
 

@@ -1,14 +1,16 @@
 // How wrong an answer in displacements is, as the method itself can tell.
 //
-// The recovered stresses leave unbalanced forces r at the unknowns, F_C held. One more solve with
-// the factor of K gives the correction δ = K⁻¹ r, the error to its leading digits. The estimate is
-// the largest of
+// The recovered stresses leave unbalanced forces r at the unknowns, F_C held, and an element may
+// find that its stress is not the one of its displacements. One more solve with the factor of K
+// gives the correction δ = K⁻¹ r, the error to its leading digits; with it, contact forces are off
+// by ΔF (contact_error). The estimate is the largest of
 //
-//   √(rᵀδ) / ‖σ‖             stress, in the energy norm
-//   ‖F − P(F − ρ r_c)‖ / ‖F‖ contact law, with the corrected displacements
-//   ‖r‖_∞ / ‖forces‖_∞       equilibrium
+//   (√(rᵀδ) + e + ‖ΔF‖_D) / ‖σ‖   stress, in the energy norm; e: of the elements
+//   ‖ΔF‖_D / ‖F‖_D                contact forces
+//   ‖F − P(F − ρ r_c)‖ / ‖F‖      contact law, with the corrected displacements
+//   ‖r‖_∞ / ‖forces‖_∞            equilibrium
 //
-// or relative to the loads where there is next to no stress (load_scale.hpp).
+// or relative to the loads where there is no stress (load_scale.hpp).
 #pragma once
 
 #include "assembly/dual_system.hpp"
@@ -18,8 +20,10 @@
 namespace airybench {
 
 struct UnbalancedForces {
-  Eigen::VectorXd r;   // N, one per unknown
-  double largest = 0;  // of the forces that should balance, N
+  Eigen::VectorXd r;         // N, one per unknown
+  double largest = 0;        // of the forces that should balance, N
+  Eigen::VectorXd defect;    // what correcting the elements would add to r; empty: zero
+  double defect_energy = 0;  // e², N mm
 };
 
 // Sets the solution's estimate from its F_C and stress, and says `inaccurate` where it is ok so far

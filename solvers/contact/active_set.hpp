@@ -14,6 +14,7 @@
 // closed components.
 #pragma once
 
+#include "assembly/load_scale.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 
 namespace airybench {
@@ -22,9 +23,24 @@ namespace airybench {
 Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r);
 
-// Goes on from a result that has not converged, and replaces it by a better one, if it finds one:
-// converged when the natural map meets control.contact_tolerance, or else contact_acceptable.
+// Goes on from a result, and replaces it by a better one, if it finds one: until the natural map is
+// a hundredth of control.contact_tolerance, or, below that tolerance, no longer halves. converged:
+// it meets contact_tolerance, or else contact_acceptable.
 void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints& contact,
                           const RunControl& control, ContactResult& result);
+
+// Sweeps and active sets in turn, as solve_condensed_contact() says.
+ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                            const RunControl& control);
+
+// How wrong F is, with displacements ū_C that belong to it and are more accurate than D F − G. One
+// more step gives ΔF, the error to first order, where the statuses are right.
+struct ContactCheck {
+  double energy_norm = 0;  // √(ΔFᵀ D ΔF), √(N mm); it is in the stresses, too
+  double relative = 0;     // the larger of ‖ΔF‖_D / ‖F‖_D and ‖natural map‖ / ‖F‖
+};
+ContactCheck check_contact(const Eigen::MatrixXd& D, const ContactPoints& contact,
+                           const Eigen::VectorXd& F, const Eigen::VectorXd& displacement,
+                           const LoadScale& scale);
 
 }  // namespace airybench

@@ -19,9 +19,11 @@ struct CondensedSystem {
   }
 };
 
-// The contact law by Gauss–Seidel sweeps and, where these do not converge, active sets: the
-// solution's forces, status, counts and history. Without contact points there is nothing to do and
-// the status is ok.
+// The contact law of a condensed system into the solution: its forces, status, counts and history.
+// Without contact points there is nothing to do and the status is ok.
+//
+// By Gauss–Seidel alone with the paper's stop or control.active_sets off. Else by a few sweeps,
+// then active sets; where these do not end, by ten times as many sweeps, and active sets again.
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                              const RunControl& control, Solution& solution);
 

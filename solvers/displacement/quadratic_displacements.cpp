@@ -34,15 +34,14 @@ std::vector<int> points_of_nodes(const QuadraticDisplacements& system) {
   return point;
 }
 
-void add_nodal_loads(const Problem& problem, const std::vector<int>& point,
-                     QuadraticDisplacements& system) {
-  if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return;
-  const Eigen::Matrix2Xd loads = nodal_loads(problem);
-  for (Eigen::Index node = 0; node < loads.cols(); ++node) {
+// Adds forces at the nodes to a vector of the unknowns.
+void add_nodal(const Eigen::Matrix2Xd& forces, const std::vector<int>& point,
+               const QuadraticDisplacements& system, Eigen::VectorXd& b) {
+  for (Eigen::Index node = 0; node < forces.cols(); ++node) {
     if (system.given.at[node]) continue;
-    Eigen::Vector2d force = loads.col(node);
+    Eigen::Vector2d force = forces.col(node);
     if (point[node] != none) force = system.control.frame(point[node]).transpose() * force;
-    for (int k = 0; k < 2; ++k) system.b(system.unknown[node][k]) += force(k);
+    for (int k = 0; k < 2; ++k) b(system.unknown[node][k]) += force(k);
   }
 }
 
@@ -87,7 +86,8 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
           entries.emplace_back(unknown[i], column, K(i, j));
     }
   }
-  add_nodal_loads(problem, point, system);
+  if (problem.loads.has_body_force() || problem.loads.traction_MPa)
+    add_nodal(nodal_loads(problem), point, system, system.b);
   system.K.resize(n, n);
   system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
@@ -103,6 +103,14 @@ DisplacementField displacement_field(const QuadraticDisplacements& system,
     if (point[node] != none) u.col(node) = system.control.frame(point[node]) * u.col(node).eval();
   }
   return u;
+}
+
+Eigen::VectorXd unbalanced_forces(const Problem& problem, const QuadraticDisplacements& system,
+                                  const NodalForces& of_stresses, const Eigen::VectorXd& F_C) {
+  Eigen::VectorXd r = Eigen::VectorXd::Zero(system.b.size());
+  add_nodal(nodal_loads(problem) - of_stresses.sum, points_of_nodes(system), system, r);
+  r.tail(system.n_c()) += F_C;
+  return r;
 }
 
 }  // namespace airybench

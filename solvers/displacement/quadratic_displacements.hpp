@@ -37,4 +37,9 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem);
 DisplacementField displacement_field(const QuadraticDisplacements& system,
                                      const Eigen::VectorXd& unknowns);
 
+// What the loads and F_C leave of the nodal forces of the stresses A ε(u), per unknown: not formed
+// with K, so that its rounding is seen.
+Eigen::VectorXd unbalanced_forces(const Problem& problem, const QuadraticDisplacements& system,
+                                  const NodalForces& of_stresses, const Eigen::VectorXd& F_C);
+
 }  // namespace airybench

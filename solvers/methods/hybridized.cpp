@@ -22,10 +22,21 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
     solution.condition_estimate = estimate_condition(system.K, [&](Eigen::Ref<Eigen::MatrixXd> X) {
       factor.cholesky.solve_in_place(X, control.deadline);
     });
+  HybridizedAnswer answer;
   finish_in_displacements(
       problem, airy.contact, control, condensed, factor,
-      [&](const Eigen::VectorXd& u) { solution.stress = hybridized_stress(problem, system, u); },
-      [&] { return unbalanced_forces(problem, system, solution.stress, solution.F_C); }, solution);
+      [&](const Eigen::VectorXd& u) {
+        answer = recover_stresses(problem, system, u);
+        solution.stress = std::move(answer.stress);
+      },
+      [&] {
+        UnbalancedForces unbalanced =
+            unbalanced_forces(problem, system, solution.stress, solution.F_C);
+        unbalanced.defect = std::move(answer.defect);
+        unbalanced.defect_energy = answer.defect_energy;
+        return unbalanced;
+      },
+      solution);
   return solution;
 }
 

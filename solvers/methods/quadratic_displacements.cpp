@@ -18,23 +18,16 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   StiffnessFactor factor;
   const CondensedSystem condensed = factorise_and_condense(
       system.K, system.b, system.n_c(), "displacement system", control, factor, solution);
-  Eigen::VectorXd u;
   finish_in_displacements(
       problem, system.control.law, control, condensed, factor,
-      [&](Eigen::VectorXd unknowns) {
-        u = std::move(unknowns);
-        solution.displacement = displacement_field(system, u);
+      [&](const Eigen::VectorXd& unknowns) {
+        solution.displacement = displacement_field(system, unknowns);
         solution.stress = stress_of_displacement(problem, solution.displacement);
       },
       [&] {
-        UnbalancedForces unbalanced;
-        unbalanced.r = system.b - system.K.selfadjointView<Eigen::Lower>() * u;
-        unbalanced.r.tail(system.n_c()) += solution.F_C;
-        const auto largest = [](const Eigen::VectorXd& v) {
-          return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0;
-        };
-        unbalanced.largest = std::max(largest(system.b), largest(solution.F_C));
-        return unbalanced;
+        const NodalForces forces = nodal_forces(problem, solution.stress);
+        return UnbalancedForces{
+            unbalanced_forces(problem, system, forces, solution.F_C), forces.largest, {}, 0};
       },
       solution);
   return solution;

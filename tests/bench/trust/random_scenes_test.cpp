@@ -82,7 +82,10 @@ void hold(const std::string& name, const Record& record, Tally& tally) {
   }
   EXPECT_LE(ratio, most_times_the_estimate)
       << name << ": " << outcome_of(record) << ", error " << error << ", its own estimate "
-      << *record.error_estimate << ", of the reference " << record.reference_error.value_or(0);
+      << *record.error_estimate << ", of the reference " << record.reference_error.value_or(0)
+      << "; stress, force, equilibrium, law " << record.error_stress.value_or(0) << " "
+      << record.error_force.value_or(0) << " " << record.equilibrium_residual.value_or(0) << " "
+      << record.natural_map_residual.value_or(0);
 }
 
 TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
@@ -108,7 +111,8 @@ TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
   }
   std::cout << fmt::format("tried {}, scenes that cannot be posed {}", tally.tried,
                            tally.not_posed);
-  for (const auto& [outcome, count] : tally.outcomes) std::cout << fmt::format(", {} {}", outcome, count);
+  for (const auto& [outcome, count] : tally.outcomes)
+    std::cout << fmt::format(", {} {}", outcome, count);
   std::cout << fmt::format("; worst error / estimate {:.1f}: {}\n", tally.worst_ratio, tally.worst);
 }
 
