@@ -114,6 +114,10 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
     }
     if (has_role[a]) fail(mesh, name + ": given twice");
     has_role[a] = true;
+    if (edge.group < BoundaryEdge::no_group ||
+        edge.group >= static_cast<int>(mesh.boundary_groups.size()))
+      fail(mesh, name + ": group " + std::to_string(edge.group + 1) + " does not exist (1.." +
+                     std::to_string(mesh.boundary_groups.size()) + ")");
     has_displacement |= edge.role == BoundaryRole::displacement;
   }
   for (int v = 0; v < n; ++v)
@@ -152,6 +156,32 @@ void check_one_piece_without_holes(const Mesh& mesh, const std::vector<Side>& si
 }
 
 }  // namespace
+
+std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge) {
+  std::string label(boundary_role_names[static_cast<std::size_t>(edge.role)]);
+  if (edge.group != BoundaryEdge::no_group)
+    label += ":" + mesh.boundary_groups[static_cast<std::size_t>(edge.group)];
+  return label;
+}
+
+int boundary_group(Mesh& mesh, std::string_view name) {
+  if (name.empty()) return BoundaryEdge::no_group;
+  auto& names = mesh.boundary_groups;
+  const auto known = std::find(names.begin(), names.end(), name);
+  const auto row = known - names.begin();
+  if (known == names.end()) names.emplace_back(name);
+  return static_cast<int>(row);
+}
+
+std::optional<BoundaryLabel> parse_boundary_label(std::string_view label) {
+  const auto colon = label.find(':');
+  const auto role =
+      std::find(boundary_role_names.begin(), boundary_role_names.end(), label.substr(0, colon));
+  if (role == boundary_role_names.end() || colon == label.size() - 1) return std::nullopt;
+  const auto row = static_cast<std::size_t>(role - boundary_role_names.begin());
+  return BoundaryLabel{static_cast<BoundaryRole>(row),
+                       colon == label.npos ? std::string_view() : label.substr(colon + 1)};
+}
 
 void validate(const Mesh& mesh) {
   check_triangles(mesh);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,8 +24,10 @@ inline constexpr std::array<std::string_view, 3> boundary_role_names = {"displac
                                                                         "contact"};
 
 struct BoundaryEdge {
+  static constexpr int no_group = -1;
   std::array<int, 2> vertices;  // start, end; the body lies on the left (counter-clockwise walk)
   BoundaryRole role;
+  int group = no_group;  // row of Mesh::boundary_groups
 };
 
 struct Mesh {
@@ -34,7 +37,24 @@ struct Mesh {
   std::vector<int> triangle_body;             // per triangle: its row in body_names
   std::vector<std::string> body_names;        // at least one
   std::vector<BoundaryEdge> boundary;         // every boundary edge once, any order
+  std::vector<std::string> boundary_groups;   // names; "top" of edges that are "force:top"
 };
+
+// The group of edges that an edge belongs to: its role, "force", or its role and the name of its
+// group, "force:top". Edges of one name and two roles are two groups.
+std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge);
+
+// The row of a name in Mesh::boundary_groups, which is added if it is new; no_group for no name.
+int boundary_group(Mesh& mesh, std::string_view name);
+
+// The role and the group's name (empty: none) that a label stands for; none when it is no label.
+struct BoundaryLabel {
+  BoundaryRole role;
+  std::string_view name;
+};
+std::optional<BoundaryLabel> parse_boundary_label(std::string_view label);
+inline constexpr std::string_view boundary_labels_allowed =
+    "displacement, force, contact, or one of these with a name: force:top";
 
 // A mesh or a mesh file that cannot be used. what() is one line: file or mesh name, entity, what is
 // wrong, what is allowed. Vertices, triangles and boundary edges are counted from 1 there.
@@ -55,9 +75,9 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 
 // Throws MeshError on the first of: no triangles; a vertex that is not finite, or in no triangle; a
 // triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
-// more than two triangles; a boundary edge that is not on the boundary, given twice, or walked
-// against its triangle; a boundary edge without a role; a boundary that touches itself; more than
-// one piece; a hole; no displacement edge.
+// more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
+// its triangle, or of a group that does not exist; a boundary edge without a role; a boundary that
+// touches itself; more than one piece; a hole; no displacement edge.
 void validate(const Mesh& mesh);
 
 // The edges of a valid mesh.

@@ -1,11 +1,13 @@
 #include "mesh/msh_format.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <fstream>
 #include <istream>
 #include <map>
 #include <ostream>
+#include <set>
 
 namespace airybench {
 namespace {
@@ -90,8 +92,12 @@ int read_count(LineReader& reader, std::string_view what) {
 }
 
 struct PhysicalGroups {
-  std::map<int, BoundaryRole> roles;  // by Gmsh tag
-  std::map<int, int> bodies;          // Gmsh tag to row of Mesh::body_names
+  struct Curve {
+    BoundaryRole role;
+    int group;  // row of Mesh::boundary_groups
+  };
+  std::map<int, Curve> curves;  // by Gmsh tag
+  std::map<int, int> bodies;    // Gmsh tag to row of Mesh::body_names
 };
 
 PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
@@ -104,12 +110,12 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
     const std::string name = reader.quoted_name();
     reader.end_of_line();
     if (dimension == 1) {
-      int role = 0;
-      while (role < 3 && boundary_role_names[role] != name) ++role;
-      if (role == 3)
-        reader.fail("physical curve '" + name +
-                    "': unknown boundary role (allowed: displacement, force, contact)");
-      if (!groups.roles.emplace(tag, static_cast<BoundaryRole>(role)).second)
+      const std::optional<BoundaryLabel> label = parse_boundary_label(name);
+      if (!label)
+        reader.fail("physical curve '" + name + "': unknown boundary role (allowed: " +
+                    std::string(boundary_labels_allowed) + ")");
+      const PhysicalGroups::Curve curve{label->role, boundary_group(mesh, label->name)};
+      if (!groups.curves.emplace(tag, curve).second)
         reader.fail("physical curve " + std::to_string(tag) + " is named twice");
     } else if (dimension == 2) {
       if (!groups.bodies.emplace(tag, static_cast<int>(mesh.body_names.size())).second)
@@ -174,12 +180,12 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
       return found->second;
     };
     if (type == gmsh_line) {
-      const auto role = groups.roles.find(group);
-      if (role == groups.roles.end())
+      const auto curve = groups.curves.find(group);
+      if (curve == groups.curves.end())
         reader.fail(name + ": physical group " + std::to_string(group) +
                     " is no boundary role (allowed: displacement, force, contact)");
       const int start = vertex(), end = vertex();
-      mesh.boundary.push_back({{start, end}, role->second});
+      mesh.boundary.push_back({{start, end}, curve->second.role, curve->second.group});
     } else {
       const auto body = groups.bodies.find(group);
       if (body == groups.bodies.end())
@@ -191,6 +197,16 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
     reader.end_of_line();
   }
   reader.expect("$EndElements");
+}
+
+// The roles, then the named groups that have edges, by name.
+std::vector<std::string> physical_curves(const Mesh& mesh) {
+  std::vector<std::string> curves(boundary_role_names.begin(), boundary_role_names.end());
+  std::set<std::string> named;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.group != BoundaryEdge::no_group) named.insert(boundary_label(mesh, edge));
+  curves.insert(curves.end(), named.begin(), named.end());
+  return curves;
 }
 
 }  // namespace
@@ -237,11 +253,12 @@ void write_msh(std::ostream& out, const Mesh& mesh) {
     const auto end = std::to_chars(text.data(), text.data() + text.size(), value).ptr;
     return std::string(text.data(), end);
   };
+  const std::vector<std::string> curves = physical_curves(mesh);
   out << "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
-  out << "$PhysicalNames\n" << boundary_role_names.size() + mesh.body_names.size() << "\n";
-  for (std::size_t role = 0; role < boundary_role_names.size(); ++role)
-    out << "1 " << role + 1 << " \"" << boundary_role_names[role] << "\"\n";
-  const std::size_t first_body = boundary_role_names.size() + 1;
+  out << "$PhysicalNames\n" << curves.size() + mesh.body_names.size() << "\n";
+  for (std::size_t k = 0; k < curves.size(); ++k)
+    out << "1 " << k + 1 << " \"" << curves[k] << "\"\n";
+  const std::size_t first_body = curves.size() + 1;
   for (std::size_t body = 0; body < mesh.body_names.size(); ++body)
     out << "2 " << first_body + body << " \"" << mesh.body_names[body] << "\"\n";
   out << "$EndPhysicalNames\n$Nodes\n" << mesh.vertices.size() << "\n";
@@ -251,7 +268,7 @@ void write_msh(std::ostream& out, const Mesh& mesh) {
   out << "$EndNodes\n$Elements\n" << mesh.boundary.size() + mesh.triangles.size() << "\n";
   std::size_t element = 0;
   for (const BoundaryEdge& edge : mesh.boundary) {
-    const auto tag = static_cast<std::size_t>(edge.role) + 1;
+    const auto tag = std::ranges::find(curves, boundary_label(mesh, edge)) - curves.begin() + 1;
     out << ++element << " 1 2 " << tag << " " << tag << " " << edge.vertices[0] + 1 << " "
         << edge.vertices[1] + 1 << "\n";
   }

@@ -1,6 +1,7 @@
 // Mesh files: Gmsh's MSH 2.2 ASCII format, so that Gmsh and its readers open them as they are.
 //
-//   $PhysicalNames  dimension 1: displacement, force, contact; dimension 2: one or more bodies
+//   $PhysicalNames  dimension 1: displacement, force, contact, and named groups of one of these,
+//                   "force:top"; dimension 2: one or more bodies
 //   $Nodes          coordinates in mm; z is the same for all
 //   $Elements       2-node lines and 3-node triangles; the first tag is the physical group
 //

@@ -96,7 +96,9 @@ class Bisection {
     mesh_.boundary[row->second].vertices = {start, middle};
     row_of_[key(start, middle)] = row->second;
     row_of_[key(middle, end)] = static_cast<int>(mesh_.boundary.size());
-    mesh_.boundary.push_back({{middle, end}, mesh_.boundary[row->second].role});
+    BoundaryEdge second = mesh_.boundary[row->second];
+    second.vertices = {middle, end};
+    mesh_.boundary.push_back(second);
     row_of_.erase(edge);
   }
 
@@ -129,6 +131,7 @@ Mesh uniformly_refined(const Mesh& mesh) {
   Mesh fine;
   fine.name = mesh.name;
   fine.body_names = mesh.body_names;
+  fine.boundary_groups = mesh.boundary_groups;
   fine.vertices.reserve(mesh.vertices.size() + edges.vertices.size());
   fine.vertices = mesh.vertices;
   for (const auto& [a, b] : edges.vertices)
@@ -144,10 +147,9 @@ Mesh uniformly_refined(const Mesh& mesh) {
     fine.triangle_body.insert(fine.triangle_body.end(), 4, mesh.triangle_body[t]);
   }
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    const auto [start, end] = mesh.boundary[row].vertices;
-    const int middle = vertices + edges.of_boundary[row];
-    fine.boundary.push_back({{start, middle}, mesh.boundary[row].role});
-    fine.boundary.push_back({{middle, end}, mesh.boundary[row].role});
+    BoundaryEdge first = mesh.boundary[row], second = first;
+    first.vertices[1] = second.vertices[0] = vertices + edges.of_boundary[row];
+    fine.boundary.insert(fine.boundary.end(), {first, second});
   }
   return fine;
 }

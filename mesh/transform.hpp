@@ -17,7 +17,8 @@
 //            the same moved body.
 //   keep_…_edges  boundary roles, in the order contact, displacement, force: the middle n edges of
 //            a role keep it, counted along its chains (boundary_chains) one after another. The
-//            others become force edges, those of the force boundary displacement edges.
+//            others become force edges, those of the force boundary displacement edges; the name of
+//            their group stays.
 #pragma once
 
 #include <optional>

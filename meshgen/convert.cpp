@@ -27,7 +27,7 @@ struct GmshModel {
   std::map<std::size_t, std::array<double, 3>> position;  // of the nodes in use
   std::vector<GmshTriangle> triangles;
   std::vector<std::string> body_names;
-  std::map<Nodes, BoundaryRole> role_of_line;
+  std::map<Nodes, std::string> label_of_line;  // "force", "force:top"
 };
 
 [[noreturn]] void fail(const std::string& what) { throw MeshError(what); }
@@ -62,6 +62,11 @@ std::vector<std::size_t> elements_of(int dimension, int entity, int wanted,
   return nodes.empty() ? std::vector<std::size_t>() : nodes.front();
 }
 
+void check_name(const std::string& name, std::string_view what, int group) {
+  if (name.find_first_of("\"\n") != name.npos)
+    fail(fmt::format("{} {}: its name must not hold quotes or line ends", what, group));
+}
+
 void read_triangles(GmshModel& model) {
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups, 2);
@@ -72,8 +77,7 @@ void read_triangles(GmshModel& model) {
     std::string name;
     gmsh::model::getPhysicalName(2, group, name);
     if (name.empty()) name = groups.size() == 1 ? "body" : fmt::format("body{}", group);
-    if (name.find_first_of("\"\n") != name.npos)
-      fail(fmt::format("physical surface {}: its name must not hold quotes or line ends", group));
+    check_name(name, "physical surface", group);
     const auto known = std::find(model.body_names.begin(), model.body_names.end(), name);
     const int body = static_cast<int>(known - model.body_names.begin());
     if (known == model.body_names.end()) model.body_names.push_back(name);
@@ -100,27 +104,27 @@ void read_lines(GmshModel& model, std::vector<std::string>& other_groups) {
   for (const auto& [dimension, group] : groups) {
     std::string name;
     gmsh::model::getPhysicalName(1, group, name);
-    const auto known = std::find(boundary_role_names.begin(), boundary_role_names.end(), name);
-    if (known == boundary_role_names.end()) {
+    if (!parse_boundary_label(name)) {
       other_groups.push_back(name.empty() ? std::to_string(group) : "'" + name + "'");
       continue;
     }
-    const auto role = static_cast<BoundaryRole>(known - boundary_role_names.begin());
+    check_name(name, "physical curve", group);
     for (const int curve : entities_of(1, group)) {
       constexpr int gmsh_line = 1;
       const auto nodes = elements_of(1, curve, gmsh_line, "2-node lines");
       for (std::size_t k = 0; k < nodes.size(); k += 2) {
-        const auto [entry, is_new] = model.role_of_line.emplace(
-            Nodes{std::min(nodes[k], nodes[k + 1]), std::max(nodes[k], nodes[k + 1])}, role);
+        const auto [entry, is_new] = model.label_of_line.emplace(
+            Nodes{std::min(nodes[k], nodes[k + 1]), std::max(nodes[k], nodes[k + 1])}, name);
         if (!is_new)
           fail(fmt::format(
               "curve {}: an edge is in the physical curves {} and {}; one role is allowed", curve,
-              boundary_role_names[static_cast<std::size_t>(entry->second)], name));
+              entry->second, name));
       }
     }
   }
-  if (std::none_of(model.role_of_line.begin(), model.role_of_line.end(),
-                   [](const auto& line) { return line.second == BoundaryRole::displacement; }))
+  if (std::none_of(model.label_of_line.begin(), model.label_of_line.end(), [](const auto& line) {
+        return parse_boundary_label(line.second)->role == BoundaryRole::displacement;
+      }))
     fail(fmt::format(
         "no edges in a physical curve named displacement{}; it is needed, force and contact are "
         "allowed",
@@ -189,19 +193,20 @@ Mesh renumbered(const GmshModel& model, const std::vector<std::string>& other_gr
     const auto &a = model.position.at(line[0]), &b = model.position.at(line[1]);
     return fmt::format("edge from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", a[0], a[1], b[0], b[1]);
   };
-  auto without_side = model.role_of_line;
+  auto without_side = model.label_of_line;
   for (const Nodes& side : sides) {
     if (sides.contains({side[1], side[0]})) continue;
-    const auto role = without_side.find({std::min(side[0], side[1]), std::max(side[0], side[1])});
-    if (role == without_side.end())
+    const auto line = without_side.find({std::min(side[0], side[1]), std::max(side[0], side[1])});
+    if (line == without_side.end())
       fail(fmt::format("boundary {} is in no physical curve named displacement, force or contact{}",
                        place(side), list_of(other_groups)));
-    mesh.boundary.push_back({{vertex[side[0]], vertex[side[1]]}, role->second});
-    without_side.erase(role);
+    const BoundaryLabel label = *parse_boundary_label(line->second);
+    mesh.boundary.push_back(
+        {{vertex[side[0]], vertex[side[1]]}, label.role, boundary_group(mesh, label.name)});
+    without_side.erase(line);
   }
   if (!without_side.empty()) {
-    const auto& [line, role] = *without_side.begin();
-    const auto name = boundary_role_names[static_cast<std::size_t>(role)];
+    const auto& [line, name] = *without_side.begin();
     if (!model.position.contains(line[0]) || !model.position.contains(line[1]))
       fail(fmt::format("physical curve '{}' has an edge that touches no triangle", name));
     fail(fmt::format("physical curve '{}': {} is not on the body's boundary", name, place(line)));
@@ -216,7 +221,7 @@ Mesh convert_open_model() {
   if (types.empty()) gmsh::model::mesh::generate(2);
 
   GmshModel model;
-  std::vector<std::string> other_groups;  // physical curves that are none of the three roles
+  std::vector<std::string> other_groups;  // physical curves of none of the three roles
   read_triangles(model);
   read_lines(model, other_groups);
   read_positions(model);

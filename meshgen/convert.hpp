@@ -1,9 +1,10 @@
 // A user's Gmsh model as a mesh of ours.
 //
 // The model (.geo, .msh of any version, .step and whatever else Gmsh opens) needs physical curves
-// named displacement (at least one), force, contact, which together make the whole boundary, and
-// one or more physical surfaces, each a body of its own material. It is meshed if it holds no
-// surface mesh yet. Other physical groups are left aside; so are surfaces in no physical group.
+// named displacement (at least one), force, contact, or one of these with a name, "force:top",
+// which together make the whole boundary, and one or more physical surfaces, each a body of its own
+// material. It is meshed if it holds no surface mesh yet. Other physical groups are left aside; so
+// are surfaces in no physical group.
 #pragma once
 
 #include <filesystem>

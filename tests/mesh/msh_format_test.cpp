@@ -148,7 +148,10 @@ INSTANTIATE_TEST_SUITE_P(
                 ":4: $PhysicalNames expected, found '$Periodic'"},
         BadFile{"UnknownRole", plate_with("1 13 \"contact\"", "1 13 \"glue\""),
                 ":8: physical curve 'glue': unknown boundary role (allowed: displacement, force, "
-                "contact)"},
+                "contact, or one of these with a name: force:top)"},
+        BadFile{"RoleWithoutItsName", plate_with("1 13 \"contact\"", "1 13 \"contact:\""),
+                ":8: physical curve 'contact:': unknown boundary role (allowed: displacement, "
+                "force, contact, or one of these with a name: force:top)"},
         BadFile{
             "PhysicalVolume", plate_with("2 21 \"steel\"", "3 21 \"steel\""),
             ":9: physical group 'steel' of dimension 3 (allowed: 1, boundary roles; 2, bodies)"},
@@ -273,6 +276,37 @@ $Elements
 8 2 2 4 4 3 4 5
 $EndElements
 )");
+}
+
+// Tags in any order; a group without edges, "force:unused", is not written.
+TEST(WriteMsh, NamedBoundaryGroupsComeBack) {
+  std::string text = plate_with("4", "7");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find("\n" + from + "\n") + 1, from.size(), to);
+  };
+  put("1 13 \"contact\"",
+      "1 13 \"contact\"\n1 9 \"force:top\"\n1 8 \"displacement:held: left\"\n1 7 \"force:unused\"");
+  put("3 1 2 12 3 3 4", "3 1 2 9 3 3 4");
+  put("4 1 2 11 4 4 1", "4 1 2 8 4 4 1");
+  const Mesh mesh = read(text);
+  std::vector<std::string> labels;
+  for (const BoundaryEdge& edge : mesh.boundary) labels.push_back(boundary_label(mesh, edge));
+  EXPECT_EQ(labels,
+            (std::vector<std::string>{"force", "contact", "force:top", "displacement:held: left"}));
+  EXPECT_EQ(mesh.boundary[3].role, BoundaryRole::displacement);
+  const std::string canonical = written(mesh);
+  EXPECT_NE(canonical.find(R"($PhysicalNames
+6
+1 1 "displacement"
+1 2 "force"
+1 3 "contact"
+1 4 "displacement:held: left"
+1 5 "force:top"
+2 6 "steel"
+$EndPhysicalNames)"),
+            std::string::npos)
+      << canonical;
+  EXPECT_EQ(written(read(canonical)), canonical);
 }
 
 TEST(WriteMsh, CoordinatesComeBackAsTheSameDoubles) {

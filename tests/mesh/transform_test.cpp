@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "mesh/msh_format.hpp"
@@ -212,6 +213,38 @@ TEST(MeshTransform, TheMiddleEdgesKeepTheirRole) {
   const Mesh all_held =
       with([](MeshTransform& t) { t.keep_contact_edges = t.keep_force_edges = 0; });
   EXPECT_EQ(mesh_sizes(all_held).displacement_edges, 18);
+}
+
+// Per label of the boundary's groups: the length of its edges.
+std::map<std::string, double> lengths(const Mesh& mesh) {
+  std::map<std::string, double> length;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    length[boundary_label(mesh, edge)] +=
+        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  return length;
+}
+
+TEST(MeshTransform, NamedBoundaryGroupsAreKept) {
+  Mesh tooth = testing::small_tooth(4, 4);
+  for (BoundaryEdge& edge : tooth.boundary) {
+    if (edge.role == BoundaryRole::contact) edge.group = boundary_group(tooth, "tip");
+    if (edge.role == BoundaryRole::force && tooth.vertices[edge.vertices[0]].y() > 0)
+      edge.group = boundary_group(tooth, "upper flank");
+  }
+  const auto before = lengths(tooth);
+  EXPECT_EQ(before.size(), 4U);
+  MeshTransform transform;
+  transform.refine = 1;
+  transform.grade = {{10, 3}, 50};
+  transform.slivers = {10, 2};
+  const auto after = lengths(transformed(tooth, transform));
+  ASSERT_EQ(after.size(), before.size());
+  for (const auto& [label, length] : before) EXPECT_NEAR(after.at(label), length, 1e-12) << label;
+
+  transform = {};
+  transform.keep_contact_edges = 2;
+  const auto kept = lengths(transformed(tooth, transform));
+  EXPECT_EQ(kept.at("contact:tip"), kept.at("force:tip"));  // two of four edges each
 }
 
 TEST(MeshTransform, OnARackTheMiddleIsCountedFaceByFace) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <sstream>
 
 #include "mesh/msh_format.hpp"
@@ -286,6 +287,23 @@ TEST_F(Convert, LeavesOtherCurvesAside) {
                                    "Physical Curve(\"interface\") = {4};\n"
                                    "Physical Point(\"corner\") = {1};\n"),
             "no complaint");
+}
+
+TEST_F(Convert, NamedBoundaryGroupsAreKept) {
+  const Mesh mesh = convert(
+      "named.geo", two_squares_geometry + bodies +
+                       replaced(replaced(roles, "\"force\") = {1, 3, 5, 6}", "\"force\") = {1, 3}"),
+                                "\"contact\"", "\"contact:flank\"") +
+                       "Physical Curve(\"force:bottom\") = {5};\n"
+                       "Physical Curve(\"force:top\") = {6};\n");
+  std::map<std::string, double> length;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    length[boundary_label(mesh, edge)] +=
+        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  ASSERT_EQ(length.size(), 5U);
+  for (const char* label : {"displacement", "contact:flank", "force:bottom", "force:top"})
+    EXPECT_NEAR(length[label], 1, 1e-12) << label;
+  EXPECT_NEAR(length["force"], 2, 1e-12);
 }
 
 TEST_F(Convert, RefusesARoleInside) {
