@@ -1,7 +1,9 @@
 #include "assembly/control_points.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 
 #include "assembly/edge_forces.hpp"
 
@@ -23,23 +25,40 @@ ControlPoints control_points(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   std::vector<double> gap;              // g0
   std::vector<Eigen::Vector2d> motion;  // ρ
-  std::vector<bool> prescribed;
+  std::optional<PrescribedDisplacement> prescribed;
   std::map<int, int> point_of_node;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = mesh.boundary[row];
     if (edge.role != BoundaryRole::contact) continue;
-    if (prescribed.empty()) prescribed = prescribed_displacement(problem).at;
+    if (!prescribed) prescribed = prescribed_displacement(problem);
     const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
     const EdgeFrame frame = edge_frame(a, b);
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
     const std::array<double, 3> gaps = gap_coefficients(problem, row);
     for (int k = 0; k < 3; ++k) {
-      if (prescribed[nodes[k]]) continue;
+      if (prescribed->at[nodes[k]]) continue;
+      if (const auto roller = prescribed->normal.find(nodes[k]);
+          roller != prescribed->normal.end()) {
+        const Eigen::Vector2d& m = roller->second;
+        const Eigen::Vector2d along(-m.y(), m.x());
+        const double cosine = frame.normal.dot(along);
+        if (std::abs(cosine) < straight_roller) continue;  // in line: the roller holds u_n
+        points.node.push_back(nodes[k]);
+        points.normal.push_back(cosine > 0 ? along : Eigen::Vector2d(-along));
+        points.on_roller.push_back(true);
+        points.law.boundary.push_back(row);
+        const Eigen::Vector2d held =
+            prescribed->u.col(nodes[k]) + problem.motion.at(a + k * (b - a) / 2);
+        gap.push_back((gaps[k] - frame.normal.dot(held)) / std::abs(cosine));
+        motion.emplace_back(0, 0);
+        continue;
+      }
       const auto [found, is_new] =
           point_of_node.try_emplace(nodes[k], static_cast<int>(points.node.size()));
       if (is_new) {
         points.node.push_back(nodes[k]);
         points.normal.push_back(frame.normal);
+        points.on_roller.push_back(false);
         points.law.boundary.push_back(row);
         gap.push_back(gaps[k]);
         motion.push_back(problem.motion.at(a + k * (b - a) / 2));  // ρ is linear: its coefficients
@@ -51,7 +70,7 @@ ControlPoints control_points(const Problem& problem) {
     }
   }
   points.law.count = static_cast<int>(points.node.size());
-  if (problem.has_gap()) {
+  if (problem.has_gap() || std::ranges::any_of(gap, [](double g) { return g != 0; })) {
     const int m = points.law.components;
     points.law.gap.resize(points.law.size());
     for (int p = 0; p < points.law.count; ++p) {

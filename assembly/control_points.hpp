@@ -7,7 +7,9 @@
 //
 // A vertex between two contact edges has one normal, their mean. Where the two differ, on a face
 // that is not straight, u_n ≤ g0 is no longer strict. A vertex that is also on Γ_D is prescribed
-// and has no law.
+// and has no law. Where a roller of normal m meets Γ_C, u = d m + a t is left to move along t ⊥ m
+// only: there the law's normal is ±t with n·t > 0, u_n ≤ g0 being ±a ≤ (g0 − d n·m)/|n·t|, and its
+// tangential force is zero.
 #pragma once
 
 #include "assembly/displacement_field.hpp"
@@ -20,6 +22,7 @@ struct ControlPoints {
                                         // a vertex of two edges the smaller one
   std::vector<int> node;                // per point
   std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
+  std::vector<bool> on_roller;          // u along the tangent is prescribed
 
   Eigen::Matrix2d frame(int point) const {  // columns normal, tangent
     const Eigen::Vector2d& n = normal[point];

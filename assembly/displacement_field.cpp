@@ -1,6 +1,7 @@
 #include "assembly/displacement_field.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/small_cholesky.hpp"
@@ -18,6 +19,23 @@ LocalCoefficients local_coefficients(const Problem& problem, const DisplacementF
   for (int m = 0; m < 6; ++m) local.col(m) = u.col(nodes[m]);
   local.colwise() -= local.rowwise().mean().eval();
   return local;
+}
+
+// A roller's n·u = d. Two rollers around a corner hold their vertex fully.
+void hold_along(const Eigen::Vector2d& n, double d, int node, PrescribedDisplacement& prescribed) {
+  const auto [other, is_first] = prescribed.normal.try_emplace(node, n);
+  if (is_first) {
+    prescribed.u.col(node) = d * n;
+    return;
+  }
+  const Eigen::Vector2d m = other->second;
+  const double sine = m.x() * n.y() - m.y() * n.x();
+  if (std::abs(sine) < straight_roller) return;
+  // n·u = d and m·u = c:  u = (c (n_y, −n_x) + d (−m_y, m_x)) / (m × n)
+  const double c = m.dot(prescribed.u.col(node));
+  prescribed.u.col(node) << (c * n.y() - d * m.y()) / sine, (d * m.x() - c * n.x()) / sine;
+  prescribed.at[node] = true;
+  prescribed.normal.erase(other);
 }
 
 }  // namespace
@@ -128,8 +146,8 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem) {
     const auto [start, middle, end] = boundary_nodes(problem, row);
     const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
     const EdgeFrame frame = edge_frame(a, b);
-    const Eigen::Vector2d at_a = frame.length_mm / 12 * loads.traction_MPa(a, frame.normal),
-                          at_b = frame.length_mm / 12 * loads.traction_MPa(b, frame.normal);
+    const Eigen::Vector2d at_a = frame.length_mm / 12 * loads.traction_MPa(a, frame.normal, row),
+                          at_b = frame.length_mm / 12 * loads.traction_MPa(b, frame.normal, row);
     force.col(start) += 3 * at_a + at_b;
     force.col(middle) += 2 * at_a + 2 * at_b;
     force.col(end) += at_a + 3 * at_b;
@@ -140,17 +158,35 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem) {
 PrescribedDisplacement prescribed_displacement(const Problem& problem) {
   const int nodes = displacement_nodes(problem);
   PrescribedDisplacement prescribed{std::vector<bool>(static_cast<std::size_t>(nodes), false),
+                                    {},
                                     DisplacementField::Zero(2, nodes)};
-  const auto& u0 = problem.loads.displacement_mm;
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const std::array<int, 3> on_edge = boundary_nodes(problem, row);
-    for (const int node : on_edge) prescribed.at[node] = true;
-    if (!u0) continue;
+  const auto coefficients = [&](const std::array<int, 3>& on_edge, int row) {
+    const auto& u0 = problem.loads.displacement_mm;
+    if (!u0)
+      return std::array<Eigen::Vector2d, 3>{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
+                                            Eigen::Vector2d::Zero()};
     const auto &a = problem.mesh.vertices[on_edge[0]], &b = problem.mesh.vertices[on_edge[2]];
-    const auto coefficients = edge_coefficients(u0(a), u0((a + b) / 2), u0(b));
-    for (int k = 0; k < 3; ++k) prescribed.u.col(on_edge[k]) = coefficients[k];
-  }
+    return edge_coefficients(u0(a, row), u0((a + b) / 2, row), u0(b, row));
+  };
+  for (const bool rollers : {true, false})  // where both meet, what is held fully stays
+    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+      if (problem.mesh.boundary[row].role != BoundaryRole::displacement ||
+          problem.is_roller(row) != rollers)
+        continue;
+      const std::array<int, 3> on_edge = boundary_nodes(problem, row);
+      const std::array<Eigen::Vector2d, 3> u = coefficients(on_edge, row);
+      const EdgeFrame frame =
+          edge_frame(problem.mesh.vertices[on_edge[0]], problem.mesh.vertices[on_edge[2]]);
+      for (int k = 0; k < 3; ++k) {
+        if (rollers) {
+          hold_along(frame.normal, frame.normal.dot(u[k]), on_edge[k], prescribed);
+        } else {
+          prescribed.at[on_edge[k]] = true;
+          prescribed.normal.erase(on_edge[k]);
+          prescribed.u.col(on_edge[k]) = u[k];
+        }
+      }
+    }
   return prescribed;
 }
 

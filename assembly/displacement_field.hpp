@@ -13,6 +13,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <map>
 
 #include "assembly/stress_field.hpp"
 
@@ -62,9 +63,10 @@ NodalForces nodal_forces(const Problem& problem, const StressField& stress);
 Eigen::Matrix2Xd nodal_loads(const Problem& problem);
 
 // What Γ_D prescribes: which nodes, and their coefficients (zero elsewhere). Exact where u0 is
-// quadratic on every edge.
+// quadratic on every edge. Between two rollers that are not parallel a vertex is held fully.
 struct PrescribedDisplacement {
-  std::vector<bool> at;  // per node
+  std::vector<bool> at;                   // per node: held fully
+  std::map<int, Eigen::Vector2d> normal;  // nodes that only a roller holds: along this direction
   DisplacementField u;
 };
 PrescribedDisplacement prescribed_displacement(const Problem& problem);

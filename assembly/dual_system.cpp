@@ -31,6 +31,7 @@ struct ForceRows {
 
 // One boundary edge: its ends, frame, and force functionals in the scaled unknowns.
 struct EdgeFunctionals {
+  int row;  // of Mesh::boundary
   std::array<Eigen::Vector2d, 2> end;
   EdgeFrame frame;
   EdgeForces forces;  // rows F^a_x, F^a_y, F^b_x, F^b_y
@@ -41,7 +42,8 @@ EdgeFunctionals edge_functionals(const DualSystem& system, int row) {
   const Problem& problem = *system.problem;
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
-  EdgeFunctionals edge{{xa, xb},
+  EdgeFunctionals edge{row,
+                       {xa, xb},
                        edge_frame(xa, xb),
                        edge_forces(xa, xb, a < b ? 1 : -1),
                        system.dofs.of_edge_walk(a, b, problem.edges.of_boundary[row])};
@@ -98,22 +100,28 @@ void build_constraints(DualSystem& system) {
     for (int k = 0; k < 2; ++k) {
       Eigen::Vector2d f = -particular_force(problem, edge, k);
       if (loads.traction_MPa)
-        f += edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal);
+        f +=
+            edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal, edge.row);
       for (int i = 0; i < 2; ++i) on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
     }
   });
-  for_each_edge(system, BoundaryRole::contact, [&](const EdgeFunctionals& edge) {
+  const auto add_in_frame = [&](const EdgeFunctionals& edge) {
+    const EdgeCondition condition = problem.condition(edge.row);
+    if (!condition.in_frame) return;
     for (int k = 0; k < 2; ++k) {
       const auto rows = edge.forces.middleRows<2>(2 * k);
       const Eigen::Vector2d f = particular_force(problem, edge, k);
-      const Eigen::Vector2d &n = edge.frame.normal, &s = edge.frame.tangent;
-      on_contact.add(n.transpose() * rows, edge.dofs, n.dot(f));
-      if (system.contact.components == 2)
-        on_contact.add(s.transpose() * rows, edge.dofs, s.dot(f));
-      else
-        on_force.add(s.transpose() * rows, edge.dofs, -s.dot(f));
+      for (int i = 0; i < 2; ++i) {
+        const Eigen::Vector2d& axis = i == 0 ? edge.frame.normal : edge.frame.tangent;
+        if (condition.component[i] == Known::contact_law)
+          on_contact.add(axis.transpose() * rows, edge.dofs, axis.dot(f));
+        else if (condition.component[i] == Known::force)
+          on_force.add(axis.transpose() * rows, edge.dofs, -axis.dot(f));
+      }
     }
-  });
+  };
+  for_each_edge(system, BoundaryRole::contact, add_in_frame);
+  for_each_edge(system, BoundaryRole::displacement, add_in_frame);
   on_force.store(system.C_F, system.dofs.count);
   on_contact.store(system.C_C, system.dofs.count);
   if (loads.traction_MPa || loads.has_body_force()) system.F = on_force.forces();
@@ -129,10 +137,7 @@ void build_load(DualSystem& system) {
 
   if (loads.displacement_mm) {
     for_each_edge(system, BoundaryRole::displacement, [&](const EdgeFunctionals& edge) {
-      const Eigen::Vector2d middle = (edge.end[0] + edge.end[1]) / 2;
-      const auto [start, end] =
-          edge_moments(loads.displacement_mm(edge.end[0]), loads.displacement_mm(middle),
-                       loads.displacement_mm(edge.end[1]));
+      const auto [start, end] = problem.prescribed_moments(edge.row);
       const Eigen::Vector4d u(start.x(), start.y(), end.x(), end.y());
       for (int k = 0; k < 7; ++k)
         if (edge.dofs[k] != DofNumbering::gauge)

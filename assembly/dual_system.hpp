@@ -1,7 +1,7 @@
 // The discrete contact problem in the Airy function, the paper's eq. (4):
 //
 //   ⎡ S   C_Fᵀ C_Cᵀ  0 ⎤ ⎡ φ  ⎤   ⎡ q   ⎤     S    n×n      ∫ σ(φ_i):C:σ(φ_j), N⁻¹ mm …
-//   ⎢ C_F  0    0    0 ⎥ ⎢ λ  ⎥ = ⎢ F   ⎥     C_F  n_f×n    forces on Γ_F, x and y
+//   ⎢ C_F  0    0    0 ⎥ ⎢ λ  ⎥ = ⎢ F   ⎥     C_F  n_f×n    forces on Γ_F, x and y …
 //   ⎢ C_C  0    0   −I ⎥ ⎢ λ' ⎥   ⎢ −F0 ⎥     C_C  n_c×n    forces on Γ_C, normal and tangential
 //   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
 //
@@ -15,7 +15,8 @@
 // definite; C = [C_F; C_C] has full rank.
 //
 // What a scene does not need is not built: an empty vector is zero. Without friction the tangential
-// contact forces are prescribed to zero: their rows move to the end of C_F.
+// contact forces are prescribed to zero: their rows come in C_F after those of Γ_F. Behind them are
+// the tangential forces on rollers, zero too.
 #pragma once
 
 #include <Eigen/SparseCore>

@@ -15,16 +15,19 @@ LoadScale load_scale(const Problem& problem) {
   for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
   const double diameter = box.diagonal().norm();
   double displacement = 0, stress = loads.body_force_N_per_mm3.norm() * diameter;
-  for (const BoundaryEdge& edge : mesh.boundary) {
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryEdge& edge = mesh.boundary[row];
     const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    const Eigen::Vector2d normal = edge_frame(a, b).normal;
     for (const Eigen::Vector2d& x : {a, b}) {
       if (edge.role == BoundaryRole::displacement) {
         Eigen::Vector2d u0 = problem.motion.at(x);
-        if (loads.displacement_mm) u0 += loads.displacement_mm(x);
-        displacement = std::max(displacement, u0.norm());
+        if (loads.displacement_mm) u0 += loads.displacement_mm(x, row);
+        displacement =
+            std::max(displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.norm());
       }
       if (edge.role == BoundaryRole::force && loads.traction_MPa)
-        stress = std::max(stress, loads.traction_MPa(x, edge_frame(a, b).normal).norm());
+        stress = std::max(stress, loads.traction_MPa(x, normal, row).norm());
     }
   }
   LoadScale scale;

@@ -3,15 +3,18 @@
 #include <cassert>
 #include <limits>
 
+#include "assembly/edge_forces.hpp"
+
 namespace airybench {
 namespace {
 
 void take_out_rigid_motion(Problem& problem) {
   std::vector<PrescribedEdge> edges;
   const auto& x = problem.mesh.vertices;
-  for (const BoundaryEdge& edge : problem.mesh.boundary)
-    if (edge.role == BoundaryRole::displacement)
-      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]]});
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (const BoundaryEdge& edge = problem.mesh.boundary[row];
+        edge.role == BoundaryRole::displacement)
+      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]], row, problem.is_roller(row)});
   SplitDisplacement split = split_rigid_motion(problem.loads.displacement_mm, edges);
   problem.motion = split.motion;
   problem.loads.displacement_mm = std::move(split.rest_mm);
@@ -38,9 +41,36 @@ Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_ro
   return {gap - frame.normal.dot(rho), -frame.tangent.dot(rho)};
 }
 
+EdgeCondition Problem::condition(int boundary_row) const {
+  using enum Known;
+  switch (mesh.boundary[boundary_row].role) {
+    case BoundaryRole::displacement:
+      return is_roller(boundary_row) ? EdgeCondition{true, {displacement, force}}
+                                     : EdgeCondition{false, {displacement, displacement}};
+    case BoundaryRole::contact:
+      return {true, {contact_law, friction > 0 ? contact_law : force}};
+    case BoundaryRole::force:
+      break;
+  }
+  return {false, {force, force}};
+}
+
+std::array<Eigen::Vector2d, 2> Problem::prescribed_moments(int boundary_row) const {
+  const auto& u0 = loads.displacement_mm;
+  if (!u0) return {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  const auto [start, end] = mesh.boundary[boundary_row].vertices;
+  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+  const auto [u_a, u_b] =
+      edge_moments(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
+  if (!is_roller(boundary_row)) return {u_a, u_b};
+  const Eigen::Vector2d n = edge_frame(a, b).normal;
+  return {n.dot(u_a) * n, n.dot(u_b) * n};
+}
+
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction) {
   assert(compliance.size() == mesh.body_names.size());
+  assert(loads.rollers.empty() || loads.rollers.size() == mesh.boundary.size());
   Problem problem{std::move(mesh), {}, std::move(compliance), std::move(loads), {}, friction, 0};
   problem.edges = number_edges(problem.mesh);
   take_out_rigid_motion(problem);

@@ -3,6 +3,7 @@
 //   −div σ = b,  ε(u) = C σ in Ω;   u = u0 on Γ_D;   σn = f on Γ_F;
 //   on Γ_C, with gap g0 along the outward normal and the solution's own σ_n as threshold:
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
+// Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0.
 //
 // The rigid motion ρ that is nearest to u0 is taken out: unknown is w = u − ρ, with u0 − ρ on Γ_D;
 // on Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (wall_distance). Energies are those
@@ -14,6 +15,7 @@
 // the discrete problem. What is a template over Scalar computes from them in Scalar.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <type_traits>
 #include <vector>
@@ -26,18 +28,31 @@
 
 namespace airybench {
 
-// Boundary data and body force. An empty function is zero and costs nothing.
+// Boundary data, of x on an edge of Mesh::boundary, and body force. An empty function is zero and
+// costs nothing.
 struct Loads {
-  std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>
+  std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int boundary_row)>
       displacement_mm;  // on Γ_D: u0, or what a Problem has left of it
-  std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal)>
+  std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal,
+                                int boundary_row)>
       traction_MPa;  // f on Γ_F; linear on every edge
   std::function<double(const Eigen::Vector2d& x, int boundary_row)>
-      gap_mm;  // g0 on Γ_C, on an edge of Mesh::boundary; quadratic on every edge
+      gap_mm;                 // g0 on Γ_C; quadratic on every edge
+  std::vector<bool> rollers;  // per row of Mesh::boundary: an edge of Γ_D that rolls; empty: none
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
 };
+
+// What is known on a boundary edge, component by component.
+enum class Known : std::uint8_t { displacement, force, contact_law };
+struct EdgeCondition {
+  bool in_frame;  // components along the edge's outward normal and its tangent; else along x and y
+  std::array<Known, 2> component;
+};
+
+// Rollers are parallel when their directions differ by a smaller sine than this.
+inline constexpr double straight_roller = 1e-6;
 
 struct Problem {
   Mesh mesh;
@@ -64,6 +79,15 @@ struct Problem {
   // −ρ_t).
   Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,
                                 const EdgeFrame& frame) const;
+
+  // Without friction the tangential force on Γ_C is known, as on a roller: zero.
+  EdgeCondition condition(int boundary_row) const;
+  bool is_roller(int boundary_row) const {
+    return !loads.rollers.empty() && loads.rollers[static_cast<std::size_t>(boundary_row)];
+  }
+  // ū0 (edge_forces.hpp) at the start and the end of an edge of Γ_D, in mm; of a roller the normal
+  // part.
+  std::array<Eigen::Vector2d, 2> prescribed_moments(int boundary_row) const;
 
   // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
   template <typename Scalar = double>

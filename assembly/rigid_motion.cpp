@@ -1,54 +1,63 @@
 #include "assembly/rigid_motion.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 
+#include "assembly/edge_forces.hpp"
+
 namespace airybench {
 
-SplitDisplacement split_rigid_motion(
-    const std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>& displacement_mm,
-    const std::vector<PrescribedEdge>& edges) {
+SplitDisplacement split_rigid_motion(const EdgeDisplacement& displacement_mm,
+                                     const std::vector<PrescribedEdge>& edges) {
   SplitDisplacement split;
   if (!displacement_mm || edges.empty()) return split;
   struct Sample {
     Eigen::Vector2d x, u;
     double weight;
+    Eigen::Matrix2d part;  // that is prescribed: all, or along a roller's normal
   };
   // Without the displacement of one point: what a translation leaves is exactly zero then.
-  const Eigen::Vector2d base = displacement_mm(edges.front().start);
+  const Eigen::Vector2d base = displacement_mm(edges.front().start, edges.front().number);
   std::vector<Sample> samples;
   double total = 0, largest = base.cwiseAbs().maxCoeff();
-  Eigen::Vector2d centre = Eigen::Vector2d::Zero(), mean = Eigen::Vector2d::Zero();
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();
   for (const PrescribedEdge& edge : edges) {
-    const double length = (edge.end - edge.start).norm();
+    const EdgeFrame frame = edge_frame(edge.start, edge.end);
+    const Eigen::Matrix2d part = edge.roller
+                                     ? Eigen::Matrix2d(frame.normal * frame.normal.transpose())
+                                     : Eigen::Matrix2d::Identity();
     for (const int k : {0, 1, 2}) {
       const Eigen::Vector2d x = edge.start + k * (edge.end - edge.start) / 2;
-      const Eigen::Vector2d u = displacement_mm(x);
+      const Eigen::Vector2d u = displacement_mm(x, edge.number);
       largest = std::max(largest, u.cwiseAbs().maxCoeff());
-      samples.push_back({x, u - base, length * (k == 1 ? 4 : 1) / 6});
+      samples.push_back({x, part * (u - base), frame.length_mm * (k == 1 ? 4 : 1) / 6, part});
       total += samples.back().weight;
       centre += samples.back().weight * x;
-      mean += samples.back().weight * samples.back().u;
     }
   }
   centre /= total;
-  mean /= total;
-  // ω = ∫ (J d)·u / ∫ |d|², d = x − centre: translation and rotation are orthogonal.
-  double moment = 0, inertia = 0;
+  // Normal equations of t and ω. Without rollers they are diagonal but for rounding, as ∫ d = 0.
+  Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const Sample& s : samples) {
     const Eigen::Vector2d d = s.x - centre;
-    moment += s.weight * (d.x() * s.u.y() - d.y() * s.u.x());
-    inertia += s.weight * d.squaredNorm();
+    Eigen::Matrix<double, 2, 3> motion;  // t + ω J d, its prescribed part
+    motion << s.part, s.part * Eigen::Vector2d(-d.y(), d.x());
+    A += s.weight * motion.transpose() * motion;
+    b += s.weight * motion.transpose() * s.u;
   }
-  const RigidMotion of_rest{centre, mean, inertia > 0 ? moment / inertia : 0};
-  split.motion = {centre, base + mean, of_rest.rotation};
+  const Eigen::Vector3d best = A.ldlt().solve(b);
+  const RigidMotion of_rest{centre, best.head<2>(), best(2)};
+  split.motion = {centre, base + best.head<2>(), best(2)};
   double left = 0;
   for (const Sample& s : samples)
-    left = std::max(left, (s.u - of_rest.at(s.x)).cwiseAbs().maxCoeff());
+    left = std::max(left, (s.u - s.part * of_rest.at(s.x)).cwiseAbs().maxCoeff());
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (left > rounding * largest)
-    split.rest_mm = [displacement_mm, base, of_rest](const Eigen::Vector2d& x) -> Eigen::Vector2d {
-      return (displacement_mm(x) - base) - of_rest.at(x);
+    split.rest_mm = [displacement_mm, base, of_rest](const Eigen::Vector2d& x,
+                                                     int edge) -> Eigen::Vector2d {
+      return (displacement_mm(x, edge) - base) - of_rest.at(x);
     };
   return split;
 }

@@ -22,22 +22,26 @@ struct RigidMotion {
   bool is_zero() const { return translation_mm.isZero(0) && rotation == 0; }
 };
 
-// A straight piece of boundary where a displacement is prescribed.
+// A displacement on edges, each with a number of its own.
+using EdgeDisplacement = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int edge)>;
+
+// A straight piece of boundary where a displacement is prescribed, on a roller its normal part.
 struct PrescribedEdge {
   Eigen::Vector2d start, end;
+  int number = 0;
+  bool roller = false;
 };
 
 // What is left of a displacement without the motion.
 struct SplitDisplacement {
   RigidMotion motion;
-  std::function<Eigen::Vector2d(const Eigen::Vector2d& x)> rest_mm;  // empty: zero on all edges
+  EdgeDisplacement rest_mm;  // empty: zero on all edges
 };
 
-// The motion that minimises ∫ |u − motion|² over the edges (Simpson's rule, exact where u is linear
-// or constant). A constant u is its motion to the last digit. A rest that is only the rounding of u
-// is zero.
-SplitDisplacement split_rigid_motion(
-    const std::function<Eigen::Vector2d(const Eigen::Vector2d& x)>& displacement_mm,
-    const std::vector<PrescribedEdge>& edges);
+// The motion that minimises ∫ |u − motion|², of rollers the normal parts, over the edges; these
+// hold the body (Simpson's rule, exact where u is linear or constant). A constant u is its motion
+// to the last digit. A rest that is only the rounding of u is zero.
+SplitDisplacement split_rigid_motion(const EdgeDisplacement& displacement_mm,
+                                     const std::vector<PrescribedEdge>& edges);
 
 }  // namespace airybench

@@ -120,6 +120,7 @@ void check_values(const Scene& scene) {
     check_material(scene, "layers: materials: ", material);
   of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
   of_scene(scene, "layers", [&] { check_values(scene.layers); });
+  of_scene(scene, "boundary", [&] { check_values(scene.boundary); });
   if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
     fail(scene, "friction", scene.friction, "(allowed: >= 0)");
   if (scene.crown_radius_mm &&
@@ -142,8 +143,7 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
   check_geometry(scene, mesh, faces);
 
   Loads loads;
-  if (!scene.displacement_mm.isZero(0))
-    loads.displacement_mm = [u = scene.displacement_mm](const Eigen::Vector2d&) { return u; };
+  of_scene(scene, "boundary", [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
   if (scene.crown_radius_mm || scene.clearance_mm > 0) {
     const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;

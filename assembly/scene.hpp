@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "assembly/problem.hpp"
+#include "assembly/boundary_values.hpp"
 #include "mesh/layers.hpp"
 #include "mesh/transform.hpp"
 
@@ -34,10 +34,11 @@ struct Scene {
   std::map<std::string, Material> materials;  // … and bodies named here
   Plane plane = Plane::strain;
 
-  double friction = 0.2;                        // μ ≥ 0
-  std::optional<double> crown_radius_mm = 400;  // of the wall; none: flat
-  Eigen::Vector2d displacement_mm = {0.02, 0.006};
-  double clearance_mm = 0;  // added to the gap everywhere, ≥ 0
+  double friction = 0.2;                            // μ ≥ 0
+  std::optional<double> crown_radius_mm = 400;      // of the wall; none: flat
+  Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D …
+  BoundaryConditions boundary;                      // … but groups with a value of their own
+  double clearance_mm = 0;                          // added to the gap everywhere, ≥ 0
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
 };
 

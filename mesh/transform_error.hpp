@@ -19,6 +19,12 @@ inline std::string shown(const Eigen::Vector2d& v) {
   return text.str();
 }
 
+inline std::string shown(double value) {
+  std::ostringstream text;
+  text << value;
+  return text.str();
+}
+
 [[noreturn]] void refuse(const std::string& key, const auto& value, const std::string& why) {
   std::ostringstream line;
   line << key << ": " << value << " " << why;

@@ -1,77 +1,18 @@
 #include "bench/cases/scene_file.hpp"
 
-#include <fmt/format.h>
-
 #include <fstream>
-#include <functional>
-#include <map>
 #include <set>
 #include <vector>
 
-#include "bench/records/json.hpp"
+#include "bench/cases/scene_boundary.hpp"
+#include "bench/cases/scene_reader.hpp"
 
 namespace airybench {
 namespace {
 
-class Reader {
- public:
-  explicit Reader(std::string file) : file_(std::move(file)) {}
-
-  using Setter = std::function<void(const std::string& key, const Json& value)>;
-
-  // Hands every key to its setter; unknown keys are refused. prefix: empty, or "key: ".
-  void object(const std::string& prefix, const Json& json,
-              const std::vector<std::pair<std::string, Setter>>& keys) const {
-    if (!json.is_object())
-      fail(prefix.empty() ? "the scene" : prefix.substr(0, prefix.size() - 2), json,
-           "a JSON object");
-    for (const auto& [key, value] : json.items()) {
-      const auto found = std::find_if(keys.begin(), keys.end(),
-                                      [&](const auto& known) { return known.first == key; });
-      if (found == keys.end()) {
-        std::string valid;
-        for (const auto& known : keys) valid += (valid.empty() ? "" : ", ") + known.first;
-        throw SceneError(
-            fmt::format("{}: {}{}: unknown key (allowed: {})", file_, prefix, key, valid));
-      }
-      found->second(prefix + key, value);
-    }
-  }
-  double number(const std::string& key, const Json& value) const {
-    if (!value.is_number()) fail(key, value, "a number");
-    return value.get<double>();
-  }
-  double positive(const std::string& key, const Json& value) const {
-    const double number = this->number(key, value);
-    if (!(number > 0)) fail(key, value, "a number > 0");
-    return number;
-  }
-  int whole(const std::string& key, const Json& value, int least, int most) const {
-    if (!value.is_number_integer() || value < least || value > most)
-      fail(key, value, fmt::format("a whole number from {} to {}", least, most).c_str());
-    return value.get<int>();
-  }
-  std::string text(const std::string& key, const Json& value) const {
-    if (!value.is_string()) fail(key, value, "a text");
-    return value.get<std::string>();
-  }
-  Eigen::Vector2d vector(const std::string& key, const Json& value) const {
-    if (!value.is_array() || value.size() != 2 || !value[0].is_number() || !value[1].is_number())
-      fail(key, value, "two numbers [x, y]");
-    return {value[0].get<double>(), value[1].get<double>()};
-  }
-  [[noreturn]] void fail(const std::string& key, const Json& value, const char* allowed) const {
-    throw SceneError(
-        fmt::format("{}: {}: {} (allowed: {})", file_, key, json_text(value), allowed));
-  }
-
- private:
-  std::string file_;
-};
-
 constexpr int most = 1'000'000;  // of things that are counted
 
-Material read_material(const Reader& reader, const std::string& prefix, const Json& json,
+Material read_material(const SceneReader& reader, const std::string& prefix, const Json& json,
                        Material material) {
   reader.object(
       prefix, json,
@@ -81,20 +22,21 @@ Material read_material(const Reader& reader, const std::string& prefix, const Js
   return material;
 }
 
-void read_materials(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
+void read_materials(const SceneReader& reader, const std::string& key, const Json& json,
+                    Scene& scene) {
   if (!json.is_object()) reader.fail(key, json, "an object with a body's name as each key");
   for (const auto& [body, value] : json.items())
     scene.materials[body] = read_material(reader, key + ": " + body + ": ", value, scene.material);
 }
 
 // The keys that `needed` lists must be there.
-void require(const Reader& reader, const std::string& key, const Json& json,
+void require(const SceneReader& reader, const std::string& key, const Json& json,
              const std::vector<const char*>& needed, const char* allowed) {
   for (const char* name : needed)
     if (!json.contains(name)) reader.fail(key, json, allowed);
 }
 
-MeshTransform read_mesh(const Reader& reader, const std::string& key, const Json& json) {
+MeshTransform read_mesh(const SceneReader& reader, const std::string& key, const Json& json) {
   MeshTransform mesh;
   const auto kept = [&](std::optional<int>& target, int least) {
     return [&, least](const std::string& k, const Json& v) {
@@ -136,7 +78,8 @@ MeshTransform read_mesh(const Reader& reader, const std::string& key, const Json
   return mesh;
 }
 
-void read_layers(const Reader& reader, const std::string& key, const Json& json, Scene& scene) {
+void read_layers(const SceneReader& reader, const std::string& key, const Json& json,
+                 Scene& scene) {
   Layers& layers = scene.layers;
   reader.object(
       key + ": ", json,
@@ -159,7 +102,7 @@ void read_layers(const Reader& reader, const std::string& key, const Json& json,
 }
 
 Scene from_json(const Json& json, const std::string& file) {
-  const Reader reader(file);
+  const SceneReader reader(file);
   Scene scene;
   scene.source = file;
   Json materials, layers;
@@ -200,6 +143,8 @@ Scene from_json(const Json& json, const std::string& file) {
        {"displacement_mm", vector(scene.displacement_mm)},
        {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
        {"materials", [&](const auto&, const Json& v) { materials = v; }},
+       {"boundary",
+        [&](const auto& k, const Json& v) { scene.boundary = read_boundary(reader, k, v); }},
        {"mesh", [&](const auto& k, const Json& v) { scene.mesh = read_mesh(reader, k, v); }},
        {"layers", [&](const auto&, const Json& v) { layers = v; }},
        {"group", text(scene.group)},

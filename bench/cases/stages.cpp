@@ -1,5 +1,7 @@
 #include "bench/cases/stages.hpp"
 
+#include <algorithm>
+
 namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
@@ -8,6 +10,7 @@ MeshSizes solved_sizes(const Problem& problem) {
     sizes.n_f += sizes.n_c / 2;
     sizes.n_c -= sizes.n_c / 2;
   }
+  sizes.n_f += 2 * static_cast<int>(std::ranges::count(problem.loads.rollers, true));
   return sizes;
 }
 
@@ -18,7 +21,7 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
   const bool contact = sizes.contact_edges > 0;
   const bool friction = problem.friction > 0;
   const Loads& loads = problem.loads;
-  const bool constrained = sizes.force_edges > 0 || (contact && !friction);
+  const bool constrained = solved_sizes(problem).n_f > 0;
   const bool loaded = loads.displacement_mm || loads.has_body_force();
   const bool forced = loads.traction_MPa || loads.has_body_force();
   const std::string unused = "the method does not work with the Airy function";

@@ -19,14 +19,17 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
     const Eigen::Matrix2d frame = control.frame(p);
     const int node = control.node[p];
     for (int k = 0; k < m; ++k) {
-      displacement(m * p + k) = frame.col(k).dot(solution.displacement.col(node));
+      const bool held = k == 1 && control.on_roller[p];
+      displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
       balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
     }
   }
-  const std::vector<bool> prescribed = prescribed_displacement(problem).at;
+  const PrescribedDisplacement prescribed = prescribed_displacement(problem);
+  for (const auto& [node, n] : prescribed.normal)  // what a roller gives
+    balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
   double unbalanced = 0;
-  for (std::size_t node = 0; node < prescribed.size(); ++node)
-    if (!prescribed[node])
+  for (std::size_t node = 0; node < prescribed.at.size(); ++node)
+    if (!prescribed.at[node])
       unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
 
   Verification result;

@@ -68,14 +68,14 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     on_boundary[problem.edges.of_boundary[row]] = true;
     const BoundaryRole role = mesh.boundary[row].role;
-    if (role == BoundaryRole::displacement) continue;
+    if (role == BoundaryRole::displacement && !problem.is_roller(row)) continue;
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     const EdgeFrame frame = edge_frame(a, b);
     Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
-      expected << problem.loads.traction_MPa(a, frame.normal),
-          problem.loads.traction_MPa(b, frame.normal);
+      expected << problem.loads.traction_MPa(a, frame.normal, row),
+          problem.loads.traction_MPa(b, frame.normal, row);
       expected *= frame.length_mm / 2;
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
@@ -84,8 +84,10 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
         if (m == 2) expected.col(end) += solution.F_C(m * point + 1) * frame.tangent;
       }
     }
-    unbalanced =
-        std::max(unbalanced, (walked(problem, balance, row) - expected).cwiseAbs().maxCoeff());
+    Eigen::Matrix2d off = walked(problem, balance, row) - expected;
+    if (problem.is_roller(row))  // its normal force is free
+      off = frame.tangent * (frame.tangent.transpose() * off).eval();
+    unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
   }
   for (std::size_t edge = 0; edge < balance.sum.size(); ++edge)
     if (!on_boundary[edge])
@@ -95,14 +97,11 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
 
 // ∫_{Γ_D} u0·σn.
 double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance& balance) {
-  const auto& u0 = problem.loads.displacement_mm;
-  if (!u0) return 0;
+  if (!problem.loads.displacement_mm) return 0;
   double work = 0;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const auto &a = problem.mesh.vertices[problem.mesh.boundary[row].vertices[0]],
-               &b = problem.mesh.vertices[problem.mesh.boundary[row].vertices[1]];
-    const auto [start, end] = edge_moments(u0(a), u0((a + b) / 2), u0(b));
+    const auto [start, end] = problem.prescribed_moments(row);
     const Eigen::Matrix2d force = walked(problem, balance, row);
     work += start.dot(force.col(0)) + end.dot(force.col(1));
   }

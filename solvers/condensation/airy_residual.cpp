@@ -99,35 +99,35 @@ void add_displacements(const DualSystem& system, const EdgeRows& edge, const Lon
 
 void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
   const Problem& problem = *system.problem;
-  const auto& u0 = problem.loads.displacement_mm;
-  if (!u0) return;
+  if (!problem.loads.displacement_mm) return;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const auto [va, vb] = problem.mesh.boundary[row].vertices;
-    const auto &a = problem.mesh.vertices[va], &b = problem.mesh.vertices[vb];
-    const auto [start, end] = edge_moments(u0(a), u0((a + b) / 2), u0(b));
+    const auto [start, end] = problem.prescribed_moments(row);
     LongColumn<4> u;
     u << start.cast<Long>(), end.cast<Long>();
     add_displacements(system, edge_rows(system, row), u, r);
   }
 }
 
-// Γ_F and Γ_C in the order of the rows of C_F and C_C: their residuals, and their multipliers in r.
+// Γ_F, Γ_C and rollers in the order of the rows of C_F and C_C: their residuals, and their
+// multipliers in r.
 void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answer,
                          const Eigen::VectorXd& F_C, LongSaddleVector& residual) {
   const auto& boundary = system.problem->mesh.boundary;
   int row_F = 0, row_C = 0;
-  const auto visit = [&](int row, bool contact) {
+  const auto visit = [&](int row) {
+    const EdgeCondition condition = system.problem->condition(row);
     const EdgeRows edge = edge_rows(system, row);
     const LongColumn<4> forces = edge.forces * gather(system, answer.x, edge.dofs);
     LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
     for (int end = 0; end < 2; ++end)
       for (int k = 0; k < 2; ++k) {
-        const Eigen::Vector2<Long> axis = contact
+        if (condition.component[k] == Known::displacement) continue;
+        const Eigen::Vector2<Long> axis = condition.in_frame
                                               ? (k == 0 ? edge.frame.normal : edge.frame.tangent)
                                               : Eigen::Vector2<Long>(k == 0, k == 1);
         const Long force = axis.dot(forces.segment<2>(2 * end));
-        const bool condensed = contact && (k == 0 || system.contact.components == 2);
+        const bool condensed = condition.component[k] == Known::contact_law;
         const Long lambda = condensed ? answer.lambda_C(row_C) : answer.lambda_F(row_F);
         u.segment<2>(2 * end) -= lambda * axis;
         if (condensed) {
@@ -141,9 +141,10 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
       }
     add_displacements(system, edge, u, residual.x);
   };
-  for (const BoundaryRole role : {BoundaryRole::force, BoundaryRole::contact})
+  using enum BoundaryRole;
+  for (const BoundaryRole role : {force, contact, displacement})
     for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
-      if (boundary[row].role == role) visit(row, role == BoundaryRole::contact);
+      if (boundary[row].role == role) visit(row);
 }
 
 }  // namespace

@@ -6,20 +6,21 @@
 
 namespace airybench {
 
-std::vector<bool> contact_edges(const Problem& problem) {
-  std::vector<bool> is_contact(static_cast<std::size_t>(problem.edges.count()), false);
-  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row)
-    is_contact[problem.edges.of_boundary[row]] =
-        problem.mesh.boundary[row].role == BoundaryRole::contact;
-  return is_contact;
+std::vector<bool> edges_in_frame(const Problem& problem) {
+  std::vector<bool> in_frame(static_cast<std::size_t>(problem.edges.count()), false);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    in_frame[problem.edges.of_boundary[row]] = problem.condition(row).in_frame;
+  return in_frame;
 }
 
 int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUnknowns& unknown) {
-  const Mesh& mesh = problem.mesh;
   unknown.assign(static_cast<std::size_t>(problem.edges.count()), {0, 0, 0, 0});
-  for (std::size_t row = 0; row < mesh.boundary.size(); ++row)
-    if (mesh.boundary[row].role == BoundaryRole::displacement)
-      unknown[problem.edges.of_boundary[row]].fill(prescribed_unknown);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    auto& edge = unknown[problem.edges.of_boundary[row]];
+    const EdgeCondition condition = problem.condition(row);
+    for (int k = 0; k < 2; ++k)
+      if (condition.component[k] == Known::displacement) edge[k] = edge[2 + k] = prescribed_unknown;
+  }
   // Contact unknowns are marked by −2 − row until the inner ones are counted.
   for (int p = 0; p < contact.count; ++p) {
     auto& edge = unknown[problem.edges.of_boundary[contact.boundary[p]]];
@@ -39,16 +40,22 @@ int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUn
 
 std::vector<Eigen::Vector4d> prescribed_displacements(const Problem& problem) {
   std::vector<Eigen::Vector4d> displacement;
-  const auto& u0 = problem.loads.displacement_mm;
-  if (!u0) return displacement;
+  if (!problem.loads.displacement_mm) return displacement;
+  const Mesh& mesh = problem.mesh;
   displacement.assign(static_cast<std::size_t>(problem.edges.count()), Eigen::Vector4d::Zero());
-  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
-    if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const int edge = problem.edges.of_boundary[row];
-    const auto [low, high] = problem.edges.vertices[edge];
-    const auto &a = problem.mesh.vertices[low], &b = problem.mesh.vertices[high];
-    const auto [start, end] = edge_moments(u0(a), u0((a + b) / 2), u0(b));
-    displacement[edge] << start, end;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
+    const auto [a, b] = mesh.boundary[row].vertices;
+    const auto [start, end] = problem.prescribed_moments(row);
+    auto& own = displacement[problem.edges.of_boundary[row]];
+    if (problem.is_roller(row)) {
+      const Eigen::Vector2d n = edge_frame(mesh.vertices[a], mesh.vertices[b]).normal;
+      own << n.dot(start), 0, n.dot(end), 0;
+    } else if (a < b) {
+      own << start, end;
+    } else {
+      own << end, start;
+    }
   }
   return displacement;
 }

@@ -11,8 +11,9 @@ namespace airybench {
 constexpr int prescribed_unknown = -1;
 
 // Per edge: the numbers of its four unknowns, x and y at its low vertex, x and y at its high one;
-// on Γ_C normal and tangential at its start and end. Inner unknowns first, then the contact rows
-// in the order of ContactPoints (without friction the tangential ones are inner unknowns).
+// on Γ_C and rollers normal and tangential at its start and end. Inner unknowns first, then the
+// contact rows in the order of ContactPoints (without friction the tangential ones are inner
+// unknowns).
 using EdgeUnknowns = std::vector<std::array<int, 4>>;
 
 // Numbers the unknowns of every edge; returns how many are inner ones.
@@ -22,10 +23,10 @@ int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUn
 std::array<int, 12> element_unknowns(const Problem& problem, const EdgeUnknowns& unknown,
                                      int triangle);
 
-// Per edge: is it on Γ_C?
-std::vector<bool> contact_edges(const Problem& problem);
+// Per edge: are its unknowns normal and tangential?
+std::vector<bool> edges_in_frame(const Problem& problem);
 
-// ū0 per edge, zero where nothing is prescribed; empty: all zero.
+// ū0 per edge, in its components, zero where nothing is prescribed; empty: all zero.
 std::vector<Eigen::Vector4d> prescribed_displacements(const Problem& problem);
 
 }  // namespace airybench

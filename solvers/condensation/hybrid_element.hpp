@@ -40,12 +40,12 @@ struct HybridElement {
 // How the components of EdgeUnknowns make an element's edge components: x, y at the
 // start and at the end of its walk along edge k.
 template <typename Scalar = double>
-Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool is_contact);
+Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool in_frame);
 
-// is_contact_edge: per edge. Throws Breakdown naming the triangle whose flexibility is not positive
-// definite to rounding.
+// in_frame: per edge (edges_in_frame). Throws Breakdown naming the triangle whose flexibility is
+// not positive definite to rounding.
 template <typename Scalar>
-HybridElement<Scalar> make_hybrid_element(const Problem& problem,
-                                          const std::vector<bool>& is_contact_edge, int triangle);
+HybridElement<Scalar> make_hybrid_element(const Problem& problem, const std::vector<bool>& in_frame,
+                                          int triangle);
 
 }  // namespace airybench

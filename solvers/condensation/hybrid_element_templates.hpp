@@ -8,11 +8,11 @@
 namespace airybench {
 
 template <typename Scalar>
-Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool is_contact) {
+Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool in_frame) {
   const auto& v = mesh.triangles[triangle];
   const int a = v[k], b = v[(k + 1) % 3];
   Eigen::Matrix4<Scalar> q = Eigen::Matrix4<Scalar>::Zero();
-  if (is_contact) {
+  if (in_frame) {
     const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
     q.template block<2, 1>(0, 0) = q.template block<2, 1>(2, 2) = frame.normal;
     q.template block<2, 1>(0, 1) = q.template block<2, 1>(2, 3) = frame.tangent;
@@ -26,8 +26,8 @@ Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bo
 }
 
 template <typename Scalar>
-HybridElement<Scalar> make_hybrid_element(const Problem& problem,
-                                          const std::vector<bool>& is_contact_edge, int t) {
+HybridElement<Scalar> make_hybrid_element(const Problem& problem, const std::vector<bool>& in_frame,
+                                          int t) {
   const TriangleVertices v = problem.vertices_of(t);
   const EdgeSigns outward = problem.edge_signs(t);
   const auto& compliance = problem.compliance_of(t);
@@ -55,8 +55,7 @@ HybridElement<Scalar> make_hybrid_element(const Problem& problem,
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3, edge = problem.edges.of_triangle[t][k];
     const EdgeForcesIn<Scalar> f = edge_forces<Scalar>(v.col(k), v.col(next), outward[k]);
-    const Eigen::Matrix4<Scalar> q =
-        edge_components<Scalar>(problem.mesh, t, k, is_contact_edge[edge]);
+    const Eigen::Matrix4<Scalar> q = edge_components<Scalar>(problem.mesh, t, k, in_frame[edge]);
     const Eigen::Vector4<Scalar> particular =
         element_edge_forces<Scalar>(v, element.particular, k).reshaped();
     const std::array<int, 7> dofs = {3 * k,        3 * k + 1,    3 * k + 2, 3 * next,

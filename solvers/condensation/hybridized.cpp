@@ -27,7 +27,7 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
 
 UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
                                    const StressField& stress, const Eigen::VectorXd& F_C) {
-  const std::vector<bool> is_contact = contact_edges(problem);
+  const std::vector<bool> in_frame = edges_in_frame(problem);
   UnbalancedForces result;
   result.r.setZero(system.b.size());
   add_tractions(problem, system.unknown, result.r);
@@ -36,7 +36,7 @@ UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSyste
     for (int k = 0; k < 3; ++k) {
       const int edge = problem.edges.of_triangle[t][k];
       const Eigen::Vector4d forces =
-          edge_components(problem.mesh, t, k, is_contact[edge]).transpose() *
+          edge_components(problem.mesh, t, k, in_frame[edge]).transpose() *
           element_edge_forces(problem.vertices_of(t), stress[t], k).reshaped();
       result.largest = std::max(result.largest, forces.cwiseAbs().maxCoeff());
       for (int i = 0; i < 4; ++i)

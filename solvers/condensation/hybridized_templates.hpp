@@ -20,7 +20,7 @@ void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::V
     for (int end = 0; end < 2; ++end) {
       const auto& at = problem.mesh.vertices[problem.edges.vertices[edge][end]];
       const Eigen::Vector2d force =
-          frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal);
+          frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal, static_cast<int>(row));
       for (int k = 0; k < 2; ++k) b(unknown[edge][2 * end + k]) += force(k);
     }
   }
@@ -39,13 +39,13 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   system.n_c = contact.size();
   const int n = number_unknowns(problem, contact, system.unknown) + system.n_c;
   system.displacement = prescribed_displacements(problem);
-  const std::vector<bool> is_contact = contact_edges(problem);
+  const std::vector<bool> in_frame = edges_in_frame(problem);
   system.b = Eigen::VectorX<Scalar>::Zero(n);
   std::vector<Eigen::Triplet<Scalar>> entries;
   entries.reserve(78 * problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const auto element = make_hybrid_element<Scalar>(problem, is_contact, t);
+    const auto element = make_hybrid_element<Scalar>(problem, in_frame, t);
     const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
     const Eigen::Matrix<Scalar, 12, 12> K = element.stiffness();
     Eigen::Matrix<Scalar, 12, 1> f = element.load();  // f_e + K_e ū0
@@ -73,7 +73,7 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
 template <typename Scalar, typename Visit>
 void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
-  const std::vector<bool> is_contact = contact_edges(problem);
+  const std::vector<bool> in_frame = edges_in_frame(problem);
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
     Eigen::Matrix<Scalar, 12, 1> local;
@@ -84,7 +84,7 @@ void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& sy
       else
         local(k) = system.displacement.empty() ? 0 : system.displacement[edge](k % 4);
     }
-    const auto element = make_hybrid_element<Scalar>(problem, is_contact, t);
+    const auto element = make_hybrid_element<Scalar>(problem, in_frame, t);
     visit(t, element, local, unknown, element.stress_at(local));
   }
 }

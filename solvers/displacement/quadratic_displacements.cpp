@@ -7,42 +7,55 @@ namespace {
 
 // Numbers the unknowns, those of the control points last; returns how many there are.
 int number_unknowns(QuadraticDisplacements& system) {
-  constexpr int not_yet = -2;
+  constexpr int not_yet = -2, later = -3;
   const ContactPoints& law = system.control.law;
   system.unknown.assign(system.given.at.size(), {not_yet, not_yet});
   for (std::size_t node = 0; node < system.unknown.size(); ++node)
     if (system.given.at[node]) system.unknown[node].fill(QuadraticDisplacements::prescribed);
-  std::vector<bool> is_contact_normal(system.unknown.size(), false);
-  for (const int node : system.control.node) is_contact_normal[node] = true;
-
+  for (const auto& [node, normal] : system.given.normal)
+    system.unknown[node][0] = QuadraticDisplacements::prescribed;
+  for (int p = 0; p < law.count; ++p) {
+    auto& unknown = system.unknown[system.control.node[p]];
+    unknown[0] = later;
+    unknown[1] = system.control.on_roller[p] ? QuadraticDisplacements::prescribed
+                 : law.components == 2       ? later
+                                             : not_yet;
+  }
   int count = 0;
-  for (std::size_t node = 0; node < system.unknown.size(); ++node)
-    for (int k = 0; k < 2; ++k) {
-      const bool is_contact = is_contact_normal[node] && k < law.components;
-      if (system.unknown[node][k] == not_yet && !is_contact) system.unknown[node][k] = count++;
+  for (auto& node : system.unknown)
+    for (int& number : node)
+      if (number == not_yet) number = count++;
+  for (int p = 0; p < law.count; ++p) {
+    const int node = system.control.node[p];
+    for (int k = 0; k < law.components; ++k, ++count) {
+      if (system.unknown[node][k] == later)
+        system.unknown[node][k] = count;
+      else
+        system.held_tangent[node] = count;
     }
-  for (const int node : system.control.node)
-    for (int k = 0; k < law.components; ++k) system.unknown[node][k] = count++;
+  }
   return count;
 }
 
-// Per node: its control point, or none.
-constexpr int none = -1;
-std::vector<int> points_of_nodes(const QuadraticDisplacements& system) {
-  std::vector<int> point(system.unknown.size(), none);
-  for (int p = 0; p < system.control.law.count; ++p) point[system.control.node[p]] = p;
-  return point;
+// The directions of the unknowns of nodes where they are not x and y.
+std::map<int, Eigen::Matrix2d> frames(const QuadraticDisplacements& system) {
+  std::map<int, Eigen::Matrix2d> frame;
+  for (int p = 0; p < system.control.law.count; ++p)
+    frame[system.control.node[p]] = system.control.frame(p);
+  for (const auto& [node, n] : system.given.normal)
+    frame.try_emplace(node, (Eigen::Matrix2d() << n.x(), -n.y(), n.y(), n.x()).finished());
+  return frame;
 }
 
 // Adds forces at the nodes to a vector of the unknowns.
-void add_nodal(const Eigen::Matrix2Xd& forces, const std::vector<int>& point,
+void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& frame,
                const QuadraticDisplacements& system, Eigen::VectorXd& b) {
-  for (Eigen::Index node = 0; node < forces.cols(); ++node) {
-    if (system.given.at[node]) continue;
-    Eigen::Vector2d force = forces.col(node);
-    if (point[node] != none) force = system.control.frame(point[node]).transpose() * force;
-    for (int k = 0; k < 2; ++k) b(system.unknown[node][k]) += force(k);
-  }
+  for (const auto& [node, axes] : frame)
+    forces.col(node) = axes.transpose() * forces.col(node).eval();
+  for (Eigen::Index node = 0; node < forces.cols(); ++node)
+    for (int k = 0; k < 2; ++k)
+      if (const int number = system.unknown[node][k]; number != QuadraticDisplacements::prescribed)
+        b(number) += forces(k, node);
 }
 
 }  // namespace
@@ -57,7 +70,7 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
   system.control = control_points(problem);
   system.given = prescribed_displacement(problem);
   const int n = number_unknowns(system);
-  const std::vector<int> point = points_of_nodes(system);
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
   system.b = Eigen::VectorXd::Zero(n);
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(78 * problem.mesh.triangles.size());
@@ -68,10 +81,12 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
     std::array<int, 12> unknown;
     Eigen::Matrix<double, 12, 1> given;
     for (int m = 0; m < 6; ++m) {
-      auto columns = strain.middleCols<2>(2 * m);
-      if (point[nodes[m]] != none)
-        columns = (columns * system.control.frame(point[nodes[m]])).eval();
       given.segment<2>(2 * m) = system.given.u.col(nodes[m]);
+      if (const auto own = frame.find(nodes[m]); own != frame.end()) {
+        auto columns = strain.middleCols<2>(2 * m);
+        columns = (columns * own->second).eval();
+        given.segment<2>(2 * m) = own->second.transpose() * system.given.u.col(nodes[m]);
+      }
       for (int k = 0; k < 2; ++k) unknown[2 * m + k] = system.unknown[nodes[m]][k];
     }
     const QuadraticStiffness K =
@@ -79,7 +94,12 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
     const Eigen::Matrix<double, 12, 1> force = K * given;
     for (int j = 0; j < 12; ++j) {
       const int column = unknown[j];
-      if (column == QuadraticDisplacements::prescribed) continue;
+      if (column == QuadraticDisplacements::prescribed) {
+        const auto row = system.held_tangent.find(nodes[j / 2]);
+        if (j % 2 == 1 && row != system.held_tangent.end())
+          entries.emplace_back(row->second, row->second, K(j, j));
+        continue;
+      }
       system.b(column) -= force(j);
       for (int i = 0; i < 12; ++i)
         if (unknown[i] >= column)  // the lower triangle, and nothing prescribed
@@ -87,7 +107,7 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
     }
   }
   if (problem.loads.has_body_force() || problem.loads.traction_MPa)
-    add_nodal(nodal_loads(problem), point, system, system.b);
+    add_nodal(nodal_loads(problem), frame, system, system.b);
   system.K.resize(n, n);
   system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
@@ -95,12 +115,19 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
 
 DisplacementField displacement_field(const QuadraticDisplacements& system,
                                      const Eigen::VectorXd& unknowns) {
-  const std::vector<int> point = points_of_nodes(system);
   DisplacementField u = system.given.u;
-  for (Eigen::Index node = 0; node < u.cols(); ++node) {
-    if (system.given.at[node]) continue;
-    for (int k = 0; k < 2; ++k) u(k, node) = unknowns(system.unknown[node][k]);
-    if (point[node] != none) u.col(node) = system.control.frame(point[node]) * u.col(node).eval();
+  const auto set = [&](int node, auto&& components) {
+    for (int k = 0; k < 2; ++k)
+      if (const int number = system.unknown[node][k]; number != QuadraticDisplacements::prescribed)
+        components(k) = unknowns(number);
+  };
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
+  for (int node = 0; node < static_cast<int>(u.cols()); ++node)
+    if (!frame.contains(node)) set(node, u.col(node));
+  for (const auto& [node, axes] : frame) {
+    Eigen::Vector2d local = axes.transpose() * u.col(node);
+    set(node, local);
+    u.col(node) = axes * local;
   }
   return u;
 }
@@ -108,7 +135,7 @@ DisplacementField displacement_field(const QuadraticDisplacements& system,
 Eigen::VectorXd unbalanced_forces(const Problem& problem, const QuadraticDisplacements& system,
                                   const NodalForces& of_stresses, const Eigen::VectorXd& F_C) {
   Eigen::VectorXd r = Eigen::VectorXd::Zero(system.b.size());
-  add_nodal(nodal_loads(problem) - of_stresses.sum, points_of_nodes(system), system, r);
+  add_nodal(nodal_loads(problem) - of_stresses.sum, frames(system), system, r);
   r.tail(system.n_c()) += F_C;
   return r;
 }

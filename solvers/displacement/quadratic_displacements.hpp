@@ -14,6 +14,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "assembly/control_points.hpp"
@@ -24,8 +25,12 @@ struct QuadraticDisplacements {
   static constexpr int prescribed = -1;
   ControlPoints control;
   PrescribedDisplacement given;
-  // Per node: the numbers of its two unknowns, x and y; at control points normal and tangential.
+  // Per node: the numbers of its two unknowns, x and y; at control points and on rollers normal and
+  // tangential.
   std::vector<std::array<int, 2>> unknown;
+  // Control points on a roller: the row of the tangential coefficient, which is prescribed. It
+  // stands alone in K, so that its force and r_t are zero.
+  std::map<int, int> held_tangent;
   SparseColumns K;                                // lower triangle, N/mm
   Eigen::VectorXd b;                              // N, without the contact forces
   int n_c() const { return control.law.size(); }  // the last unknowns

@@ -79,7 +79,7 @@ TEST(DisplacementField, StiffnessIsSymmetricWithTheRigidMotionsAsItsKernel) {
 TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
   Loads loads;
   loads.body_force_N_per_mm3 = {3, -1};
-  loads.traction_MPa = [](const Eigen::Vector2d& x, const Eigen::Vector2d& n) {
+  loads.traction_MPa = [](const Eigen::Vector2d& x, const Eigen::Vector2d& n, int) {
     return Eigen::Vector2d(2 * x.x() + n.y(), 1 - x.y());
   };
   Mesh mesh = small_tooth(5, 4);
@@ -98,7 +98,7 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
       const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
       const Eigen::Vector2d s = b - a, n = Eigen::Vector2d(s.y(), -s.x()).normalized();
       const auto at = [&](const Eigen::Vector2d& x) {
-        return loads.traction_MPa(x, n).dot(motion(x));
+        return loads.traction_MPa(x, n, 0).dot(motion(x));
       };
       work += s.norm() / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
     }

@@ -44,11 +44,10 @@ std::vector<ExactField> exact_fields(double E, double nu) {
 
 Loads loads_of(const ExactField& field) {
   Loads loads;
-  loads.displacement_mm = field.displacement;
+  loads.displacement_mm = [u = field.displacement](const Eigen::Vector2d& x, int) { return u(x); };
   loads.traction_MPa = [stress = field.stress](const Eigen::Vector2d& x,
-                                               const Eigen::Vector2d& normal) {
-    return traction(stress(x), normal);
-  };
+                                               const Eigen::Vector2d& normal,
+                                               int) { return traction(stress(x), normal); };
   loads.body_force_N_per_mm3 = field.body_force;
   return loads;
 }

@@ -1,7 +1,9 @@
 #include "tests/support/small_meshes.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace airybench::testing {
 namespace {
@@ -70,6 +72,24 @@ Mesh small_tooth(int nx, int ny) {
   };
   const auto every_cell = [](int, int) { return true; };
   return mesh_of_cells("small tooth", nx, ny, every_cell, place);
+}
+
+Mesh small_block(int nx, int ny, double turn_degrees) {
+  const auto place = [&](int i, int j, double shift) {
+    return Eigen::Vector2d(10.0 * (i + shift) / nx, 10.0 * (j - shift) / ny);
+  };
+  const auto every_cell = [](int, int) { return true; };
+  Mesh mesh = mesh_of_cells("small block", nx, ny, every_cell, place);
+  for (BoundaryEdge& edge : mesh.boundary) {
+    const bool is_top = mesh.vertices[edge.vertices[0]].y() == 10;
+    if (edge.role == BoundaryRole::displacement) edge.group = boundary_group(mesh, "root");
+    if (edge.role == BoundaryRole::force)
+      edge.group = boundary_group(mesh, is_top ? "top" : "bottom");
+  }
+  const Eigen::Matrix2d turn =
+      Eigen::Rotation2Dd(turn_degrees * std::numbers::pi / 180).toRotationMatrix();
+  for (Eigen::Vector2d& x : mesh.vertices) x = turn * x;
+  return mesh;
 }
 
 Mesh small_rack(int teeth, int nx, int ny) {

@@ -9,6 +9,10 @@ namespace airybench::testing {
 // little (deterministically) so that nothing holds by symmetry. Roles as for the generated meshes.
 Mesh small_tooth(int nx, int ny);
 
+// A block 10 mm square as such cells, turned about the origin: "displacement:root" on its side x =
+// 0, contact on x = 10, "force:bottom" and "force:top" on y = 0 and 10.
+Mesh small_block(int nx, int ny, double turn_degrees);
+
 // So many of these teeth side by side on a block, as in the documentation's rack.
 Mesh small_rack(int teeth, int nx, int ny);
 

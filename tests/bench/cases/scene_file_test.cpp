@@ -91,6 +91,42 @@ TEST_F(SceneFile, TransformationsAndLayersAreRead) {
   EXPECT_EQ(scene.layer_materials[1].poisson, 0.25);  // the scene's own
 }
 
+TEST_F(SceneFile, BoundaryGroupsAreRead) {
+  const Scene scene = read(R"({ "boundary": {
+    "force:top": { "pressure_MPa": { "at_mm": [[0, 1], [4, 1]], "values": [2, 6] } },
+    "force": { "traction_MPa": [3, 4] },
+    "displacement:left": { "support": "normal", "displacement_mm": [0.5, 0] },
+    "displacement": { "support": "full" } } })");
+  ASSERT_EQ(scene.boundary.size(), 4u);
+  EXPECT_EQ(scene.boundary.at("force:top").pressure_MPa.value().at({1, 5}), 3);
+  EXPECT_EQ(scene.boundary.at("force").traction_MPa.value().at({7, 7}), Eigen::Vector2d(3, 4));
+  const BoundaryValues& left = scene.boundary.at("displacement:left");
+  EXPECT_EQ(left.support, BoundaryValues::Support::normal);
+  EXPECT_EQ(left.displacement_mm.value().at({0, 0}), Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(scene.boundary.at("displacement").support, BoundaryValues::Support::full);
+}
+
+TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
+  EXPECT_EQ(complaint(R"({"boundary": []})"),
+            "boundary: [] (allowed: an object with a boundary group as each key)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure": 3}}})"),
+            "boundary: force: pressure: unknown key (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm, support)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": [1, 2]}}})"),
+            "boundary: force: pressure_MPa: [1,2] (allowed: a number)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": 3}}})"),
+            "boundary: force: traction_MPa: 3 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": {"values": [[1, 2], [3, 4]]}}}})"),
+            "boundary: force: traction_MPa: {\"values\":[[1,2],[3,4]]} (allowed: {\"at_mm\": "
+            "[[x, y], [x, y]], \"values\": [..., ...]}, both given)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": {"at_mm": [[1, 2]]}}}})"),
+            "boundary: force: pressure_MPa: at_mm: [[1,2]] (allowed: a list of two)");
+  EXPECT_EQ(complaint(R"({"boundary": {"displacement": {"support": "roller"}}})"),
+            "boundary: displacement: support: \"roller\" (allowed: \"full\" or \"normal\")");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact:tip": {"pressure_MPa": 3}}})"),
+            "boundary: contact:tip: pressure_MPa (allowed: on a force boundary)");
+}
+
 TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
   EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
   EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),

@@ -169,7 +169,7 @@ TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
 
 TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {
   auto problem = std::make_shared<Problem>(*posed_.problem);
-  problem->loads.displacement_mm = [](const Eigen::Vector2d&) -> Eigen::Vector2d {
+  problem->loads.displacement_mm = [](const Eigen::Vector2d&, int) -> Eigen::Vector2d {
     die_of(SIGSEGV);
     return Eigen::Vector2d::Zero();
   };

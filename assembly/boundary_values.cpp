@@ -1,0 +1,127 @@
+#include "assembly/boundary_values.hpp"
+
+#include <cmath>
+#include <memory>
+#include <set>
+
+#include "assembly/edge_forces.hpp"
+#include "mesh/transform_error.hpp"
+
+namespace airybench {
+namespace {
+
+bool is_finite(double value) { return std::isfinite(value); }
+bool is_finite(const Eigen::Vector2d& value) { return value.allFinite(); }
+bool is_zero(double value) { return value == 0; }
+bool is_zero(const Eigen::Vector2d& value) { return value.isZero(0); }
+
+template <typename Value>
+void check(const std::string& key, const std::optional<LinearValue<Value>>& given) {
+  if (!given) return;
+  for (const Value& value : given->values)
+    if (!is_finite(value)) refuse(key, shown(value), "(allowed: finite numbers)");
+  for (const Eigen::Vector2d& point : given->at_mm)
+    if (!point.allFinite()) refuse(key + ": at_mm", shown(point), "(allowed: finite numbers)");
+  if ((given->at_mm[1] - given->at_mm[0]).squaredNorm() == 0)
+    refuse(key + ": at_mm", shown(given->at_mm[0]), "twice (allowed: two different points)");
+}
+
+template <typename Value>
+bool acts(const std::optional<LinearValue<Value>>& given) {
+  return given && !(is_zero(given->values[0]) && is_zero(given->values[1]));
+}
+
+// Refuses keys that are not `role`'s.
+void check_role(const std::string& label, BoundaryRole role, const BoundaryValues& given) {
+  const auto only = [&](BoundaryRole of, const char* key, bool is_given) {
+    if (!is_given || role == of) return;
+    const std::string_view name = boundary_role_names[static_cast<std::size_t>(of)];
+    throw TransformError(label + ": " + key + " (allowed: on a " + std::string(name) +
+                         " boundary)");
+  };
+  only(BoundaryRole::force, "traction_MPa", given.traction_MPa.has_value());
+  only(BoundaryRole::force, "pressure_MPa", given.pressure_MPa.has_value());
+  only(BoundaryRole::displacement, "displacement_mm", given.displacement_mm.has_value());
+  only(BoundaryRole::displacement, "support", given.support.has_value());
+  if (given.traction_MPa && given.pressure_MPa)
+    throw TransformError(label + ": traction_MPa and pressure_MPa (allowed: one of them)");
+}
+
+void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
+  std::set<std::string> labels;
+  for (const BoundaryEdge& edge : mesh.boundary) labels.insert(boundary_label(mesh, edge));
+  std::string valid;
+  for (const std::string& label : labels) valid += (valid.empty() ? "" : ", ") + label;
+  for (const auto& [label, values] : conditions)
+    if (!labels.contains(label))
+      throw TransformError(label + ": no such group in the mesh " + mesh.name +
+                           " (its groups: " + valid + ")");
+}
+
+// Refuses rollers that are all parallel: every edge holds a body's rotation and one translation.
+void check_held(const Mesh& mesh, const std::vector<bool>& rollers) {
+  std::optional<Eigen::Vector2d> along;  // what the rollers so far leave free
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
+    if (!rollers[row]) return;
+    const auto [a, b] = mesh.boundary[row].vertices;
+    const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
+    if (!along) along = frame.tangent;
+    if (std::abs(frame.normal.dot(*along)) > straight_roller) return;
+  }
+  if (along->x() < -straight_roller || (along->x() < straight_roller && along->y() < 0))
+    *along *= -1;
+  const auto tidy = [](double x) { return std::abs(x) < straight_roller ? 0 : x; };
+  throw TransformError("support: normal leaves the body free to move along " +
+                       shown(Eigen::Vector2d(along->unaryExpr(tidy))) +
+                       " (allowed: supports that hold it; contact does not count)");
+}
+
+}  // namespace
+
+void check_values(const BoundaryConditions& conditions) {
+  for (const auto& [label, given] : conditions) {
+    check(label + ": traction_MPa", given.traction_MPa);
+    check(label + ": pressure_MPa", given.pressure_MPa);
+    check(label + ": displacement_mm", given.displacement_mm);
+    // A label that is none is no group of the mesh; which are, the mesh will say.
+    if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);
+  }
+}
+
+void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
+           const Mesh& mesh, Loads& loads) {
+  check_labels(conditions, mesh);
+  auto of_row = std::make_shared<std::vector<BoundaryValues>>(mesh.boundary.size());
+  const LinearValue<Eigen::Vector2d> everywhere{{displacement_mm, displacement_mm}};
+  bool moved = false, pulled = false, rolling = false;
+  std::vector<bool> rollers(mesh.boundary.size(), false);
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
+    BoundaryValues& own = (*of_row)[row];
+    const auto given = conditions.find(boundary_label(mesh, mesh.boundary[row]));
+    if (given != conditions.end()) own = given->second;
+    if (mesh.boundary[row].role == BoundaryRole::displacement && !own.displacement_mm)
+      own.displacement_mm = everywhere;
+    moved |= acts(own.displacement_mm);
+    pulled |= acts(own.traction_MPa) || acts(own.pressure_MPa);
+    rollers[row] = own.support == BoundaryValues::Support::normal;
+    rolling |= rollers[row];
+  }
+  if (moved)
+    loads.displacement_mm = [of_row](const Eigen::Vector2d& x, int row) {
+      return (*of_row)[static_cast<std::size_t>(row)].displacement_mm->at(x);
+    };
+  if (pulled)
+    loads.traction_MPa = [of_row](const Eigen::Vector2d& x, const Eigen::Vector2d& normal,
+                                  int row) -> Eigen::Vector2d {
+      const BoundaryValues& own = (*of_row)[static_cast<std::size_t>(row)];
+      if (own.traction_MPa) return own.traction_MPa->at(x);
+      if (own.pressure_MPa) return -own.pressure_MPa->at(x) * normal;
+      return Eigen::Vector2d::Zero();
+    };
+  if (!rolling) return;
+  check_held(mesh, rollers);
+  loads.rollers = std::move(rollers);
+}
+
+}  // namespace airybench

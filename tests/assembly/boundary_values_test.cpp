@@ -1,0 +1,175 @@
+// Tractions and supports by boundary groups: what they become, and what is refused.
+#include "assembly/boundary_values.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/dual_system.hpp"
+#include "assembly/scene.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::boundary_values_test {
+namespace {
+
+using Vector = LinearValue<Eigen::Vector2d>;
+using Support = BoundaryValues::Support;
+
+Vector constant(double x, double y) { return {{Eigen::Vector2d(x, y), Eigen::Vector2d(x, y)}}; }
+
+TEST(BoundaryValues, ALinearValueIsLinearAlongItsPointsAndConstantAcross) {
+  const LinearValue<double> value{{10, 30}, {Eigen::Vector2d(1, 1), Eigen::Vector2d(3, 1)}};
+  EXPECT_EQ(value.at({1, 1}), 10);
+  EXPECT_EQ(value.at({2, 7}), 20);
+  EXPECT_EQ(value.at({4, -3}), 40);  // and beyond
+  EXPECT_EQ(constant(2, 3).at({8, 9}), Eigen::Vector2d(2, 3));
+}
+
+TEST(BoundaryValues, GroupsHaveTheirOwnAndTheRestTheScenes) {
+  Scene scene;
+  scene.displacement_mm = {0.5, 0.25};
+  scene.boundary["displacement:root"].displacement_mm =
+      Vector{{Eigen::Vector2d(1, 0), Eigen::Vector2d(3, 0)},
+             {Eigen::Vector2d(0, 0), Eigen::Vector2d(0, 10)}};
+  scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{7, 7}};
+  scene.boundary["force:bottom"].traction_MPa = constant(1, 2);
+  Mesh mesh = testing::small_block(4, 4, 0);
+  for (BoundaryEdge& edge : mesh.boundary)  // half of the root keeps the plain name
+    if (boundary_label(mesh, edge) == "displacement:root" &&
+        mesh.vertices[edge.vertices[0]].y() > 5.1)
+      edge.group = BoundaryEdge::no_group;
+  const Problem problem = pose(scene, mesh);
+  const auto u0 = [&](const Eigen::Vector2d& x, int row) -> Eigen::Vector2d {
+    return problem.motion.at(x) + problem.loads.displacement_mm(x, row);
+  };
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const std::string label = boundary_label(mesh, mesh.boundary[row]);
+    const Eigen::Vector2d x(2, 5), n(0, 1);
+    const auto& loads = problem.loads;
+    if (label == "displacement:root") {
+      EXPECT_LT((u0(x, row) - Eigen::Vector2d(2, 0)).norm(), 1e-15);
+    } else if (label == "displacement") {
+      EXPECT_LT((u0(x, row) - Eigen::Vector2d(0.5, 0.25)).norm(), 1e-15);
+    } else if (label == "force:top") {
+      EXPECT_EQ(loads.traction_MPa(x, n, row), -7 * n);
+    } else if (label == "force:bottom") {
+      EXPECT_EQ(loads.traction_MPa(x, n, row), Eigen::Vector2d(1, 2));
+    }
+    EXPECT_FALSE(problem.is_roller(row));
+  }
+  EXPECT_TRUE(problem.loads.rollers.empty());
+}
+
+TEST(BoundaryValues, WhatIsZeroCostsNothing) {
+  Scene scene;
+  scene.displacement_mm.setZero();
+  scene.boundary["force:top"].traction_MPa = constant(0, 0);
+  const Problem problem = pose(scene, testing::small_block(4, 4, 0));
+  EXPECT_FALSE(problem.loads.displacement_mm);
+  EXPECT_FALSE(problem.loads.traction_MPa);
+}
+
+TEST(BoundaryValues, ARollersTangentialForcesAreRowsOfTheForcesThatAreKnown) {
+  Scene scene;
+  const Mesh mesh = testing::small_block(4, 3, 0);  // three edges at the root, four at the bottom
+  const auto rows = [&] {
+    const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
+    const DualSystem system = assemble(problem);
+    return std::pair(system.n_f(), system.n_c());
+  };
+  EXPECT_EQ(rows(), std::pair(4 * 8, 4 * 3));
+  scene.friction = 0;
+  EXPECT_EQ(rows(), std::pair(4 * 8 + 2 * 3, 2 * 3));
+  scene.boundary["displacement:root"].support = Support::normal;
+  Mesh held = mesh;
+  for (BoundaryEdge& edge : held.boundary)
+    if (boundary_label(held, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
+  scene.boundary["displacement:bottom"].support = Support::normal;
+  const auto problem = std::make_shared<const Problem>(pose(scene, held));
+  EXPECT_EQ(assemble(problem).n_f(), 4 * 4 + 2 * 3 + 2 * 3 + 2 * 4);
+}
+
+std::string complaint(const std::function<void(Scene&)>& spoil,
+                      Mesh mesh = testing::small_block(4, 4, 0)) {
+  Scene scene;
+  scene.source = "s.json";
+  spoil(scene);
+  try {
+    pose(scene, std::move(mesh));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+TEST(BoundaryValues, ContradictionsAreRefused) {
+  const auto with = [](const std::string& label, const std::function<void(BoundaryValues&)>& give) {
+    return complaint([&](Scene& scene) { give(scene.boundary[label]); });
+  };
+  const auto pull = [](BoundaryValues& v) { v.traction_MPa = constant(1, 0); };
+  const auto press = [](BoundaryValues& v) { v.pressure_MPa = LinearValue<double>{{1, 1}}; };
+  const auto move = [](BoundaryValues& v) { v.displacement_mm = constant(1, 0); };
+  const auto roll = [](BoundaryValues& v) { v.support = Support::normal; };
+  const std::string groups =
+      ": no such group in the mesh small block (its groups: contact, displacement:root, "
+      "force:bottom, force:top)";
+  EXPECT_EQ(with("force:tip", pull), "s.json: boundary: force:tip" + groups);
+  EXPECT_EQ(with("top", press), "s.json: boundary: top" + groups);
+  EXPECT_EQ(with("displacement:root", pull),
+            "s.json: boundary: displacement:root: traction_MPa (allowed: on a force boundary)");
+  EXPECT_EQ(with("contact", press),
+            "s.json: boundary: contact: pressure_MPa (allowed: on a force boundary)");
+  EXPECT_EQ(with("force:top", move),
+            "s.json: boundary: force:top: displacement_mm (allowed: on a displacement boundary)");
+  EXPECT_EQ(with("force:top", roll),
+            "s.json: boundary: force:top: support (allowed: on a displacement boundary)");
+  EXPECT_EQ(with("force:top",
+                 [&](BoundaryValues& v) {
+                   pull(v);
+                   press(v);
+                 }),
+            "s.json: boundary: force:top: traction_MPa and pressure_MPa (allowed: one of them)");
+  EXPECT_EQ(
+      with("force:top", [](BoundaryValues& v) { v.traction_MPa = constant(std::nan(""), 0); }),
+      "s.json: boundary: force:top: traction_MPa: [nan, 0] (allowed: finite numbers)");
+  EXPECT_EQ(with("force:top",
+                 [](BoundaryValues& v) {
+                   v.pressure_MPa =
+                       LinearValue<double>{{1, 2}, {Eigen::Vector2d(3, 4), Eigen::Vector2d(3, 4)}};
+                 }),
+            "s.json: boundary: force:top: pressure_MPa: at_mm: [3, 4] twice (allowed: two "
+            "different points)");
+}
+
+TEST(BoundaryValues, ABodyThatIsNotHeldIsRefusedAndItsFreeMotionNamed) {
+  const auto roll = [](Scene& scene) {
+    scene.boundary["displacement:root"].support = Support::normal;
+  };
+  const std::string allowed = " (allowed: supports that hold it; contact does not count)";
+  EXPECT_EQ(complaint(roll),
+            "s.json: boundary: support: normal leaves the body free to move along "
+            "[0, 1]" +
+                allowed);
+  EXPECT_EQ(
+      complaint(roll, testing::small_block(4, 4, 90)),
+      "s.json: boundary: support: normal leaves the body free to move along [1, 0]" + allowed);
+  const std::string turned = complaint(roll, testing::small_block(4, 4, 45));
+  EXPECT_TRUE(
+      turned.starts_with("s.json: boundary: support: normal leaves the body free to move "
+                         "along [0.707107, -0.707107]"))
+      << turned;
+
+  // Another roller across, or one edge that is held fully, is enough.
+  Mesh held = testing::small_block(4, 4, 30);
+  for (BoundaryEdge& edge : held.boundary)
+    if (boundary_label(held, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
+  EXPECT_EQ(complaint(roll, held), "no complaint");
+  EXPECT_EQ(complaint(
+                [&](Scene& scene) {
+                  roll(scene);
+                  scene.boundary["displacement:bottom"].support = Support::normal;
+                },
+                held),
+            "no complaint");
+}
+
+}  // namespace
+}  // namespace airybench::boundary_values_test

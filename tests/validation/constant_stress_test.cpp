@@ -1,0 +1,183 @@
+// Blocks in constant stress against a flat wall: every method has the closed form to rounding.
+//
+// In the block's own axes (x across the wall, at x = L; y along it) the stress is (−p, s, τ) and,
+// with ε = C σ,
+//   u_x = ε_xx (x − L),   u_y = 2 ε_xy (x − L) + ε_yy y + δ
+// Stick: δ = 0, ε_yy = 0, |τ| ≤ μ p. Slip: |τ| = μ p, u_y on the wall opposed to it.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <numbers>
+
+#include "assembly/displacement_field.hpp"
+#include "assembly/scene.hpp"
+#include "bench/judging/verifier.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/method_names.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::constant_stress_test {
+namespace {
+
+constexpr double length = 10, pressure = 80, mu = 0.3;  // mm, MPa
+const Material material{5000, 0.35};
+
+struct Block {
+  const char* what;
+  double shear;     // τ, MPa
+  double slip;      // δ, mm
+  bool free_sides;  // s = 0; else ε_yy = 0
+  double turn;      // degrees
+  Plane plane;
+};
+
+std::vector<Block> blocks() {
+  std::vector<Block> all;
+  for (const Plane plane : {Plane::strain, Plane::stress})
+    for (const double turn : {0., 33., 90., 211.})
+      for (const Block& block :
+           {Block{"stick", 0.5 * mu * pressure, 0, false, turn, plane},
+            Block{"limit", mu * pressure, 0, false, turn, plane},
+            Block{"slip", mu * pressure, -0.4, false, turn, plane},
+            Block{"slip back", -mu * pressure, 0.4, false, turn, plane},
+            Block{"slip of a block that widens", mu * pressure, -0.4, true, turn, plane}})
+        all.push_back(block);
+  return all;
+}
+
+struct Exact {
+  Eigen::Matrix2d turn;
+  Eigen::Vector3d own_stress, strain;  // in the block's axes
+  double slip;
+
+  explicit Exact(const Block& block)
+      : turn(Eigen::Rotation2Dd(block.turn * std::numbers::pi / 180).toRotationMatrix()),
+        slip(block.slip) {
+    const Eigen::Matrix3d c = compliance(material, block.plane);
+    const double s = block.free_sides ? 0 : c(1, 0) * pressure / c(1, 1);
+    own_stress << -pressure, s, block.shear;
+    strain = c * own_stress;
+  }
+  Eigen::Vector3d stress() const {
+    Eigen::Matrix2d own;
+    own << own_stress(0), own_stress(2), own_stress(2), own_stress(1);
+    const Eigen::Matrix2d turned = turn * own * turn.transpose();
+    return {turned(0, 0), turned(1, 1), turned(0, 1)};
+  }
+  Eigen::Vector2d displacement(const Eigen::Vector2d& x) const {
+    const Eigen::Vector2d own = turn.transpose() * x;
+    return turn * Eigen::Vector2d(strain(0) * (own.x() - length),
+                                  strain(2) * (own.x() - length) + strain(1) * own.y() + slip);
+  }
+};
+
+Scene scene_of(const Block& block, const Exact& exact) {
+  Scene scene;
+  scene.material = material;
+  scene.plane = block.plane;
+  scene.friction = mu;
+  scene.crown_radius_mm.reset();
+  const std::array<Eigen::Vector2d, 2> root = {exact.turn * Eigen::Vector2d(0, 0),
+                                               exact.turn * Eigen::Vector2d(0, length)};
+  scene.boundary["displacement:root"].displacement_mm = {
+      {exact.displacement(root[0]), exact.displacement(root[1])}, root};
+  for (const auto& [label, side] : {std::pair("force:top", 1), std::pair("force:bottom", -1)}) {
+    const Eigen::Vector2d t =
+        traction(exact.stress(), Eigen::Vector2d(exact.turn * Eigen::Vector2d(0, side)));
+    scene.boundary[label].traction_MPa = {{t, t}};
+  }
+  return scene;
+}
+
+RunControl control_of(const Method& method) {
+  RunControl control;
+  if (method.is_tightened()) control.tolerance = 1e-8 * method.first_tolerance;
+  return control;
+}
+
+class ConstantStress : public ::testing::TestWithParam<Method> {};
+
+// Largest at a vertex, mm; 0 for a method that has no displacements.
+double displacement_deviation(const Problem& problem, const Exact& exact,
+                              const Solution& solution) {
+  double largest = 0;
+  if (solution.displacement.size() == 0) return largest;
+  const DisplacementField u = with_rigid_motion(problem, solution.displacement);
+  for (std::size_t v = 0; v < problem.mesh.vertices.size(); ++v)
+    largest = std::max(largest, (u.col(static_cast<Eigen::Index>(v)) -
+                                 exact.displacement(problem.mesh.vertices[v]))
+                                    .norm());
+  return largest;
+}
+
+// Largest difference of any stress, relative to the pressure; contact forces alike.
+double deviation(const Problem& problem, const Exact& exact, const Solution& solution) {
+  double largest = 0;
+  for (const ElementStress& stress : solution.stress)
+    largest = std::max(largest, (stress.colwise() - exact.stress()).cwiseAbs().maxCoeff());
+  largest = std::max(
+      largest, material.young_MPa / length * displacement_deviation(problem, exact, solution));
+  Eigen::Vector2d contact = Eigen::Vector2d::Zero();
+  for (Eigen::Index i = 0; i < solution.F_C.size(); i += 2) contact += solution.F_C.segment<2>(i);
+  largest = std::max(
+      largest, (contact / length - exact.own_stress(Eigen::Vector2i(0, 2))).cwiseAbs().maxCoeff());
+  return largest / pressure;
+}
+
+TEST_P(ConstantStress, IsExactWhateverTheWallDoes) {
+  const Method& method = GetParam();
+  for (const Block& block : blocks()) {
+    const Exact exact(block);
+    const auto problem = std::make_shared<const Problem>(
+        pose(scene_of(block, exact), testing::small_block(4, 4, block.turn)));
+    const DualSystem system = assemble(problem, method.blocks);
+    const Solution solution = run(method, system, control_of(method));
+    ASSERT_EQ(solution.status, Status::ok) << block.what << ": " << solution.message;
+    // Iterative methods keep to their own tolerance.
+    EXPECT_LT(deviation(*problem, exact, solution), method.is_iterative() ? 1e-6 : 1e-10)
+        << block.what << " turned by " << block.turn;
+  }
+}
+
+// Rollers at the root and the bottom, no friction: pressed by d and, on top, by q. Two rollers meet
+// in a corner, and the bottom one meets the wall.
+TEST_P(ConstantStress, IsExactBetweenRollersAndAWallWithoutFriction) {
+  const Method& method = GetParam();
+  constexpr double d = 0.03, q = 20;
+  for (const double turn : {0., 33., 211.}) {
+    const Eigen::Matrix3d c = compliance(material, Plane::strain);
+    // ε_xx = −d/L = c_00 σ_xx − c_01 q
+    const double sigma = (-d / length + c(0, 1) * q) / c(0, 0);
+    Exact exact({"", 0, 0, false, turn, Plane::strain});
+    exact.own_stress << sigma, -q, 0;
+    exact.strain = c * exact.own_stress;
+    Mesh mesh = testing::small_block(4, 4, turn);
+    for (BoundaryEdge& edge : mesh.boundary)
+      if (boundary_label(mesh, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
+    Scene scene;
+    scene.material = material;
+    scene.friction = 0;
+    scene.crown_radius_mm.reset();
+    scene.displacement_mm = exact.turn * Eigen::Vector2d(d, 0);
+    scene.boundary["displacement:root"].support = BoundaryValues::Support::normal;
+    scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
+    scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{q, q}};
+    const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
+    const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    const double tolerance = method.is_iterative() ? 1e-6 : 1e-10;
+    for (const ElementStress& stress : solution.stress)
+      ASSERT_LT((stress.colwise() - exact.stress()).cwiseAbs().maxCoeff(), tolerance * q) << turn;
+    EXPECT_NEAR(solution.F_C.sum(), sigma * length, tolerance * q * length);
+    EXPECT_LT(displacement_deviation(*problem, exact, solution), 1e-12) << turn;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, ConstantStress,
+                         ::testing::ValuesIn(select_methods(
+                             "3STEPD,3STEPCG3,BLIND,BLIND:SCHUR,SDTIC6,SSKY,HYBRID,P2,ALM")),
+                         testing::readable);
+
+}  // namespace
+}  // namespace airybench::constant_stress_test
