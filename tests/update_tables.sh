@@ -4,11 +4,16 @@
 # Usage: tests/update_tables.sh [--widen]   after ./run test; then look at git diff tests/data
 #        tests/update_tables.sh --fields    what follows from bench/records/record_fields.def:
 #                                           tables of results/README.md, plots/record_fields.json
+#        tests/update_tables.sh --validation  the values of docs/validation.md and their figure
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 if [[ ${1:-} == --fields ]]; then
   AIRYBENCH_UPDATE=anew build/release/tests/bench_test --gtest_brief=1 --gtest_filter='RecordFormat.*'
   exit
+fi
+if [[ ${1:-} == --validation ]]; then
+  AIRYBENCH_UPDATE=anew build/release/tests/validation_test --gtest_brief=1 --gtest_filter=-Families/*
+  exec /usr/bin/python3 plots/validation_figure.py
 fi
 update=anew
 if [[ ${1:-} == --widen ]]; then update=widen; fi

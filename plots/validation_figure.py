@@ -1,0 +1,109 @@
+#!/usr/bin/python3
+"""Draws our answers beside those from outside, from tests/data/validation/profiles.csv.
+
+    validation_figure.py [--out FILE]     default: docs/images/validation.png
+"""
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from figure_files import DPI, write_small_png
+
+PROJECT = Path(__file__).resolve().parents[1]
+PROFILES = PROJECT / "tests/data/validation/profiles.csv"
+STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "axes.spines.top": False,
+         "axes.spines.right": False}
+OURS = dict(color="#0072B2", linestyle="", marker="o", markersize=2.5)
+OURS_TOO = dict(color="#D55E00", linestyle="", marker="s", markersize=2.2)
+OUTSIDE = dict(color="black", linewidth=0.8)
+PUBLISHED_UM = {0: 28.6, 1.25: 27.2, 5: 22.8, 7.5: 19.8, 11.25: 15.0}  # test SSNV128: the mean
+MU, RADIUS, MODULUS = 0.2, 4, 82.4286 / (1 - 0.4999**2)
+
+
+def of(table: pd.DataFrame, case: str, quantity: str) -> pd.DataFrame:
+    """The finest mesh's, by x."""
+    rows = table[(table.case == case) & (table.quantity == quantity)]
+    return rows[rows.refined == rows.refined.max()].sort_values("x_mm")
+
+
+def number(table: pd.DataFrame, case: str, quantity: str) -> float:
+    return float(of(table, case, quantity).value.iloc[0])
+
+
+def draw_block(axes: Axes, table: pd.DataFrame) -> None:
+    own = of(table, "friction_block", "floor HYBRID")
+    axes.plot(own.x_mm, own.value, **OURS, label="HYBRID, every vertex")
+    axes.errorbar(list(PUBLISHED_UM), list(PUBLISHED_UM.values()), color="black", fmt="_",
+                  yerr=[0.05 * u for u in PUBLISHED_UM.values()], linewidth=0.8, capsize=2,
+                  label="published mean, 5 %")
+    axes.set(title="Block with friction", xlabel="x on the floor, mm",
+             ylabel="tangential displacement, µm")
+
+
+def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
+    force = number(table, "cattaneo_mindlin", "P")
+    a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+    p0 = 2 * force / (np.pi * a)
+    c = a * np.sqrt(1 - number(table, "cattaneo_mindlin", "Q") / (MU * force))
+    x = np.linspace(-a, a, 801)
+    pressure = p0 * np.sqrt(1 - (x / a)**2)
+    stuck = MU * p0 * c / a * np.sqrt(np.maximum(0, 1 - (x / c)**2))
+    axes.plot(x, pressure, **OUTSIDE, label="Hertz, Cattaneo, Mindlin")
+    axes.plot(x, (MU * pressure - stuck) / MU, **OUTSIDE)
+    for quantity, look, scale, label in (("pressure", OURS, 1, "pressure"),
+                                         ("shear", OURS_TOO, MU, "shear / µ")):
+        own = of(table, "cattaneo_mindlin", quantity)
+        own = own[(own.x_mm.abs() < 1.1 * a)]
+        axes.plot(own.x_mm, own.value / scale, **look, label=label)
+    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="MPa")
+
+
+def draw_punch(axes: Axes, table: pd.DataFrame) -> None:
+    x = np.sin(np.linspace(-1, 1, 801) * np.pi / 2 * 0.995)
+    axes.plot(x, number(table, "punch", "P") / (np.pi * np.sqrt(1 - x**2)), **OUTSIDE,
+              label="P / (π √(a² − x²))")
+    own = of(table, "punch", "pressure")
+    axes.plot(own.x_mm, own.value, **OURS, label="mean of every edge")
+    axes.set(title="Flat punch", xlabel="x, mm", ylabel="pressure, MPa",
+             ylim=(0, 5 * number(table, "punch", "P") / np.pi))
+
+
+def draw_hertz(axes: Axes, table: pd.DataFrame) -> None:
+    loads = np.linspace(0, 22, 201)
+    axes.plot(loads, np.sqrt(4 * loads * RADIUS / (np.pi * MODULUS)), **OUTSIDE,
+              label="Hertz: √(4PR / (πE*))")
+    cases = [case for case in table.case.unique() if case.startswith("hertz")]
+    axes.plot([number(table, case, "P") for case in cases],
+              [number(table, case, "a") for case in cases], **OURS | dict(markersize=4),
+              label="fitted to the pressure")
+    axes.set(title="Hertz", xlabel="load P, N per mm", ylabel="half width a, mm")
+
+
+def draw(table: pd.DataFrame) -> Figure:
+    figure = Figure(figsize=(9, 6.2), layout="constrained")
+    panels = (draw_block, draw_cattaneo, draw_punch, draw_hertz)
+    for axes, panel in zip(figure.subplots(2, 2).flat, panels):
+        panel(axes, table)
+        axes.legend(frameon=False, fontsize=7)
+        axes.set_ylim(bottom=0)
+    return figure
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--out", type=Path, default=PROJECT / "docs/images/validation.png")
+    out = parser.parse_args().out
+    table = pd.read_csv(PROFILES, comment="#")
+    with matplotlib.rc_context(STYLE):
+        write_small_png(draw(table), DPI, out, colours=128)
+
+
+if __name__ == "__main__":
+    main()
