@@ -2,6 +2,7 @@
 """Draws our answers beside those from outside, from tests/data/validation/profiles.csv.
 
     validation_figure.py [--out FILE]     default: docs/images/validation.png
+    validation_figure.py --table          prints the tables of docs/validation.md
 """
 from __future__ import annotations
 
@@ -14,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_files import DPI, write_small_png
+from figure_files import COLOURS, DPI, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"
@@ -27,14 +28,60 @@ PUBLISHED_UM = {0: 28.6, 1.25: 27.2, 5: 22.8, 7.5: 19.8, 11.25: 15.0}  # test SS
 MU, RADIUS, MODULUS = 0.2, 4, 82.4286 / (1 - 0.4999**2)
 
 
-def of(table: pd.DataFrame, case: str, quantity: str) -> pd.DataFrame:
-    """The finest mesh's, by x."""
+def read_profiles() -> pd.DataFrame:
+    return pd.read_csv(PROFILES, comment="#")
+
+
+def of(table: pd.DataFrame, case: str, quantity: str, refined: int | None = None) -> pd.DataFrame:
+    """By x; without `refined` the finest mesh's."""
     rows = table[(table.case == case) & (table.quantity == quantity)]
-    return rows[rows.refined == rows.refined.max()].sort_values("x_mm")
+    finest = rows.refined.max() if refined is None else refined
+    return rows[rows.refined == finest].sort_values("x_mm")
 
 
-def number(table: pd.DataFrame, case: str, quantity: str) -> float:
-    return float(of(table, case, quantity).value.iloc[0])
+def number(table: pd.DataFrame, case: str, quantity: str, refined: int | None = None) -> float:
+    return float(of(table, case, quantity, refined).value.iloc[0])
+
+
+def hertz(force: float) -> tuple[float, float]:
+    """Half width and largest pressure."""
+    a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
+    return a, 2 * force / (np.pi * a)
+
+
+def block_rows(table: pd.DataFrame) -> list[str]:
+    rows = ["| x, mm | published mean, µm | HYBRID | P2 | own − published |", "|---|---|---|---|---|"]
+    for x, mean in PUBLISHED_UM.items():
+        stress, displacement = (of(table, "friction_block", f"u_x {method}").set_index("x_mm")
+                                .value[x] for method in ("HYBRID", "P2"))
+        rows.append(f"| {x:g} | {mean} | {stress:.3f} | {displacement:.3f} | "
+                    f"{100 * (stress / mean - 1):.1f} % |")
+    return rows
+
+
+def cattaneo_rows(table: pd.DataFrame) -> list[str]:
+    rows = ["| refined | edges on the face | a off by | p₀ off by | c off by |", "|---|---|---|---|---|"]
+    for refined in sorted(table[table.case == "cattaneo_mindlin"].refined.unique()):
+        force, shear, *found = (number(table, "cattaneo_mindlin", quantity, refined)
+                                for quantity in ("P", "Q", "a", "p0", "c"))
+        a, p0 = hertz(force)
+        exact = a, p0, a * np.sqrt(1 - shear / (MU * force))
+        errors = (f"{100 * abs(own / right - 1):.2f} %" for own, right in zip(found, exact))
+        rows.append(f"| {refined} | {48 * 2**refined} | {' | '.join(errors)} |")
+    return rows
+
+
+def other_rows(table: pd.DataFrame) -> list[str]:
+    rows = ["| case | largest deviation |", "|---|---|"]
+    for case in sorted(case for case in table.case.unique() if case.startswith("hertz")):
+        force = number(table, case, "P")
+        (a, p0), found = hertz(force), [number(table, case, quantity) for quantity in ("a", "p0")]
+        worst = max(abs(own / right - 1) for own, right in zip(found, (a, p0)))
+        rows.append(f"| Hertz, P = {force:.2f} N/mm: a, p₀ | {100 * worst:.2f} % |")
+    for refined in range(3):
+        worst = number(table, "punch", "worst deviation for |x| < 0.8", refined)
+        rows.append(f"| punch, {40 * 2**refined} edges: p(x), \\|x\\| < 0.8 a | {100 * worst:.2f} % |")
+    return rows
 
 
 def draw_block(axes: Axes, table: pd.DataFrame) -> None:
@@ -49,8 +96,7 @@ def draw_block(axes: Axes, table: pd.DataFrame) -> None:
 
 def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
     force = number(table, "cattaneo_mindlin", "P")
-    a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
-    p0 = 2 * force / (np.pi * a)
+    a, p0 = hertz(force)
     c = a * np.sqrt(1 - number(table, "cattaneo_mindlin", "Q") / (MU * force))
     x = np.linspace(-a, a, 801)
     pressure = p0 * np.sqrt(1 - (x / a)**2)
@@ -97,12 +143,18 @@ def draw(table: pd.DataFrame) -> Figure:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__)
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--out", type=Path, default=PROJECT / "docs/images/validation.png")
-    out = parser.parse_args().out
-    table = pd.read_csv(PROFILES, comment="#")
+    parser.add_argument("--table", action="store_true")
+    given = parser.parse_args()
+    table = read_profiles()
+    if given.table:
+        for rows in (block_rows, cattaneo_rows, other_rows):
+            print("\n".join(rows(table)), end="\n\n")
+        return
     with matplotlib.rc_context(STYLE):
-        write_small_png(draw(table), DPI, out, colours=128)
+        write_small_png(draw(table), DPI, given.out, colours=COLOURS)
 
 
 if __name__ == "__main__":
