@@ -111,6 +111,13 @@ double displacement_deviation(const Problem& problem, const Exact& exact,
   return largest;
 }
 
+double stress_deviation(const Eigen::Vector3d& exact, const Solution& solution) {
+  double largest = 0;
+  for (const ElementStress& stress : solution.stress)
+    largest = std::max(largest, (stress.colwise() - exact).cwiseAbs().maxCoeff());
+  return largest;
+}
+
 // Largest difference of any stress, relative to the pressure; contact forces alike.
 double deviation(const Problem& problem, const Exact& exact, const Solution& solution) {
   double largest = 0;
@@ -140,37 +147,66 @@ TEST_P(ConstantStress, IsExactWhateverTheWallDoes) {
   }
 }
 
-// Rollers at the root and the bottom, no friction: pressed by d and, on top, by q. Two rollers meet
-// in a corner, and the bottom one meets the wall.
-TEST_P(ConstantStress, IsExactBetweenRollersAndAWallWithoutFriction) {
+// Rollers at the root and the bottom: pressed by d and, on top, by q. Two rollers meet in a corner,
+// and the bottom one meets the wall. With friction q is such that nothing slides, ε_yy = 0.
+TEST_P(ConstantStress, IsExactBetweenTwoRollersAndAWall) {
   const Method& method = GetParam();
-  constexpr double d = 0.03, q = 20;
-  for (const double turn : {0., 33., 211.}) {
-    const Eigen::Matrix3d c = compliance(material, Plane::strain);
-    // ε_xx = −d/L = c_00 σ_xx − c_01 q
-    const double sigma = (-d / length + c(0, 1) * q) / c(0, 0);
-    Exact exact({"", 0, 0, false, turn, Plane::strain});
-    exact.own_stress << sigma, -q, 0;
-    exact.strain = c * exact.own_stress;
-    Mesh mesh = testing::small_block(4, 4, turn);
-    for (BoundaryEdge& edge : mesh.boundary)
-      if (boundary_label(mesh, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
-    Scene scene;
-    scene.material = material;
-    scene.friction = 0;
-    scene.crown_radius_mm.reset();
-    scene.displacement_mm = exact.turn * Eigen::Vector2d(d, 0);
-    scene.boundary["displacement:root"].support = BoundaryValues::Support::normal;
-    scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
-    scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{q, q}};
-    const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
-    const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
-    ASSERT_EQ(solution.status, Status::ok) << solution.message;
-    const double tolerance = method.is_iterative() ? 1e-6 : 1e-10;
-    for (const ElementStress& stress : solution.stress)
-      ASSERT_LT((stress.colwise() - exact.stress()).cwiseAbs().maxCoeff(), tolerance * q) << turn;
-    EXPECT_NEAR(solution.F_C.sum(), sigma * length, tolerance * q * length);
-    EXPECT_LT(displacement_deviation(*problem, exact, solution), 1e-12) << turn;
+  constexpr double d = 0.03;
+  for (const double friction : {0., mu})
+    for (const double turn : {0., 33., 211.}) {
+      const Eigen::Matrix3d c = compliance(material, Plane::strain);
+      Exact exact({"", 0, 0, false, turn, Plane::strain});
+      // ε_xx = −d/L = c_00 σ_xx − c_01 q
+      // and 0 = ε_yy = c_01 σ_xx − c_11 q where it shall not slide.
+      const double stuck = c(0, 1) * d / length / (c(0, 1) * c(0, 1) - c(0, 0) * c(1, 1));
+      const double q = friction > 0 ? stuck : 20;
+      const double sigma = (-d / length + c(0, 1) * q) / c(0, 0);
+      exact.own_stress << sigma, -q, 0;
+      exact.strain = c * exact.own_stress;
+      Mesh mesh = testing::small_block(4, 4, turn);
+      for (BoundaryEdge& edge : mesh.boundary)
+        if (boundary_label(mesh, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
+      Scene scene;
+      scene.material = material;
+      scene.friction = friction;
+      scene.crown_radius_mm.reset();
+      scene.displacement_mm = exact.turn * Eigen::Vector2d(d, 0);
+      scene.boundary["displacement:root"].support = BoundaryValues::Support::normal;
+      scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
+      scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{q, q}};
+      const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
+      const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
+      ASSERT_EQ(solution.status, Status::ok) << solution.message;
+      const double tolerance = (method.is_iterative() ? 1e-6 : 1e-10) * std::abs(sigma);
+      EXPECT_LT(stress_deviation(exact.stress(), solution), tolerance) << turn;
+      EXPECT_NEAR(solution.F_C.sum(), sigma * length, tolerance * length);
+      EXPECT_LT(displacement_deviation(*problem, exact, solution), 1e-12) << turn;
+    }
+}
+
+// A trapezium between three rollers and a wall without friction, pressed alike from all sides:
+// u = −e (x − x_0), x_0 on the wall. Rollers meet the wall and each other at angles of all kinds.
+TEST_P(ConstantStress, IsExactBetweenObliqueRollers) {
+  const Method& method = GetParam();
+  constexpr double e = 1e-3;
+  const Eigen::Matrix3d c = compliance(material, Plane::strain);
+  const double p = e / (c(0, 0) + c(0, 1));
+  Mesh mesh = testing::small_tooth(5, 4);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::displacement;
+  Loads loads;
+  loads.displacement_mm = [](const Eigen::Vector2d& x, int) -> Eigen::Vector2d {
+    return -e * (x - Eigen::Vector2d(length, 0));
+  };
+  for (const BoundaryEdge& edge : mesh.boundary)
+    loads.rollers.push_back(edge.role == BoundaryRole::displacement);
+  const auto problem = std::make_shared<const Problem>(make_problem(mesh, {c}, loads, 0));
+  const Solution solution = run(method, assemble(problem, method.blocks), control_of(method));
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  const double tolerance = (method.is_iterative() ? 1e-6 : 1e-10) * p;
+  EXPECT_LT(stress_deviation({-p, -p, 0}, solution), tolerance);
+  if (!method.in_displacements) {  // P2's forces at the corners act along the rollers
+    EXPECT_NEAR(solution.F_C.sum(), -p * 6, 6 * tolerance);  // the tip is 6 mm high
   }
 }
 
