@@ -1,6 +1,6 @@
-// The diagonal of D, roughly: in the plane a force spread over an edge moves it by a multiple of the
-// material's compliance whatever the edge's size, 3 to 7 times along the normal and 11 to 20 times
-// along the tangent on Mesh0..Mesh4.
+// The diagonal of D, roughly: in the plane a force spread over an edge moves it by a multiple of
+// the material's compliance whatever the edge's size, 3 to 7 times along the normal and 11 to 20
+// times along the tangent on Mesh0..Mesh4.
 #pragma once
 
 #include "assembly/dual_system.hpp"

@@ -70,9 +70,10 @@ struct Dense {
     Solution result;
     result.status = Status::ok;
     result.F_C = F_C;
+    result.stress = stress_of_airy_function(*system.problem, airy_function(system, answer.x));
     RunControl control;
     control.target_error = target;
-    check_airy_answer(system, D().diagonal(), solve(), answer, control, result);
+    check_airy_answer(system, D(), solve(), answer, control, result);
     return result;
   }
   double energy_norm(const VectorXd& x) const {
