@@ -14,7 +14,7 @@ namespace {
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
   bench claims DIR       the paper's sentences, checked against a results folder
-  bench compare A B      two runs, case by case: faster, slower, or not separated
+  bench compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
   bench track            a night's run, added to a history and judged
   bench export DIR       records for Google Benchmark's tools, trackers, JUnit
   bench merge DIR...     the shards of a run, joined

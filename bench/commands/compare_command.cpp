@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "bench/commands/command_line.hpp"
+#include "bench/records/context.hpp"
 #include "bench/tracking/compare_report.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
@@ -14,30 +15,38 @@ namespace airybench {
 namespace {
 
 constexpr const char* compare_footer = R"(
-Verdicts  faster, slower    p (Mann-Whitney, adjusted by Holm over the cases) is at most 5 %, and the
-                            effect is above the minimum one and above the drift of the machine
-          not separated     chance or drift can be the reason
-          too few samples   no p could be small enough; how many repetitions would do is said below
+Verdicts  faster, slower    p (Mann-Whitney of the runs' medians, adjusted by Holm over the cases) is
+                            at most 5 %, the effect is above the minimum one and above the drift of the
+                            machine, and the runs were interleaved
+          not separated     chance, drift or the time of day can be the reason, or there are too few
+                            runs: how many would do is said below
+Repetitions within a run are not independent: the unit is the run. So run A and B in turn, each time
+into a folder of its own. With one run each only statuses can fail.
 
 Exit status  0  no regression
-             1  a case is slower, or was ok and is not any more
+             1  a case is slower, or was ok in all runs of A and is not in one of B
              2  wrong usage, or records that cannot be read: one line on standard error
 
-Example
-  bench compare results/before results/after --out=comparison.md
+Examples
+  for i in 1 2 3 4 5 6; do old/bench --out=a$i; new/bench --out=b$i; done
+  bench compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
+  bench compare results/before results/after
 )";
 
 struct CompareOptions {
-  std::filesystem::path a, b, out;
+  std::string a, b;  // as they were given
+  std::filesystem::path out;
   double minimum_effect_percent = 3;
 };
 
 CompareOptions parse_compare(int argc, const char* const* argv) {
   CompareOptions options;
-  CLI::App app("Two runs of the same cases: which have become slower or faster.", "bench compare");
+  CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
+               "bench compare");
   app.footer(compare_footer);
-  app.add_option("A", options.a, "folder with records.jsonl, before")->required();
-  app.add_option("B", options.b, "folder with records.jsonl, after")->required();
+  app.add_option("A", options.a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
+      ->required();
+  app.add_option("B", options.b, "and after")->required();
   app.add_option("--minimum-effect", options.minimum_effect_percent,
                  "per cent: smaller changes of a time are no change")
       ->check(CLI::Range(0.0, 1000.0))
@@ -51,8 +60,25 @@ CompareOptions parse_compare(int argc, const char* const* argv) {
   return options;
 }
 
-std::vector<Record> records_of(const std::filesystem::path& folder) {
-  return read_records(folder / "records.jsonl", Studies::include);
+// The runs of a side, which must be of one program and its settings, and each of another time.
+Runs runs_in(const std::string& folders) {
+  Runs runs;
+  std::vector<std::string> names = split_list(folders);
+  for (const std::string& name : names) {
+    const std::filesystem::path file = std::filesystem::path(name) / "records.jsonl";
+    runs.push_back(read_records(file, Studies::include));
+    if (runs.back().empty() || runs.front().empty()) continue;
+    const Context &first = runs.front().front().context, &context = runs.back().front().context;
+    const std::string differs = differences(first, context, Sameness::same_sources);
+    if (!differs.empty())
+      throw FileError(fmt::format("{}: another program or other settings than of {}: {}",
+                                  file.string(), names.front(), differs));
+    for (std::size_t i = 0; i + 1 < runs.size(); ++i)
+      if (!runs[i].empty() && runs[i].front().samples_s == runs.back().front().samples_s &&
+          runs[i].front().context == context)
+        throw FileError(fmt::format("{}: the same run as {}", file.string(), names[i]));
+  }
+  return runs;
 }
 
 }  // namespace
@@ -61,11 +87,10 @@ int compare_command(int argc, const char* const* argv) {
   const CompareOptions options = parse_compare(argc, argv);
   CompareRules rules;
   rules.minimum_effect = options.minimum_effect_percent / 100;
-  const Comparison comparison = compare(records_of(options.a), records_of(options.b), rules);
+  const Comparison comparison = compare(runs_in(options.a), runs_in(options.b), rules);
   if (comparison.cases.empty())
-    throw UsageError(
-        fmt::format("{} and {}: no case is in both", options.a.string(), options.b.string()));
-  const std::string title = fmt::format("A: {}, B: {}", options.a.string(), options.b.string());
+    throw UsageError(fmt::format("{} and {}: no case is in both", options.a, options.b));
+  const std::string title = fmt::format("A: {}, B: {}", options.a, options.b);
   if (options.out.extension() == ".md") {
     std::string text = title;
     text += "\n\n";

@@ -1,4 +1,4 @@
-// `bench compare A B`: two results folders, case by case.
+// `bench compare A,... B,...`: the runs of two programs, case by case.
 #pragma once
 
 namespace airybench {

@@ -49,13 +49,4 @@ Interval bootstrap_ratio_of_medians(const std::vector<double>& numerator,
       [&](std::mt19937& engine) { return resampled_ratio(numerator, denominator, engine); });
 }
 
-Interval bootstrap_geometric_mean(const std::vector<SamplePair>& pairs) {
-  return percentile_interval([&](std::mt19937& engine) {
-    double sum = 0;
-    for (const auto& [numerator, denominator] : pairs)
-      sum += std::log(resampled_ratio(numerator, denominator, engine));
-    return std::exp(sum / static_cast<double>(pairs.size()));
-  });
-}
-
 }  // namespace airybench

@@ -2,8 +2,9 @@
 //
 // Every sample is replaced by as many draws from it, with replacement, 2000 times; the interval is
 // between the 2.5 % and 97.5 % quantiles of what is computed from them. Efron, Tibshirani, "An
-// Introduction to the Bootstrap", 1993, section 13. It is the uncertainty of repetitions within a
-// run: what changes from run to run is not in it. One value alone is taken as exact.
+// Introduction to the Bootstrap", 1993, section 13. Of a run's repetitions it is the
+// uncertainty within that run: what changes from run to run is not in it. One value alone is taken
+// as exact.
 //
 // The seed is fixed, and only the engine's own numbers are used: equal on every machine.
 #pragma once
@@ -20,12 +21,5 @@ struct Interval {
 Interval bootstrap_median(const std::vector<double>& samples);
 Interval bootstrap_ratio_of_medians(const std::vector<double>& numerator,
                                     const std::vector<double>& denominator);
-
-struct SamplePair {
-  std::vector<double> numerator, denominator;
-};
-// Of exp(mean of log(ratio of medians)) over the pairs. The pairs are the population, not drawn
-// from one: they are not resampled. Not for an empty list.
-Interval bootstrap_geometric_mean(const std::vector<SamplePair>& pairs);
 
 }  // namespace airybench

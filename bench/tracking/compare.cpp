@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "bench/statistics/mann_whitney.hpp"
 #include "bench/statistics/multiple_testing.hpp"
@@ -12,107 +13,178 @@
 namespace airybench {
 namespace {
 
-using ByName = std::map<std::string, const Record*>;
+// One side's runs of one case, those that have it.
+using CaseRuns = std::vector<const Record*>;
 
-ByName by_name(const std::vector<Record>& records) {
-  ByName result;
-  for (const Record& record : records) result[name_of(record).text()] = &record;
-  return result;
+struct Side {
+  std::vector<std::string> names;  // of the cases, in the order in which runs have them
+  std::map<std::string, CaseRuns> cases;
+};
+
+Side side_of(const Runs& runs) {
+  Side side;
+  for (const std::vector<Record>& run : runs) {
+    std::map<std::string, const Record*> last;
+    for (const Record& record : run) {
+      const std::string name = name_of(record).text();
+      if (side.cases.try_emplace(name).second) side.names.push_back(name);
+      last[name] = &record;
+    }
+    for (const auto& [name, record] : last) side.cases[name].push_back(record);
+  }
+  return side;
 }
 
-std::vector<std::string> names_only_in(const std::vector<Record>& records, const ByName& others) {
+std::vector<std::string> names_only_in(const Side& side, const Side& other) {
   std::vector<std::string> names;
-  for (const Record& record : records)
-    if (const std::string name = name_of(record).text();
-        !others.contains(name) && std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(name);
+  std::copy_if(side.names.begin(), side.names.end(), std::back_inserter(names),
+               [&](const std::string& name) { return !other.cases.contains(name); });
   return names;
 }
 
-std::optional<double> drift_of(const std::vector<ComparedCase>& cases) {
+const Record& telling(const CaseRuns& runs) {
+  const auto broken = std::find_if(
+      runs.begin(), runs.end(), [](const Record* record) { return record->status != Status::ok; });
+  return broken == runs.end() ? *runs.back() : **broken;
+}
+
+std::vector<double> medians_of(const CaseRuns& runs) {
+  std::vector<double> medians;
+  for (const Record* record : runs)
+    if (has_answer(*record) && !record->samples_s.empty())
+      medians.push_back(median(record->samples_s));
+  return medians;
+}
+
+std::optional<double> kernel_time(const CaseRuns& runs) {
+  std::vector<double> times;
+  for (const Record* record : runs)
+    if (record->noise_kernel_s) times.push_back(*record->noise_kernel_s);
+  return times.empty() ? std::nullopt : std::optional(median(std::move(times)));
+}
+
+std::optional<double> drift_between(const Side& a, const Side& b) {
   std::vector<double> ratios;
-  for (const ComparedCase& one : cases)
-    if (one.a.noise_kernel_s && one.b.noise_kernel_s)
-      ratios.push_back(*one.b.noise_kernel_s / *one.a.noise_kernel_s);
+  for (const auto& [name, runs] : a.cases) {
+    if (!b.cases.contains(name)) continue;
+    const auto before = kernel_time(runs), after = kernel_time(b.cases.at(name));
+    if (before && after) ratios.push_back(*after / *before);
+  }
   if (ratios.empty()) return {};
   return median(std::move(ratios));
 }
 
-bool is_timed(const Record& record) { return has_answer(record) && !record.samples_s.empty(); }
+// Runs that say no date, or begun within the same second, may have been in any order.
+bool are_interleaved(const CaseRuns& a, const CaseRuns& b) {
+  std::map<std::string, int> lead;  // date → runs of B begun then less those of A
+  for (const Record* record : a) --lead[context_word(*record, "date")];
+  for (const Record* record : b) ++lead[context_word(*record, "date")];
+  int sum = 0;
+  return !lead.contains("") && std::all_of(lead.begin(), lead.end(), [&](const auto& moment) {
+    sum += moment.second;
+    return std::abs(sum) <= 1;
+  });
+}
 
 // Has the ratio gone up by enough? For the other direction with reciprocals.
 bool exceeds(double ratio, double corrected, double drift, double minimum_effect) {
   return std::min(ratio, corrected) > 1 + minimum_effect && corrected > std::max(drift, 1 / drift);
 }
 
-TimeVerdict verdict_of(const ComparedCase& one, double drift, std::size_t tests,
+TimeVerdict verdict_of(const ComparedCase& one, bool interleaved, double drift, std::size_t tests,
                        const CompareRules& rules) {
-  if (one.p <= rules.level) {
-    if (exceeds(one.ratio, one.corrected, drift, rules.minimum_effect)) return TimeVerdict::slower;
-    if (exceeds(1 / one.ratio, 1 / one.corrected, drift, rules.minimum_effect))
-      return TimeVerdict::faster;
-    return TimeVerdict::not_separated;
+  const std::size_t m = one.medians_a.size(), n = one.medians_b.size();
+  if (m == 1 && n == 1) return TimeVerdict::one_run_each;
+  if (one.p > rules.level)
+    return least_mann_whitney_p(m, n) * static_cast<double>(tests) > rules.level
+               ? TimeVerdict::too_few_runs
+               : TimeVerdict::not_separated;
+  const bool slower = exceeds(one.ratio, one.corrected, drift, rules.minimum_effect);
+  const bool faster = exceeds(1 / one.ratio, 1 / one.corrected, drift, rules.minimum_effect);
+  if (!slower && !faster) return TimeVerdict::not_separated;
+  if (!interleaved) return TimeVerdict::not_interleaved;
+  return slower ? TimeVerdict::slower : TimeVerdict::faster;
+}
+
+std::optional<Interval> interval_of(const std::vector<double>& b, const std::vector<double>& a) {
+  if (a.size() < 2 || b.size() < 2) return {};
+  return bootstrap_ratio_of_medians(b, a);
+}
+
+void compare_means(Comparison& result) {
+  std::vector<double> logs_a(result.runs_a), logs_b(result.runs_b);
+  double cases = 0;
+  for (const ComparedCase& one : result.cases) {
+    if (one.medians_a.size() != logs_a.size() || one.medians_b.size() != logs_b.size()) continue;
+    ++cases;
+    for (std::size_t run = 0; run < logs_a.size(); ++run)
+      logs_a[run] += std::log(one.medians_a[run]);
+    for (std::size_t run = 0; run < logs_b.size(); ++run)
+      logs_b[run] += std::log(one.medians_b[run]);
   }
-  const double least = least_mann_whitney_p(one.a.samples_s.size(), one.b.samples_s.size());
-  return least * static_cast<double>(tests) > rules.level ? TimeVerdict::too_few_samples
-                                                          : TimeVerdict::not_separated;
+  if (cases == 0) return;
+  for (std::vector<double>* means : {&logs_a, &logs_b})
+    for (double& mean : *means) mean = std::exp(mean / cases);
+  result.mean_ratio = median(logs_b) / median(logs_a);
+  result.mean_interval = interval_of(logs_b, logs_a);
 }
 
 }  // namespace
 
 std::string_view name_of(TimeVerdict verdict) {
-  constexpr std::array<std::string_view, 4> names = {"faster", "slower", "not separated",
-                                                     "too few samples"};
+  constexpr std::array<std::string_view, 6> names = {"faster",
+                                                     "slower",
+                                                     "not separated",
+                                                     "not separated: one run each",
+                                                     "not separated: too few runs",
+                                                     "not separated: runs not interleaved"};
   return names[static_cast<std::size_t>(verdict)];
 }
 
 bool Comparison::has_regression() const {
   return std::any_of(cases.begin(), cases.end(), [](const ComparedCase& one) {
-    return one.broke() || (one.timed && one.verdict == TimeVerdict::slower);
+    return one.broke() || (one.is_timed() && one.verdict == TimeVerdict::slower);
   });
 }
 
-Comparison compare(const std::vector<Record>& a, const std::vector<Record>& b,
-                   const CompareRules& rules) {
+Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
   Comparison result;
   result.rules = rules;
-  const ByName in_a = by_name(a), in_b = by_name(b);
-  result.only_a = names_only_in(a, in_b);
-  result.only_b = names_only_in(b, in_a);
-  std::vector<SamplePair> pairs;
+  result.runs_a = a.size();
+  result.runs_b = b.size();
+  const Side side_a = side_of(a), side_b = side_of(b);
+  result.only_a = names_only_in(side_a, side_b);
+  result.only_b = names_only_in(side_b, side_a);
+  result.drift = drift_between(side_a, side_b);
   std::vector<double> p_values;
-  double log_sum = 0;
-  for (const Record& record : a) {
-    const std::string name = name_of(record).text();
-    const auto other = in_b.find(name);
-    if (other == in_b.end() || in_a.at(name) != &record) continue;
+  for (const std::string& name : side_a.names) {
+    if (!side_b.cases.contains(name)) continue;
+    const CaseRuns &runs_a = side_a.cases.at(name), &runs_b = side_b.cases.at(name);
     ComparedCase one;
-    one.a = record;
-    one.b = *other->second;
-    one.timed = is_timed(one.a) && is_timed(one.b);
-    if (one.timed) {
-      one.ratio = median(one.b.samples_s) / median(one.a.samples_s);
-      one.interval = bootstrap_ratio_of_medians(one.b.samples_s, one.a.samples_s);
-      p_values.push_back(mann_whitney(one.a.samples_s, one.b.samples_s).p);
-      pairs.push_back({one.b.samples_s, one.a.samples_s});
-      log_sum += std::log(one.ratio);
+    one.a = telling(runs_a);
+    one.b = telling(runs_b);
+    one.medians_a = medians_of(runs_a);
+    one.medians_b = medians_of(runs_b);
+    if (one.is_timed()) {
+      one.ratio = median(one.medians_b) / median(one.medians_a);
+      one.corrected = one.ratio / result.drift.value_or(1);
+      one.interval = interval_of(one.medians_b, one.medians_a);
+      p_values.push_back(mann_whitney(one.medians_a, one.medians_b).p);
     }
     result.cases.push_back(std::move(one));
   }
-  result.timed = pairs.size();
-  result.drift = drift_of(result.cases);
-  if (pairs.empty()) return result;
-  result.mean_ratio = std::exp(log_sum / static_cast<double>(pairs.size()));
-  result.mean_interval = bootstrap_geometric_mean(pairs);
-  result.repetitions_needed = values_needed_for(rules.level / static_cast<double>(pairs.size()));
+  result.timed = p_values.size();
+  if (result.timed == 0) return result;
+  compare_means(result);
+  result.runs_needed = values_needed_for(rules.level / static_cast<double>(result.timed));
   const std::vector<double> adjusted = holm_adjusted(p_values);
-  const double drift = result.drift.value_or(1);
   std::size_t k = 0;
   for (ComparedCase& one : result.cases) {
-    if (!one.timed) continue;
+    if (!one.is_timed()) continue;
     one.p = adjusted[k++];
-    one.corrected = one.ratio / drift;
-    one.verdict = verdict_of(one, drift, pairs.size(), rules);
+    const std::string name = name_of(one.a).text();
+    one.verdict = verdict_of(one, are_interleaved(side_a.cases.at(name), side_b.cases.at(name)),
+                             result.drift.value_or(1), result.timed, rules);
   }
   return result;
 }

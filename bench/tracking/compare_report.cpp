@@ -33,13 +33,17 @@ std::vector<std::string> other_changes(const ComparedCase& one) {
   return changes;
 }
 
-std::string interval_text(const Interval& interval) {
-  return fmt::format("[{:.3g}, {:.3g}]", interval.low, interval.high);
+std::string interval_text(const std::optional<Interval>& interval) {
+  return interval ? fmt::format("[{:.3g}, {:.3g}]", interval->low, interval->high) : "-";
+}
+
+Json interval_json(const std::optional<Interval>& interval) {
+  return interval ? Json{interval->low, interval->high} : Json();
 }
 
 // The cells of a row; those of a case without times say so.
 std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
-  if (!one.timed)
+  if (!one.is_timed())
     return {name_of(one.a).text(),
             "",
             "",
@@ -49,8 +53,8 @@ std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
             "",
             fmt::format("no times: {}, {}", name_of(one.a.status), name_of(one.b.status))};
   return {name_of(one.a).text(),
-          show_seconds(median(one.a.samples_s)),
-          show_seconds(median(one.b.samples_s)),
+          show_seconds(median(one.medians_a)),
+          show_seconds(median(one.medians_b)),
           fmt::format("{:.3g}", one.ratio),
           interval_text(one.interval),
           drift_is_known ? fmt::format("{:.3g}", one.corrected) : "-",
@@ -59,24 +63,32 @@ std::vector<std::string> row(const ComparedCase& one, bool drift_is_known) {
 }
 const std::vector<std::string> header = {"case", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"};
 
+bool any_is(const Comparison& comparison, TimeVerdict verdict) {
+  return std::any_of(
+      comparison.cases.begin(), comparison.cases.end(),
+      [&](const ComparedCase& one) { return one.is_timed() && one.verdict == verdict; });
+}
+
 std::vector<std::string> summary(const Comparison& comparison) {
   std::vector<std::string> lines;
-  if (comparison.timed > 0)
-    lines.push_back(fmt::format("geometric mean of B/A over {} cases: {:.4g} {}", comparison.timed,
-                                comparison.mean_ratio, interval_text(comparison.mean_interval)));
+  if (comparison.mean_ratio)
+    lines.push_back(fmt::format("geometric mean of B/A: {:.4g} {}", *comparison.mean_ratio,
+                                interval_text(comparison.mean_interval)));
   if (comparison.drift)
-    lines.push_back(
-        fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A); the mean by "
-                    "it {:.4g}",
-                    *comparison.drift, comparison.mean_ratio / *comparison.drift));
+    lines.push_back(fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A)",
+                                *comparison.drift));
   else
     lines.push_back("drift of the machine: not known (no noise_kernel_s in both)");
-  if (std::any_of(comparison.cases.begin(), comparison.cases.end(), [](const ComparedCase& one) {
-        return one.timed && one.verdict == TimeVerdict::too_few_samples;
-      }))
+  if (any_is(comparison, TimeVerdict::one_run_each) ||
+      any_is(comparison, TimeVerdict::too_few_runs))
+    lines.push_back(fmt::format(
+        "{} runs of A, {} of B: with {} cases {} interleaved runs on both sides would "
+        "do (repetitions within a run are not independent)",
+        comparison.runs_a, comparison.runs_b, comparison.timed, comparison.runs_needed));
+  if (any_is(comparison, TimeVerdict::not_interleaved))
     lines.push_back(
-        fmt::format("too few samples: with {} cases {} repetitions on both sides would do",
-                    comparison.timed, comparison.repetitions_needed));
+        "runs not interleaved: by their dates one side had at some time two runs more than the "
+        "other; run A, B, A, B, …");
   for (const std::string& name : comparison.only_a) lines.push_back("only in A: " + name);
   for (const std::string& name : comparison.only_b) lines.push_back("only in B: " + name);
   for (const ComparedCase& one : comparison.cases)
@@ -112,10 +124,11 @@ Json comparison_json(const Comparison& comparison) {
                  {"status_a", name_of(one.a.status)},
                  {"status_b", name_of(one.b.status)},
                  {"other_changes", other_changes(one)}};
-    if (one.timed)
-      json.update(Json{{"ratio", one.ratio},
-                       {"low", one.interval.low},
-                       {"high", one.interval.high},
+    if (one.is_timed())
+      json.update(Json{{"medians_a_s", one.medians_a},
+                       {"medians_b_s", one.medians_b},
+                       {"ratio", one.ratio},
+                       {"interval", interval_json(one.interval)},
                        {"ratio_by_drift", one.corrected},
                        {"p_holm", one.p},
                        {"verdict", name_of(one.verdict)}});
@@ -123,11 +136,12 @@ Json comparison_json(const Comparison& comparison) {
   }
   return {{"drift", comparison.drift ? Json(*comparison.drift) : Json()},
           {"minimum_effect", comparison.rules.minimum_effect},
-          {"geometric_mean", comparison.timed == 0 ? Json()
-                                                   : Json{{"cases", comparison.timed},
-                                                          {"ratio", comparison.mean_ratio},
-                                                          {"low", comparison.mean_interval.low},
-                                                          {"high", comparison.mean_interval.high}}},
+          {"geometric_mean", comparison.mean_ratio
+                                 ? Json{{"ratio", *comparison.mean_ratio},
+                                        {"interval", interval_json(comparison.mean_interval)}}
+                                 : Json()},
+          {"runs_a", comparison.runs_a},
+          {"runs_b", comparison.runs_b},
           {"cases", cases},
           {"only_in_a", comparison.only_a},
           {"only_in_b", comparison.only_b},

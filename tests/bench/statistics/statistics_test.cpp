@@ -134,15 +134,6 @@ TEST(Bootstrap, IsInsideTheSamplesAndRepeatable) {
   EXPECT_EQ(bootstrap_ratio_of_medians({3}, {2}).high, 1.5);
 }
 
-TEST(Bootstrap, TheGeometricMeanOfManyRatiosIsNarrowerThanEach) {
-  const SamplePair pair = {{2, 2.1, 1.9, 2.2, 1.8}, {1, 1.05, 0.95, 1.1, 0.9}};
-  const Interval one = bootstrap_geometric_mean({pair});
-  const Interval many = bootstrap_geometric_mean(std::vector<SamplePair>(9, pair));
-  EXPECT_LT(std::log(many.high / many.low), 0.5 * std::log(one.high / one.low));
-  EXPECT_LT(many.low, 2);
-  EXPECT_GT(many.high, 2);
-}
-
 // Of a normal sample: 95 % nominal; the percentile bootstrap of 9 values covers nearly that.
 TEST(Bootstrap, CoversTheMedian) {
   std::mt19937 engine(5);

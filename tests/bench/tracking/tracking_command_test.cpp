@@ -20,7 +20,7 @@ class TrackingCommand : public ::testing::Test {
   Result run(const std::string& arguments) { return testing::run_bench(folder_.path(), arguments); }
   // A results folder with one case.
   void write_run(const std::string& name, double time_s, const std::string& date,
-                 int iterations = 10) {
+                 int iterations = 10, const std::string& threads = "1") {
     Json samples = Json::array();
     for (int i = 0; i < 9; ++i) samples.push_back(time_s * (1 + 0.001 * i));
     const Json json = {
@@ -32,7 +32,7 @@ class TrackingCommand : public ::testing::Test {
         {"samples_s", samples},
         {"time_s", samples[4]},
         {"linear_iterations", iterations},
-        {"context", {{"cpu", "C"}, {"cpus", "2"}, {"threads", "1"}, {"date", date}}}};
+        {"context", {{"cpu", "C"}, {"cpus", "2"}, {"threads", threads}, {"date", date}}}};
     fs::create_directories(folder_ / name);
     testing::write_text(folder_ / name / "records.jsonl", json.dump() + "\n");
   }
@@ -48,16 +48,29 @@ class TrackingCommand : public ::testing::Test {
 };
 
 TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
-  write_run("a", 1, "2026-11-21T03:00:00Z");
-  write_run("b", 1.2, "2026-11-22T03:00:00Z");
-  const Result worse = run("compare a b --out=c.json");
+  std::string a, b;
+  for (int run = 1; run <= 4; ++run) {
+    const std::string number = std::to_string(run), hour = "2026-11-21T0" + number;
+    write_run("a," + number, 1 + 0.001 * run, hour + ":00:00Z");
+    write_run("b" + number, 1.2 + 0.001 * run, hour + ":30:00Z");
+    a += (a.empty() ? "" : ",") + ("a\\," + number);
+    b += (b.empty() ? "b" : ",b") + number;
+  }
+  a = "'" + a + "' ";
+  const Result worse = run("compare " + a + b + " --out=c.json");
   EXPECT_EQ(worse.code, 1) << worse.err;
   EXPECT_NE(worse.out.find("slower"), std::string::npos) << worse.out;
   EXPECT_EQ(Json::parse(testing::text_of(folder_ / "c.json"))["cases"][0]["verdict"], "slower");
-  EXPECT_EQ(run("compare b a").code, 0);
-  EXPECT_EQ(run("compare a b --minimum-effect=30").code, 0);
-  EXPECT_EQ(run("compare a a --out=c.md").code, 0);
-  EXPECT_NE(testing::text_of(folder_ / "c.md").find("| not separated |"), std::string::npos);
+  EXPECT_EQ(run("compare " + b + " " + a).code, 0);
+  EXPECT_EQ(run("compare " + a + b + " --minimum-effect=30").code, 0);
+  EXPECT_EQ(run("compare b1 b2 --out=c.md").code, 0);
+  EXPECT_NE(testing::text_of(folder_ / "c.md").find("| not separated: one run each |"),
+            std::string::npos);
+  expect_refused("compare b1,b2,b1 b3", "b1/records.jsonl: the same run as b1");
+  write_run("other", 1, "2026-11-21T09:00:00Z", 10, "2");
+  expect_refused(
+      "compare b1,other b3",
+      "other/records.jsonl: another program or other settings than of b1: threads: 1 and 2");
 }
 
 TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
