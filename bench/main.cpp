@@ -15,6 +15,7 @@
 #include "bench/commands/run_command.hpp"
 #include "bench/commands/track_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
+#include "support/standard_streams.hpp"
 
 namespace {
 
@@ -27,26 +28,25 @@ const std::map<std::string_view, Command> commands = {
     {"replay", airybench::replay_command}, {"track", airybench::track_command},
 };
 
+// Standard error may be full; that is told by the exit code.
 int complain(std::string_view what, int exit_code) {
-  fmt::print(stderr, "bench: {}\n", what);
+  std::fputs(fmt::format("bench: {}\n", what).c_str(), stderr);
   return exit_code;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, const char* const* argv) {
   try {
     const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
     return found == commands.end() ? airybench::run_command(argc, argv)
                                    : found->second(argc - 1, argv + 1);
   } catch (const airybench::HelpRequested& help) {
-    fmt::print("{}", help.what());
+    std::fputs(help.what(), stdout);
     return airybench::all_ok;
   } catch (const airybench::Interrupted& interrupted) {
-    fmt::print(stderr,
-               "bench: {}: what was measured by then is in the output folder; --resume goes on\n",
-               interrupted.what());
-    return 128 + interrupted.signal;
+    return complain(
+        fmt::format("{}: what was measured by then is in the output folder; --resume goes on",
+                    interrupted.what()),
+        128 + interrupted.signal);
   } catch (const airybench::InputError& error) {
     return complain(error.what(), airybench::wrong_usage);
   } catch (const std::invalid_argument& error) {
@@ -54,7 +54,16 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return complain("out of memory", airybench::did_not_finish);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0 || std::ferror(stderr) != 0)  // which fmt throws for
+      return airybench::wrong_usage;
     return complain(fmt::format("a defect of this program: {}", error.what()),
                     airybench::did_not_finish);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  airybench::open_standard_streams();
+  return airybench::checked_exit_code(run(argc, argv));
 }

@@ -17,5 +17,6 @@ def case_name(case: Mapping) -> str:
 
 
 def file_of(name: str) -> str:
-    """The stem of the case's files."""
-    return re.sub("[/:]", "-", name)
+    """The stem of the case's files, of each case another."""
+    name = re.sub("[%+]|(?<![^-/])-|-(?![^-/])", lambda found: f"%{ord(found[0]):02X}", name)
+    return name.replace("/", "--").replace(":", "+")

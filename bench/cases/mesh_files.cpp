@@ -3,10 +3,12 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "bench/records/case_name.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/selection.hpp"
 #include "support/data_folder.hpp"
 #include "support/sha256.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 
@@ -21,6 +23,10 @@ std::vector<MeshFile> read_meshes(const std::string& selection) {
     const std::filesystem::path path =
         is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
     Mesh mesh = read_msh(path);
+    if (!is_name(mesh.name))
+      throw std::invalid_argument(
+          shortened(path.string()) +
+          ": a mesh is named as its file (allowed: UTF-8 without control characters)");
     for (const MeshFile& earlier : files)
       if (earlier.mesh.name == mesh.name)
         throw std::invalid_argument("two meshes are named " + mesh.name + ": " +

@@ -1,11 +1,12 @@
 #include "bench/cases/scene_file.hpp"
 
-#include <fstream>
 #include <set>
 #include <vector>
 
 #include "bench/cases/scene_boundary.hpp"
 #include "bench/cases/scene_reader.hpp"
+#include "bench/records/case_name.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -157,30 +158,42 @@ Scene from_json(const Json& json, const std::string& file) {
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file) {
-  std::error_code error;
-  std::ifstream in(file);
-  if (!in || std::filesystem::is_directory(file, error))
-    throw SceneError(file.string() + ": cannot be opened as a scene file");
+Scene scene_of(const std::string& text, const std::string& place) {
   // JSON allows a key to be repeated; a scene does not.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth > 8) throw SceneError(file.string() + ": nested more than 8 deep");
+    if (depth > 8) throw SceneError(place + ": nested more than 8 deep");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
-      throw SceneError(file.string() + ": " + value.get<std::string>() + ": given twice");
+      throw SceneError(place + ": " + shortened(value.get<std::string>()) + ": given twice");
     return true;
   };
   Json json;
   try {
-    json = Json::parse(in, watch);
+    json = Json::parse(text, watch);
   } catch (const Json::exception& wrong) {
-    throw SceneError(file.string() + ": not JSON: " + without_prefix(wrong));
+    throw SceneError(place + ": not JSON: " + without_prefix(wrong));
   }
-  Scene scene = from_json(json, file.string());
-  scene.name = file.stem().string();
+  Scene scene = from_json(json, place);
   check_values(scene);
+  return scene;
+}
+
+Scene read_scene(const std::filesystem::path& file) {
+  const std::string name = file.stem().string();
+  if (!is_name(name))
+    throw SceneError(shortened(file.string()) +
+                     ": a scene is named as its file (allowed: UTF-8 without "
+                     "control characters)");
+  std::string text;
+  try {
+    text = file_text(file);
+  } catch (const FileError& error) {
+    throw SceneError(error.what());
+  }
+  Scene scene = scene_of(text, file.string());
+  scene.name = name;
   return scene;
 }
 

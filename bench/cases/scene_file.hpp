@@ -25,5 +25,7 @@ namespace airybench {
 
 // Throws SceneError, one line: file, key, value, what is allowed. Scene::name is the file's stem.
 Scene read_scene(const std::filesystem::path& file);
+// The same of a scene file's text; place is what messages name.
+Scene scene_of(const std::string& text, const std::string& place);
 
 }  // namespace airybench

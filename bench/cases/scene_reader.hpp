@@ -10,6 +10,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/records/json.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 
@@ -31,8 +32,8 @@ class SceneReader {
       if (found == keys.end()) {
         std::string valid;
         for (const auto& known : keys) valid += (valid.empty() ? "" : ", ") + known.first;
-        throw SceneError(
-            fmt::format("{}: {}{}: unknown key (allowed: {})", file_, prefix, key, valid));
+        throw SceneError(fmt::format("{}: {}{}: unknown key (allowed: {})", file_,
+                                     shortened(prefix), shortened(key), valid));
       }
       found->second(prefix + key, value);
     }
@@ -62,7 +63,7 @@ class SceneReader {
   }
   [[noreturn]] void fail(const std::string& key, const Json& value, const char* allowed) const {
     throw SceneError(
-        fmt::format("{}: {}: {} (allowed: {})", file_, key, json_text(value), allowed));
+        fmt::format("{}: {}: {} (allowed: {})", file_, key, shortened(json_text(value)), allowed));
   }
 
  private:

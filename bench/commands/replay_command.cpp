@@ -13,7 +13,6 @@
 #include "bench/output/record_files.hpp"
 #include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
-#include "support/atomic_file.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
@@ -106,17 +105,17 @@ MeshFile mesh_of(const Record& record, const std::filesystem::path& folder) {
   return mesh;
 }
 
-Case case_of(const Record& record, const std::filesystem::path& folder, const Options& options) {
+// place: of the record, for messages.
+Case case_of(const Record& record, const std::string& place, const std::filesystem::path& folder,
+             const Options& options) {
   MeshFile mesh = mesh_of(record, folder);
   const std::string definition = json_text(record.scene_definition);
   PosedScene posed{record.scene, record.scene_group, recorded_path(mesh.path, options.out),
                    mesh.sha256,  definition,         nullptr};
   Scene scene;
   if (definition != "{}") {
-    const auto file = options.out / (record.scene + ".json");
-    make_folder(options.out);
-    write_file_atomically(file, definition + "\n");
-    scene = read_scene(file);
+    scene = scene_of(definition, place + ": scene_definition");
+    scene.name = record.scene;
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
   const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop);
@@ -170,7 +169,7 @@ int replay_command(int argc, const char* const* argv) {
         fmt::format("{}: was not measured by this program, or not so (recorded and "
                     "now): {} (--other-program runs it all the same)",
                     asked.record, differs));
-  const Case planned = case_of(record, folder, options);
+  const Case planned = case_of(record, asked.record, folder, options);
   catch_interrupts();
   const RunResult result = run_cases({planned}, options, context);
   const Record& now = result.records.front();

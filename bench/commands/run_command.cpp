@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <sstream>
 
 #include "bench/cases/blank_record.hpp"
@@ -101,7 +102,7 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   const std::filesystem::path committed = data_folder("results");
   const PastRecords past = read_past_records(
       {committed / "paper", committed / "direct", committed / "stability", options.out});
-  for (const std::string& why : past.passed_over) fmt::print(stderr, "{}\n", why);
+  for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
   const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes, options.study == Study::stability};
   fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
@@ -125,7 +126,7 @@ void run_after(const Options& options) {
   for (const char c : options.out.string()) folder += c == '\'' ? "'\\''" : std::string(1, c);
   std::fflush(stdout);
   if (std::system(fmt::format("{} '{}'", options.then, folder).c_str()) != 0)
-    fmt::print(stderr, "note: --then: {}: failed\n", options.then);
+    std::cerr << fmt::format("note: --then: {}: failed\n", options.then);
 }
 
 // The cases of the command line, before they are shared out.
@@ -182,6 +183,9 @@ int run_command(int argc, const char* const* argv) {
   print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
   if (!options.then.empty()) run_after(options);
+  if (result.records.size() != plan.size())
+    throw std::logic_error(fmt::format("{} of {} cases have no record",
+                                       plan.size() - result.records.size(), plan.size()));
   for (const Record& record : result.records)
     if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
   return all_ok;

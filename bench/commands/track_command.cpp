@@ -11,7 +11,9 @@
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_command.hpp"
 #include "bench/tracking/judge.hpp"
+#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
+#include "support/folder_lock.hpp"
 
 namespace airybench {
 namespace {
@@ -98,9 +100,7 @@ void run_night(const TrackOptions& options) {
   run_command(static_cast<int>(argv.size()), argv.data());  // a case that is not ok is judged below
 }
 
-Night measured_night(const TrackOptions& options) {
-  if (options.from.empty()) run_night(options);
-  const fs::path folder = options.from.empty() ? options.history / "latest" : options.from;
+Night night_in(const fs::path& folder) {
   const fs::path records = folder / "records.jsonl";
   return night_of(read_records(records), records.string());
 }
@@ -148,19 +148,24 @@ std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
 
 int track_command(int argc, const char* const* argv) {
   const TrackOptions options = parse_track(argc, argv);
+  if (options.judge_only && read_history(options.history).empty())
+    throw UsageError(fmt::format("{}: no nights (bench track without --judge-only adds one)",
+                                 options.history.string()));
+  std::optional<Night> night;
+  if (!options.from.empty()) night = night_in(options.from);
+  make_folder(options.history);
+  const FolderLock lock(options.history);
   std::vector<Night> history = read_history(options.history);  // before hours are spent on a run
-  if (options.judge_only) {
-    if (history.empty())
-      throw UsageError(fmt::format("{}: no nights (bench track without --judge-only adds one)",
-                                   options.history.string()));
-    return judge_and_print(history, options) ? 1 : 0;
+  if (options.judge_only) return judge_and_print(history, options) ? some_case_failed : all_ok;
+  if (!night) {
+    run_night(options);
+    night = night_in(options.history / "latest");
   }
-  Night night = measured_night(options);
-  night.file = file_for(night, options.history, history);
+  night->file = file_for(*night, options.history, history);
   // An older run may be added later: it is judged from what was before it.
-  std::erase_if(history, [&](const Night& other) { return other.date > night.date; });
-  history.push_back(std::move(night));
-  return judge_and_print(history, options) ? 1 : 0;
+  std::erase_if(history, [&](const Night& other) { return other.date > night->date; });
+  history.push_back(std::move(*night));
+  return judge_and_print(history, options) ? some_case_failed : all_ok;
 }
 
 }  // namespace airybench

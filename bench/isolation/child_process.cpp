@@ -16,6 +16,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <iostream>
 #include <system_error>
 
 namespace airybench {
@@ -35,7 +36,7 @@ constexpr int poll_ms = 100;
   try {
     body(channel);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "bench: in a child process: {}\n", error.what());
+    std::cerr << fmt::format("bench: in a child process: {}\n", error.what());
     _exit(1);
   } catch (...) {  // or it would unwind into the parent's part of the stack
     std::abort();

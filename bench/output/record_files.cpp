@@ -28,11 +28,32 @@ void remove_summaries(const std::filesystem::path& folder) {
     std::filesystem::remove(folder / stale, ignored);
 }
 
-void write_summaries(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
-  std::vector<Record> records;
-  for (const RecordLine& line : lines) records.push_back(line.record);
-  write_file_atomically(folder / "results.csv", csv_text(records));
-  write_file_atomically(folder / "results.json", google_benchmark_json(records));
+// The files that follow from the records.
+struct Summaries {
+  std::string csv, google_benchmark;
+
+  explicit Summaries(const std::vector<RecordLine>& lines) {
+    std::vector<Record> records;
+    for (const RecordLine& line : lines) records.push_back(line.record);
+    csv = csv_text(records);
+    google_benchmark = google_benchmark_json(records);
+  }
+  void write(const std::filesystem::path& folder) const {
+    write_file_atomically(folder / "results.csv", csv);
+    write_file_atomically(folder / "results.json", google_benchmark);
+  }
+};
+
+// The folder, made, when nothing in it stands in the way of its files.
+std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
+  make_folder(folder);
+  for (const char* name : {"records.jsonl", "results.csv", "results.json"})
+    if (const auto file = std::filesystem::status(folder / name);
+        std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
+      throw FileError(
+          fmt::format("{}: is no regular file (allowed: one, or a name that is not there)",
+                      (folder / name).string()));
+  return folder;
 }
 
 }  // namespace
@@ -45,18 +66,18 @@ std::vector<RecordLine> lines_in(const std::filesystem::path& folder) {
 }
 
 void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
-  make_folder(folder);
+  const Summaries summaries(lines);
+  const FolderLock lock(folder_for_records(folder));
   remove_summaries(folder);
   write_file_atomically(folder / "records.jsonl", text_of(lines));
-  write_summaries(folder, lines);
+  summaries.write(folder);
 }
 
-RecordFiles::RecordFiles(std::filesystem::path folder, Context context, Keep keep)
-    : folder_(std::move(folder)), context_(std::move(context)), keep_(keep) {
-  make_folder(folder_);
-  for (const char* name : {"records.jsonl", "results.csv", "results.json"})
-    if (std::filesystem::is_directory(folder_ / name))
-      throw FileError(fmt::format("{}: is a folder", (folder_ / name).string()));
+RecordFiles::RecordFiles(const std::filesystem::path& folder, Context context, Keep keep)
+    : folder_(folder_for_records(folder)),
+      lock_(folder_),
+      context_(std::move(context)),
+      keep_(keep) {
   if (keep_ == Keep::none) return;
   RecordLines there = read_record_lines(records_file());
   lines_ = std::move(there.lines);
@@ -105,7 +126,7 @@ void RecordFiles::append(Record record) {
 
 void RecordFiles::finish() const {
   if (keep_ == Keep::none && lines_.empty()) return;  // an earlier run's files stay
-  write_summaries(folder_, lines_);
+  Summaries(lines_).write(folder_);
 }
 
 }  // namespace airybench

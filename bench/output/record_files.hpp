@@ -12,6 +12,7 @@
 #include "bench/records/context.hpp"
 #include "bench/records/journal.hpp"
 #include "bench/records/record_reader.hpp"
+#include "support/folder_lock.hpp"
 
 namespace airybench {
 
@@ -24,9 +25,9 @@ enum class Keep {
 
 class RecordFiles {
  public:
-  // Makes the folder. Throws FileError: the folder, records to keep that cannot be read or, with
-  // Keep::finished, are of another run.
-  RecordFiles(std::filesystem::path folder, Context context, Keep keep);
+  // Makes the folder, and holds it. Throws FileError: the folder, also when another process holds
+  // it; records to keep that cannot be read or, with Keep::finished, are of another run.
+  RecordFiles(const std::filesystem::path& folder, Context context, Keep keep);
 
   // With Keep::finished: the record of this case, if there is one. Throws FileError when its mesh
   // or scene was another.
@@ -44,6 +45,7 @@ class RecordFiles {
   void rewrite();  // all records, whole
 
   std::filesystem::path folder_;
+  FolderLock lock_;
   Context context_;
   Keep keep_;
   std::vector<RecordLine> lines_;                // those of the folder
@@ -55,7 +57,8 @@ class RecordFiles {
 // The lines of a folder's records.jsonl. Throws FileError, also where there is none.
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 
-// records.jsonl, results.csv and results.json of these; each file whole or not at all.
+// records.jsonl, results.csv and results.json of these; each file whole or not at all. Throws
+// FileError, also when another process holds the folder.
 void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines);
 
 }  // namespace airybench

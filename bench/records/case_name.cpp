@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/records/json.hpp"
+
 namespace airybench {
 namespace {
 
@@ -45,10 +47,27 @@ std::string CaseName::suffix() const {
 std::string CaseName::text() const { return mesh + "/" + scene + "/" + method + suffix(); }
 
 std::string CaseName::file() const {
-  std::string name = text();
-  std::replace_if(
-      name.begin(), name.end(), [](char c) { return c == '/' || c == ':'; }, '-');
+  const std::string whole = text();
+  const auto is_dash = [&](std::size_t i) { return whole[i] == '-' || whole[i] == '/'; };
+  std::string name;
+  for (std::size_t i = 0; i < whole.size(); ++i) {
+    const char c = whole[i];
+    if (c == '/')
+      name += "--";
+    else if (c == ':')
+      name += '+';
+    else if (c == '%' || c == '+' ||
+             (c == '-' && (i == 0 || is_dash(i - 1) || i + 1 == whole.size() || is_dash(i + 1))))
+      name += fmt::format("%{:02X}", c);
+    else
+      name += c;
+  }
   return name;
+}
+
+bool is_name(std::string_view text) {
+  const auto is_refused = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; };
+  return !text.empty() && std::none_of(text.begin(), text.end(), is_refused) && is_utf8(text);
 }
 
 std::optional<CaseName> case_name_of(std::string_view text) {

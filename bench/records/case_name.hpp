@@ -25,8 +25,14 @@ struct CaseName {
 
   std::string text() const;
   std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
-  std::string file() const;    // the text with '-' for '/' and ':'
+  // The text as a part of a file's name, of each name another: "--" for '/', '+' for ':', and "%2B"
+  // for what would be mistaken for these.
+  std::string file() const;
 };
+
+// May a mesh, a scene or a method be called that? UTF-8 without '/' and control characters, not
+// empty.
+bool is_name(std::string_view text);
 
 // Empty: this is no case's name.
 std::optional<CaseName> case_name_of(std::string_view text);

@@ -16,7 +16,7 @@ namespace airybench {
 // empty, and what is empty is written as null.
 namespace field_kind {
 
-struct word {  // not empty
+struct name {  // of a mesh, a scene, a method: is_name()
   using Type = std::string;
 };
 struct text {
@@ -61,7 +61,26 @@ struct words {
 struct words_by_word {
   using Type = std::map<std::string, std::string>;
 };
-struct json {
+// JSON as it is, of this shape, or null:
+struct object {
+  using Type = Json;
+};
+struct wholes_by_word {
+  using Type = Json;
+};
+struct wholes_by_two_words {  // null for what is not known
+  using Type = Json;
+};
+struct texts_by_word {
+  using Type = Json;
+};
+struct numbers_by_word {  // lists; null for what is not finite
+  using Type = Json;
+};
+struct grid {  // list of {r, rho, iterations, outcome}
+  using Type = Json;
+};
+struct attempts {  // list of {tolerance, claimed_status, error_estimate, error}
   using Type = Json;
 };
 

@@ -12,15 +12,15 @@ namespace airybench {
 class Journal {
  public:
   Journal() = default;  // closed
-  // Opens for appending. Throws FileError.
+  // Opens for appending. Throws FileError, also where there is anything but a regular file.
   explicit Journal(const std::filesystem::path& file);
   ~Journal();
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&& other) noexcept;
 
   bool is_open() const { return descriptor_ >= 0; }
-  // Writes the line and waits until it is on disk (fsync). Throws FileError; what was written of
-  // the line is taken back then.
+  // Writes the line and waits until it is on disk (fsync). Throws FileError: it cannot be written,
+  // and what was of the line is taken back; or the file was removed or replaced.
   void append(const std::string& line);
 
  private:

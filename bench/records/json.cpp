@@ -1,8 +1,47 @@
 #include "bench/records/json.hpp"
 
+#include <fmt/format.h>
+
+#include "support/shortened.hpp"
+
 namespace airybench {
 
-Json parse_json(const std::string& text) { return Json::parse(text); }
+namespace {
+
+// What is read recursively, or written, must not be deeper than the stack is.
+void check_depth(const std::string& text) {
+  constexpr int deepest = 32;
+  int depth = 0;
+  bool in_text = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == '"') in_text = !in_text;
+    if (in_text) {
+      if (c == '\\') ++i;
+    } else if (c == '[' || c == '{') {
+      if (++depth > deepest)
+        throw Json::parse_error::create(101, i + 1,
+                                        fmt::format("nested more than {} deep", deepest), nullptr);
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+}
+
+}  // namespace
+
+Json parse_json(const std::string& text) {
+  check_depth(text);
+  return Json::parse(text);
+}
+
+bool is_utf8(std::string_view text) {
+  try {
+    return !Json(text).dump().empty();
+  } catch (const Json::type_error&) {
+    return false;
+  }
+}
 
 std::string json_text(const Json& json) { return indented_json_text(json, -1); }
 
@@ -12,7 +51,7 @@ std::string indented_json_text(const Json& json, int indent) {
 
 std::string without_prefix(const Json::exception& wrong) {
   const std::string what = wrong.what();
-  return what.substr(what.find("] ") + 2);
+  return shortened(what.substr(what.find("] ") + 2), 200);
 }
 
 }  // namespace airybench

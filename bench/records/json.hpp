@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace airybench {
 
@@ -11,7 +12,9 @@ using Json = nlohmann::ordered_json;
 // Compiled once: parsing and dumping take the compiler as long as everything else a file does with
 // JSON.
 
-Json parse_json(const std::string& text);  // throws Json::exception
+// Throws Json::exception, also where arrays and objects are nested more than 32 deep.
+Json parse_json(const std::string& text);
+bool is_utf8(std::string_view text);
 // On one line; what is not UTF-8, in a file's name say, is replaced.
 std::string json_text(const Json& json);
 std::string indented_json_text(const Json& json, int indent);

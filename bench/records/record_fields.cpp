@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "bench/records/record.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -40,14 +41,14 @@ struct Place {
   const char* key;
   [[noreturn]] void fail(const Json& value, const std::string& allowed) const {
     throw RecordError(
-        fmt::format("{}: {}: {} (allowed: {})", place, key, json_text(value), allowed));
+        fmt::format("{}: {}: {} (allowed: {})", place, key, shortened(json_text(value)), allowed));
   }
 };
 
-void read(field_kind::word, const Json& value, const Place& at, std::string& word) {
-  if (!value.is_string() || value.get_ref<const std::string&>().empty())
-    at.fail(value, "a text that is not empty");
-  word = value.get<std::string>();
+void read(field_kind::name, const Json& value, const Place& at, std::string& name) {
+  if (!value.is_string() || !is_name(value.get_ref<const std::string&>()))
+    at.fail(value, "a text that is not empty, without / and control characters");
+  name = value.get<std::string>();
 }
 
 void read(field_kind::text, const Json& value, const Place& at, std::string& text) {
@@ -62,13 +63,16 @@ void read(field_kind::flag, const Json& value, const Place& at, bool& flag) {
   flag = value.get<bool>();
 }
 
+bool is_count(const Json& value) {
+  constexpr double most = std::int64_t{1} << 60;
+  const double number = value.is_number() ? value.get<double>() : -1;
+  return number >= 0 && number <= most && number == std::floor(number);
+}
+
 void read(field_kind::count, const Json& value, const Place& at,
           std::optional<std::int64_t>& count) {
-  constexpr double most = std::int64_t{1} << 60;
   if (value.is_null()) return;
-  const double number = value.is_number() ? value.get<double>() : -1;
-  if (!(number >= 0 && number <= most && number == std::floor(number)))
-    at.fail(value, "a whole number from 0 to 2^60, null");
+  if (!is_count(value)) at.fail(value, "a whole number from 0 to 2^60, null");
   count = value.get<std::int64_t>();
 }
 
@@ -148,7 +152,64 @@ void read(field_kind::words_by_word, const Json& value, const Place& at,
           std::map<std::string, std::string>& words) {
   read_whole(value, at, "an object of texts", words);
 }
-void read(field_kind::json, const Json& value, const Place&, Json& json) { json = value; }
+
+using Shape = bool (*)(const Json&);
+
+template <Shape shape>
+bool is_object_of(const Json& value) {
+  return value.is_object() && std::all_of(value.begin(), value.end(), shape);
+}
+template <Shape shape>
+bool is_list_of(const Json& value) {
+  return value.is_array() && std::all_of(value.begin(), value.end(), shape);
+}
+bool is_text(const Json& value) { return value.is_string(); }
+bool is_whole(const Json& value) { return value.is_number_integer(); }
+bool is_whole_or_null(const Json& value) { return value.is_null() || is_whole(value); }
+bool is_number_or_null(const Json& value) { return value.is_null() || value.is_number(); }
+bool has(const Json& object, const char* key, Shape shape) {
+  return object.is_object() && object.contains(key) && shape(object.at(key));
+}
+bool is_grid_point(const Json& point) {
+  return has(point, "r", is_number_or_null) && has(point, "rho", is_number_or_null) &&
+         has(point, "iterations", is_count) && has(point, "outcome", is_text);
+}
+bool is_attempt(const Json& attempt) {
+  return has(attempt, "tolerance", is_number_or_null) && has(attempt, "claimed_status", is_text) &&
+         has(attempt, "error_estimate", is_number_or_null) &&
+         has(attempt, "error", is_number_or_null);
+}
+
+void read_shaped(const Json& value, const Place& at, Shape shape, const char* allowed, Json& json) {
+  if (!value.is_null() && !shape(value)) at.fail(value, allowed);
+  json = value;
+}
+void read(field_kind::object, const Json& value, const Place& at, Json& json) {
+  read_shaped(
+      value, at, [](const Json& one) { return one.is_object(); }, "an object, null", json);
+}
+void read(field_kind::wholes_by_word, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_object_of<is_whole>, "an object of whole numbers, null", json);
+}
+void read(field_kind::wholes_by_two_words, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_object_of<is_object_of<is_whole_or_null>>,
+              "an object of objects of whole numbers, null", json);
+}
+void read(field_kind::texts_by_word, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_object_of<is_text>, "an object of texts, null", json);
+}
+void read(field_kind::numbers_by_word, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_object_of<is_list_of<is_number_or_null>>,
+              "an object of lists of numbers, null", json);
+}
+void read(field_kind::grid, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_list_of<is_grid_point>, "a list of {r, rho, iterations, outcome}, null",
+              json);
+}
+void read(field_kind::attempts, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_list_of<is_attempt>,
+              "a list of {tolerance, claimed_status, error_estimate, error}, null", json);
+}
 
 template <typename Kind, auto member>
 void read_member(const Json& value, const std::string& place, const char* key, Record& record) {
@@ -202,7 +263,8 @@ Json to_json(const Record& record, unsigned uses) {
 
 Record record_of(const Json& json, const std::string& place) {
   if (!json.is_object())
-    throw RecordError(fmt::format("{}: {} (allowed: a JSON object)", place, json_text(json)));
+    throw RecordError(
+        fmt::format("{}: {} (allowed: a JSON object)", place, shortened(json_text(json))));
   static const Json null;
   Record record;
   for (const Field& field : record_fields()) {

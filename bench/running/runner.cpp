@@ -128,8 +128,20 @@ class Reporter : public benchmark::BenchmarkReporter {
 
 void initialize_benchmark(const Options& options) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
-  arguments = {"bench"};
-  if (options.interleave) arguments.push_back("--benchmark_enable_random_interleaving=true");
+  // All that its environment variables could change (BENCHMARK_FILTER and so on): a run is what its
+  // own options say.
+  arguments = {"bench",
+               "--benchmark_filter=all",
+               "--benchmark_list_tests=false",
+               "--benchmark_repetitions=1",
+               "--benchmark_min_time=0",
+               "--benchmark_min_warmup_time=0",
+               "--benchmark_report_aggregates_only=false",
+               "--benchmark_display_aggregates_only=false",
+               "--benchmark_out=",
+               "--benchmark_perf_counters=",
+               "--benchmark_context=",
+               fmt::format("--benchmark_enable_random_interleaving={}", options.interleave)};
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   int argc = static_cast<int>(argv.size());

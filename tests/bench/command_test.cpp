@@ -103,10 +103,11 @@ TEST_F(Command, WritesFieldsOnRequest) {
   const Result result =
       bench("--mesh=Mesh0 --method=3STEPD:CHOLMOD --repetitions=1 --fields --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  const std::string stress = content(folder_ / "o/fields/Mesh0-default-3STEPD-CHOLMOD.stress.csv");
+  const std::string stress =
+      content(folder_ / "o/fields/Mesh0--default--3STEPD+CHOLMOD.stress.csv");
   EXPECT_EQ(std::count(stress.begin(), stress.end(), '\n'), 1 + 9 * 226);
   const std::string contact =
-      content(folder_ / "o/fields/Mesh0-default-3STEPD-CHOLMOD.contact.csv");
+      content(folder_ / "o/fields/Mesh0--default--3STEPD+CHOLMOD.contact.csv");
   EXPECT_EQ(std::count(contact.begin(), contact.end(), '\n'), 1 + 20);
 }
 
@@ -170,7 +171,8 @@ TEST_F(Command, WrongUsageIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(unknown.err.rfind("bench: no method matches '4STEP' (valid: SDTIC3, ", 0), 0u);
   EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1);
   expect_usage_error("--mesh=nowhere.msh", "nowhere.msh: cannot be opened");
-  expect_usage_error("--scene=nowhere.json", "nowhere.json: cannot be opened as a scene file");
+  expect_usage_error("--scene=nowhere.json",
+                     "nowhere.json: cannot be opened: No such file or directory");
   file("bad.json", R"({"friction": -2})");
   expect_usage_error("--scene=bad.json", "bad.json: friction: -2 (allowed: >= 0)");
   file("four.json", R"({"teeth": 4})");

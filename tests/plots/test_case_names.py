@@ -22,8 +22,9 @@ class CaseNamesTest(unittest.TestCase):
         self.assertTrue(case_name(case | dict(knob_value=30.0)).endswith("_sweeps=30/stop=paper"))
 
     def test_files(self) -> None:
-        self.assertEqual(file_of(SWEPT), "Mesh0-default-SYMMLQ-SSOR0.7,schur=sparse-study=error-"
-                                         "contact_sweeps=1e-12-stop=paper")
+        self.assertEqual(file_of(SWEPT), "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
+                                         "contact_sweeps=1e-12--stop=paper")
+        self.assertEqual(file_of("-a-/b+--c%/d-e"), "%2Da%2D--b%2B%2D%2Dc%25--d-e")
 
 
 if __name__ == "__main__":

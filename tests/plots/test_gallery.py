@@ -22,7 +22,7 @@ CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement
 LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
 TRIANGLES = [(0, 1, 2), (0, 2, 3)]
 SMALL = mock.patch.object(gallery, "DPI", 20)  # where nobody looks at the picture
-NAMES = [f"{mesh}-default-3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4")]
+NAMES = [f"{mesh}--default--3STEPD" for mesh in ("Mesh0", "Mesh1", "Mesh3", "Mesh4")]
 
 
 def stress_at(x: float, y: float) -> tuple[float, float, float]:

@@ -182,7 +182,7 @@ TEST_F(SceneFile, AMissingFileIsNamed) {
     read_scene("no/such/scene.json");
     FAIL();
   } catch (const SceneError& error) {
-    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened as a scene file");
+    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened: No such file or directory");
   }
 }
 

@@ -448,7 +448,9 @@ TEST_F(Claims, MalformedRecordsAreNamedByLineKeyAndValue) {
     bad[key] = value;
     expect_refused(good.dump() + "\n" + bad.dump() + "\n", std::string(":2: ") + key + complaint);
   };
-  const std::string text = " (allowed: a text that is not empty)";
+  const std::string text =
+      " (allowed: a text that is not empty, without / and control "
+      "characters)";
   expect_bad("mesh", "", ": \"\"" + text);
   expect_bad("scene", nullptr, ": null" + text);
   expect_bad("method", 7, ": 7" + text);

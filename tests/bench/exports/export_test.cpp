@@ -110,7 +110,8 @@ TEST(Exports, WrongValuesAreNamedWithTheirPlace) {
       "records.jsonl:3: status: 7 (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
       "out_of_memory, crashed, skipped)");
   EXPECT_EQ(message("mesh", nullptr),
-            "records.jsonl:3: mesh: null (allowed: a text that is not empty)");
+            "records.jsonl:3: mesh: null (allowed: a text that is not empty, without / and control "
+            "characters)");
   EXPECT_EQ(message("time_s", "1"), "records.jsonl:3: time_s: \"1\" (allowed: a number > 0, null)");
   EXPECT_EQ(message("samples_s", {1, "x"}),
             "records.jsonl:3: samples_s: \"x\" (allowed: numbers > 0)");

@@ -2,7 +2,6 @@
 // with; shards and their joining; one recorded case run again.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,14 +12,17 @@
 #include <thread>
 
 #include "bench/records/json.hpp"
+#include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::resume_test {
 namespace {
 
+using testing::BackgroundRun;
 using testing::BenchCommand;
 using testing::CommandResult;
+using testing::wait_for;
 
 const std::string six =
     "--mesh=Mesh0 --method=3STEPD,BLIND,BLIND:SCHUR,3STEPD:CHOLMOD,HYBRID,P2 --repetitions=1 ";
@@ -46,43 +48,6 @@ std::map<std::string, Json> by_name(const std::vector<Json>& records) {
     result[name_of(record)] = lasting(record);
   }
   return result;
-}
-
-// A run in the background that can be sent signals.
-class Background {
- public:
-  Background(const BenchCommand& folder, const std::string& arguments) {
-    std::string command = "cd '" + folder.path("").string();
-    command += "' && exec '" + testing::bench_executable().string() + "' ";
-    command += arguments;
-    command += " >bg_out.txt 2>bg_err.txt </dev/null";
-    pid_ = fork();
-    if (pid_ == 0) {
-      execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
-      _exit(127);
-    }
-  }
-  ~Background() {
-    if (pid_ > 0) end(SIGKILL);
-  }
-  pid_t pid() const { return pid_; }
-  // The wait status after this signal.
-  int end(int signal) {
-    kill(pid_, signal);
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return status;
-  }
-
- private:
-  pid_t pid_ = -1;
-};
-
-// Waits for something, as long as the test runner's patience lasts.
-template <typename Condition>
-void wait_for(const Condition& condition) {
-  while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
 std::set<pid_t> descendants(pid_t of) {
@@ -114,7 +79,7 @@ TEST(Resume, AfterKillAtRandomMomentsNothingIsLostOrRepeated) {
       std::filesystem::remove_all(bench.path("o"));
       before = 0;
     }
-    Background run(bench, six + "--out=o --resume");
+    BackgroundRun run(bench, six + "--out=o --resume");
     std::this_thread::sleep_for(std::chrono::milliseconds(engine() % 400));
     killed_at_work += WIFSIGNALED(run.end(SIGKILL)) ? 1 : 0;
     const auto records = by_name(bench.records());
@@ -199,7 +164,7 @@ TEST(Interrupt, LeavesWhatWasMeasuredAndNoProcess) {
   const std::string slow = "--mesh=Mesh0,Mesh3 --method=HYBRID,SYMMLQ:NONE --out=o";
   for (const int signal : {SIGINT, SIGTERM, SIGKILL}) {
     const BenchCommand bench;
-    Background run(bench, slow);
+    BackgroundRun run(bench, slow);
     std::set<pid_t> children;
     wait_for([&] {
       children = descendants(run.pid());
@@ -220,7 +185,7 @@ TEST(Interrupt, BeforeTheFirstRecordLeavesTheEarlierRun) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o").code, 0);
   const std::string before = bench.content("o/results.csv");
-  Background run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --out=o");
+  BackgroundRun run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --out=o");
   wait_for([&] { return descendants(run.pid()).size() >= 2; });
   run.end(SIGINT);
   EXPECT_EQ(bench.content("o/results.csv"), before);

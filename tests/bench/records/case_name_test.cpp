@@ -23,12 +23,30 @@ TEST(CaseName, IsReadAsItIsWritten) {
       "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper");
   EXPECT_EQ(
       name.file(),
-      "Mesh0-default-SYMMLQ-SSOR0.7,schur=sparse-study=error-contact_sweeps=1e-12-stop=paper");
+      "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--contact_sweeps=1e-12--stop=paper");
   const auto read = case_name_of(name.text());
   ASSERT_TRUE(read);
   EXPECT_EQ(read->method, name.method);
   EXPECT_EQ(read->knob_value, name.knob_value);
   EXPECT_EQ(read->stop, Stop::paper);
+}
+
+TEST(CaseName, OfEachCaseAnotherFile) {
+  EXPECT_EQ((CaseName{"-a-", "b+--c%", "d-e", "", "", {}, Stop::target}.file()),
+            "%2Da%2D--b%2B%2D%2Dc%25--d-e");  // as in tests/plots/test_case_names.py
+  std::set<std::string> files;
+  std::size_t names = 0;
+  const std::vector<std::string> parts = {"M",    "-",   "--",  "M-",  "-M",   "M-x",
+                                          "M--x", "x",   "x-M", "+",   ":",    "%",
+                                          "%2D",  "%2B", "a:b", "a+b", "a--b", "a%2Db"};
+  for (const std::string& mesh : parts)
+    for (const std::string& scene : parts)
+      for (const std::string& method : parts) {
+        ++names;
+        files.insert(CaseName{mesh, scene, method, "", "", {}, Stop::target}.file());
+      }
+  EXPECT_EQ(files.size(), names);
+  for (const std::string& file : files) EXPECT_EQ(file.find('/'), file.npos);
 }
 
 TEST(CaseName, RefusesWhatIsNone) {

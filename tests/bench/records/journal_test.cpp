@@ -1,6 +1,7 @@
 #include "bench/records/journal.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "bench/records/context.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -28,8 +29,17 @@ TEST(Journal, SaysWhatCannotBeWrittenOrRead) {
   const testing::TemporaryFolder folder;
   EXPECT_THROW(Journal(folder / "nowhere/j"), FileError);
   EXPECT_THROW(read_journal(folder.path()), FileError);
-  Journal full("/dev/full");
-  EXPECT_THROW(full.append("one"), FileError);
+  EXPECT_THROW(Journal("/dev/full"), FileError);
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0666), 0);
+  EXPECT_THROW(Journal(folder / "pipe"), FileError);
+  for (const char* file : {"removed", "replaced"}) {
+    Journal journal(folder / file);
+    journal.append("one");
+    std::filesystem::remove(folder / file);
+    if (file == std::string("replaced")) testing::write_text(folder / file, "another's");
+    EXPECT_THROW(journal.append("two"), FileError);
+    EXPECT_EQ(testing::text_of(folder / file), file == std::string("replaced") ? "another's" : "");
+  }
 }
 
 TEST(RunIdentity, NamesWhatDiffersAndPassesOverTheMoment) {

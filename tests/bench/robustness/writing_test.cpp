@@ -1,0 +1,224 @@
+// Files are written whole, where they may be, and by one at a time.
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "support/atomic_file.hpp"
+#include "support/errors.hpp"
+#include "support/folder_lock.hpp"
+#include "tests/support/background_run.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::writing_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::BackgroundRun;
+using testing::BenchCommand;
+using testing::CommandResult;
+using testing::text_of;
+using testing::wait_for;
+using testing::write_text;
+
+const std::string quick = "--mesh=Mesh0 --method=HYBRID --repetitions=1 ";
+const std::string two = "--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 ";
+
+std::string why_refused(const fs::path& file) {
+  try {
+    write_file_atomically(file, "new");
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+std::size_t entries_of(const fs::path& folder) {
+  return static_cast<std::size_t>(
+      std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(WriteFile, RefusesWhatIsNoRegularFile) {
+  const testing::TemporaryFolder folder;
+  const fs::path fifo = folder / "fifo", link = folder / "link", device = folder / "device";
+  ASSERT_EQ(mkfifo(fifo.c_str(), 0666), 0);
+  fs::create_symlink(fifo, link);
+  fs::create_symlink("/dev/null", device);
+  for (const fs::path& file : {fifo, link, device, folder.path()}) {
+    EXPECT_EQ(why_refused(file),
+              file.string() + ": is no regular file (allowed: one, or a name that is not there)");
+    EXPECT_FALSE(fs::is_regular_file(file)) << file;
+  }
+  EXPECT_EQ(entries_of(folder.path()), 3u);
+}
+
+TEST(WriteFile, GoesWhereLinksPoint) {
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "there");
+  write_text(folder / "there/old", "old");
+  fs::create_symlink("there/old", folder / "to_old");
+  fs::create_symlink("there/new", folder / "to_new");
+  fs::create_symlink("to_new", folder / "to_link");
+  fs::create_symlink("round", folder / "round");
+  write_file_atomically(folder / "to_old", "changed");
+  write_file_atomically(folder / "to_link", "made");
+  EXPECT_EQ(text_of(folder / "there/old"), "changed");
+  EXPECT_EQ(text_of(folder / "there/new"), "made");
+  for (const char* link : {"to_old", "to_new", "to_link"})
+    EXPECT_TRUE(fs::is_symlink(folder / link)) << link;
+  EXPECT_NE(why_refused(folder / "round").find("cannot be written: Too many levels"),
+            std::string::npos)
+      << why_refused(folder / "round");
+}
+
+TEST(WriteFile, KeepsPermissionsAndAsksForThem) {
+  const testing::TemporaryFolder folder;
+  write_text(folder / "private", "old");
+  fs::permissions(folder / "private", fs::perms::owner_read | fs::perms::owner_write);
+  write_file_atomically(folder / "private", "new");
+  EXPECT_EQ(fs::status(folder / "private").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write);
+  const mode_t before = umask(027);
+  write_file_atomically(folder / "fresh", "new");
+  umask(before);
+  EXPECT_EQ(fs::status(folder / "fresh").permissions(),
+            fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+}
+
+// Somebody who guesses the temporary name cannot have us write into a file of his choice.
+TEST(WriteFile, DoesNotFollowAPlantedTemporaryName) {
+  const testing::TemporaryFolder folder;
+  write_text(folder / "victim", "untouched");
+  fs::create_symlink("victim", folder / ("file.part" + std::to_string(getpid())));
+  write_file_atomically(folder / "file", "new");
+  EXPECT_EQ(text_of(folder / "victim"), "untouched");
+  EXPECT_EQ(text_of(folder / "file"), "new");
+}
+
+TEST(FolderLock, IsOneProcesssUntilItEnds) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(quick + "--out=a").code, 0);
+  fs::create_directories(bench.path("h"));
+  const auto refused = [&](const std::string& arguments) {
+    const std::string before = bench.content("a/records.jsonl");
+    const CommandResult result = bench.run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find(": in use by process " + std::to_string(getpid()) + " on "),
+              std::string::npos)
+        << arguments << ": " << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(bench.content("a/records.jsonl"), before);
+  };
+  ASSERT_EQ(bench.run(quick + "--out=part").code, 0);
+  {
+    const FolderLock run(bench.path("a")), history(bench.path("h"));
+    refused(quick + "--out=a");
+    refused(two + "--out=a --append");
+    refused(quick + "--out=a --resume");
+    refused("merge part --out=a");
+    refused("replay part:1 --out=a");
+    refused("track --history=h --from=part");
+    EXPECT_FALSE(fs::exists(bench.path("h/nights")));
+  }
+  EXPECT_EQ(bench.run(quick + "--out=a").code, 0);
+  EXPECT_EQ(bench.run("track --history=h --from=part").code, 0);
+  EXPECT_FALSE(fs::exists(bench.path("a/.lock"))) << "nothing is left of it";
+  write_text(bench.path("a/.lock"), "process 1 on a machine that is no more");
+  EXPECT_EQ(bench.run(quick + "--out=a").code, 0) << "what a killed run left";
+}
+
+TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
+  const BenchCommand bench;
+  BackgroundRun first(bench, "--mesh=Mesh0,Mesh3 --method=HYBRID,SYMMLQ:NONE --out=o");
+  wait_for([&] { return !bench.records().empty(); });
+  const CommandResult second = bench.run(two + "--out=o --append");
+  EXPECT_EQ(second.code, 2);
+  EXPECT_NE(second.err.find("in use by process " + std::to_string(first.pid())), std::string::npos)
+      << second.err;
+  first.end(SIGKILL);
+  EXPECT_FALSE(bench.records().empty());
+  EXPECT_EQ(bench.run(two + "--out=o").code, 0) << "a killed run holds nothing";
+}
+
+TEST(Records, DeletedDuringARunAreMissed) {
+  for (const bool whole_folder : {false, true}) {
+    const BenchCommand bench;
+    BackgroundRun run(bench, "--mesh=Mesh0 --method=HYBRID,3STEPD,BLIND,ALM,P2 --repetitions=5 "
+                             "--out=o");
+    wait_for([&] { return !bench.records().empty(); });
+    fs::remove_all(bench.path(whole_folder ? "o" : "o/records.jsonl"));
+    const int status = run.end(0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 2);
+    EXPECT_NE(bench.content("bg_err.txt")
+                  .find("o/records.jsonl: was removed or replaced while the run wrote it"),
+              std::string::npos)
+        << bench.content("bg_err.txt");
+  }
+}
+
+TEST(Merge, ValidatesAllBeforeItWrites) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(two + "--out=whole").code, 0);
+  ASSERT_EQ(bench.run(two + "--out=bad").code, 0);
+  const auto files = [&] {
+    std::string all;
+    for (const char* name : {"records.jsonl", "results.csv", "results.json"})
+      all += bench.content(std::string("whole/") + name);
+    return all;
+  };
+  const std::string before = files();
+  for (const auto& [key, value] :
+       {std::pair<const char*, Json>("status", ""), {"grid", Json::array({Json::object()})},
+        {"memory_by_owner", 3}, {"stages_left_out", "none"}, {"case_number", -1},
+        {"samples_s", Json::array({"long"})}, {"context", Json::array()}}) {
+    std::vector<Json> records = bench.records("whole");
+    records[1][key] = value;
+    write_text(bench.path("bad/records.jsonl"), records[0].dump() + "\n" + records[1].dump() + "\n");
+    const CommandResult result = bench.run("merge bad --out=whole");
+    EXPECT_EQ(result.code, 2) << key << ": " << result.out;
+    EXPECT_NE(result.err.find(std::string("bad/records.jsonl:2: ") + key + ": "),
+              std::string::npos)
+        << result.err;
+    EXPECT_EQ(files(), before) << key;
+  }
+}
+
+// What a record says does not become a path.
+TEST(Replay, WritesNothingWhereASceneNamePoints) {
+  const BenchCommand bench;
+  write_text(bench.path("flat.json"), R"({"crown_radius_mm": null})");
+  ASSERT_EQ(bench.run(quick + "--scene=flat.json --out=o").code, 0);
+  const std::string good = bench.records()[0].dump();
+  for (const std::string& scene : {std::string("../evil"), std::string("a/b"), bench.path("evil").string()}) {
+    Json record = Json::parse(good);
+    record["scene"] = scene;
+    record["context"]["program_sha256"] = "0";
+    fs::create_directories(bench.path("c"));
+    write_text(bench.path("c/records.jsonl"), record.dump() + "\n");
+    for (const char* more : {"", " --other-program"}) {
+      const CommandResult result = bench.run(std::string("replay c:1 --out=again/here") + more);
+      EXPECT_EQ(result.code, 2) << scene << result.err;
+      EXPECT_FALSE(fs::exists(bench.path("evil.json")));
+      EXPECT_FALSE(fs::exists(bench.path("again/evil.json")));
+      EXPECT_FALSE(fs::exists(bench.path("again"))) << scene;
+    }
+  }
+}
+
+TEST(Fields, OfTwoCasesAreTwoFiles) {
+  const BenchCommand bench;
+  fs::copy_file(testing::mesh_file("Mesh0"), bench.path("M.msh"));
+  fs::copy_file(testing::mesh_file("Mesh0"), bench.path("M-x.msh"));
+  write_text(bench.path("d.json"), "{}");
+  write_text(bench.path("x-d.json"), R"({"friction": 0})");
+  ASSERT_EQ(bench.run("--mesh=./M.msh,./M-x.msh --scene=d.json,x-d.json --method=HYBRID "
+                      "--repetitions=1 --fields --out=o").code,
+            0);
+  EXPECT_EQ(entries_of(bench.path("o/fields")), 4u * 3u);
+}
+
+}  // namespace
+}  // namespace airybench::writing_test
