@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "support/shortened.hpp"
+
 namespace airybench {
 namespace {
 
 [[noreturn]] void refuse_item(std::string_view item, const std::string& why) {
-  throw std::invalid_argument("mesh '" + std::string(item) + "': " + why +
+  throw std::invalid_argument("mesh '" + shortened(item) + "': " + why +
                               " (valid: Mesh0..Mesh7, a list Mesh0,Mesh3, a range Mesh1..Mesh4, "
                               "a glob Mesh[0-3], or files *.msh)");
 }

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "solvers/general_names.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 
@@ -119,7 +120,8 @@ std::vector<Method> select_methods(std::string_view selection) {
       if (fnmatch(item.c_str(), methods()[i].name.c_str(), 0) == 0) selected[i] = matched = true;
     if (matched) continue;
     if (!is_general_name(item))
-      throw std::invalid_argument("no method matches '" + item + "' (valid: " + valid_names() +
+      throw std::invalid_argument("no method matches '" + shortened(item) +
+                                  "' (valid: " + valid_names() +
                                   ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
                                   "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
     more.push_back(method_of_general_name(item));

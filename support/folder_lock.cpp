@@ -38,9 +38,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".l
     if (descriptor_ < 0 || fcntl(descriptor_, F_SETLK, &whole) != 0) {
       const int error = errno;
       const bool is_held = descriptor_ >= 0 && (error == EACCES || error == EAGAIN);
-      const std::string why = is_held ? "in use by " + holder(descriptor_)
-                                      : "cannot be locked: " +
-                                            std::generic_category().message(error);
+      const std::string why = is_held
+                                  ? "in use by " + holder(descriptor_)
+                                  : "cannot be locked: " + std::generic_category().message(error);
       if (descriptor_ >= 0) close(descriptor_);
       throw FileError(fmt::format("{}: {}", folder.string(), why));
     }

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <iterator>
+#include <limits>
 #include <stdexcept>
 
+#include "support/numbers.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
@@ -52,14 +53,13 @@ std::string fingerprint(const std::vector<Case>& plan) {
 std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
 
 std::optional<Shard> shard_of(const std::string& text) {
-  Shard shard;
-  const char* const end = text.data() + text.size();
-  const auto [slash, first_error] = std::from_chars(text.data(), end, shard.index);
-  if (first_error != std::errc() || slash == end || *slash != '/') return {};
-  const auto [rest, second_error] = std::from_chars(slash + 1, end, shard.count);
-  if (second_error != std::errc() || rest != end) return {};
-  if (shard.index < 1 || shard.index > shard.count) return {};
-  return shard;
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<std::int64_t> index = parse_whole(text.substr(0, slash));
+  const std::optional<std::int64_t> count =
+      parse_whole(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index < 1 || *index > *count || *count > std::numeric_limits<int>::max())
+    return {};
+  return Shard{static_cast<int>(*index), static_cast<int>(*count)};
 }
 
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard) {

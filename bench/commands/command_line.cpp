@@ -3,10 +3,17 @@
 #include <fmt/format.h>
 
 #include "support/errors.hpp"
+#include "support/numbers.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 
 void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument.starts_with("--") && argument.find('=') == argument.size() - 1)
+      throw UsageError(fmt::format("{}: (allowed: a value behind the sign)", shortened(argument)));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
@@ -17,10 +24,40 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     std::string valid;
     for (const CLI::Option* option : app.get_options())
       if (option != app.get_help_ptr()) valid += option->get_name() + " ";
-    throw UsageError(fmt::format("{} (valid: {}--help)", error.what(), valid));
+    throw UsageError(fmt::format("{} (valid: {}--help)", shortened(error.what()), valid));
   } catch (const CLI::ParseError& error) {
-    throw UsageError(error.what());
+    throw UsageError(shortened(error.what(), 300));
   }
+}
+
+CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t least,
+                       std::int64_t most, std::int64_t preset,
+                       const std::function<void(std::int64_t)>& set,
+                       const std::string& description) {
+  const auto read = [=](const std::string& text) {
+    const std::optional<std::int64_t> value = parse_whole(text);
+    if (!value || *value < least || *value > most)
+      throw UsageError(fmt::format("{}: {} (allowed: a whole number from {} to {})", name,
+                                   shortened(text), least, most));
+    set(*value);
+  };
+  return app.add_option_function<std::string>(name, read, description)
+      ->type_name("INT")
+      ->default_str(preset < least ? "" : std::to_string(preset));
+}
+
+CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
+                        double& number, const std::string& description) {
+  const auto read = [=, &number](const std::string& text) {
+    const std::optional<double> value = parse_number(text);
+    if (!value || *value < 0 || (*value == 0 && least == Least::above_zero) || *value > most)
+      throw UsageError(fmt::format("{}: {} (allowed: a number {} {})", name, shortened(text),
+                                   least == Least::zero ? "from 0 to" : "above 0, up to", most));
+    number = *value;
+  };
+  return app.add_option_function<std::string>(name, read, description)
+      ->type_name("NUMBER")
+      ->default_str(fmt::format("{}", number));
 }
 
 std::vector<std::string> split_list(const std::string& list) {

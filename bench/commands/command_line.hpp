@@ -2,14 +2,27 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace airybench {
 
 // app.parse(argc, argv), with CLI11's ways to end as ours: HelpRequested (help, version),
-// UsageError (one line; for an unknown word with what is valid).
+// UsageError (one line; for an unknown word with what is valid; also for "--out=", whose value
+// would be the next argument).
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
+
+// Options whose values are numbers, read by support/numbers.hpp. Others are refused with option,
+// value and what is allowed.
+CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t least,
+                       std::int64_t most, std::int64_t preset,
+                       const std::function<void(std::int64_t)>& set,
+                       const std::string& description);
+enum class Least { zero, above_zero };
+CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
+                        double& number, const std::string& description);
 
 // The items of a list, "a,b"; a backslash before a comma or a backslash makes it a part of its
 // item.

@@ -7,6 +7,8 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/measuring/build_info.hpp"
+#include "bench/records/json.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -50,16 +52,20 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
     options.filter = *filter;
   } else if (const auto pair = value_of("--benchmark_context=")) {
     const std::size_t equals = pair->find('=');
-    if (equals == pair->npos || equals == 0)
-      throw UsageError(fmt::format("-- {}: (allowed: --benchmark_context=key=value)", argument));
+    if (equals == pair->npos || equals == 0 || !is_utf8(*pair))
+      throw UsageError(fmt::format("-- --benchmark_context={}: (allowed: key=value in UTF-8)",
+                                   is_utf8(*pair) ? shortened(*pair) : "…"));
     options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
-  } else if (argument.starts_with("--benchmark_enable_random_interleaving")) {
-    options.interleave = !argument.ends_with("=false") && !argument.ends_with("=0");
+  } else if (const auto word = value_of("--benchmark_enable_random_interleaving=")) {
+    if (*word != "true" && *word != "false")
+      throw UsageError(fmt::format(
+          "-- --benchmark_enable_random_interleaving={} (allowed: true, false)", shortened(*word)));
+    options.interleave = *word == "true";
   } else {
     throw UsageError(
         fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
                     "--benchmark_enable_random_interleaving=, --benchmark_context=)",
-                    argument));
+                    shortened(argument)));
   }
 }
 
@@ -67,13 +73,13 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
+  constexpr double most_of_a_limit = 1e9;
   CLI::App app(
       "Time, memory and error of methods for stress-formulated contact with friction, for every "
       "mesh, scene and method chosen.",
       "bench");
   app.footer(run_footer);
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
-  std::int64_t limit_MiB = 0;
   app.add_option("--mesh", options.meshes,
                  "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files")
       ->capture_default_str();
@@ -81,11 +87,12 @@ Options parse_options(int argc, const char* const* argv) {
                  "names or globs, separated by commas; default: all the paper's methods");
   app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
       ->delimiter(',');
-  app.add_option(
-         "--figure", options.figure,
-         "the cases of the paper's figure 3, 4 or 5, and those that we set beside them (4 and 5 "
-         "are the same)")
-      ->check(CLI::IsMember({3, 4, 5}))
+  add_whole(
+      app, "--figure", 3, 5, 0,
+      [&](std::int64_t figure) { options.figure = static_cast<int>(figure); },
+      "the cases of the paper's figure 3, 4 or 5, and those that we set beside them (4 and 5 are "
+      "the "
+      "same)")
       ->excludes(app.get_option("--mesh"))
       ->excludes(app.get_option("--method"));
   std::string study;
@@ -94,35 +101,32 @@ Options parse_options(int argc, const char* const* argv) {
                  "(every method on the extreme scenes of bench/scenes/stability)")
       ->check(CLI::IsMember({"error", "stability"}))
       ->excludes(app.get_option("--figure"));
-  app.add_option("--target-error", options.target_error,
-                 "every iterative method is tightened until its errors and residuals are below "
-                 "this; a case that stays above is `inaccurate`")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
+             "every iterative method is tightened until its errors and residuals are below this; a "
+             "case that stays above is `inaccurate`");
   std::string stop = "target";
   app.add_option("--stop", stop,
                  "when iterative methods stop: target (see --target-error), or paper (the paper's "
                  "own stops, whatever error they leave)")
       ->check(CLI::IsMember({"target", "paper"}))
       ->capture_default_str();
-  app.add_option("--repetitions", options.repetitions, "timed runs of each case")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of BLAS and for right-hand sides")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  app.add_option("--timeout", options.timeout_s,
-                 "seconds that one solve may take; one that does not end by itself is ended")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option(
-         "--long-case", options.long_case_s,
-         "seconds: a longer solve is measured once, and repetitions end when they add up to this")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  auto* limit = app.add_option("--memory-limit", limit_MiB,
-                               "MiB of heap that one solve may use, its blocks included")
-                    ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
+  add_whole(
+      app, "--repetitions", 1, 100000, options.repetitions,
+      [&](std::int64_t count) { options.repetitions = static_cast<int>(count); },
+      "timed runs of each case");
+  add_whole(
+      app, "--threads", 1, 1024, options.threads,
+      [&](std::int64_t count) { options.threads = static_cast<int>(count); },
+      "threads of BLAS and for right-hand sides");
+  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
+             "seconds that one solve may take; one that does not end by itself is ended");
+  add_number(
+      app, "--long-case", Least::above_zero, most_of_a_limit, options.long_case_s,
+      "seconds: a longer solve is measured once, and repetitions end when they add up to this");
+  add_whole(
+      app, "--memory-limit", 1, std::int64_t{1} << 40, 0,
+      [&](std::int64_t MiB) { options.memory_limit_bytes = MiB * 1024 * 1024; },
+      "MiB of heap that one solve may use, its blocks included");
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   app.add_option("--then", options.then,
                  "a command for the shell after the run; the output folder becomes its last "
@@ -156,17 +160,11 @@ Options parse_options(int argc, const char* const* argv) {
       break;
     }
   parse_command_line(app, own, argv);
-  if (!(options.timeout_s > 0 && options.timeout_s <= 1e9))
-    throw UsageError(fmt::format("--timeout: {} (allowed: above 0, up to 1e9)", options.timeout_s));
-  if (!(options.long_case_s > 0 && options.long_case_s <= 1e9))
-    throw UsageError(
-        fmt::format("--long-case: {} (allowed: above 0, up to 1e9)", options.long_case_s));
-  if (!(options.target_error > 0 && options.target_error <= 1e9))
-    throw UsageError(
-        fmt::format("--target-error: {} (allowed: above 0, up to 1e9)", options.target_error));
   if (!shard.empty()) {
     const std::optional<Shard> part = shard_of(shard);
-    if (!part) throw UsageError(fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shard));
+    if (!part)
+      throw UsageError(
+          fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(shard)));
     options.shard = *part;
   }
   if (stop == "paper") options.stop = Stop::paper;
@@ -179,7 +177,6 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
     options.repetitions = 1;
   }
-  if (limit->count() > 0) options.memory_limit_bytes = limit_MiB * 1024 * 1024;
   return options;
 }
 

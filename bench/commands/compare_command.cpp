@@ -47,10 +47,8 @@ CompareOptions parse_compare(int argc, const char* const* argv) {
   app.add_option("A", options.a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
       ->required();
   app.add_option("B", options.b, "and after")->required();
-  app.add_option("--minimum-effect", options.minimum_effect_percent,
-                 "per cent: smaller changes of a time are no change")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
+  add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
+             "per cent: smaller changes of a time are no change");
   app.add_option("--out", options.out, "also write the comparison to this file, *.md or *.json");
   parse_command_line(app, argc, argv);
   const std::filesystem::path extension = options.out.extension();

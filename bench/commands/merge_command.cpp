@@ -9,6 +9,8 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/output/record_files.hpp"
+#include "support/numbers.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -90,6 +92,19 @@ std::map<std::int64_t, RecordLine> by_number(const std::vector<RecordLine>& all)
   return cases;
 }
 
+// 0: the records are older than that word.
+std::int64_t cases_planned(const RecordLine& line) {
+  constexpr std::int64_t most = 1'000'000;
+  const std::string word = context_word(line.record, "cases_planned");
+  if (word.empty()) return 0;
+  const std::optional<std::int64_t> planned = parse_whole(word);
+  if (!planned || *planned < 1 || *planned > most)
+    throw FileError(
+        fmt::format("{}: context: cases_planned: {} (allowed: a whole number from 1 to {})",
+                    line.place, shortened(word), most));
+  return *planned;
+}
+
 }  // namespace
 
 int merge_command(int argc, const char* const* argv) {
@@ -98,10 +113,10 @@ int merge_command(int argc, const char* const* argv) {
   refuse_mixtures(all);
   const std::map<std::int64_t, RecordLine> cases = by_number(all);
   // The same in all, or they would have been refused.
-  const int plan = std::atoi(context_word(all.front().record, "cases_planned").c_str());
+  const std::int64_t plan = cases_planned(all.front());
   std::string missing;
   int count = 0;
-  for (int number = 1; number <= plan; ++number)
+  for (std::int64_t number = 1; number <= plan; ++number)
     if (cases.count(number) == 0 && ++count <= 10)
       missing += fmt::format("{}{}", missing.empty() ? "" : ", ", number);
   if (count > 0 && !options.incomplete)

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
 #include "bench/cases/scene_file.hpp"
@@ -13,7 +11,8 @@
 #include "bench/output/record_files.hpp"
 #include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
-#include "support/sha256.hpp"
+#include "support/numbers.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -48,21 +47,20 @@ ReplayOptions parse_replay(int argc, const char* const* argv) {
 Record find_record(const std::string& name) {
   const std::size_t colon = name.find(':');
   if (colon == name.npos)
-    throw UsageError(fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", name));
+    throw UsageError(
+        fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", shortened(name)));
   const std::string folder = name.substr(0, colon), which = name.substr(colon + 1);
   const std::vector<RecordLine> lines = lines_in(folder);
-  std::size_t line = 0;
-  const auto [end, error] = std::from_chars(which.data(), which.data() + which.size(), line);
-  if (error == std::errc() && end == which.data() + which.size()) {
-    if (line < 1 || line > lines.size())
-      throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, line, lines.size()));
-    return lines[line - 1].record;
+  if (const std::optional<std::int64_t> line = parse_whole(which)) {
+    if (*line < 1 || *line > static_cast<std::int64_t>(lines.size()))
+      throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, *line, lines.size()));
+    return lines[static_cast<std::size_t>(*line - 1)].record;
   }
   if (!case_name_of(which))
     throw UsageError(fmt::format(
         "{}: '{}' is no case's name (allowed: MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE]"
         "[/stop=paper], or a line's number)",
-        name, which));
+        shortened(name), shortened(which)));
   for (const RecordLine& one : lines)
     if (name_of(one.record).text() == which) return one.record;
   throw UsageError(fmt::format("{}: no such case (the first is {})", name,
@@ -70,8 +68,13 @@ Record find_record(const std::string& name) {
 }
 
 double setting(const Context& context, const std::string& key, double otherwise) {
-  const auto found = context.find(key);
-  return found == context.end() ? otherwise : std::atof(found->second.c_str());
+  const std::string word = context_word(context, key);
+  if (word.empty()) return otherwise;
+  const std::optional<double> value = parse_number(word);
+  if (!value || !(*value > 0 && *value <= 1e18))
+    throw FileError(fmt::format("context: {}: {} (allowed: a number above 0, up to 1e18)", key,
+                                shortened(word)));
+  return *value;
 }
 
 Options options_of(const Record& record, const Context& context, std::filesystem::path out) {
@@ -89,8 +92,9 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   options.interleave = interleaved != context.end() && interleaved->second == "yes";
   options.timeout_s = setting(context, "timeout_s", options.timeout_s);
   options.long_case_s = setting(context, "long_case_s", options.long_case_s);
-  if (const double limit = setting(context, "memory_limit_bytes", 0); limit > 0)
-    options.memory_limit_bytes = static_cast<std::int64_t>(limit);
+  if (context_word(context, "memory_limit_bytes") != "none")
+    if (const double limit = setting(context, "memory_limit_bytes", 0); limit > 0)
+      options.memory_limit_bytes = static_cast<std::int64_t>(limit);
   return options;
 }
 

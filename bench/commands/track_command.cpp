@@ -66,14 +66,12 @@ TrackOptions parse_track(int argc, const char* const* argv) {
   auto* from = app.add_option("--from", options.from,
                               "add the records of this results folder instead of running");
   app.add_flag("--judge-only", options.judge_only, "judge the newest night again")->excludes(from);
-  app.add_option("--minimum-effect", options.minimum_effect_percent,
-                 "per cent: smaller changes of a time are no change")
-      ->check(CLI::Range(0.0, 1000.0))
-      ->capture_default_str();
-  app.add_option("--nights-after", options.least_nights_after,
-                 "nights after a change of a time that confirm it")
-      ->check(CLI::Range(2, 30))
-      ->capture_default_str();
+  add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
+             "per cent: smaller changes of a time are no change");
+  add_whole(
+      app, "--nights-after", 2, 30, options.least_nights_after,
+      [&](std::int64_t nights) { options.least_nights_after = static_cast<int>(nights); },
+      "nights after a change of a time that confirm it");
   // What comes after "--" goes on to the run as it is.
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(

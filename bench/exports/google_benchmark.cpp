@@ -5,12 +5,13 @@
 
 #include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <sstream>
 #include <stdexcept>
 
 #include "bench/exports/numbers.hpp"
+#include "bench/records/context.hpp"
 #include "bench/statistics/robust.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -95,19 +96,15 @@ std::vector<Run> runs_of(const Record& record, std::size_t family) {
 Json context_of(const std::vector<Record>& cases) {
   const std::map<std::string, std::string> known =
       cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
-  const auto number = [&](const char* key) {
-    const auto found = known.find(key);
-    return found == known.end() ? 0.0 : std::strtod(found->second.c_str(), nullptr);
-  };
   Json context = {
       {"date", known.contains("date") ? known.at("date") : ""},
       {"host_name", ""},
       {"executable", "bench"},
-      {"num_cpus", std::lround(number("cpus"))},
+      {"num_cpus", parse_whole(context_word(known, "cpus")).value_or(0)},
       {"mhz_per_cpu", 0},
       {"cpu_scaling_enabled", false},
       {"caches", Json::array()},
-      {"load_avg", {number("load_1min_at_start")}},
+      {"load_avg", {parse_number(context_word(known, "load_1min_at_start")).value_or(0)}},
       {"library_build_type", "release"},
   };
   for (const auto& [key, value] : known) context[key] = value;

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <fstream>
@@ -17,7 +18,9 @@
 
 #include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/build_info.hpp"
+#include "support/errors.hpp"
 #include "support/sha256.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -95,7 +98,15 @@ Context context_of_run(const Options& options) {
   };
   context.insert(settings.begin(), settings.end());
   if (options.shard.count > 1) context["shard"] = name_of(options.shard);
-  for (const auto& [key, value] : options.own_context) context[key] = value;
+  for (const auto& [key, value] : options.own_context) {
+    constexpr std::array words_of_the_plan = {"shard", "cases_planned", "plan_sha256"};
+    if (context.contains(key) || std::find(words_of_the_plan.begin(), words_of_the_plan.end(),
+                                           key) != words_of_the_plan.end())
+      throw UsageError(fmt::format(
+          "-- --benchmark_context: {} (allowed: another word; this one is the run's own)",
+          shortened(key)));
+    context[key] = value;
+  }
   return context;
 }
 

@@ -13,7 +13,8 @@ void set_threads(int threads);
 // date.
 Context describe_environment(int threads);
 
-// The same, and what the options add: tolerances, limits, repetitions.
+// The same, and what the options add: tolerances, limits, repetitions, words of the user's own.
+// Throws UsageError: such a word is one of the run's.
 Context context_of_run(const Options& options);
 
 }  // namespace airybench

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -22,9 +22,9 @@ MachineState machine_state(const std::map<std::string, std::string>& environment
   };
   MachineState state;
   state.governor = known("cpu_governor");
-  const std::string load = known("load_1min_at_start");
-  if (!load.empty() && std::atof(load.c_str()) >= 0) state.load = std::atof(load.c_str());
-  state.cpus = std::atoi(known("cpus").c_str());
+  const std::optional<double> load = parse_number(known("load_1min_at_start"));
+  if (load && *load >= 0) state.load = *load;
+  state.cpus = static_cast<int>(parse_whole(known("cpus")).value_or(0));
   state.repetitions = repetitions;
   state.noise = noise;
   state.heap_probe = known("heap_probe") == "on";

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <vector>
 
 #include "bench/records/json.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -20,14 +19,6 @@ std::vector<std::string_view> parts_of(std::string_view text) {
     begin = end + 1;
   }
   return parts;
-}
-
-std::optional<double> number_of(std::string_view text) {
-  double value = 0;
-  const char* const end = text.data() + text.size();
-  const auto [rest, error] = std::from_chars(text.data(), end, value);
-  const bool is_number = error == std::errc() && rest == end && std::isfinite(value);
-  return is_number ? std::optional(value) : std::nullopt;
 }
 
 }  // namespace
@@ -87,7 +78,7 @@ std::optional<CaseName> case_name_of(std::string_view text) {
       name.study = value;
     } else {
       name.knob = key;
-      name.knob_value = number_of(value);
+      name.knob_value = parse_number(value);
       if (!name.knob_value) return {};
     }
   }

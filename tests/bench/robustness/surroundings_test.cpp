@@ -1,4 +1,5 @@
-// What a run finds around it: descriptors that are closed or full, an environment that is not its own.
+// What a run finds around it: descriptors that are closed or full, an environment that is not its
+// own.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,15 +42,15 @@ TEST(FullStreams, AreTold) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two).code, 0);
   for (const char* arguments :
-       {"--list", "--help", "--version", "compare o o", "claims o",
-        "export o --format=csv", "export o --format=junit", "merge o --out=m",
-        "track --history=h --from=o", "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=p",
+       {"--list", "--help", "--version", "compare o o", "claims o", "export o --format=csv",
+        "export o --format=junit", "merge o --out=m", "track --history=h --from=o",
+        "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=p",
         "--mesh=Mesh0 --method=HYBRID --dry-run", "--mesh=Mesh0 --method=HYBRID --explain",
         "replay o:1 --out=r"}) {
     EXPECT_EQ(redirected(bench, arguments, ">/dev/full 2>err.txt"), 2) << arguments;
-    EXPECT_NE(bench.content("err.txt").find(
-                  "bench: standard output: cannot be written (a full disk?)\n"),
-              std::string::npos)
+    EXPECT_NE(
+        bench.content("err.txt").find("bench: standard output: cannot be written (a full disk?)\n"),
+        std::string::npos)
         << arguments << ": " << bench.content("err.txt");
   }
   EXPECT_EQ(bench.records("p").size(), 1u) << "what was measured is in the folder";

@@ -145,8 +145,9 @@ TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
 TEST(Records, DeletedDuringARunAreMissed) {
   for (const bool whole_folder : {false, true}) {
     const BenchCommand bench;
-    BackgroundRun run(bench, "--mesh=Mesh0 --method=HYBRID,3STEPD,BLIND,ALM,P2 --repetitions=5 "
-                             "--out=o");
+    BackgroundRun run(bench,
+                      "--mesh=Mesh0 --method=HYBRID,3STEPD,BLIND,ALM,P2 --repetitions=5 "
+                      "--out=o");
     wait_for([&] { return !bench.records().empty(); });
     fs::remove_all(bench.path(whole_folder ? "o" : "o/records.jsonl"));
     const int status = run.end(0);
@@ -170,17 +171,20 @@ TEST(Merge, ValidatesAllBeforeItWrites) {
     return all;
   };
   const std::string before = files();
-  for (const auto& [key, value] :
-       {std::pair<const char*, Json>("status", ""), {"grid", Json::array({Json::object()})},
-        {"memory_by_owner", 3}, {"stages_left_out", "none"}, {"case_number", -1},
-        {"samples_s", Json::array({"long"})}, {"context", Json::array()}}) {
+  for (const auto& [key, value] : {std::pair<const char*, Json>("status", ""),
+                                   {"grid", Json::array({Json::object()})},
+                                   {"memory_by_owner", 3},
+                                   {"stages_left_out", "none"},
+                                   {"case_number", -1},
+                                   {"samples_s", Json::array({"long"})},
+                                   {"context", Json::array()}}) {
     std::vector<Json> records = bench.records("whole");
     records[1][key] = value;
-    write_text(bench.path("bad/records.jsonl"), records[0].dump() + "\n" + records[1].dump() + "\n");
+    write_text(bench.path("bad/records.jsonl"),
+               records[0].dump() + "\n" + records[1].dump() + "\n");
     const CommandResult result = bench.run("merge bad --out=whole");
     EXPECT_EQ(result.code, 2) << key << ": " << result.out;
-    EXPECT_NE(result.err.find(std::string("bad/records.jsonl:2: ") + key + ": "),
-              std::string::npos)
+    EXPECT_NE(result.err.find(std::string("bad/records.jsonl:2: ") + key + ": "), std::string::npos)
         << result.err;
     EXPECT_EQ(files(), before) << key;
   }
@@ -192,7 +196,8 @@ TEST(Replay, WritesNothingWhereASceneNamePoints) {
   write_text(bench.path("flat.json"), R"({"crown_radius_mm": null})");
   ASSERT_EQ(bench.run(quick + "--scene=flat.json --out=o").code, 0);
   const std::string good = bench.records()[0].dump();
-  for (const std::string& scene : {std::string("../evil"), std::string("a/b"), bench.path("evil").string()}) {
+  for (const std::string& scene :
+       {std::string("../evil"), std::string("a/b"), bench.path("evil").string()}) {
     Json record = Json::parse(good);
     record["scene"] = scene;
     record["context"]["program_sha256"] = "0";
@@ -214,8 +219,10 @@ TEST(Fields, OfTwoCasesAreTwoFiles) {
   fs::copy_file(testing::mesh_file("Mesh0"), bench.path("M-x.msh"));
   write_text(bench.path("d.json"), "{}");
   write_text(bench.path("x-d.json"), R"({"friction": 0})");
-  ASSERT_EQ(bench.run("--mesh=./M.msh,./M-x.msh --scene=d.json,x-d.json --method=HYBRID "
-                      "--repetitions=1 --fields --out=o").code,
+  ASSERT_EQ(bench
+                .run("--mesh=./M.msh,./M-x.msh --scene=d.json,x-d.json --method=HYBRID "
+                     "--repetitions=1 --fields --out=o")
+                .code,
             0);
   EXPECT_EQ(entries_of(bench.path("o/fields")), 4u * 3u);
 }

@@ -132,7 +132,8 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   EXPECT_FALSE(fs::exists(folder_ / "h"));
   fs::create_directories(folder_ / "h/nights");
   testing::write_text(folder_ / "h/nights/2026-11-21T030000Z.json", "{\"format\"");
-  expect_refused("track --history=h --from=a", "2026-11-21T030000Z.json: not a whole night");
+  write_run("b", 1, "2026-11-21T03:00:00Z");
+  expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
 }
 
 TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
