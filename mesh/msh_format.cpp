@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <istream>
 #include <map>
 #include <ostream>
 #include <set>
+#include <sstream>
+
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -144,7 +147,7 @@ std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
     const double y = reader.field<double>(name + ": y, a number,");
     const double z = reader.field<double>(name + ": z, a number,");
     reader.end_of_line();
-    if (!std::isfinite(x) || !std::isfinite(y))
+    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z))
       reader.fail(name + ": coordinates must be finite numbers");
     if (i == 0) plane = z;
     if (!(z == plane))
@@ -239,11 +242,13 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
 }
 
 Mesh read_msh(const std::filesystem::path& file) {
-  std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw MeshError(file.string() + ": a folder, not a mesh file");
-  std::ifstream in(file);
-  if (!in) throw MeshError(file.string() + ": cannot be opened");
+  std::string text;
+  try {
+    text = file_text(file);
+  } catch (const FileError& error) {
+    throw MeshError(error.what());
+  }
+  std::istringstream in(std::move(text));
   return read_msh(in, file.string());
 }
 

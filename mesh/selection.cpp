@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "support/lists.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -53,13 +54,10 @@ bool is_mesh_file(std::string_view item) {
 
 std::vector<std::string> expand_mesh_selection(std::string_view argument) {
   std::vector<std::string> selected;
-  for (std::size_t start = 0; start <= argument.size();) {
-    const std::size_t end = std::min(argument.find(',', start), argument.size());
-    for (std::string& name : expand_item(argument.substr(start, end - start)))
+  for (const std::string& item : split_list(argument))
+    for (std::string& name : expand_item(item))
       if (std::find(selected.begin(), selected.end(), name) == selected.end())
         selected.push_back(std::move(name));
-    start = end + 1;
-  }
   return selected;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <sstream>
 
 #include "mesh/refinement.hpp"
 
@@ -32,6 +34,28 @@ double longest_edge_at(const Mesh& mesh, int v) {
       for (const int w : triangle)
         longest = std::max(longest, (mesh.vertices[w] - mesh.vertices[v]).norm());
   return longest;
+}
+
+// Bisection ends only as long as a middle is another point than the ends.
+void check_can_be_told_apart(const Mesh& mesh, double longest_mm, double ratio) {
+  double largest = 0;
+  for (const Eigen::Vector2d& x : mesh.vertices)
+    largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  const double most = longest_mm / (64 * std::numeric_limits<double>::epsilon() * largest);
+  if (!(ratio <= most)) {
+    std::ostringstream allowed;
+    allowed << "(allowed: up to " << most << ", where the points of the mesh " << mesh.name
+            << " can still be told apart)";
+    refuse("grade: ratio", ratio, allowed.str());
+  }
+}
+
+void check_triangles(const Mesh& mesh, int refinements) {
+  const std::size_t fine = mesh.triangles.size() << (2 * refinements);
+  if (fine > most_triangles)
+    refuse("refine", refinements,
+           "(the mesh " + mesh.name + " would have " + std::to_string(fine) +
+               " triangles; allowed: up to " + std::to_string(most_triangles) + ")");
 }
 
 // Where the sliver's vertex goes in a triangle.
@@ -118,10 +142,13 @@ void check_values(const MeshTransform& transform) {
 
 Mesh transformed(Mesh mesh, const MeshTransform& transform) {
   check_values(transform);
+  if (transform.refine > 0) check_triangles(mesh, transform.refine);
   for (int k = 0; k < transform.refine; ++k) mesh = uniformly_refined(mesh);
   if (transform.grade && transform.grade->ratio > 1) {
     const int v = nearest_vertex(mesh, transform.grade->at_mm);
-    mesh = bisected_at_vertex(mesh, v, longest_edge_at(mesh, v) / transform.grade->ratio);
+    const double longest_mm = longest_edge_at(mesh, v);
+    check_can_be_told_apart(mesh, longest_mm, transform.grade->ratio);
+    mesh = bisected_at_vertex(mesh, v, longest_mm / transform.grade->ratio);
     check_after(mesh, "grade: ratio", transform.grade->ratio);
   }
   if (transform.slivers) {

@@ -4,7 +4,8 @@
 //   refine   k times: each triangle into four by its edges' middles, each boundary edge into two.
 //            V, E, T become V + E, 2E + 3T, 4T; shapes, roles and bodies are kept.
 //   grade    the edges at the vertex v nearest to a point are halved until none is longer than
-//            (the longest of them before) / ratio, by longest-edge bisection (mesh_refinement.hpp)
+//            (the longest of them before) / ratio, by longest-edge bisection (mesh_refinement.hpp);
+//            that length must be at least 64 roundings of the largest coordinate
 //   slivers  in `count` triangles, every T/count-th of those that are fit for it, a vertex is put
 //   at
 //            p = m + t (c − m), m the middle of the longest edge L, c the vertex across, h its
@@ -50,6 +51,7 @@ struct MeshTransform {
   std::optional<int> keep_force_edges;         // ≥ 0
 };
 inline constexpr int most_refinements = 6;
+inline constexpr std::size_t most_triangles = 1'000'000;  // that a transformation makes
 
 // Throws TransformError when a value is impossible on any mesh.
 void check_values(const MeshTransform& transform);

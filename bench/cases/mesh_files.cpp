@@ -17,22 +17,27 @@ std::filesystem::path mesh_directory() {
   return own != nullptr && *own != '\0' ? own : data_folder("meshes");
 }
 
+MeshFile read_mesh_file(const std::filesystem::path& path) {
+  Mesh mesh = read_msh(path);
+  if (!is_name(mesh.name))
+    throw std::invalid_argument(
+        shortened(path.string()) +
+        ": a mesh is named as its file (allowed: UTF-8 without control characters)");
+  return {path, sha256_of_file(path), std::move(mesh)};
+}
+
 std::vector<MeshFile> read_meshes(const std::string& selection) {
   std::vector<MeshFile> files;
   for (const std::string& item : expand_mesh_selection(selection)) {
     const std::filesystem::path path =
         is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
-    Mesh mesh = read_msh(path);
-    if (!is_name(mesh.name))
-      throw std::invalid_argument(
-          shortened(path.string()) +
-          ": a mesh is named as its file (allowed: UTF-8 without control characters)");
+    MeshFile file = read_mesh_file(path);
     for (const MeshFile& earlier : files)
-      if (earlier.mesh.name == mesh.name)
-        throw std::invalid_argument("two meshes are named " + mesh.name + ": " +
+      if (earlier.mesh.name == file.mesh.name)
+        throw std::invalid_argument("two meshes are named " + file.mesh.name + ": " +
                                     earlier.path.string() + " and " + path.string() +
                                     "; records could not tell them apart");
-    files.push_back({path, sha256_of_file(path), std::move(mesh)});
+    files.push_back(std::move(file));
   }
   return files;
 }

@@ -18,6 +18,9 @@ struct MeshFile {
 // The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one that comes with this program.
 std::filesystem::path mesh_directory();
 
+// Throws MeshError, std::invalid_argument: the file's name is no name of a mesh.
+MeshFile read_mesh_file(const std::filesystem::path& path);
+
 // Reads all that mesh_selection.hpp's expand_mesh_selection() names. Throws MeshError,
 // std::invalid_argument; two files of the same name are refused.
 std::vector<MeshFile> read_meshes(const std::string& selection);

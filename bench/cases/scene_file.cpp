@@ -159,16 +159,21 @@ Scene from_json(const Json& json, const std::string& file) {
 }  // namespace
 
 Scene scene_of(const std::string& text, const std::string& place) {
+  constexpr std::size_t most_keys = 1000;
   // JSON allows a key to be repeated; a scene does not.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > 8) throw SceneError(place + ": nested more than 8 deep");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
+    if (event == Json::parse_event_t::key && keys.back().size() == most_keys)
+      throw SceneError(fmt::format("{}: more than {} keys in one object", place, most_keys));
     if (event == Json::parse_event_t::key && !keys.back().insert(value.get<std::string>()).second)
       throw SceneError(place + ": " + shortened(value.get<std::string>()) + ": given twice");
     return true;
   };
+  if (text.find('\0') != text.npos)  // which would end the text for the parser
+    throw SceneError(place + ": not JSON: a zero byte");
   Json json;
   try {
     json = Json::parse(text, watch);

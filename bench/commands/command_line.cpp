@@ -60,18 +60,4 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, dou
       ->default_str(fmt::format("{}", number));
 }
 
-std::vector<std::string> split_list(const std::string& list) {
-  std::vector<std::string> items(1);
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const char next = i + 1 < list.size() ? list[i + 1] : '\0';
-    if (list[i] == '\\' && (next == ',' || next == '\\'))
-      items.back() += list[++i];
-    else if (list[i] == ',')
-      items.emplace_back();
-    else
-      items.back() += list[i];
-  }
-  return items;
-}
-
 }  // namespace airybench

@@ -24,8 +24,4 @@ enum class Least { zero, above_zero };
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);
 
-// The items of a list, "a,b"; a backslash before a comma or a backslash makes it a part of its
-// item.
-std::vector<std::string> split_list(const std::string& list);
-
 }  // namespace airybench

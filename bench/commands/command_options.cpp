@@ -8,6 +8,7 @@
 #include "bench/commands/command_line.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
+#include "support/lists.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -80,13 +81,21 @@ Options parse_options(int argc, const char* const* argv) {
       "bench");
   app.footer(run_footer);
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
-  app.add_option("--mesh", options.meshes,
-                 "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files")
+  app.add_option(
+         "--mesh", options.meshes,
+         "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files (in a name a comma is \\,)")
       ->capture_default_str();
   app.add_option("--method", options.methods,
                  "names or globs, separated by commas; default: all the paper's methods");
-  app.add_option("--scene", options.scenes, "scene file(s); default: the documented tooth or rack")
-      ->delimiter(',');
+  app.add_option_function<std::vector<std::string>>(
+      "--scene",
+      [&](const std::vector<std::string>& lists) {
+        for (const std::string& list : lists)
+          for (const std::string& file : split_list(list)) options.scenes.emplace_back(file);
+      },
+      "scene file(s), separated by commas (in a name a comma is \\,); default: the documented "
+      "tooth or "
+      "rack");
   add_whole(
       app, "--figure", 3, 5, 0,
       [&](std::int64_t figure) { options.figure = static_cast<int>(figure); },

@@ -10,6 +10,7 @@
 #include "bench/tracking/compare_report.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
+#include "support/lists.hpp"
 
 namespace airybench {
 namespace {

@@ -11,6 +11,7 @@
 #include "bench/output/record_files.hpp"
 #include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
+#include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
 
@@ -18,8 +19,8 @@ namespace airybench {
 namespace {
 
 constexpr const char* replay_footer = R"(
-RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD. The mesh must be the
-file that the record was measured on, and this program the one that measured it.
+RECORD is FOLDER:CASE or FOLDER:LINE, as in results/latest:Mesh0/default/3STEPD; a colon in the folder's
+name is written \:. The mesh must be the file that the record was measured on, and this program the one that measured it.
 
 Exit status  0  the same status, iterations and contact states as recorded
              1  something of these is another
@@ -44,12 +45,19 @@ ReplayOptions parse_replay(int argc, const char* const* argv) {
   return options;
 }
 
+struct FolderAndCase {
+  std::string folder, which;
+};
+FolderAndCase folder_and_case(const std::string& name) {
+  const FirstItem folder = first_item(name, ':');
+  return {folder.item, std::string(folder.rest.value_or(""))};
+}
+
 Record find_record(const std::string& name) {
-  const std::size_t colon = name.find(':');
-  if (colon == name.npos)
+  const auto [folder, which] = folder_and_case(name);
+  if (which.empty())
     throw UsageError(
         fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", shortened(name)));
-  const std::string folder = name.substr(0, colon), which = name.substr(colon + 1);
   const std::vector<RecordLine> lines = lines_in(folder);
   if (const std::optional<std::int64_t> line = parse_whole(which)) {
     if (*line < 1 || *line > static_cast<std::int64_t>(lines.size()))
@@ -102,7 +110,7 @@ Options options_of(const Record& record, const Context& context, std::filesystem
 MeshFile mesh_of(const Record& record, const std::filesystem::path& folder) {
   const std::string recorded = record.mesh_file.empty() ? record.mesh + ".msh" : record.mesh_file;
   const std::filesystem::path file = recorded_file(recorded, folder);
-  MeshFile mesh = std::move(read_meshes(file.string()).front());
+  MeshFile mesh = read_mesh_file(file);
   if (mesh.sha256 != record.mesh_sha256)
     throw FileError(fmt::format("{}: is not the mesh of the record: its SHA-256 is {}, not {}",
                                 file.string(), mesh.sha256, record.mesh_sha256));
@@ -159,7 +167,7 @@ int replay_command(int argc, const char* const* argv) {
   Context context = context_of_run(options);
   for (const auto& [key, value] : recorded)  // what that run said of itself
     if (context.count(key) == 0) context[key] = value;
-  const std::filesystem::path folder = asked.record.substr(0, asked.record.find(':'));
+  const std::filesystem::path folder = folder_and_case(asked.record).folder;
   std::error_code error;
   if (std::filesystem::equivalent(folder, asked.out, error))
     throw UsageError(

@@ -80,7 +80,7 @@ struct numbers_by_word {  // lists; null for what is not finite
 struct grid {  // list of {r, rho, iterations, outcome}
   using Type = Json;
 };
-struct attempts {  // list of {tolerance, claimed_status, error_estimate, error}
+struct attempts {  // list of {tolerance, claimed_status[, error_estimate][, error]}
   using Type = Json;
 };
 

@@ -9,12 +9,14 @@ namespace airybench {
 namespace {
 
 // What is read recursively, or written, must not be deeper than the stack is.
-void check_depth(const std::string& text) {
+void check_text(const std::string& text) {
   constexpr int deepest = 32;
   int depth = 0;
   bool in_text = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
+    if (c == '\0')  // which would end the text for the parser
+      throw Json::parse_error::create(101, i + 1, "a zero byte", nullptr);
     if (c == '"') in_text = !in_text;
     if (in_text) {
       if (c == '\\') ++i;
@@ -31,7 +33,7 @@ void check_depth(const std::string& text) {
 }  // namespace
 
 Json parse_json(const std::string& text) {
-  check_depth(text);
+  check_text(text);
   return Json::parse(text);
 }
 

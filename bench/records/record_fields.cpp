@@ -175,9 +175,11 @@ bool is_grid_point(const Json& point) {
          has(point, "iterations", is_count) && has(point, "outcome", is_text);
 }
 bool is_attempt(const Json& attempt) {
+  const auto may_have = [&](const char* key) {
+    return !attempt.contains(key) || is_number_or_null(attempt.at(key));
+  };
   return has(attempt, "tolerance", is_number_or_null) && has(attempt, "claimed_status", is_text) &&
-         has(attempt, "error_estimate", is_number_or_null) &&
-         has(attempt, "error", is_number_or_null);
+         may_have("error_estimate") && may_have("error");
 }
 
 void read_shaped(const Json& value, const Place& at, Shape shape, const char* allowed, Json& json) {
@@ -208,7 +210,7 @@ void read(field_kind::grid, const Json& value, const Place& at, Json& json) {
 }
 void read(field_kind::attempts, const Json& value, const Place& at, Json& json) {
   read_shaped(value, at, is_list_of<is_attempt>,
-              "a list of {tolerance, claimed_status, error_estimate, error}, null", json);
+              "a list of {tolerance, claimed_status[, error_estimate][, error]}, null", json);
 }
 
 template <typename Kind, auto member>

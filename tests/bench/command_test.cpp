@@ -170,7 +170,8 @@ TEST_F(Command, WrongUsageIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(unknown.code, 2);
   EXPECT_EQ(unknown.err.rfind("bench: no method matches '4STEP' (valid: SDTIC3, ", 0), 0u);
   EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1);
-  expect_usage_error("--mesh=nowhere.msh", "nowhere.msh: cannot be opened");
+  expect_usage_error("--mesh=nowhere.msh",
+                     "nowhere.msh: cannot be opened: No such file or directory");
   expect_usage_error("--scene=nowhere.json",
                      "nowhere.json: cannot be opened: No such file or directory");
   file("bad.json", R"({"friction": -2})");

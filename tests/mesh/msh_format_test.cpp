@@ -232,7 +232,7 @@ TEST(ReadMsh, FileThatCannotBeOpened) {
     read_msh("/nowhere/Mesh0.msh");
     FAIL() << "read a file that is not there";
   } catch (const MeshError& error) {
-    EXPECT_STREQ(error.what(), "/nowhere/Mesh0.msh: cannot be opened");
+    EXPECT_STREQ(error.what(), "/nowhere/Mesh0.msh: cannot be opened: No such file or directory");
   }
 }
 
@@ -241,7 +241,7 @@ TEST(ReadMsh, FolderInPlaceOfAFile) {
     read_msh(testing::mesh_folder());
     FAIL() << "read a folder";
   } catch (const MeshError& error) {
-    EXPECT_EQ(error.what(), testing::mesh_folder().string() + ": a folder, not a mesh file");
+    EXPECT_EQ(error.what(), testing::mesh_folder().string() + ": a folder, not a file");
   }
 }
 

@@ -19,8 +19,8 @@ TEST(Numbers, AreReadWholeOrNotAtAll) {
   EXPECT_EQ(parse_whole("10"), 10);
   EXPECT_EQ(parse_whole("-3"), -3);
   EXPECT_EQ(parse_whole("0"), 0);
-  for (const char* text : {"", " 1", "1 ", "+1", "nan", "inf", "-inf", "1e999", "0x10", "1,5", "1.5x",
-                           "1_000", "one"}) {
+  for (const char* text : {"", " 1", "1 ", "+1", "nan", "inf", "-inf", "1e999", "0x10", "1,5",
+                           "1.5x", "1_000", "one"}) {
     EXPECT_FALSE(parse_number(text)) << text;
     EXPECT_FALSE(parse_whole(text)) << text;
   }
