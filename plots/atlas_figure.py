@@ -32,13 +32,15 @@ MARKS = {
     "timeout": ("t", "#A9A9B8", "black"),
     "out_of_memory": ("m", "#6B6B80", "white"),
     "crashed": ("X", "#000000", "white"),
+    "machine_fault": ("f", "#DADADA", "black"),
     "skipped": ("–", "#FFFFFF", "0.4"),
 }
 WORDS = {"ok": "ok, with the digits of its largest error",
          "other_solution": "another solution than the reference's",
          "unstressed": "no stress, so no relative error",
          "unverified": "said ok, and no reference can tell",
-         "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached"}
+         "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
+         "machine_fault": "no process or no file to be had"}
 CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches
 LETTER = 0.078  # inches: of a name's letter, about
 SIZE = 7.5

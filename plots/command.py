@@ -7,6 +7,7 @@ import os
 import sys
 import tempfile
 from collections.abc import Callable
+from contextlib import ExitStack
 from pathlib import Path
 
 from records import RecordsError
@@ -37,9 +38,32 @@ def results_and_out(parser: argparse.ArgumentParser) -> None:
 
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
-    """All files or none: each is written beside its place; when all are there they are moved."""
-    with tempfile.TemporaryDirectory(dir=folder, prefix=".new-") as temporary:
+    """All files or none: each is written beside its place, links followed; when all are on disk they
+    are moved. What is no regular file is not replaced."""
+    places = {name: place_of(folder / name) for name in writers}
+    with ExitStack() as temporaries:
+        beside = {parent: Path(temporaries.enter_context(
+            tempfile.TemporaryDirectory(dir=parent, prefix=".new-")))
+            for parent in {place.parent for place in places.values()}}
         for name, write in writers.items():
-            write(Path(temporary) / name)
-        for name in writers:
-            os.replace(Path(temporary) / name, folder / name)
+            write(beside[places[name].parent] / name)
+            synchronise(beside[places[name].parent] / name)
+        for name, place in places.items():
+            os.replace(beside[place.parent] / name, place)
+        for parent in beside:
+            synchronise(parent)
+
+
+def place_of(path: Path) -> Path:
+    place = Path(os.path.realpath(path))
+    if place.exists() and not place.is_file():
+        raise RecordsError(f"{path}: is no regular file; expected one, or a name that is not there")
+    return place
+
+
+def synchronise(path: Path) -> None:
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    finally:
+        os.close(descriptor)

@@ -13,7 +13,7 @@ from pathlib import Path
 from looks import Look
 
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
-            "out_of_memory", "crashed", "skipped")
+            "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:2]
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")

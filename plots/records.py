@@ -129,6 +129,8 @@ def read_lines(path: Path) -> list[object]:
 
 
 def text_of(path: Path) -> str:
+    if path.exists() and not path.is_file():  # a pipe would be waited for
+        raise RecordsError(f"{path}: is no regular file; expected what bench writes")
     try:
         return path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -144,6 +146,9 @@ def json_of(text: str, place: str) -> object:
     except json.JSONDecodeError as error:
         at = f"{place}:{error.lineno}" if "\n" in text else place
         raise RecordsError(f"{at}: not JSON: {error.msg}; expected an object")
+    except (RecursionError, ValueError) as error:  # also a number of thousands of digits
+        why = "nested too deep" if isinstance(error, RecursionError) else "a number too long"
+        raise RecordsError(f"{place}: not JSON: {why}; expected an object")
 
 
 def rows_of(table: pd.DataFrame) -> list[Row]:

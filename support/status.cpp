@@ -3,9 +3,9 @@
 namespace airybench {
 
 std::string_view name_of(Status status) {
-  constexpr std::array<std::string_view, 9> names = {
+  constexpr std::array<std::string_view, 10> names = {
       "ok",      "inaccurate",    "unstressed", "not_converged", "breakdown",
-      "timeout", "out_of_memory", "crashed",    "skipped"};
+      "timeout", "out_of_memory", "crashed",    "machine_fault", "skipped"};
   return names[static_cast<std::size_t>(status)];
 }
 

@@ -18,12 +18,20 @@ enum class Status {
   timeout,
   out_of_memory,
   crashed,
+  machine_fault,  // no process or no file could be had: not the method's doing; --resume runs it
+                  // again
   skipped,
 };
-inline constexpr std::array<Status, 9> all_statuses = {
-    Status::ok,        Status::inaccurate, Status::unstressed,    Status::not_converged,
-    Status::breakdown, Status::timeout,    Status::out_of_memory, Status::crashed,
-    Status::skipped};
+inline constexpr std::array<Status, 10> all_statuses = {Status::ok,
+                                                        Status::inaccurate,
+                                                        Status::unstressed,
+                                                        Status::not_converged,
+                                                        Status::breakdown,
+                                                        Status::timeout,
+                                                        Status::out_of_memory,
+                                                        Status::crashed,
+                                                        Status::machine_fault,
+                                                        Status::skipped};
 std::string_view name_of(Status status);  // "not_converged"
 std::optional<Status> status_of(std::string_view name);
 

@@ -39,6 +39,7 @@ const char* element_for(Status status) {
     case Status::unstressed:
       return "skipped";
     case Status::crashed:
+    case Status::machine_fault:
     case Status::timeout:
     case Status::out_of_memory:
       return "error";

@@ -105,29 +105,46 @@ ChildProcess::~ChildProcess() { finish(0); }
 void ChildProcess::finish(int patience_ms) {
   if (pid_ < 0) return;
   int status = 0;
+  rusage used = {};
   for (int waited_ms = 0;; ++waited_ms) {
     if (waited_ms >= patience_ms) {
       kill(pid_, SIGKILL);
       end_.lingered = patience_ms > 0;
     }
-    const pid_t reaped = waitpid(pid_, &status, waited_ms >= patience_ms ? 0 : WNOHANG);
+    const pid_t reaped = wait4(pid_, &status, waited_ms >= patience_ms ? 0 : WNOHANG, &used);
     if (reaped == pid_ || (reaped < 0 && errno != EINTR)) break;
     usleep(1000);
   }
   if (WIFEXITED(status)) end_.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end_.signal = WTERMSIG(status);
+  rlimit limit = {};  // its own, too
+  end_.used_up_processor_time =
+      getrlimit(RLIMIT_CPU, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+      static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1) >= limit.rlim_cur;
   pid_ = -1;
+}
+
+bool ChildProcess::is_stopped() const {
+  siginfo_t state = {};
+  return waitid(P_PID, static_cast<id_t>(pid_), &state, WSTOPPED | WNOHANG | WNOWAIT) == 0 &&
+         state.si_pid == pid_;
 }
 
 std::optional<std::string> ChildProcess::ask(const std::string& line,
                                              const std::function<bool()>& give_up) {
   if (pid_ < 0) return {};
-  std::function<bool()> noted;
-  if (give_up) noted = [&] { return end_.given_up = give_up(); };
+  constexpr int most_stopped_ms = 5000;
+  int stopped_ms = 0;
+  const auto gives_up = [&] {
+    stopped_ms = is_stopped() ? stopped_ms + poll_ms : 0;
+    end_.stopped = stopped_ms > most_stopped_ms;
+    end_.given_up = give_up && give_up();
+    return end_.stopped || end_.given_up;
+  };
   std::optional<std::string> answer;
-  if (channel_->send(line)) answer = channel_->receive(noted);
+  if (channel_->send(line)) answer = channel_->receive(gives_up);
   // Who has closed the line is ending by itself, and shall be seen to do so.
-  if (!answer) finish(end_.given_up ? 0 : 2000);
+  if (!answer) finish(end_.given_up || end_.stopped ? 0 : 2000);
   return answer;
 }
 

@@ -37,7 +37,9 @@ struct ChildEnd {
   int exit_code = -1;     // of one that ended by itself
   int signal = 0;         // that ended it
   bool given_up = false;  // receive()'s give_up ended it
+  bool stopped = false;   // somebody had stopped it (SIGSTOP) for seconds: it was killed
   bool lingered = false;  // it closed the line and did not end: it was killed
+  bool used_up_processor_time = false;  // as much as its limit (ulimit -t) allows
 };
 std::string signal_name(int signal);  // "SIGSEGV"
 
@@ -50,13 +52,14 @@ class ChildProcess {
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   // Sends a line, waits for the answer; empty: the child has ended, end() says how. When give_up
-  // says so, it is killed.
+  // says so, or while it does not run at all, it is killed.
   std::optional<std::string> ask(const std::string& line,
                                  const std::function<bool()>& give_up = {});
   const ChildEnd& end() const { return end_; }
 
  private:
   void finish(int patience_ms);  // reaps; kills after so long
+  bool is_stopped() const;
 
   pid_t pid_ = -1;  // -1: reaped
   std::optional<Channel> channel_;

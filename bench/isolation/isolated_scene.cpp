@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <system_error>
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/isolation/scene_process.hpp"
@@ -58,8 +59,14 @@ void IsolatedScene::prepare(std::size_t k) {
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     if (process_ == nullptr) {
       ++generation_;
-      process_ = std::make_unique<ChildProcess>(
-          [this](Channel& channel) { serve_scene(channel, cases_, options_, board_, left_out_); });
+      try {
+        process_ = std::make_unique<ChildProcess>([this](Channel& channel) {
+          serve_scene(channel, cases_, options_, board_, left_out_);
+        });
+      } catch (const std::system_error& error) {
+        no_process_ = error.what();
+        return;
+      }
     }
     if (process_->ask(fmt::format("prepare {}", k), [this] { return overdue(); })) break;
     throw_if_interrupted();
@@ -91,7 +98,15 @@ Record IsolatedScene::examine(std::size_t k) {
   throw_if_interrupted();
   if (answer) return record_of(parse_json(*answer), "the case's process");
   Record record = blank_record(*cases_[k], options_);
-  record.status_reason = "the process of its scene ended";
+  if (process_ == nullptr) {
+    record.status = Status::machine_fault;
+    record.status_reason = no_process_;
+    return record;
+  }
+  if (process_->end().stopped) record.status = Status::machine_fault;
+  record.status_reason = process_->end().stopped
+                             ? "the process of its scene was stopped by somebody, and ended"
+                             : "the process of its scene ended";
   process_.reset();
   return record;
 }

@@ -54,7 +54,8 @@ class IsolatedScene {
   ActivityBoard board_;  // of the scene's process
   LeftOut left_out_;     // what broke it
   std::unique_ptr<ChildProcess> process_;
-  int generation_ = 0;  // of the process
+  std::string no_process_ = "its scene's process ended again and again";  // why there is none
+  int generation_ = 0;                                                    // of the process
   std::map<std::size_t, int> examined_in_;
   bool prepared_ = false;  // what all cases share, in this generation
   double preparation_s_ = 0;

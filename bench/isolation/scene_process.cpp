@@ -6,6 +6,7 @@
 #include <csignal>
 #include <map>
 #include <sstream>
+#include <system_error>
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/heap/heap_probe.hpp"
@@ -41,9 +42,15 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
   Workbench::Choice choice;
   while (const auto line = channel.receive()) {
     if (command_of(*line).verb == "examine") {
-      auto examination = bench.examine(c.method, fields_of(c, options));
-      record = std::move(examination.record);
-      choice = std::move(examination.choice);
+      try {
+        auto examination = bench.examine(c.method, fields_of(c, options));
+        record = std::move(examination.record);
+        choice = std::move(examination.choice);
+      } catch (const FileError& error) {  // of a field
+        record = blank_record(c, options);
+        record.status = Status::machine_fault;
+        record.status_reason = error.what();
+      }
       identify(c, record);
       if (is_measured(record) && !record.measured_once)
         bench.measure_memory(c.method, choice, record);
@@ -81,13 +88,22 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
   run.time_s = board.seconds();
   run.runs_s = board.seconds_in_runs();
   const std::string place = fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
-  if (end.given_up) {
+  if (end.stopped) {
+    run.status = Status::machine_fault;
+    run.message = fmt::format("its process was stopped by somebody {}, and ended", place);
+  } else if (end.given_up) {
     run.status = Status::timeout;
     run.message =
         fmt::format("its process was ended {}: the limit is {} s", place, limit_s(board, options));
   } else if (end.exit_code == heap::backstop_exit_code) {
     run.status = Status::out_of_memory;
     run.message = fmt::format("its process was ended {}: it passed the memory limit", place);
+  } else if ((end.signal == SIGKILL || end.signal == SIGXCPU) && end.used_up_processor_time) {
+    run.status = Status::machine_fault;
+    run.signal = signal_name(end.signal);
+    run.message =
+        fmt::format("its process was ended {} by {}: the limit on processor time (ulimit -t)",
+                    place, run.signal);
   } else if (end.signal != 0) {
     run.signal = signal_name(end.signal);
     const bool killed = end.signal == SIGKILL && !end.lingered;
@@ -120,18 +136,24 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
       continue;
     }
     CaseProcess& own = processes[k];
-    if (own.process == nullptr)
-      own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
-        bench.show_on(&own.board);
-        const ObservedStages observed(&own.board);
-        serve_case(to_scene, c, options, bench, own.board);
-      });
-    const auto answer = own.process->ask(*line, [&] { return is_overdue(own.board, options); });
-    if (answer) {
-      channel.send(*answer);
-      continue;
+    TimedRun last;
+    try {
+      if (own.process == nullptr)
+        own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
+          bench.show_on(&own.board);
+          const ObservedStages observed(&own.board);
+          serve_case(to_scene, c, options, bench, own.board);
+        });
+      const auto answer = own.process->ask(*line, [&] { return is_overdue(own.board, options); });
+      if (answer) {
+        channel.send(*answer);
+        continue;
+      }
+      last = obituary_of(own.process->end(), own.board, options);
+    } catch (const std::system_error& error) {  // no process to be had
+      last.status = Status::machine_fault;
+      last.message = error.what();
     }
-    const TimedRun last = obituary_of(own.process->end(), own.board, options);
     if (verb != "examine") {
       channel.send(json_text(to_json(last)));
       continue;

@@ -90,7 +90,8 @@ RecordFiles::RecordFiles(const std::filesystem::path& folder, Context context, K
       if (!differs.empty())
         throw FileError(fmt::format("{}: of another run, which does not mix with this one: {}",
                                     line.place, differs));
-      finished_.emplace(name_of(line.record).text(), i);
+      if (line.record.status != Status::machine_fault)
+        finished_.emplace(name_of(line.record).text(), i);
     }
   if (torn_) rewrite();
 }

@@ -29,8 +29,8 @@ class RecordFiles {
   // it; records to keep that cannot be read or, with Keep::finished, are of another run.
   RecordFiles(const std::filesystem::path& folder, Context context, Keep keep);
 
-  // With Keep::finished: the record of this case, if there is one. Throws FileError when its mesh
-  // or scene was another.
+  // With Keep::finished: the record of this case, if there is one that no fault of the machine
+  // made. Throws FileError when its mesh or scene was another.
   std::optional<Record> finished(const Record& blank) const;
 
   // One line, on disk when it returns, with the run's context; throws FileError.

@@ -1,5 +1,6 @@
 """plots/page.py on a made-up history, in headless Chromium.  /usr/bin/python3 -m unittest FILE"""
 import json
+import os
 import re
 import shutil
 import sys
@@ -280,6 +281,14 @@ class WrongInputTest(unittest.TestCase):
         self.spoil({"noise": {"median_s": float("nan")}})
         self.expect(f"{self.file}: NaN is not JSON; expected null")
 
+    def test_hostile_files(self) -> None:
+        for text, why in (("[" * 100_000, "nested too deep"), ("9" * 10_000, "a number too long")):
+            self.file.write_text(text, encoding="utf-8")
+            self.expect(f"{self.file}: not JSON: {why}; expected an object")
+        self.file.unlink()
+        os.mkfifo(self.file)
+        self.expect(f"{self.file}: is no regular file; expected what bench writes")
+
     def test_wrong_values_are_named(self) -> None:
         for change, line in (
                 ({"date": "yesterday"}, "date is 'yesterday', expected a date in ISO 8601"),
@@ -307,6 +316,25 @@ class WrongInputTest(unittest.TestCase):
         status, _, err = run(page_program, self.history, "--out=/nowhere/page.html")
         self.assertEqual(status, 2)
         self.assertEqual(len(err.splitlines()), 1)
+
+    def test_what_is_no_regular_file_is_not_replaced(self) -> None:
+        pipe, link, device = (self.folder / name for name in ("pipe", "link", "device"))
+        os.mkfifo(pipe)
+        link.symlink_to(pipe)
+        device.symlink_to("/dev/null")
+        for out in (pipe, link, device):
+            status, _, err = run(page_program, self.history, f"--out={out}")
+            self.assertEqual(status, 2)
+            self.assertEqual(err, f"page.py: {out}: is no regular file; expected one, or a name "
+                                  "that is not there\n")
+            self.assertFalse(out.is_file())
+        self.assertTrue(pipe.is_fifo())
+        (self.folder / "there").mkdir()
+        page = self.folder / "page.html"
+        page.symlink_to("there/page.html")
+        self.assertEqual(run(page_program, self.history, f"--out={page}")[0], 0)
+        self.assertTrue(page.is_symlink())
+        self.assertGreater((self.folder / "there/page.html").stat().st_size, 1000)
 
 
 if __name__ == "__main__":

@@ -60,7 +60,7 @@ class ReaderTest(RecordsTest):
 
     def test_values_that_cannot_be(self) -> None:
         self.refuse_cell("stop", "soon", "one of target, paper")
-        self.refuse_cell("status", "fine", "one of ok, inaccurate, not_converged")
+        self.refuse_cell("status", "fine", "one of ok, inaccurate, unstressed, not_converged")
         self.refuse_cell("mesh", "", "a name")
         self.refuse_cell("in_paper", "yes", "true or false")
         self.refuse_cell("n_phi", "76.1", "a whole number, 0 or more")

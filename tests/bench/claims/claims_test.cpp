@@ -455,8 +455,8 @@ TEST_F(Claims, MalformedRecordsAreNamedByLineKeyAndValue) {
   expect_bad("scene", nullptr, ": null" + text);
   expect_bad("method", 7, ": 7" + text);
   expect_bad("status", "fine",
-             ": \"fine\" (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
-             "out_of_memory, crashed, skipped)");
+             ": \"fine\" (allowed: ok, inaccurate, unstressed, not_converged, breakdown, timeout, "
+             "out_of_memory, crashed, machine_fault, skipped)");
   expect_bad("stop", "mine", ": \"mine\" (allowed: target, paper, null)");
   expect_bad("time_s", 0, ": 0 (allowed: a number > 0, null)");
   expect_bad("time_s", "1", ": \"1\" (allowed: a number > 0, null)");

@@ -105,10 +105,10 @@ TEST(Exports, WrongValuesAreNamedWithTheirPlace) {
     }
     return "accepted";
   };
-  EXPECT_EQ(
-      message("status", 7),
-      "records.jsonl:3: status: 7 (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
-      "out_of_memory, crashed, skipped)");
+  EXPECT_EQ(message("status", 7),
+            "records.jsonl:3: status: 7 (allowed: ok, inaccurate, unstressed, not_converged, "
+            "breakdown, timeout, "
+            "out_of_memory, crashed, machine_fault, skipped)");
   EXPECT_EQ(message("mesh", nullptr),
             "records.jsonl:3: mesh: null (allowed: a text that is not empty, without / and control "
             "characters)");
@@ -316,10 +316,10 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   Json wrong = record("HYBRID", {1});
   wrong["status"] = 1;
   write_text(folder_ / "records.jsonl", wrong.dump() + "\n");
-  expect_line(
-      ". --format=junit",
-      "./records.jsonl:1: status: 1 (allowed: ok, inaccurate, not_converged, breakdown, timeout, "
-      "out_of_memory, crashed, skipped)");
+  expect_line(". --format=junit",
+              "./records.jsonl:1: status: 1 (allowed: ok, inaccurate, unstressed, not_converged, "
+              "breakdown, timeout, "
+              "out_of_memory, crashed, machine_fault, skipped)");
   fs::create_directory(folder_ / "nights");
   expect_line(". --format=csv",
               "./nights: no *.json in it (a folder that bench track wrote has them)");

@@ -32,8 +32,10 @@ TEST(HostileScenes, AreRefusedInOneLine) {
   int number = 0;
   for (const auto& [text, named] : {
            std::pair<std::string, std::string>(
-               R"({"mesh":{"grade":{"at_mm":[10,0],"ratio":1e15}}})", "ratio: 1e+15 (allowed: up to"),
-           {R"({"mesh":{"grade":{"at_mm":[10,0],"ratio":1e300}}})", "ratio: 1e+300 (allowed: up to"},
+               R"({"mesh":{"grade":{"at_mm":[10,0],"ratio":1e15}}})",
+               "ratio: 1e+15 (allowed: up to"),
+           {R"({"mesh":{"grade":{"at_mm":[10,0],"ratio":1e300}}})",
+            "ratio: 1e+300 (allowed: up to"},
            {R"({"mesh":{"refine":6}})", "triangles; allowed: up to 1000000)"},
            {R"({"materials":)" + many + "}", "more than 1000 keys in one object"},
            {std::string(5000, '[') + std::string(5000, ']'), "nested more than 8 deep"},
@@ -69,9 +71,9 @@ TEST(Lists, TakeCommasInPaths) {
   std::filesystem::copy_file(testing::mesh_file("Mesh0"), bench.path("a,b/one,two.msh"));
   testing::write_text(bench.path("a,b/flat,hard.json"), R"({"crown_radius_mm": null})");
   testing::write_text(bench.path("plain.json"), "{}");
-  const CommandResult result =
-      bench.run("--mesh='a\\,b/one\\,two.msh,Mesh0' --scene='a\\,b/flat\\,hard.json,plain.json' "
-                "--method=HYBRID --repetitions=1 --out=o");
+  const CommandResult result = bench.run(
+      "--mesh='a\\,b/one\\,two.msh,Mesh0' --scene='a\\,b/flat\\,hard.json,plain.json' "
+      "--method=HYBRID --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(bench.records().size(), 4u);
   EXPECT_EQ(bench.records()[0]["mesh"], "one,two");

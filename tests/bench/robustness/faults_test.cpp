@@ -1,0 +1,141 @@
+// Faults of the machine: whichever open, write, fsync, rename or fork of a run fails, the run ends with
+// an exit code, leaves nothing half-written, and --resume comes to the undisturbed result.
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "support/numbers.hpp"
+#include "tests/support/background_run.hpp"
+#include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::faults_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using testing::BenchCommand;
+using testing::CommandResult;
+
+const std::string two = "--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --fields --out=o ";
+
+std::map<std::string, std::string> lasting(const BenchCommand& bench) {
+  std::map<std::string, std::string> result;
+  for (const Json& record : bench.records()) {
+    std::string& text = result[record["method"].get<std::string>()];
+    EXPECT_EQ(text, "") << "a record is there twice";
+    for (const char* key : {"status", "status_reason", "error_stress", "n_slip", "answer_hash",
+                            "case_number", "storage_bytes"})
+      text += record[key].dump() + " ";
+  }
+  return result;
+}
+
+std::map<std::string, std::string> fields(const BenchCommand& bench) {
+  std::map<std::string, std::string> result;
+  for (const auto& entry : fs::directory_iterator(bench.path("o/fields")))
+    result[entry.path().filename().string()] = testing::text_of(entry.path());
+  return result;
+}
+
+std::string strangers(const BenchCommand& bench) {
+  std::string found;
+  for (const auto& entry : fs::recursive_directory_iterator(bench.path("o")))
+    if (const std::string name = entry.path().filename().string();
+        name.find(".part") != name.npos || name == ".lock")
+      found += name + " ";
+  return found;
+}
+
+class NthFault : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(NthFault, IsSurvivedAndResumed) {
+  const BenchCommand undisturbed;
+  ASSERT_EQ(undisturbed.run(two).code, 0);
+  const auto records = lasting(undisturbed);
+  const auto pictures = fields(undisturbed);
+  ASSERT_EQ(records.size(), 2u);
+  int n = 0;
+  for (bool failed = true; failed;) {
+    const BenchCommand bench;
+    const std::string fault = std::string(GetParam()) + ":" + std::to_string(++n);
+    const CommandResult result = bench.run(
+        two, "AIRYBENCH_FAULT_TOLD=told AIRYBENCH_FAULT=" + fault + " LD_PRELOAD='" +
+                 (testing::build_folder() / "tests/libnth_fault.so").string() + "' ");
+    failed = fs::exists(bench.path("told"));
+    EXPECT_GE(result.code, 0) << fault << ": ended by a signal: " << result.err;
+    EXPECT_LE(result.code, 2) << fault << ": " << result.err;
+    if (!failed) {
+      EXPECT_EQ(result.code, 0) << result.err;
+    }
+    if (!fs::exists(bench.path("o"))) continue;
+    EXPECT_EQ(strangers(bench), "") << fault;
+    const CommandResult resumed = bench.run(two + "--resume");
+    EXPECT_EQ(resumed.code, 0) << fault << ": " << resumed.err << resumed.out;
+    EXPECT_EQ(lasting(bench), records) << fault;
+    EXPECT_EQ(fields(bench), pictures) << fault;
+    EXPECT_EQ(bench.content("o/results.csv").substr(0, 5), "mesh,") << fault;
+  }
+  RecordProperty("calls", n - 1);
+  EXPECT_GE(n, 4) << "this test fails nothing";
+  std::cout << n - 1 << " calls of " << GetParam() << " failed, one at a time\n";
+}
+INSTANTIATE_TEST_SUITE_P(Of, NthFault, ::testing::Values("open", "write", "fsync", "rename", "fork"),
+                         [](const auto& of) { return std::string(of.param); });
+
+TEST(MachineFault, IsNotTheMethodsAndIsRunAgain) {
+  const BenchCommand bench;
+  fs::create_directories(bench.path("o"));
+  testing::write_text(bench.path("o/fields"), "in the way");
+  EXPECT_EQ(bench.run(two).code, 1);
+  for (const Json& record : bench.records()) {
+    EXPECT_EQ(record["status"], "machine_fault");
+    EXPECT_NE(record["status_reason"].get<std::string>().find("o/fields: cannot be made a folder"),
+              std::string::npos)
+        << record["status_reason"];
+  }
+  fs::remove(bench.path("o/fields"));
+  const CommandResult resumed = bench.run(two + "--resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  ASSERT_EQ(bench.records().size(), 2u);
+  for (const Json& record : bench.records()) EXPECT_EQ(record["status"], "ok");
+}
+
+TEST(MachineFault, OfALimitOnProcessorTime) {
+  const BenchCommand bench;
+  EXPECT_EQ(bench.run("--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o", "ulimit -t 2; ")
+                .code,
+            1);
+  ASSERT_EQ(bench.records().size(), 1u);
+  EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
+  EXPECT_NE(bench.records()[0]["status_reason"].get<std::string>().find("limit on processor time"),
+            std::string::npos);
+}
+
+// A process that somebody stops is not waited for without end.
+TEST(MachineFault, OfAStoppedProcess) {
+  for (const bool the_scenes : {true, false}) {
+    const BenchCommand bench;
+    testing::BackgroundRun run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o");
+    const auto child_of = [](pid_t parent) {
+      const std::string id = std::to_string(parent);
+      const std::string children = testing::text_of("/proc/" + id + "/task/" + id + "/children");
+      return parse_whole(children.substr(0, children.find(' ')));
+    };
+    std::optional<std::int64_t> scene, own;
+    testing::wait_for([&] {
+      scene = child_of(run.pid());
+      own = scene ? child_of(static_cast<pid_t>(*scene)) : std::nullopt;
+      return own.has_value();
+    });
+    kill(static_cast<pid_t>(the_scenes ? *scene : *own), SIGSTOP);
+    const int status = run.end(0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 1);
+    ASSERT_EQ(bench.records().size(), 1u);
+    EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
+  }
+}
+
+}  // namespace
+}  // namespace airybench::faults_test

@@ -1,0 +1,79 @@
+// Preloaded into bench: the n-th call of one kind, counted over a run and its child processes, fails.
+//
+//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork) and which call of it
+//   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdarg>
+#include <cstdlib>
+#include <cstring>
+#include <new>
+
+namespace {
+
+std::atomic<long>* calls = nullptr;  // shared with the children
+char kind[16] = "";
+long failing = 0;
+
+__attribute__((constructor)) void begin() {
+  const char* const fault = std::getenv("AIRYBENCH_FAULT");
+  const char* const colon = fault == nullptr ? nullptr : std::strchr(fault, ':');
+  if (colon == nullptr || static_cast<std::size_t>(colon - fault) >= sizeof kind) return;
+  std::memcpy(kind, fault, static_cast<std::size_t>(colon - fault));
+  failing = std::atol(colon + 1);
+  void* const shared = mmap(nullptr, sizeof *calls, PROT_READ | PROT_WRITE,
+                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  calls = new (shared) std::atomic<long>(0);
+}
+
+bool fails(const char* call, int error) {
+  if (calls == nullptr || std::strcmp(kind, call) != 0 || ++*calls != failing) return false;
+  const long told =
+      syscall(SYS_openat, AT_FDCWD, std::getenv("AIRYBENCH_FAULT_TOLD"), O_CREAT | O_WRONLY, 0666);
+  syscall(SYS_close, told);
+  errno = error;
+  return true;
+}
+
+template <typename Function>
+Function* real(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
+}
+
+}  // namespace
+
+extern "C" {
+
+int open(const char* path, int flags, ...) {
+  va_list arguments;
+  va_start(arguments, flags);
+  const mode_t mode = va_arg(arguments, mode_t);
+  va_end(arguments);
+  if (fails("open", EMFILE)) return -1;
+  return real<int(const char*, int, ...)>("open")(path, flags, mode);
+}
+ssize_t write(int descriptor, const void* bytes, size_t count) {
+  if (fails("write", ENOSPC)) return -1;
+  return real<ssize_t(int, const void*, size_t)>("write")(descriptor, bytes, count);
+}
+int fsync(int descriptor) {
+  if (fails("fsync", EIO)) return -1;
+  return real<int(int)>("fsync")(descriptor);
+}
+int rename(const char* from, const char* to) noexcept {
+  if (fails("rename", ENOSPC)) return -1;
+  return real<int(const char*, const char*)>("rename")(from, to);
+}
+pid_t fork() noexcept {
+  if (fails("fork", EAGAIN)) return -1;
+  return real<pid_t()>("fork")();
+}
+
+}  // extern "C"
