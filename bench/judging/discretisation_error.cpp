@@ -108,8 +108,12 @@ void note_bounds(const DualSystem& system, const StressField& stress, const Eige
   const double energy = stress_norm_squared(*system.problem, stress) / 2;
   const double lower = -complementary_energy(system, stress, F_C),
                upper = potential_energy(*system.problem, u);
-  const double allowance = F_C.lpNorm<1>() * std::max(0.0, highest_gap) +
-                           F_C.cwiseMax(0).sum() * largest(u) +
+  double pressing = 0, pulling = 0;  // N
+  for (int p = 0; p < system.contact.count; ++p) {
+    const double F_n = F_C(system.contact.components * p);
+    (F_n < 0 ? pressing : pulling) += std::abs(F_n);
+  }
+  const double allowance = pressing * std::max(0.0, highest_gap) + pulling * largest(u) +
                            rounding * (energy + std::abs(lower) + std::abs(upper));
   error.lower_bound_Nmm = lower - allowance;
   error.upper_bound_Nmm = upper + allowance;

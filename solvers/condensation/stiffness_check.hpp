@@ -1,14 +1,16 @@
 // How wrong an answer in displacements is, as the method itself can tell.
 //
 // The recovered stresses leave unbalanced forces r at the unknowns, F_C held, and an element may
-// find that its stress is not the one of its displacements. One more solve with the factor of K
-// gives the correction δ = K⁻¹ r, the error to its leading digits; with it, contact forces are off
-// by ΔF (contact_error). The estimate is the largest of
+// find that its stress is not the one of its displacements: corrected, of energy e² in all, the
+// elements add forces d. One more solve with the factor of K gives δ = K⁻¹ (r + d), the error to
+// its leading digits, and both corrections together have the energy e² + δ·(r − d), most of e²
+// being what δ takes back. With δ, contact forces are off by ΔF (check_contact). The estimate is
+// the largest of
 //
-//   (√(rᵀδ) + e + ‖ΔF‖_D) / ‖σ‖   stress, in the energy norm; e: of the elements
-//   ‖ΔF‖_D / ‖F‖_D                contact forces
-//   ‖F − P(F − ρ r_c)‖ / ‖F‖      contact law, with the corrected displacements
-//   ‖r‖_∞ / ‖forces‖_∞            equilibrium
+//   (√(e² + δ·(r − d)) + ‖ΔF‖_D) / ‖σ‖   stress, in the energy norm
+//   ‖ΔF‖_D / ‖F‖_D                       contact forces
+//   ‖F − P(F − ρ r_c)‖ / ‖F‖             contact law, with the corrected displacements
+//   ‖r‖_∞ / ‖forces‖_∞                   equilibrium
 //
 // or relative to the loads where there is no stress (load_scale.hpp).
 #pragma once

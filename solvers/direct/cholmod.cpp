@@ -28,10 +28,14 @@ CholmodFactor::CholmodFactor() {
 }
 
 CholmodFactor::~CholmodFactor() {
-  for (cholmod_dense** workspace : {&solution_, &permuted_, &gathered_})
-    cholmod_free_dense(workspace, &common_);
+  free_workspace();
   cholmod_free_factor(&factor_, &common_);
   cholmod_finish(&common_);
+}
+
+void CholmodFactor::free_workspace() {
+  for (cholmod_dense** workspace : {&solution_, &permuted_, &gathered_})
+    cholmod_free_dense(workspace, &common_);
 }
 
 void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing) {
@@ -80,6 +84,7 @@ void CholmodFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline
     solve(CHOLMOD_A, X.middleCols(j, std::min(columns_at_once, X.cols() - j)));
     deadline.check("the solves with CHOLMOD's factor");
   }
+  if (X.cols() > 1) free_workspace();  // of many columns; what follows has few
 }
 
 Eigen::VectorXd CholmodFactor::forward(const Eigen::VectorXd& b) {

@@ -47,6 +47,7 @@ class CholmodFactor {
   double flops() const;               // of the numeric factorisation
 
  private:
+  void free_workspace();
   void solve(int system, Eigen::Ref<Eigen::MatrixXd> X);
   void throw_if_out_of_memory() const;
   cholmod_common common_;

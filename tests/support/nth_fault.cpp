@@ -1,4 +1,5 @@
-// Preloaded into bench: the n-th call of one kind, counted over a run and its child processes, fails.
+// Preloaded into bench: the n-th call of one kind, counted over a run and its child processes,
+// fails.
 //
 //   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork) and which call of it
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
@@ -28,8 +29,8 @@ __attribute__((constructor)) void begin() {
   if (colon == nullptr || static_cast<std::size_t>(colon - fault) >= sizeof kind) return;
   std::memcpy(kind, fault, static_cast<std::size_t>(colon - fault));
   failing = std::atol(colon + 1);
-  void* const shared = mmap(nullptr, sizeof *calls, PROT_READ | PROT_WRITE,
-                            MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  void* const shared =
+      mmap(nullptr, sizeof *calls, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   calls = new (shared) std::atomic<long>(0);
 }
 

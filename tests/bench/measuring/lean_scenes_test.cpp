@@ -179,6 +179,7 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
     const bool asks_otherwise =
         GetParam().in_displacements || GetParam().name.ends_with(":REFINED");
     if (!asks_otherwise && lean.solution.contact_iterations <= with.solution.contact_iterations &&
+        lean.solution.newton_steps <= with.solution.newton_steps &&
         lean.solution.uzawa_iterations <= with.solution.uzawa_iterations) {
       EXPECT_LE(lean.allocations, with.allocations + 1) << scene.name;
     }

@@ -1,5 +1,5 @@
-// Faults of the machine: whichever open, write, fsync, rename or fork of a run fails, the run ends with
-// an exit code, leaves nothing half-written, and --resume comes to the undisturbed result.
+// Faults of the machine: whichever open, write, fsync, rename or fork of a run fails, the run ends
+// with an exit code, leaves nothing half-written, and --resume comes to the undisturbed result.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -59,9 +59,9 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
   for (bool failed = true; failed;) {
     const BenchCommand bench;
     const std::string fault = std::string(GetParam()) + ":" + std::to_string(++n);
-    const CommandResult result = bench.run(
-        two, "AIRYBENCH_FAULT_TOLD=told AIRYBENCH_FAULT=" + fault + " LD_PRELOAD='" +
-                 (testing::build_folder() / "tests/libnth_fault.so").string() + "' ");
+    const CommandResult result =
+        bench.run(two, "AIRYBENCH_FAULT_TOLD=told AIRYBENCH_FAULT=" + fault + " LD_PRELOAD='" +
+                           (testing::build_folder() / "tests/libnth_fault.so").string() + "' ");
     failed = fs::exists(bench.path("told"));
     EXPECT_GE(result.code, 0) << fault << ": ended by a signal: " << result.err;
     EXPECT_LE(result.code, 2) << fault << ": " << result.err;
@@ -80,7 +80,8 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
   EXPECT_GE(n, 4) << "this test fails nothing";
   std::cout << n - 1 << " calls of " << GetParam() << " failed, one at a time\n";
 }
-INSTANTIATE_TEST_SUITE_P(Of, NthFault, ::testing::Values("open", "write", "fsync", "rename", "fork"),
+INSTANTIATE_TEST_SUITE_P(Of, NthFault,
+                         ::testing::Values("open", "write", "fsync", "rename", "fork"),
                          [](const auto& of) { return std::string(of.param); });
 
 TEST(MachineFault, IsNotTheMethodsAndIsRunAgain) {
@@ -103,9 +104,9 @@ TEST(MachineFault, IsNotTheMethodsAndIsRunAgain) {
 
 TEST(MachineFault, OfALimitOnProcessorTime) {
   const BenchCommand bench;
-  EXPECT_EQ(bench.run("--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o", "ulimit -t 2; ")
-                .code,
-            1);
+  EXPECT_EQ(
+      bench.run("--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o", "ulimit -t 2; ").code,
+      1);
   ASSERT_EQ(bench.records().size(), 1u);
   EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
   EXPECT_NE(bench.records()[0]["status_reason"].get<std::string>().find("limit on processor time"),

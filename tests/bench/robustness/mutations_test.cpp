@@ -1,5 +1,6 @@
-// Readers take what is good and refuse the rest by InputError, whatever the bytes are: seeded random
-// changes of good files, a generator's numbers and nothing else, so a failure can be repeated.
+// Readers take what is good and refuse the rest by InputError, whatever the bytes are: seeded
+// random changes of good files, a generator's numbers and nothing else, so a failure can be
+// repeated.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -30,10 +31,29 @@ constexpr int mutants = 3000;
 #endif
 
 std::string mutant_of(std::string text, std::mt19937& engine) {
-  static const std::vector<std::string> words = {
-      "1e999", "-1",   "null", "[]",   "{}",   "\"\"",         "nan",       "0",   "1e-320",
-      "\"",    "\\",   "[",    "}",    ",",    "9223372036854775808", "\xff", "true", "\n",
-      std::string(1, '\0'), std::string(300, '['), "2147483648", "\\u0000", "$EndNodes"};
+  static const std::vector<std::string> words = {"1e999",
+                                                 "-1",
+                                                 "null",
+                                                 "[]",
+                                                 "{}",
+                                                 "\"\"",
+                                                 "nan",
+                                                 "0",
+                                                 "1e-320",
+                                                 "\"",
+                                                 "\\",
+                                                 "[",
+                                                 "}",
+                                                 ",",
+                                                 "9223372036854775808",
+                                                 "\xff",
+                                                 "true",
+                                                 "\n",
+                                                 std::string(1, '\0'),
+                                                 std::string(300, '['),
+                                                 "2147483648",
+                                                 "\\u0000",
+                                                 "$EndNodes"};
   const auto below = [&](std::size_t n) { return n == 0 ? 0 : engine() % n; };
   for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
     const std::size_t at = below(text.size()), length = std::min(text.size() - at, below(40));
@@ -53,7 +73,8 @@ std::string mutant_of(std::string text, std::mt19937& engine) {
       default: {  // a number, or what follows a sign, becomes another word
         const std::size_t begin = text.find_first_of("0123456789", at);
         if (begin == text.npos) break;
-        const std::size_t end = std::min(text.find_first_not_of("0123456789.e-", begin), text.size());
+        const std::size_t end =
+            std::min(text.find_first_not_of("0123456789.e-", begin), text.size());
         text.replace(begin, end - begin, words[below(words.size())]);
       }
     }
@@ -85,11 +106,12 @@ int taken(const std::string& seed, const std::function<void(const std::string&)>
 }
 
 TEST(Mutants, OfMeshes) {
-  const std::string seed = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n"
-                           "1 1 \"displacement\"\n1 2 \"force\"\n1 3 \"contact\"\n2 4 \"body\"\n"
-                           "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
-                           "$EndNodes\n$Elements\n6\n1 1 2 2 2 1 2\n2 1 2 3 3 2 3\n3 1 2 2 2 3 4\n"
-                           "4 1 2 1 1 4 1\n5 2 2 4 4 1 2 3\n6 2 2 4 4 1 3 4\n$EndElements\n";
+  const std::string seed =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n"
+      "1 1 \"displacement\"\n1 2 \"force\"\n1 3 \"contact\"\n2 4 \"body\"\n"
+      "$EndPhysicalNames\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n"
+      "$EndNodes\n$Elements\n6\n1 1 2 2 2 1 2\n2 1 2 3 3 2 3\n3 1 2 2 2 3 4\n"
+      "4 1 2 1 1 4 1\n5 2 2 4 4 1 2 3\n6 2 2 4 4 1 3 4\n$EndElements\n";
   taken(seed, [](const std::string& text) {
     std::istringstream in(text);
     validate(read_msh(in, "mutant.msh"));
