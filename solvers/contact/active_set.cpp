@@ -15,6 +15,8 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   // slipping one the normal one, which takes F_t = ratio F_n along. Row by row r = 0 is asked for.
   std::vector<int> row;
   std::vector<double> ratio;
+  row.reserve(static_cast<std::size_t>(F.size()));
+  ratio.reserve(static_cast<std::size_t>(F.size()));
   const Eigen::VectorXd predicted = F - r.cwiseQuotient(D.diagonal());
   Eigen::VectorXd next = Eigen::VectorXd::Zero(F.size());  // F with the statuses' forces in it
   for (int p = 0; p < contact.count; ++p) {

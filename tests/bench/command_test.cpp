@@ -129,10 +129,10 @@ TEST_F(Command, TakesAUsersMeshAndScene) {
 
 #ifndef AIRYBENCH_SANITIZED  // which needs more address space than any limit
 TEST_F(Command, ALackOfMemoryIsNotWrongUsage) {
-  file("fine.json", R"({"mesh": {"refine": 6}})");  // 925696 triangles, 330 MB
+  fs::create_directory(folder_ / "big");  // of its one line there is more than one copy
+  file("big/records.jsonl", R"({"mesh":")" + std::string(120'000'000, 'x') + "\"}\n");
   const Result result =
-      testing::run_bench(folder_, "--mesh=Mesh0 --method=3STEPD --scene=fine.json --explain",
-                         "ulimit -v 300000; export OPENBLAS_NUM_THREADS=1; ");
+      testing::run_bench(folder_, "export big --format=junit", "ulimit -v 400000; ");
   EXPECT_EQ(result.code, 3);
   EXPECT_EQ(result.err, "bench: out of memory\n");
 }
