@@ -13,7 +13,7 @@ if [[ ${1:-} == --fields ]]; then
 fi
 if [[ ${1:-} == --validation ]]; then
   AIRYBENCH_UPDATE=anew build/release/tests/validation_test --gtest_brief=1 --gtest_filter=-Families/*
-  exec /usr/bin/python3 plots/validation_figure.py
+  exec /usr/bin/python3 plots/validation_profiles.py
 fi
 update=anew
 if [[ ${1:-} == --widen ]]; then update=widen; fi

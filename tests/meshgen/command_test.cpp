@@ -133,7 +133,7 @@ TEST_F(Command, FileThatCannotBeWritten) {
   expect_refusal(tooth + "--out=nowhere/a.msh", 1,
                  {"nowhere/a.msh: cannot be written: No such file or directory"});
   fs::create_directory(folder / "taken.msh");
-  expect_refusal(tooth + "--out=taken.msh", 1, {"taken.msh: cannot be written"});
+  expect_refusal(tooth + "--out=taken.msh", 1, {"taken.msh: is no regular file"});
   EXPECT_EQ(files(), Names{"taken.msh"});
 }
 

@@ -7,14 +7,14 @@ from pathlib import Path
 PROJECT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(PROJECT / "plots"))
 
-import validation_figure  # noqa: E402
+import validation_profiles  # noqa: E402
 from running import run  # noqa: E402
 
 
 class ValidationTest(unittest.TestCase):
     def test_the_tables_are_those_of_the_committed_values(self) -> None:
         written = (PROJECT / "docs/validation.md").read_text(encoding="utf-8")
-        status, printed, _ = run(validation_figure, "--table")
+        status, printed, _ = run(validation_profiles, "--table")
         self.assertEqual(status, 0)
         tables = printed.strip().split("\n\n")
         self.assertEqual(len(tables), 3)
@@ -24,7 +24,7 @@ class ValidationTest(unittest.TestCase):
     def test_the_figure_is_drawn(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
             out = Path(folder) / "validation.png"
-            self.assertEqual(run(validation_figure, f"--out={out}")[0], 0)
+            self.assertEqual(run(validation_profiles, f"--out={out}")[0], 0)
             self.assertTrue(out.read_bytes().startswith(b"\x89PNG"))
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Draws our answers beside those from outside, from tests/data/validation/profiles.csv.
 
-    validation_figure.py [--out FILE]     default: docs/images/validation.png
-    validation_figure.py --table          prints the tables of docs/validation.md
+    validation_profiles.py [--out FILE]     default: docs/images/validation.png
+    validation_profiles.py --table          prints the tables of docs/validation.md
 """
 from __future__ import annotations
 
