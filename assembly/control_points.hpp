@@ -17,6 +17,13 @@
 
 namespace airybench {
 
+// Columns: a unit normal, its tangent.
+inline Eigen::Matrix2d normal_frame(const Eigen::Vector2d& n) {
+  Eigen::Matrix2d q;
+  q << n.x(), -n.y(), n.y(), n.x();
+  return q;
+}
+
 struct ControlPoints {
   ContactPoints law;                    // gap: coefficients of g0 − ρ_n, −ρ_t; of g0 at
                                         // a vertex of two edges the smaller one
@@ -24,12 +31,7 @@ struct ControlPoints {
   std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
   std::vector<bool> on_roller;          // u along the tangent is prescribed
 
-  Eigen::Matrix2d frame(int point) const {  // columns normal, tangent
-    const Eigen::Vector2d& n = normal[point];
-    Eigen::Matrix2d q;
-    q << n.x(), -n.y(), n.y(), n.x();
-    return q;
-  }
+  Eigen::Matrix2d frame(int point) const { return normal_frame(normal[point]); }
 };
 ControlPoints control_points(const Problem& problem);
 

@@ -94,8 +94,8 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
   for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
-  for (int e = 0; e < problem.edges.count();
-       ++e) {  // linear: the coefficient is the middle's value
+  // ρ is linear: an edge's coefficient is its value at the middle.
+  for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
     w.col(vertices + e) += problem.motion.at((x[a] + x[b]) / 2);
   }
@@ -162,9 +162,9 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem) {
                                     DisplacementField::Zero(2, nodes)};
   const auto coefficients = [&](const std::array<int, 3>& on_edge, int row) {
     const auto& u0 = problem.loads.displacement_mm;
-    if (!u0)
-      return std::array<Eigen::Vector2d, 3>{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(),
-                                            Eigen::Vector2d::Zero()};
+    std::array<Eigen::Vector2d, 3> zero;
+    zero.fill(Eigen::Vector2d::Zero());
+    if (!u0) return zero;
     const auto &a = problem.mesh.vertices[on_edge[0]], &b = problem.mesh.vertices[on_edge[2]];
     return edge_coefficients(u0(a, row), u0((a + b) / 2, row), u0(b, row));
   };

@@ -83,7 +83,7 @@ ContactPoints contact_points(const Problem& problem) {
       return problem.wall_distance(x, row, frame);
     };
     const auto [start, end] = edge_moments(distance(a), distance((a + b) / 2), distance(b));
-    for (const Eigen::Vector2d& moment : {Eigen::Vector2d(start), Eigen::Vector2d(end)})
+    for (const Eigen::Vector2d& moment : {start, end})
       gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
   }
   contact.count = static_cast<int>(contact.boundary.size());

@@ -1,9 +1,9 @@
 #include "solvers/general_names.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
+
+#include "support/numbers.hpp"
 
 namespace airybench {
 
@@ -56,12 +56,9 @@ std::string GeneralName::one_of(const std::string& key, const std::string& other
 
 double GeneralName::positive(const std::string& key) {
   const std::string text = take(key, "");
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value > 0) ||
-      !std::isfinite(value))
-    refuse(key + "='" + text + "' (allowed: a number above 0)");
-  return value;
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(*value > 0)) refuse(key + "='" + text + "' (allowed: a number above 0)");
+  return *value;
 }
 
 void GeneralName::refuse_rest(const std::string& valid) const {

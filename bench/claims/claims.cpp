@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 
 #include "bench/claims/claims_evidence.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
@@ -143,13 +143,12 @@ std::map<double, ShownTime> ssor_times(Evidence& evidence, const std::string& me
   std::vector<std::string> texts;
   for (const std::string& method : evidence.cases().methods(mesh)) {
     if (!starts_with(method, prefix)) continue;
-    char* end = nullptr;
-    const double omega = std::strtod(method.c_str() + prefix.size(), &end);
-    if (*end != '\0') continue;  // a variant of ours
-    std::string why;             // an omega that gives no answer is not the best one
+    const std::optional<double> omega = parse_number(method.substr(prefix.size()));
+    if (!omega) continue;  // a variant of ours
+    std::string why;       // an omega that gives no answer is not the best one
     const auto time = time_of(evidence.cases(), mesh, method, why);
-    if (time) times[omega] = *time;
-    texts.push_back(fmt::format("ω={} {}", omega, time ? time->text : why));
+    if (time) times[*omega] = *time;
+    texts.push_back(fmt::format("ω={} {}", *omega, time ? time->text : why));
   }
   if (!texts.empty()) evidence.figure(fmt::format("{}, {}: {}", mesh, family, joined(texts)));
   return times;

@@ -86,15 +86,13 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   return terms;
 }
 
-double largest(const auto& values) { return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0; }
-
 // Both fields may leave Γ_C's inequalities by the rounding of what solved them, and no more.
 void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u, double highest_gap,
                          double highest_force, ConstitutiveError& error) {
   constexpr double rounding = 1e-9;
-  if (highest_gap > rounding * largest(u))
+  if (highest_gap > rounding * u.lpNorm<Eigen::Infinity>())
     error.flaw = fmt::format("the displacements go {:.1e} mm through the wall", highest_gap);
-  else if (highest_force > rounding * largest(F_C))
+  else if (highest_force > rounding * F_C.lpNorm<Eigen::Infinity>())
     error.flaw = fmt::format("the contact forces pull with {:.1e} N", highest_force);
   else if (error.squared_Nmm() < -rounding * error.body_Nmm)
     error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
@@ -113,7 +111,8 @@ void note_bounds(const DualSystem& system, const StressField& stress, const Eige
     const double F_n = F_C(system.contact.components * p);
     (F_n < 0 ? pressing : pulling) += std::abs(F_n);
   }
-  const double allowance = pressing * std::max(0.0, highest_gap) + pulling * largest(u) +
+  const double allowance = pressing * std::max(0.0, highest_gap) +
+                           pulling * u.lpNorm<Eigen::Infinity>() +
                            rounding * (energy + std::abs(lower) + std::abs(upper));
   error.lower_bound_Nmm = lower - allowance;
   error.upper_bound_Nmm = upper + allowance;

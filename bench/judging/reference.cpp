@@ -12,10 +12,6 @@
 namespace airybench {
 namespace {
 
-double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
-  return std::sqrt(std::max(0.0, F.dot(D * F)));
-}
-
 // F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
 double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
                                  const ContactPoints& contact, const LoadScale& scale,

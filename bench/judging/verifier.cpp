@@ -116,11 +116,8 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   const CondensedSystem& condensed = reference->condensed;
   note_contact_law(contact, F, condensed.D * F - condensed.G, condensed.D.diagonal(), scale,
                    result);
-  const auto D_norm = [&](const Eigen::VectorXd& f) {
-    return std::sqrt(std::max(0.0, f.dot(condensed.D * f)));
-  };
-  result.error_force =
-      relative_error(D_norm(F - reference->F_C), D_norm(reference->F_C), scale.energy_norm);
+  result.error_force = relative_error(D_norm(condensed.D, F - reference->F_C),
+                                      D_norm(condensed.D, reference->F_C), scale.energy_norm);
   if (contact.components == 1) return;
   double coupling = 0;
   for (int p = 0; p < contact.count; ++p)

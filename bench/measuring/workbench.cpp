@@ -10,10 +10,10 @@
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/heap/heap_probe.hpp"
-#include "bench/judging/answer_hash.hpp"
 #include "bench/measuring/field_files.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
+#include "bench/measuring/record_notes.hpp"
 #include "bench/measuring/rss_probe.hpp"
 #include "support/seconds_since.hpp"
 
@@ -32,51 +32,6 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
 
 bool asks_for_discretisation(const Method& method, const Options& options) {
   return options.study == Study::error || method.in_displacements;
-}
-
-void note(const Verification& v, Record& record) {
-  record.error_stress = v.error_stress;
-  record.error_stress_absolute = v.error_stress_absolute;
-  record.reference_error = v.reference_error;
-  record.friction_coupling = v.friction_coupling;
-  record.error_force = v.error_force;
-  record.equilibrium_residual = v.equilibrium_residual;
-  record.natural_map_residual = v.natural_map_residual;
-  record.signorini_violation_N = v.signorini_violation_N;
-  record.coulomb_violation_N = v.coulomb_violation_N;
-  record.normal_resultant_N = v.normal_resultant_N;
-  record.tangential_resultant_N = v.tangential_resultant_N;
-  record.strain_energy_Nmm = v.strain_energy_Nmm;
-  record.complementary_energy_Nmm = v.complementary_energy_Nmm;
-  record.n_open = v.n_open;
-  record.n_stick = v.n_stick;
-  record.n_slip = v.n_slip;
-  record.answer_hash = answer_hash(v);
-}
-
-void note(const MemorySplit& memory, Record& record) {
-  record.memory_by_owner = by_owner(memory);
-  record.memory_by_stage = by_stage(memory);
-  record.memory_counts_differ = counts_differ(memory);
-  record.memory_count_ratio = count_ratio(memory);
-  record.heap_allocations = memory.allocations;
-  record.heap_allocated_bytes = memory.allocated_bytes;
-}
-
-// A list of points, an object of residuals.
-Json json_of(const std::vector<GridPoint>& grid) {
-  Json json = Json::array();
-  for (const GridPoint& point : grid)
-    json.push_back({{"r", point.r},
-                    {"rho", point.rho},
-                    {"iterations", point.iterations},
-                    {"outcome", point.outcome}});
-  return json;
-}
-Json json_of(const std::vector<IterationHistory>& histories) {
-  Json json = Json::object();
-  for (const IterationHistory& history : histories) json[history.what] = history.residual;
-  return json;
 }
 
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
@@ -233,7 +188,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   };
   const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
-  if (!tuning.grid.empty()) record.grid = json_of(tuning.grid);
+  note(tuning.grid, record);
   if (tuning.solve != nullptr) {
     choice.solve = tuning.solve;
   } else {  // every run says what became of it
@@ -258,7 +213,6 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
     verify_run(blocks, run);
     attempt["error"] = worst_measure(*run.verification).value;
   }
-  if (record.attempts.empty()) record.attempts = Json::array();
   record.attempts.push_back(std::move(attempt));
 }
 
@@ -304,9 +258,8 @@ std::optional<Verification> Workbench::verify_as_other_solution(const AssembledB
                                                                 const Run& run) {
   const Verification& v = *run.verification;
   // Only where the law is met with the reference's D and G, but by other forces.
-  if (reference() == nullptr || !v.friction_coupling || run.solution.F_C.size() == 0 ||
-      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual) <=
-        options_.target_error))
+  if (!v.friction_coupling || !(std::max(v.natural_map_residual.value_or(0),
+                                         v.equilibrium_residual) <= options_.target_error))
     return {};
   try {
     const ActivityScope scope(board_, Activity::verification);
@@ -369,24 +322,9 @@ Workbench::Examination Workbench::examine(const Method& method,
   choice = choose(method, assembled, record);
   Run run = tighten(method, assembled, choice, record);
   Solution& solution = run.solution;
-  record.status = solution.status;
-  record.status_reason = solution.message;
-  record.claimed_status = solution.status;
-  record.error_estimate = solution.error_estimate;
-  record.condition_estimate = solution.condition_estimate;
-  if (const std::size_t bytes = matrix_bytes(solution); bytes > 0)
-    record.storage_bytes = static_cast<std::int64_t>(bytes);
-  record.library_bytes = solution.library_bytes;
-  record.factor_entries = solution.factor_entries;
-  if (solution.factor_flops) record.factor_flops = std::llround(*solution.factor_flops);
-  record.linear_iterations = solution.linear_iterations;
-  record.contact_iterations = solution.contact_iterations;
-  record.newton_steps = solution.newton_steps;
-  record.uzawa_iterations = solution.uzawa_iterations;
-  record.parameters = solution.parameters;
+  note(solution, record);
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
-  if (options_.histories && !solution.histories.empty())
-    record.histories = json_of(solution.histories);
+  if (options_.histories) note(solution.histories, record);
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;
     record.error_so_far = solution.error_so_far;
@@ -402,16 +340,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     judge(method, assembled, run, record);
     const ConstitutiveError* error =
         asks_for_discretisation(method, options_) ? discretisation() : nullptr;
-    if (error != nullptr) {
-      if (error->flaw.empty())
-        record.error_discretisation = error->relative;
-      else
-        record.no_discretisation_error = error->flaw;
-      if (error->guaranteed) {
-        record.lower_bound_Nmm = error->lower_bound_Nmm;
-        record.upper_bound_Nmm = error->upper_bound_Nmm;
-      }
-    }
+    if (error != nullptr) note(*error, record);
     if (!fields.empty()) {
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
       if (error != nullptr && error->flaw.empty())

@@ -16,7 +16,7 @@ double energy_norm(const DualSystem& system, const Eigen::VectorXd& x) {
   return std::sqrt(std::max(0.0, x.dot(system.S.selfadjointView<Eigen::Lower>() * x)));
 }
 
-double largest(const Eigen::VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0; }
+double largest(const Eigen::VectorXd& v) { return v.lpNorm<Eigen::Infinity>(); }
 
 // One correction, and the estimate of what it and those before it correct. F_C keeps.
 struct Correction {

@@ -23,36 +23,21 @@ LongColumn<static_cast<int>(count)> gather(const DualSystem& system, const LongV
   return phi;
 }
 
-// As much as rounding may have moved sums of such magnitudes, to one side or the other: by which is
-// as good as random, and the same in every run.
-class Rounding {
- public:
-  explicit Rounding(const DualSystem& system)
-      : system_(system), of_(Eigen::VectorXd::Zero(system.n())) {}
-  template <std::size_t count, typename Magnitudes>
-  void add(const std::array<int, count>& dofs, const Magnitudes& magnitudes) {
-    for (std::size_t k = 0; k < count; ++k)
-      if (dofs[k] != DofNumbering::gauge)
-        of_(dofs[k]) += system_.scale(dofs[k]) * magnitudes(static_cast<int>(k));
-  }
-  void add_to(LongVector& r, int number) const {
-    std::minstd_rand sign(static_cast<unsigned>(number) + 1);
-    constexpr Long part = std::numeric_limits<Long>::epsilon() / 4;
-    for (Eigen::Index i = 0; i < of_.size(); ++i)
-      r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(of_(i));
-  }
-
- private:
-  const DualSystem& system_;
-  Eigen::VectorXd of_;
-};
-
-template <std::size_t count>
-void scatter(const DualSystem& system, const std::array<int, count>& dofs,
-             const LongColumn<static_cast<int>(count)>& values, LongVector& r) {
+template <std::size_t count, typename Values, typename Vector>
+void scatter(const DualSystem& system, const std::array<int, count>& dofs, const Values& values,
+             Vector& r) {
   for (std::size_t k = 0; k < count; ++k)
     if (dofs[k] != DofNumbering::gauge)
       r(dofs[k]) += system.scale(dofs[k]) * values(static_cast<int>(k));
+}
+
+// Moves sums of terms of such magnitudes as rounding may have: to which side is as good as random,
+// and the same in every run.
+void add_rounding(const Eigen::VectorXd& magnitudes, int number, LongVector& r) {
+  std::minstd_rand sign(static_cast<unsigned>(number) + 1);
+  constexpr Long part = std::numeric_limits<Long>::epsilon() / 4;
+  for (Eigen::Index i = 0; i < r.size(); ++i)
+    r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(magnitudes(i));
 }
 
 struct TriangleStress {
@@ -94,7 +79,7 @@ EdgeRows edge_rows(const DualSystem& system, int row) {
 // Adds what an edge's displacements ū, x and y at its two ends, do to r.
 void add_displacements(const DualSystem& system, const EdgeRows& edge, const LongColumn<4>& u,
                        LongVector& r) {
-  scatter<7>(system, edge.dofs, edge.forces.transpose() * u, r);
+  scatter(system, edge.dofs, LongColumn<7>(edge.forces.transpose() * u), r);
 }
 
 void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
@@ -154,25 +139,25 @@ LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector&
   const Problem& problem = *system.problem;
   LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
                             LongVector::Zero(system.n_c())};
-  Rounding rounding(system);
+  Eigen::VectorXd magnitudes = Eigen::VectorXd::Zero(system.n());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleStress at = triangle_stress(system, answer.x, t);
     const ElementStressIn<Long> dual =
         stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
     const LongColumn<12> work = at.from_dofs.transpose() * dual.reshaped();
-    scatter<12>(system, at.dofs, -work, residual.x);
+    scatter(system, at.dofs, LongColumn<12>(-work), residual.x);
     const HctStress size = at.from_dofs.cast<double>().cwiseAbs();
     ElementStress stress_size;
     stress_size.reshaped() = size * at.phi.cast<double>().cwiseAbs();
     const Eigen::Matrix3d compliance = problem.compliance_of(t).cwiseAbs();
-    rounding.add<12>(at.dofs,
-                     (size.transpose() *
-                      stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped())
-                         .eval());
+    const Eigen::Matrix<double, 12, 1> work_size =
+        size.transpose() *
+        stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped();
+    scatter(system, at.dofs, work_size, magnitudes);
   }
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
-  rounding.add_to(residual.x, number);
+  add_rounding(magnitudes, number, residual.x);
   return residual;
 }
 

@@ -22,8 +22,7 @@ void check_stiffness_answer(const Problem& problem, const ContactPoints& contact
   const double squared = unbalanced.defect_energy + delta.dot(load) -
                          (unbalanced.defect.size() > 0 ? 2 * delta.dot(unbalanced.defect) : 0);
   double error = std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
-  double estimate =
-      relative_error(r.size() > 0 ? r.cwiseAbs().maxCoeff() : 0, unbalanced.largest, scale.force_N);
+  double estimate = relative_error(r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N);
   if (solution.F_C.size() > 0) {
     const ContactCheck check = check_contact(condensed.D, contact, solution.F_C,
                                              displacement + delta.tail(displacement.size()), scale);

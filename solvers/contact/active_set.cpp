@@ -80,17 +80,41 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
                      std::max(control.contact_tolerance, control.contact_acceptable);
 }
 
+ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                            const RunControl& control) {
+  if (!control.active_sets || control.stop == Stop::paper)
+    return solve_contact_by_gauss_seidel(condensed, contact, control);
+  constexpr int first_sweeps = 30;  // from fewer, active sets may cycle
+  ContactResult best;
+  ContactResult swept;
+  RunControl part = control;
+  int sweeps = 0, steps = 0;
+  std::vector<double> history;
+  for (int next = first_sweeps;; next *= 10) {
+    part.contact_sweeps = std::min(next, control.contact_sweeps - sweeps);
+    swept = solve_contact_by_gauss_seidel(condensed, contact, part, swept.F_C);
+    sweeps += swept.sweeps;
+    history.insert(history.end(), swept.history.begin(), swept.history.end());
+    ContactResult result = swept;
+    finish_by_active_set(condensed, contact, control, result);
+    steps += result.active_set_steps;
+    if (!(best.natural_map_residual <= result.natural_map_residual)) best = std::move(result);
+    if (best.converged || sweeps >= control.contact_sweeps || !swept.F_C.allFinite()) break;
+  }
+  best.sweeps = sweeps;
+  best.active_set_steps = steps;
+  best.history = std::move(history);
+  return best;
+}
+
 ContactCheck check_contact(const Eigen::MatrixXd& D, const ContactPoints& contact,
                            const Eigen::VectorXd& F, const Eigen::VectorXd& displacement,
                            const LoadScale& scale) {
-  const auto D_norm = [&](const Eigen::VectorXd& f) {
-    return std::sqrt(std::max(0.0, f.dot(D * f)));
-  };
   const Eigen::VectorXd r = relative_to_gap(contact, displacement);
   ContactCheck check;
-  check.energy_norm = D_norm(active_set_step(D, contact, F, r) - F);
+  check.energy_norm = D_norm(D, active_set_step(D, contact, F, r) - F);
   const double off = natural_map(contact, D.diagonal(), F, displacement).norm();
-  check.relative = std::max(relative_error(check.energy_norm, D_norm(F), scale.energy_norm),
+  check.relative = std::max(relative_error(check.energy_norm, D_norm(D, F), scale.energy_norm),
                             relative_error(off, F.norm(), scale.force_N));
   return check;
 }

@@ -1,37 +1,15 @@
 #include "solvers/contact/condensed.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
 
 #include "solvers/contact/active_set.hpp"
 
 namespace airybench {
 
-ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const RunControl& control) {
-  if (!control.active_sets || control.stop == Stop::paper)
-    return solve_contact_by_gauss_seidel(condensed, contact, control);
-  constexpr int first_sweeps = 30;  // from fewer, active sets may cycle
-  ContactResult best;
-  ContactResult swept;
-  RunControl part = control;
-  int sweeps = 0, steps = 0;
-  std::vector<double> history;
-  for (int next = first_sweeps;; next *= 10) {
-    part.contact_sweeps = std::min(next, control.contact_sweeps - sweeps);
-    swept = solve_contact_by_gauss_seidel(condensed, contact, part, swept.F_C);
-    sweeps += swept.sweeps;
-    history.insert(history.end(), swept.history.begin(), swept.history.end());
-    ContactResult result = swept;
-    finish_by_active_set(condensed, contact, control, result);
-    steps += result.active_set_steps;
-    if (!(best.natural_map_residual <= result.natural_map_residual)) best = std::move(result);
-    if (best.converged || sweeps >= control.contact_sweeps || !swept.F_C.allFinite()) break;
-  }
-  best.sweeps = sweeps;
-  best.active_set_steps = steps;
-  best.history = std::move(history);
-  return best;
+double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
+  return std::sqrt(std::max(0.0, F.dot(D * F)));
 }
 
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,

@@ -19,6 +19,9 @@ struct CondensedSystem {
   }
 };
 
+// ‖F‖_D = √(Fᵀ D F), √(N mm): the energy norm of the stresses that contact forces alone make.
+double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F);
+
 // The contact law of a condensed system into the solution: its forces, status, counts and history.
 // Without contact points there is nothing to do and the status is ok.
 //

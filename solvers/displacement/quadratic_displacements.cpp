@@ -42,8 +42,7 @@ std::map<int, Eigen::Matrix2d> frames(const QuadraticDisplacements& system) {
   std::map<int, Eigen::Matrix2d> frame;
   for (int p = 0; p < system.control.law.count; ++p)
     frame[system.control.node[p]] = system.control.frame(p);
-  for (const auto& [node, n] : system.given.normal)
-    frame.try_emplace(node, (Eigen::Matrix2d() << n.x(), -n.y(), n.y(), n.x()).finished());
+  for (const auto& [node, n] : system.given.normal) frame.try_emplace(node, normal_frame(n));
   return frame;
 }
 

@@ -1,0 +1,80 @@
+#include "bench/measuring/record_notes.hpp"
+
+#include <cmath>
+
+#include "bench/judging/answer_hash.hpp"
+
+namespace airybench {
+
+void note(const Solution& solution, Record& record) {
+  record.status = solution.status;
+  record.status_reason = solution.message;
+  record.claimed_status = solution.status;
+  record.error_estimate = solution.error_estimate;
+  record.condition_estimate = solution.condition_estimate;
+  if (const std::size_t bytes = matrix_bytes(solution); bytes > 0)
+    record.storage_bytes = static_cast<std::int64_t>(bytes);
+  record.library_bytes = solution.library_bytes;
+  record.factor_entries = solution.factor_entries;
+  if (solution.factor_flops) record.factor_flops = std::llround(*solution.factor_flops);
+  record.linear_iterations = solution.linear_iterations;
+  record.contact_iterations = solution.contact_iterations;
+  record.newton_steps = solution.newton_steps;
+  record.uzawa_iterations = solution.uzawa_iterations;
+  record.parameters = solution.parameters;
+}
+
+void note(const std::vector<IterationHistory>& histories, Record& record) {
+  for (const IterationHistory& history : histories)
+    record.histories[history.what] = history.residual;
+}
+
+void note(const std::vector<GridPoint>& grid, Record& record) {
+  for (const GridPoint& point : grid)
+    record.grid.push_back({{"r", point.r},
+                           {"rho", point.rho},
+                           {"iterations", point.iterations},
+                           {"outcome", point.outcome}});
+}
+
+void note(const Verification& v, Record& record) {
+  record.error_stress = v.error_stress;
+  record.error_stress_absolute = v.error_stress_absolute;
+  record.reference_error = v.reference_error;
+  record.friction_coupling = v.friction_coupling;
+  record.error_force = v.error_force;
+  record.equilibrium_residual = v.equilibrium_residual;
+  record.natural_map_residual = v.natural_map_residual;
+  record.signorini_violation_N = v.signorini_violation_N;
+  record.coulomb_violation_N = v.coulomb_violation_N;
+  record.normal_resultant_N = v.normal_resultant_N;
+  record.tangential_resultant_N = v.tangential_resultant_N;
+  record.strain_energy_Nmm = v.strain_energy_Nmm;
+  record.complementary_energy_Nmm = v.complementary_energy_Nmm;
+  record.n_open = v.n_open;
+  record.n_stick = v.n_stick;
+  record.n_slip = v.n_slip;
+  record.answer_hash = answer_hash(v);
+}
+
+void note(const ConstitutiveError& error, Record& record) {
+  if (error.flaw.empty())
+    record.error_discretisation = error.relative;
+  else
+    record.no_discretisation_error = error.flaw;
+  if (error.guaranteed) {
+    record.lower_bound_Nmm = error.lower_bound_Nmm;
+    record.upper_bound_Nmm = error.upper_bound_Nmm;
+  }
+}
+
+void note(const MemorySplit& memory, Record& record) {
+  record.memory_by_owner = by_owner(memory);
+  record.memory_by_stage = by_stage(memory);
+  record.memory_counts_differ = counts_differ(memory);
+  record.memory_count_ratio = count_ratio(memory);
+  record.heap_allocations = memory.allocations;
+  record.heap_allocated_bytes = memory.allocated_bytes;
+}
+
+}  // namespace airybench

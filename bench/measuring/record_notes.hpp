@@ -1,0 +1,20 @@
+// What a record takes over from a solution, a verification and what else was found of a case.
+#pragma once
+
+#include "bench/judging/discretisation_error.hpp"
+#include "bench/judging/verifier.hpp"
+#include "bench/measuring/memory_split.hpp"
+#include "bench/records/record.hpp"
+#include "solvers/method.hpp"
+
+namespace airybench {
+
+// The method's own word, with counts and sizes.
+void note(const Solution& solution, Record& record);
+void note(const std::vector<IterationHistory>& histories, Record& record);  // none: nothing
+void note(const std::vector<GridPoint>& grid, Record& record);              // none: nothing
+void note(const Verification& verification, Record& record);
+void note(const ConstitutiveError& error, Record& record);
+void note(const MemorySplit& memory, Record& record);
+
+}  // namespace airybench
