@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "solvers/general_names.hpp"
+#include "solvers/names/general_names.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {

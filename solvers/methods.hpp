@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

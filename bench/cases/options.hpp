@@ -10,7 +10,7 @@
 
 #include "bench/cases/plan.hpp"
 #include "bench/cases/study.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

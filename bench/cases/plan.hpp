@@ -9,7 +9,7 @@
 #include "assembly/problem.hpp"
 #include "bench/cases/study.hpp"
 #include "bench/records/case_name.hpp"
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "bench/records/record.hpp"
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

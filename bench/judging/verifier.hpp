@@ -17,7 +17,7 @@
 #include "assembly/dual_system.hpp"
 #include "assembly/load_scale.hpp"
 #include "bench/judging/reference.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "solvers/stage_times.hpp"
+#include "solvers/base/stage_times.hpp"
 
 namespace airybench {
 

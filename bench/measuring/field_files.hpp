@@ -16,7 +16,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "bench/judging/discretisation_error.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

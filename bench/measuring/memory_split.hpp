@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "bench/records/json.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

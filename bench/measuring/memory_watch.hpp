@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "bench/measuring/memory_split.hpp"
-#include "solvers/stage_times.hpp"
+#include "solvers/base/stage_times.hpp"
 
 namespace airybench {
 

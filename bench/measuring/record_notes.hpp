@@ -5,7 +5,7 @@
 #include "bench/judging/verifier.hpp"
 #include "bench/measuring/memory_split.hpp"
 #include "bench/records/record.hpp"
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "bench/records/record.hpp"
-#include "solvers/stage_times.hpp"
+#include "solvers/base/stage_times.hpp"
 
 namespace airybench {
 

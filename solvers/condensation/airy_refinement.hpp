@@ -29,7 +29,7 @@
 #include <functional>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

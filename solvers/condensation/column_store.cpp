@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

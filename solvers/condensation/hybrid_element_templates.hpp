@@ -2,8 +2,8 @@
 #pragma once
 
 #include "assembly/edge_forces.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

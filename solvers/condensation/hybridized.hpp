@@ -24,10 +24,10 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

@@ -16,8 +16,8 @@
 #pragma once
 
 #include "assembly/dual_system.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

@@ -8,9 +8,9 @@
 // with n_c right-hand sides. Given u_C, the inner unknowns come from Lᵀ u = (y_I, L_CCᵀ u_C).
 #pragma once
 
+#include "solvers/base/solution.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/direct/cholmod.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "assembly/dual_system.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/contact/condensed.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

@@ -14,7 +14,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

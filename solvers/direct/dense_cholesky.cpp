@@ -1,6 +1,6 @@
 #include "solvers/direct/dense_cholesky.hpp"
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

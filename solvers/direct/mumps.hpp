@@ -13,7 +13,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

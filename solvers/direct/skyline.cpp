@@ -5,7 +5,7 @@
 #include <functional>
 #include <string>
 
-#include "solvers/parallel.hpp"
+#include "solvers/base/parallel.hpp"
 
 namespace airybench {
 namespace {

@@ -25,7 +25,7 @@
 #include <functional>
 #include <vector>
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/lanes.hpp"
-#include "solvers/parallel.hpp"
+#include "solvers/base/lanes.hpp"
+#include "solvers/base/parallel.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

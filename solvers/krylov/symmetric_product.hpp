@@ -2,7 +2,7 @@
 #pragma once
 
 #include "assembly/dual_system.hpp"
-#include "solvers/lanes.hpp"
+#include "solvers/base/lanes.hpp"
 
 namespace airybench {
 

@@ -8,7 +8,7 @@
 
 #include "solvers/condensation/finish.hpp"
 #include "solvers/direct/factor_counts.hpp"
-#include "solvers/general_names.hpp"
+#include "solvers/names/general_names.hpp"
 
 namespace airybench {
 namespace {

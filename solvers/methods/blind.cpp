@@ -2,8 +2,8 @@
 // that MUMPS leaves. BLIND:SKY: with the skyline LDLᵀ factorisation, multipliers numbered so that
 // it needs no pivoting.
 #include "solvers/condensation/blind.hpp"
+#include "solvers/base/method.hpp"
 #include "solvers/direct/factor_counts.hpp"
-#include "solvers/method.hpp"
 
 namespace airybench {
 namespace {

@@ -1,9 +1,9 @@
 // HYBRID: hybridized equilibrium elements, K_II factorised by CHOLMOD.
 #include "solvers/condensation/hybridized.hpp"
 
+#include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
 #include "solvers/direct/condition.hpp"
-#include "solvers/method.hpp"
 
 namespace airybench {
 namespace {

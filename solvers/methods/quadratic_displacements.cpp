@@ -2,8 +2,8 @@
 // points: not the contact points of the system.
 #include "solvers/displacement/quadratic_displacements.hpp"
 
+#include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
-#include "solvers/method.hpp"
 
 namespace airybench {
 namespace {

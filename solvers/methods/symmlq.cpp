@@ -3,7 +3,7 @@
 #include "solvers/krylov/symmlq.hpp"
 
 #include "solvers/condensation/symmlq_condensation.hpp"
-#include "solvers/general_names.hpp"
+#include "solvers/names/general_names.hpp"
 
 namespace airybench {
 namespace {

@@ -2,9 +2,9 @@
 // parallel; refined, or with the intermediate matrices in a file or nowhere. 3STEPD:CHOLMOD: with
 // CHOLMOD's supernodal Cholesky factorisation.
 #include "solvers/condensation/three_step.hpp"
+#include "solvers/base/method.hpp"
 #include "solvers/direct/condition.hpp"
 #include "solvers/direct/factor_counts.hpp"
-#include "solvers/method.hpp"
 
 namespace airybench {
 namespace {

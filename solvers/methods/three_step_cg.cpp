@@ -1,7 +1,7 @@
 // 3STEPCG:<preconditioner>: three-step condensation with preconditioned conjugate gradients.
 #include "solvers/condensation/three_step.hpp"
-#include "solvers/general_names.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
+#include "solvers/names/general_names.hpp"
 
 namespace airybench {
 namespace {

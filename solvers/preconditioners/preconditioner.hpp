@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/lanes.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/lanes.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

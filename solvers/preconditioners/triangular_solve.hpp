@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solvers/lanes.hpp"
+#include "solvers/base/lanes.hpp"
 
 namespace airybench {
 

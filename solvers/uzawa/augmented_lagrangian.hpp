@@ -26,9 +26,9 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/direct/skyline.hpp"
-#include "solvers/solution.hpp"
 
 namespace airybench {
 

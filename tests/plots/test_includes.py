@@ -37,10 +37,10 @@ ROOMS = {
     "bench": ["bench/commands", "bench/isolation", "support"],
 }
 
-# Inside solvers/: what a folder may use besides itself and the base, the files that all may use.
-BASE = {"solution", "stage_times", "method", "lanes", "parallel"}
+# Inside solvers/: what a folder may use besides itself and base; "table": the files of no folder.
 PIECES = ["direct", "preconditioners", "krylov", "contact", "condensation", "uzawa", "displacement"]
 FOLDERS_OF_SOLVERS = {
+    "base": [],
     "direct": [],
     "preconditioners": ["direct"],
     "krylov": ["preconditioners"],
@@ -48,9 +48,9 @@ FOLDERS_OF_SOLVERS = {
     "condensation": ["direct", "preconditioners", "krylov", "contact"],
     "uzawa": ["direct", "contact", "condensation"],
     "displacement": [],
-    "general_names": ["preconditioners", "condensation"],
-    "methods": [*PIECES, "general_names"],
-    "the table": ["preconditioners", "general_names"],
+    "names": ["preconditioners", "condensation"],
+    "methods": [*PIECES, "names"],
+    "table": ["preconditioners", "names"],
 }
 
 
@@ -59,13 +59,11 @@ def room(file: str) -> str:
 
 
 def folder_of_solvers(file: str) -> str:
-    """The folder of a file; of those in solvers/ itself the level. "" elsewhere."""
+    """The folder of a file of solvers/; "" elsewhere."""
     parts = Path(file).parts
     if parts[0] != "solvers":
         return ""
-    stem = Path(file).stem
-    return parts[1] if len(parts) > 2 else "base" if stem in BASE else \
-        "the table" if stem == "methods" else stem
+    return parts[1] if len(parts) > 2 else "table"
 
 
 def forbidden(file: str, text: str) -> list[str]:

@@ -6,7 +6,7 @@
 #include <cctype>
 #include <string>
 
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench::testing {
 

@@ -10,8 +10,8 @@
 
 #include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
+#include "solvers/base/solution.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/solution.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::reference_test {

@@ -13,7 +13,7 @@
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "mesh/msh_format.hpp"
-#include "solvers/parallel.hpp"
+#include "solvers/base/parallel.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::memory_owner_test {

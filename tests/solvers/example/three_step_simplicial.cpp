@@ -2,8 +2,8 @@
 // P S Pᵀ = L D Lᵀ, P from AMD. S is symmetric positive definite.
 #include <Eigen/SparseCholesky>
 
+#include "solvers/base/method.hpp"
 #include "solvers/condensation/three_step.hpp"
-#include "solvers/method.hpp"
 
 namespace airybench {
 

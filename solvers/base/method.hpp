@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "assembly/stress_field.hpp"
-#include "solvers/stage_times.hpp"
+#include "solvers/base/stage_times.hpp"
 #include "support/memory_owner.hpp"
 #include "support/status.hpp"
 

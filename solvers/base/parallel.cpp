@@ -1,4 +1,4 @@
-#include "solvers/parallel.hpp"
+#include "solvers/base/parallel.hpp"
 
 #include <cblas.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 #include "support/memory_owner.hpp"
 
 namespace airybench {

@@ -1,4 +1,4 @@
-#include "solvers/solution.hpp"
+#include "solvers/base/solution.hpp"
 
 #include <sstream>
 

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
+#include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
-#include "solvers/method.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
 
 namespace airybench {

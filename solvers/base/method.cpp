@@ -1,4 +1,4 @@
-#include "solvers/method.hpp"
+#include "solvers/base/method.hpp"
 
 #include <new>
 

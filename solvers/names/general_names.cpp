@@ -1,4 +1,4 @@
-#include "solvers/general_names.hpp"
+#include "solvers/names/general_names.hpp"
 
 #include <sstream>
 #include <stdexcept>

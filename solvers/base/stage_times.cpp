@@ -1,4 +1,4 @@
-#include "solvers/stage_times.hpp"
+#include "solvers/base/stage_times.hpp"
 
 namespace airybench {
 namespace {
