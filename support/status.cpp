@@ -15,6 +15,10 @@ std::optional<Status> status_of(std::string_view name) {
   return {};
 }
 
+bool has_answer(Status status) {
+  return status == Status::ok || status == Status::inaccurate || status == Status::unstressed;
+}
+
 std::string_view name_of(Stop stop) { return stop == Stop::paper ? "paper" : "target"; }
 
 std::optional<Stop> stop_of(std::string_view name) {

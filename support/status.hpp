@@ -34,6 +34,8 @@ inline constexpr std::array<Status, 10> all_statuses = {Status::ok,
                                                         Status::skipped};
 std::string_view name_of(Status status);  // "not_converged"
 std::optional<Status> status_of(std::string_view name);
+// Ended with an answer, whose time and memory count: ok, inaccurate or unstressed.
+bool has_answer(Status status);
 
 // When an iterative method stops: by a tolerance that is tightened until the error is below its
 // target; or as the paper does it.

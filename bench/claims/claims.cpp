@@ -309,7 +309,7 @@ void add_contact_shares(ContactShares& shares, const CaseTable& cases, const std
   for (const std::string& method : cases.methods(mesh)) {
     const Record& record = *cases.find(mesh, method);
     if (!is_condensing(record)) continue;
-    if (!has_answer(record) || !record.time_s || !record.stage_contact_s) {
+    if (!has_answer(record.status) || !record.time_s || !record.stage_contact_s) {
       ++shares.without_answer;
       continue;
     }

@@ -43,7 +43,7 @@ std::optional<ShownTime> time_of(const CaseTable& cases, const std::string& mesh
                              show_seconds(shown.time.at_least_s));
     return shown;
   }
-  if (!has_answer(*record)) return refuse(std::string(name_of(record->status)));
+  if (!has_answer(record->status)) return refuse(std::string(name_of(record->status)));
   if (!record->time_s) return refuse("no time_s");
   shown.time.figure_s = *record->time_s;
   shown.time.samples_s = record->samples_s;
@@ -85,7 +85,7 @@ std::optional<ShownBytes> Evidence::bytes(const std::string& mesh, const std::st
   };
   if (record == nullptr) return refuse("no record");
   // What stands there after a timeout is only what there was until then.
-  if (!has_answer(*record)) return refuse(name_of(record->status));
+  if (!has_answer(record->status)) return refuse(name_of(record->status));
   if (!(record->*value)) return refuse(fmt::format("no {}", name));
   return ShownBytes{static_cast<double>(*(record->*value)),
                     show_bytes(record->*value) + remark(*record)};

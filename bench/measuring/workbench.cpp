@@ -22,10 +22,6 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
-bool has_answer(const Solution& solution) {
-  return solution.status == Status::ok || solution.status == Status::inaccurate;
-}
-
 std::optional<std::int64_t> if_probed(std::int64_t bytes) {
   return heap::is_active() ? std::optional(bytes) : std::nullopt;
 }
@@ -225,7 +221,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
     malloc_trim(0);  // what earlier runs freed shall not count
     Run run = solve(choice, assembled, Activity::detail_run);
     const Solution& solution = run.solution;
-    if (finished && !has_answer(solution)) {  // better than nothing
+    if (finished && !has_answer(solution.status)) {  // better than nothing
       record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
       choice.tolerance = finished_with;
       return std::move(*finished);
@@ -233,8 +229,8 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
     if (!method.is_tightened()) return run;
     note_attempt(choice, assembled, run, record);
     const double estimate = solution.error_estimate.value_or(0);
-    if (options_.stop == Stop::paper || !has_answer(solution) || solution.status == Status::ok ||
-        attempt == most_attempts || choice.tolerance <= tightest)
+    if (options_.stop == Stop::paper || !has_answer(solution.status) ||
+        solution.status == Status::ok || attempt == most_attempts || choice.tolerance <= tightest)
       return run;
     record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
     finished_with = choice.tolerance;

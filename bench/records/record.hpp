@@ -48,9 +48,6 @@ CaseName name_of(const Record& record);
 // Of the run's context; "": it has none.
 std::string context_word(const Record& record, const std::string& key);
 
-// Ended with something whose time counts: ok, inaccurate or unstressed.
-bool has_answer(const Record& record);
-
 // Has the verifier seen it?
 bool is_verified(const Record& record);
 

@@ -51,7 +51,7 @@ const Record& telling(const CaseRuns& runs) {
 std::vector<double> medians_of(const CaseRuns& runs) {
   std::vector<double> medians;
   for (const Record* record : runs)
-    if (has_answer(*record) && !record->samples_s.empty())
+    if (has_answer(record->status) && !record->samples_s.empty())
       medians.push_back(median(record->samples_s));
   return medians;
 }

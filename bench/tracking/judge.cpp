@@ -16,7 +16,7 @@ constexpr const char* all_cases = "all cases";
 constexpr const char* time_name = "time_s";
 
 double log_time(const Record* record) {
-  const bool has_time = record != nullptr && has_answer(*record) && record->time_s;
+  const bool has_time = record != nullptr && has_answer(record->status) && record->time_s;
   return has_time ? std::log(*record->time_s) : std::nan("");
 }
 

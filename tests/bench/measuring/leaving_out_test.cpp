@@ -17,7 +17,7 @@ Record measured(const Scene& scene, Mesh mesh, const char* method) {
   auto [record, choice] = bench.examine(chosen, {});
   bench.measure_memory(chosen, choice, record);
   add_run(bench.measure_time(chosen, choice), record);
-  EXPECT_TRUE(has_answer(record)) << record.status_reason;
+  EXPECT_TRUE(has_answer(record.status)) << record.status_reason;
   return record;
 }
 
