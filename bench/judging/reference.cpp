@@ -15,7 +15,7 @@ namespace {
 // F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
 double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
                                  const ContactPoints& contact, const LoadScale& scale,
-                                 const Eigen::VectorXd& start, CholmodFactor& factor,
+                                 const Eigen::VectorXd& start, const MultifrontalFactor& factor,
                                  Reference& reference, Refined& refined) {
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
@@ -56,7 +56,7 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
   StiffnessFactor factor;
   {
-    const SparseColumns K = system.K.cast<double>();
+    const ElementMatrices K = rounded<double>(system.K);
     factor.cholesky.analyse(K, system.n_c);
     factor.cholesky.factor(K);
   }

@@ -28,6 +28,7 @@
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
+#include "solvers/direct/element_matrices.hpp"
 
 namespace airybench {
 
@@ -35,7 +36,7 @@ template <typename Scalar>
 struct HybridizedSystemIn {
   EdgeUnknowns unknown;
   std::vector<Eigen::Vector4d> displacement;  // ū0 of displacement edges, else 0; empty: all zero
-  Eigen::SparseMatrix<Scalar> K;              // lower triangle, N/mm
+  ElementMatricesIn<Scalar> K;                // N/mm
   Eigen::VectorX<Scalar> b;                   // N, without the contact forces
   int n_c = 0;                                // the last unknowns
   std::size_t bytes() const;                  // of K and b

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/sparse_bytes.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
 #include "solvers/condensation/hybridized.hpp"
 
@@ -28,7 +27,7 @@ void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::V
 
 template <typename Scalar>
 std::size_t HybridizedSystemIn<Scalar>::bytes() const {
-  return bytes_of(K) + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
+  return K.bytes() + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
          unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
 }
 
@@ -41,8 +40,8 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   system.displacement = prescribed_displacements(problem);
   const std::vector<bool> in_frame = edges_in_frame(problem);
   system.b = Eigen::VectorX<Scalar>::Zero(n);
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  entries.reserve(78 * problem.mesh.triangles.size());
+  system.K.order = n;
+  system.K.reserve(problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const auto element = make_hybrid_element<Scalar>(problem, in_frame, t);
@@ -54,18 +53,11 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
         f += K.template middleCols<4>(4 * k) *
              system.displacement[problem.edges.of_triangle[t][k]].template cast<Scalar>();
 
-    for (int j = 0; j < 12; ++j) {
-      const int column = unknown[j];
-      if (column == prescribed_unknown) continue;
-      system.b(column) -= f(j);
-      for (int i = 0; i < 12; ++i)
-        if (unknown[i] >= column)  // the lower triangle, and nothing prescribed
-          entries.emplace_back(unknown[i], column, K(i, j));
-    }
+    system.K.add(unknown, K);
+    for (int j = 0; j < 12; ++j)
+      if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
   }
   add_tractions(problem, system.unknown, system.b);
-  system.K.resize(n, n);
-  system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
 }
 

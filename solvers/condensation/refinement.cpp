@@ -6,7 +6,7 @@
 
 namespace airybench {
 
-void refine(const HybridizedSystemIn<long double>& system, CholmodFactor& factor,
+void refine(const HybridizedSystemIn<long double>& system, const MultifrontalFactor& factor,
             const Eigen::VectorXd& F_C, Refined& refined) {
   constexpr int most_corrections = 30;
   if (refined.u.size() == 0) refined.u.setZero(system.b.size());
@@ -14,8 +14,9 @@ void refine(const HybridizedSystemIn<long double>& system, CholmodFactor& factor
   load.tail(system.n_c) += F_C.cast<long double>();
   double before = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_corrections; ++step) {
-    const LongVector residual = load - system.K.selfadjointView<Eigen::Lower>() * refined.u;
-    const Eigen::VectorXd r = residual.cast<double>();
+    LongVector product = LongVector::Zero(load.size());
+    add_product(system.K, refined.u, product);
+    const Eigen::VectorXd r = (load - product).cast<double>();
     Eigen::VectorXd correction = r;
     factor.solve_in_place(correction);
     refined.last_correction = std::sqrt(std::max(0.0, r.dot(correction)));

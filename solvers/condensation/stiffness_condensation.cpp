@@ -15,14 +15,14 @@ CondensedSystem condense(const StiffnessFactor& factor) {
   return condensed;
 }
 
-CondensedSystem factorise_and_condense(const Eigen::SparseMatrix<double>& K,
-                                       const Eigen::VectorXd& b, int n_c, const std::string& system,
-                                       const RunControl& control, StiffnessFactor& factor,
-                                       Solution& solution) {
+CondensedSystem factorise_and_condense(const ElementMatrices& K, const Eigen::VectorXd& b, int n_c,
+                                       const std::string& system, const RunControl& control,
+                                       StiffnessFactor& factor, Solution& solution) {
   run_stage(solution.times, Stage::order, MemoryOwner::factor,
             [&] { factor.cholesky.analyse(K, n_c); });
   control.deadline.check("the ordering of the " + system);
-  run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] { factor.cholesky.factor(K); });
+  run_stage(solution.times, Stage::factor, MemoryOwner::factor,
+            [&] { factor.cholesky.factor(K, control.deadline); });
   control.deadline.check("the factorisation of the " + system);
   CondensedSystem condensed;
   {

@@ -2,12 +2,7 @@
 // doi:10.1145/1391989.1391995), symmetric positive definite.
 //
 //   P S Pᵀ = L Lᵀ with a fill-reducing permutation P that CHOLMOD chooses (AMD, or METIS where AMD
-// leaves much fill). On request the last unknowns C stay last, and L ends in a Schur complement:
-//
-//   ⎡ K_II  ·   ⎤     ⎡ L_II      ⎤ ⎡ L_IIᵀ L_CIᵀ ⎤
-//   ⎣ K_CI K_CC ⎦  =  ⎣ L_CI L_CC ⎦ ⎣       L_CCᵀ ⎦      K_CC − K_CI K_II⁻¹ K_CIᵀ = L_CC L_CCᵀ
-//
-// (I permuted), with no solve for it.
+// leaves much fill).
 #pragma once
 
 #include <cholmod.h>
@@ -25,21 +20,15 @@ class CholmodFactor {
   CholmodFactor(const CholmodFactor&) = delete;
   CholmodFactor& operator=(const CholmodFactor&) = delete;
 
-  // Ordering and symbolic factorisation of a lower triangle with sorted columns; the last
-  // `trailing` unknowns keep their place and order. Throws std::bad_alloc.
-  void analyse(const Eigen::SparseMatrix<double>& lower, int trailing = 0);
+  // Ordering and symbolic factorisation of a lower triangle with sorted columns. Throws
+  // std::bad_alloc.
+  void analyse(const Eigen::SparseMatrix<double>& lower);
   // Of the matrix that was analysed, or one with its pattern. Throws Breakdown when it is not
   // positive definite or not finite, std::bad_alloc.
   void factor(const Eigen::SparseMatrix<double>& lower);
 
   // X ← S⁻¹ X, a few columns at a time. Throws TimeoutReached between them, std::bad_alloc.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
-
-  // y = L⁻¹ P b and Pᵀ L⁻ᵀ z: the halves of a solve. In y and z the trailing unknowns are the last
-  // ones too; the inner ones are in the factor's order.
-  Eigen::VectorXd forward(const Eigen::VectorXd& b);
-  Eigen::VectorXd backward(const Eigen::VectorXd& z);
-  Eigen::MatrixXd trailing_factor() const;  // L_CC, lower triangular
 
   std::size_t bytes() const;          // of L as it is stored, its permutation and the workspace
   std::size_t library_bytes() const;  // the same by CHOLMOD's own count of its allocations
@@ -48,12 +37,11 @@ class CholmodFactor {
 
  private:
   void free_workspace();
-  void solve(int system, Eigen::Ref<Eigen::MatrixXd> X);
+  void solve(Eigen::Ref<Eigen::MatrixXd> X);
   void throw_if_out_of_memory() const;
   cholmod_common common_;
   cholmod_factor* factor_ = nullptr;
   cholmod_dense *solution_ = nullptr, *permuted_ = nullptr, *gathered_ = nullptr;  // workspace
-  int trailing_ = 0;
 };
 
 }  // namespace airybench

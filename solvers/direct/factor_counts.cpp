@@ -3,12 +3,17 @@
 namespace airybench {
 namespace {
 
-template <typename LibraryFactor>
-void count(const LibraryFactor& factor, Solution& solution) {
+template <typename Factor>
+void count(const Factor& factor, Solution& solution) {
   solution.storage[MemoryOwner::factor] = factor.bytes();
-  solution.library_bytes = static_cast<std::int64_t>(factor.library_bytes());
   solution.factor_entries = factor.entries();
   solution.factor_flops = factor.flops();
+}
+
+template <typename LibraryFactor>
+void count_library(const LibraryFactor& factor, Solution& solution) {
+  count(factor, solution);
+  solution.library_bytes = static_cast<std::int64_t>(factor.library_bytes());
 }
 
 }  // namespace
@@ -30,7 +35,12 @@ SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const R
   return factor;
 }
 
-void count_factor(const CholmodFactor& factor, Solution& solution) { count(factor, solution); }
-void count_factor(const MumpsFactor& factor, Solution& solution) { count(factor, solution); }
+void count_factor(const MultifrontalFactor& factor, Solution& solution) { count(factor, solution); }
+void count_factor(const CholmodFactor& factor, Solution& solution) {
+  count_library(factor, solution);
+}
+void count_factor(const MumpsFactor& factor, Solution& solution) {
+  count_library(factor, solution);
+}
 
 }  // namespace airybench

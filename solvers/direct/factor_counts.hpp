@@ -3,12 +3,14 @@
 #pragma once
 
 #include "solvers/direct/cholmod.hpp"
+#include "solvers/direct/multifrontal.hpp"
 #include "solvers/direct/mumps.hpp"
 #include "solvers/direct/skyline.hpp"
 
 namespace airybench {
 
 void count_factor(const SkylineFactor& factor, Solution& solution);
+void count_factor(const MultifrontalFactor& factor, Solution& solution);
 // Makes it, too, in the stages `order` and `factor`.
 SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const RunControl& control,
                                Solution& solution);

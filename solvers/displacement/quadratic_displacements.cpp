@@ -1,7 +1,5 @@
 #include "solvers/displacement/quadratic_displacements.hpp"
 
-#include "assembly/sparse_bytes.hpp"
-
 namespace airybench {
 namespace {
 
@@ -60,7 +58,7 @@ void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& fr
 }  // namespace
 
 std::size_t QuadraticDisplacements::bytes() const {
-  return bytes_of(K) + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
+  return K.bytes() + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
          unknown.size() * sizeof(unknown[0]);
 }
 
@@ -71,8 +69,8 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
   const int n = number_unknowns(system);
   const std::map<int, Eigen::Matrix2d> frame = frames(system);
   system.b = Eigen::VectorXd::Zero(n);
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(78 * problem.mesh.triangles.size());
+  system.K.order = n;
+  system.K.reserve(problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
@@ -91,24 +89,18 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
     const QuadraticStiffness K =
         quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem, t));
     const Eigen::Matrix<double, 12, 1> force = K * given;
+    system.K.add(unknown, K);
     for (int j = 0; j < 12; ++j) {
-      const int column = unknown[j];
-      if (column == QuadraticDisplacements::prescribed) {
-        const auto row = system.held_tangent.find(nodes[j / 2]);
-        if (j % 2 == 1 && row != system.held_tangent.end())
-          entries.emplace_back(row->second, row->second, K(j, j));
-        continue;
+      if (unknown[j] != QuadraticDisplacements::prescribed) {
+        system.b(unknown[j]) -= force(j);
+      } else if (const auto row = system.held_tangent.find(nodes[j / 2]);
+                 j % 2 == 1 && row != system.held_tangent.end()) {
+        system.K.add_diagonal(row->second, K(j, j));
       }
-      system.b(column) -= force(j);
-      for (int i = 0; i < 12; ++i)
-        if (unknown[i] >= column)  // the lower triangle, and nothing prescribed
-          entries.emplace_back(unknown[i], column, K(i, j));
     }
   }
   if (problem.loads.has_body_force() || problem.loads.traction_MPa)
     add_nodal(nodal_loads(problem), frame, system, system.b);
-  system.K.resize(n, n);
-  system.K.setFromTriplets(entries.begin(), entries.end());
   return system;
 }
 

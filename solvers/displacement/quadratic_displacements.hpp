@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "assembly/control_points.hpp"
+#include "solvers/direct/element_matrices.hpp"
 
 namespace airybench {
 
@@ -31,7 +32,7 @@ struct QuadraticDisplacements {
   // Control points on a roller: the row of the tangential coefficient, which is prescribed. It
   // stands alone in K, so that its force and r_t are zero.
   std::map<int, int> held_tangent;
-  SparseColumns K;                                // lower triangle, N/mm
+  ElementMatrices K;                              // N/mm
   Eigen::VectorXd b;                              // N, without the contact forces
   int n_c() const { return control.law.size(); }  // the last unknowns
   std::size_t bytes() const;                      // of K, b and what is given

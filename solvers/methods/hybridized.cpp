@@ -1,4 +1,4 @@
-// HYBRID: hybridized equilibrium elements, K_II factorised by CHOLMOD.
+// HYBRID: hybridized equilibrium elements, multifrontal Cholesky.
 #include "solvers/condensation/hybridized.hpp"
 
 #include "solvers/base/method.hpp"
@@ -19,9 +19,10 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
   const CondensedSystem condensed = factorise_and_condense(
       system.K, system.b, system.n_c, "hybridized system", control, factor, solution);
   if (control.condition)
-    solution.condition_estimate = estimate_condition(system.K, [&](Eigen::Ref<Eigen::MatrixXd> X) {
-      factor.cholesky.solve_in_place(X, control.deadline);
-    });
+    solution.condition_estimate =
+        estimate_condition(lower_triangle(system.K), [&](Eigen::Ref<Eigen::MatrixXd> X) {
+          factor.cholesky.solve_in_place(X, control.deadline);
+        });
   HybridizedAnswer answer;
   finish_in_displacements(
       problem, airy.contact, control, condensed, factor,
@@ -45,7 +46,8 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
 Method hybrid() {
   return {.name = "HYBRID",
           .family = "HYBRID",
-          .summary = "hybridized equilibrium elements, CHOLMOD; the reference of all errors",
+          .summary =
+              "hybridized equilibrium elements, multifrontal Cholesky; the reference of all errors",
           .blocks = Blocks::contact_points,
           .solve = solve_hybridized,
           .knob = AccuracyKnob::contact_sweeps};

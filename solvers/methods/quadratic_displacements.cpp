@@ -1,4 +1,4 @@
-// P2: quadratic displacements, factorised by CHOLMOD. Solution::F_C are forces at the control
+// P2: quadratic displacements, multifrontal Cholesky. Solution::F_C are forces at the control
 // points: not the contact points of the system.
 #include "solvers/displacement/quadratic_displacements.hpp"
 
@@ -38,7 +38,8 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
 Method p2() {
   return {.name = "P2",
           .family = "P2",
-          .summary = "quadratic displacements, CHOLMOD: what most users would run instead",
+          .summary =
+              "quadratic displacements, multifrontal Cholesky: what most users would run instead",
           .blocks = Blocks::contact_points,
           .in_displacements = true,
           .solve = solve_quadratic_displacements};

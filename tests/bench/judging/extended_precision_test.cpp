@@ -67,7 +67,8 @@ QuadVector solve_law(const QuadMatrix& D, const QuadVector& offset, const Contac
 QuadSolution solve_in_quad(const DualSystem& airy, const Eigen::VectorXd& like) {
   const ContactPoints& contact = airy.contact;
   const auto system = assemble_hybridized<Quad>(*airy.problem, contact);
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Quad>, Eigen::Lower> factor(system.K);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<Quad>, Eigen::Lower> factor(
+      lower_triangle(system.K));
   EXPECT_EQ(factor.info(), Eigen::Success);
   QuadMatrix sides = QuadMatrix::Zero(system.b.size(), system.n_c);
   sides.bottomRows(system.n_c).setIdentity();

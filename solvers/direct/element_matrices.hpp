@@ -1,0 +1,104 @@
+// A symmetric matrix as the sum of its elements' matrices, never put together:
+//
+//   K = Σ_e P_eᵀ K_e P_e,   K_e 12×12; P_e picks the element's unknowns, and drops prescribed ones
+//
+// This is what a multifrontal factorisation reads (multifrontal.hpp), and products need no more.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <array>
+#include <vector>
+
+namespace airybench {
+
+template <typename Scalar>
+struct ElementMatricesIn {
+  static constexpr int size = 12;
+  using Unknowns = std::array<int, size>;  // negative: prescribed
+  using Matrix = Eigen::Matrix<Scalar, size, size>;
+
+  int order = 0;                  // of K
+  std::vector<Unknowns> unknown;  // per element
+  std::vector<std::array<Scalar, size*(size + 1) / 2>> lower;  // K_e's lower triangle, by columns
+
+  int count() const { return static_cast<int>(unknown.size()); }
+  std::size_t bytes() const {
+    return unknown.size() * sizeof(unknown[0]) + lower.size() * sizeof(lower[0]);
+  }
+  void reserve(std::size_t elements) {
+    unknown.reserve(elements);
+    lower.reserve(elements);
+  }
+  // K_e: its lower triangle is read.
+  void add(const Unknowns& of_element, const Matrix& K_e) {
+    unknown.push_back(of_element);
+    auto* entry = lower.emplace_back().data();
+    for (int j = 0; j < size; ++j)
+      for (int i = j; i < size; ++i) *entry++ = K_e(i, j);
+  }
+  // An unknown by itself.
+  void add_diagonal(int of, Scalar stiffness) {
+    Unknowns alone;
+    alone.fill(-1);
+    alone[0] = of;
+    Matrix K_e = Matrix::Zero();
+    K_e(0, 0) = stiffness;
+    add(alone, K_e);
+  }
+};
+using ElementMatrices = ElementMatricesIn<double>;
+
+// y += K x.
+template <typename Scalar>
+void add_product(const ElementMatricesIn<Scalar>& K, const Eigen::VectorX<Scalar>& x,
+                 Eigen::VectorX<Scalar>& y) {
+  constexpr int size = ElementMatricesIn<Scalar>::size;
+  for (int e = 0; e < K.count(); ++e) {
+    Eigen::Matrix<Scalar, size, 1> from, to = Eigen::Matrix<Scalar, size, 1>::Zero();
+    for (int i = 0; i < size; ++i) from(i) = K.unknown[e][i] < 0 ? 0 : x(K.unknown[e][i]);
+    const Scalar* entry = K.lower[e].data();
+    for (int j = 0; j < size; ++j) {
+      to(j) += *entry++ * from(j);
+      for (int i = j + 1; i < size; ++i, ++entry) {
+        to(i) += *entry * from(j);
+        to(j) += *entry * from(i);
+      }
+    }
+    for (int i = 0; i < size; ++i)
+      if (K.unknown[e][i] >= 0) y(K.unknown[e][i]) += to(i);
+  }
+}
+
+// Put together after all: the lower triangle.
+template <typename Scalar>
+Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
+  constexpr int size = ElementMatricesIn<Scalar>::size;
+  std::vector<Eigen::Triplet<Scalar>> entries;
+  entries.reserve(K.lower.size() * K.lower[0].size());
+  for (int e = 0; e < K.count(); ++e) {
+    const Scalar* entry = K.lower[e].data();
+    for (int j = 0; j < size; ++j)
+      for (int i = j; i < size; ++i, ++entry) {
+        const auto [column, row] = std::minmax(K.unknown[e][i], K.unknown[e][j]);
+        if (column >= 0) entries.emplace_back(row, column, *entry);
+      }
+  }
+  Eigen::SparseMatrix<Scalar> lower(K.order, K.order);
+  lower.setFromTriplets(entries.begin(), entries.end());
+  return lower;
+}
+
+// The same with entries of another scalar, rounded.
+template <typename To, typename From>
+ElementMatricesIn<To> rounded(const ElementMatricesIn<From>& K) {
+  ElementMatricesIn<To> result;
+  result.order = K.order;
+  result.unknown = K.unknown;
+  result.lower.resize(K.lower.size());
+  for (std::size_t e = 0; e < K.lower.size(); ++e)
+    for (std::size_t k = 0; k < K.lower[e].size(); ++k)
+      result.lower[e][k] = static_cast<To>(K.lower[e][k]);
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,176 @@
+#include "solvers/direct/multifrontal.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <numeric>
+#include <random>
+
+namespace airybench::multifrontal_test {
+namespace {
+
+// Elements on a grid of squares: four unknowns on three of a square's sides, as on a triangle's;
+// those of the grid's left border are prescribed.
+ElementMatrices grid_elements(int side, bool blocks_of_unlike_size = false) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> number(-1, 1);
+  ElementMatrices K;
+  const int columns = side + 1;
+  const auto unknown = [&](int kind, int x, int y, int k) {
+    if (x == 0) return -1;
+    const int edge = (kind * columns + y) * side + x - 1;
+    return blocks_of_unlike_size && k == 3 && (edge % 3 == 0) ? -1 : 4 * edge + k;
+  };
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      ElementMatrices::Unknowns own;
+      for (int k = 0; k < 4; ++k) {
+        own[k] = unknown(0, x, y, k);
+        own[4 + k] = unknown(0, x + 1, y, k);
+        own[8 + k] = unknown(1, x, y + 1, k);
+      }
+      const ElementMatrices::Matrix root =
+          ElementMatrices::Matrix::NullaryExpr([&] { return number(random); });
+      K.add(own, root * root.transpose());
+    }
+  K.order = 4 * 2 * columns * side;
+  for (int u = 0; u < K.order; u += 4) {
+    ElementMatrices::Unknowns edge;
+    edge.fill(-1);
+    std::iota(edge.begin(), edge.begin() + 4, u);
+    K.add(edge, ElementMatrices::Matrix::Identity());
+    if (blocks_of_unlike_size) K.add_diagonal(u, 1);
+  }
+  return K;
+}
+
+Eigen::MatrixXd dense(const ElementMatrices& K) {
+  const Eigen::MatrixXd lower = lower_triangle(K);
+  return lower.selfadjointView<Eigen::Lower>();
+}
+
+TEST(ElementMatrices, TheirProductIsThatOfTheirSum) {
+  const ElementMatrices K = grid_elements(3, true);
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
+  Eigen::VectorXd y = Eigen::VectorXd::Ones(K.order);
+  add_product(K, x, y);
+  EXPECT_LT((y - dense(K) * x - Eigen::VectorXd::Ones(K.order)).norm(), 1e-13 * y.norm());
+}
+
+TEST(Elimination, UnknownsOfAnEdgeStayTogetherAndTrailingOnesLast) {
+  const ElementMatrices K = grid_elements(5);
+  for (const int trailing : {0, 6, K.order}) {
+    const Elimination e = analyse_elimination(K, trailing);
+    std::vector<int> places = e.place;
+    std::ranges::sort(places);
+    for (int i = 0; i < K.order; ++i) EXPECT_EQ(places[i], i);
+    for (int u = K.order - trailing; u < K.order; ++u) EXPECT_EQ(e.place[u], u);
+    int pivots = 0;
+    std::size_t elements = 0;
+    for (const Front& front : e.fronts) {
+      pivots += front.pivots;
+      elements += front.elements.size();
+    }
+    EXPECT_EQ(pivots, K.order);
+    EXPECT_EQ(elements, K.unknown.size());
+    EXPECT_EQ(e.order.size(), e.fronts.size());
+    if (trailing == 0) {
+      for (int u = 0; u < K.order; u += 4)
+        for (int k = 1; k < 4; ++k) EXPECT_EQ(e.place[u + k], e.place[u] + k);
+    }
+  }
+}
+
+// The fill is that of the elimination, no less: the zeros that merged fronts store are few.
+TEST(Elimination, CountsTheFactor) {
+  const ElementMatrices K = grid_elements(6);
+  const Elimination e = analyse_elimination(K, 0);
+  Eigen::MatrixXd A(K.order, K.order);
+  const Eigen::MatrixXd K_dense = dense(K);
+  for (int i = 0; i < K.order; ++i)
+    for (int j = 0; j < K.order; ++j) A(e.place[i], e.place[j]) = K_dense(i, j);
+  const Eigen::MatrixXd L = A.llt().matrixL();
+  const auto filled = static_cast<std::int64_t>((L.array() != 0).count());
+  EXPECT_GE(e.entries(), filled);
+  EXPECT_LT(e.entries(), 2 * filled);
+  EXPECT_GE(e.flops(), static_cast<double>(e.entries()));
+}
+
+TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
+  for (const int side : {1, 4, 9})
+    for (const bool unlike : {false, true}) {
+      const ElementMatrices K = grid_elements(side, unlike);
+      const Eigen::MatrixXd A = dense(K);
+      const int n = K.order;
+      for (const int trailing : {0, 1, 4, side * 8, n}) {
+        const int inner = n - trailing;
+        MultifrontalFactor cholesky;
+        cholesky.analyse(K, trailing);
+        cholesky.factor(K);
+        const Eigen::MatrixXd L = cholesky.trailing_factor();
+        ASSERT_EQ(L.rows(), trailing);
+        if (trailing > 0) {
+          Eigen::MatrixXd schur = A.bottomRightCorner(trailing, trailing);
+          if (inner > 0)
+            schur -= A.bottomLeftCorner(trailing, inner) *
+                     A.topLeftCorner(inner, inner).llt().solve(A.topRightCorner(inner, trailing));
+          EXPECT_LE((L * L.transpose() - schur).norm(), 1e-13 * A.norm()) << side << " " << trailing;
+        }
+        const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2);
+        Eigen::MatrixXd x(n, 2);
+        x << b, -2 * b;
+        cholesky.solve_in_place(x);
+        EXPECT_LT((A * x.col(0) - b).norm(), 1e-12 * b.norm());
+        EXPECT_LT((A * x.col(1) + 2 * b).norm(), 1e-12 * b.norm());
+        EXPECT_GE(cholesky.bytes(), static_cast<std::size_t>(cholesky.entries()) * sizeof(double));
+      }
+    }
+}
+
+TEST(Multifrontal, TheTrailingPartOfAForwardSolveIsInItsPlace) {
+  const ElementMatrices K = grid_elements(4);
+  MultifrontalFactor cholesky;
+  cholesky.analyse(K, 5);
+  cholesky.factor(K);
+  // Given the last unknowns, the inner ones follow from the backward sweep alone.
+  const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.order);
+  const Eigen::VectorXd last = Eigen::VectorXd::LinSpaced(5, 1, 2);
+  Eigen::VectorXd z = cholesky.forward(b);
+  z.tail(5) = cholesky.trailing_factor().transpose() * last;
+  const Eigen::VectorXd x = cholesky.backward(z);
+  EXPECT_LT((x.tail(5) - last).norm(), 1e-13);
+  const int inner = K.order - 5;
+  EXPECT_LT((dense(K).topRows(inner) * x - b.head(inner)).norm(), 1e-12 * x.norm());
+}
+
+TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
+  ElementMatrices K = grid_elements(5);
+  MultifrontalFactor cholesky;
+  cholesky.analyse(K);
+  cholesky.factor(K);
+  for (auto& element : K.lower)
+    for (double& entry : element) entry *= 4;
+  cholesky.factor(K);
+  Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
+  cholesky.solve_in_place(x);
+  EXPECT_LT((dense(K) * x.col(0) - Eigen::VectorXd::Ones(K.order)).norm(), 1e-12);
+}
+
+TEST(Multifrontal, IndefiniteNaNAndTimeAreSaid) {
+  for (const double poison : {-1e3, std::nan("")}) {
+    ElementMatrices K = grid_elements(4);
+    K.lower[7][0] = poison;
+    MultifrontalFactor cholesky;
+    cholesky.analyse(K, 3);
+    EXPECT_THROW(cholesky.factor(K), Breakdown);
+  }
+  const ElementMatrices K = grid_elements(4);
+  MultifrontalFactor cholesky;
+  cholesky.analyse(K);
+  cholesky.factor(K);
+  Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
+  EXPECT_THROW(cholesky.solve_in_place(x, Deadline::after(-1)), TimeoutReached);
+}
+
+}  // namespace
+}  // namespace airybench::multifrontal_test
