@@ -6,14 +6,18 @@ from collections.abc import Mapping
 
 
 def case_name(case: Mapping) -> str:
-    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper] of a record."""
+    """MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper][/contact=SOLVER] of a record."""
     name = "/".join(case[key] for key in ("mesh", "scene", "method"))
     if case.get("study"):
         name += f"/study={case['study']}"
     if case.get("knob_value") not in (None, ""):
         value = repr(float(case["knob_value"])).removesuffix(".0")
         name += f"/{case['knob'].replace(' ', '_')}={value}"
-    return name + ("/stop=paper" if case.get("stop") == "paper" else "")
+    name += "/stop=paper" if case.get("stop") == "paper" else ""
+    sweeps = case.get("stop") == "paper" or case.get("knob") == "contact sweeps"
+    solver = case.get("contact_solver")
+    implied = "gauss-seidel" if sweeps else "newton"
+    return name + (f"/contact={solver}" if solver and solver != implied else "")
 
 
 def file_of(name: str) -> str:

@@ -17,6 +17,7 @@ STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "tim
 COMPLETED = STATUSES[:2]
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
+CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
 # As in memory_by_owner, from what every method has to what few have.
 OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
           "iteration", "answer", "check", "other")
@@ -110,6 +111,7 @@ class Row:
     width_mm: float | None = key(POSITIVE)
     height_mm: float | None = key(POSITIVE)
     stop: str = key(words(STOPS), needed=True)
+    contact_solver: str = key(words(CONTACT_SOLVERS, may_be_empty=True))
     status: str = key(words(STATUSES), needed=True)
     status_reason: str = key(TEXT, needed=True)
     n_phi: int = key(COUNT, needed=True)
@@ -127,6 +129,8 @@ class Row:
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)
     memory_counts_differ: bool = key(FLAG)
+    contact_iterations: float | None = key(NOT_NEGATIVE)
+    newton_steps: float | None = key(NOT_NEGATIVE)
     linear_iterations: float | None = key(NOT_NEGATIVE)
     uzawa_iterations: float | None = key(NOT_NEGATIVE)
     parameters: str = key(TEXT)                   # chosen: r=20, rho=20
@@ -139,7 +143,7 @@ class Row:
     error_total: float | None = key(NOT_NEGATIVE)
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability"), may_be_empty=True))
+    study: str = key(words(("error", "stability", "contact"), may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     scene_group: str = key(TEXT)
     knob: str = key(TEXT)  # what an error study turned; empty: nothing, this is the one point

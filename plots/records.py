@@ -18,10 +18,12 @@ from bodies import with_bodies
 from looks import with_looks
 from record_keys import COMPLETED, KEYS, NEEDED, Kind, Row
 
-IDENTITY = ["mesh", "scene", "method", "stop", "study", "knob", "knob_value"]  # of a case
+IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob",
+            "knob_value"]  # of a case
 OF_STUDY = {  # what the rows of a study need beside
     "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
               "error_total"),
+    "contact": ("outcome", "contact_solver"),
     "stability": ("outcome", "scene_group", "error_stress"),
 }
 NEVER_EMPTY = ("outcome", "scene_group")       # in a study that needs them

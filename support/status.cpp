@@ -27,4 +27,15 @@ std::optional<Stop> stop_of(std::string_view name) {
   return {};
 }
 
+std::string_view name_of(ContactSolver solver) {
+  constexpr std::array<std::string_view, 4> names = {"newton", "gauss-seidel", "anderson", "admm"};
+  return names[static_cast<std::size_t>(solver)];
+}
+
+std::optional<ContactSolver> contact_solver_of(std::string_view name) {
+  for (const ContactSolver solver : all_contact_solvers)
+    if (name_of(solver) == name) return solver;
+  return {};
+}
+
 }  // namespace airybench

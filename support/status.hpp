@@ -43,4 +43,12 @@ enum class Stop { target, paper };
 std::string_view name_of(Stop stop);  // "paper"
 std::optional<Stop> stop_of(std::string_view name);
 
+// What solves the condensed contact problem (solvers/contact/).
+enum class ContactSolver { newton, gauss_seidel, anderson, admm };
+inline constexpr std::array<ContactSolver, 4> all_contact_solvers = {
+    ContactSolver::newton, ContactSolver::gauss_seidel, ContactSolver::anderson,
+    ContactSolver::admm};
+std::string_view name_of(ContactSolver solver);  // "gauss-seidel"
+std::optional<ContactSolver> contact_solver_of(std::string_view name);
+
 }  // namespace airybench

@@ -67,6 +67,7 @@ void identify(const Case& planned, Record& record) {
   record.knob_value = planned.knob.value;
   record.study = name_of(planned.study);
   record.stop = planned.stop;
+  record.contact_solver = planned.contact;
 }
 
 }  // namespace airybench

@@ -23,6 +23,7 @@ struct Options {
   Study study = Study::none;
   double target_error = 1e-6;
   Stop stop = Stop::target;
+  ContactSolver contact = ContactSolver::newton;
   bool append = false;      // keep the records that are in the folder
   bool resume = false;      // and run only the cases that have none
   Shard shard;              // the part of the plan that is run

@@ -15,17 +15,26 @@
 namespace airybench {
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study, Stop stop) {
+                             const std::vector<Method>& methods, Study study, Stop stop,
+                             ContactSolver contact) {
   std::vector<Case> cases;
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
     const Stop own_stop = knob.stop.value_or(stop);
+    std::optional<ContactSolver> solver;
+    if (method.condenses_contact() && solved_sizes(*scene.problem).contact_edges > 0) {
+      solver = implied_contact_solver(own_stop, knob.name);
+      if (*solver == ContactSolver::newton) solver = knob.contact.value_or(contact);
+    }
     cases.push_back({scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1,
-                     study, own_stop});
+                     study, own_stop, solver});
   };
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
       if (study == Study::error)
         for (TurnedMethod& point : error_points(method))
+          add(scene, std::move(point.method), std::move(point.knob));
+      else if (study == Study::contact)
+        for (TurnedMethod& point : contact_points(method))
           add(scene, std::move(point.method), std::move(point.knob));
       else
         add(scene, method, {});
@@ -33,13 +42,16 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
 }
 
 CaseName Case::name() const {
-  return {posed.problem->mesh.name,
-          posed.scene_name,
-          method.name,
-          name_of(study),
-          knob.name,
-          knob.value,
-          stop};
+  CaseName name{posed.problem->mesh.name,
+                posed.scene_name,
+                method.name,
+                name_of(study),
+                knob.name,
+                knob.value,
+                stop,
+                {}};
+  if (contact && contact != implied_contact_solver(stop, knob.name)) name.contact = contact;
+  return name;
 }
 
 std::string fingerprint(const std::vector<Case>& plan) {

@@ -27,13 +27,16 @@ struct Case {
   int number = 0;  // in the whole plan, from 1, whatever part of it is run
   Study study = Study::none;
   Stop stop = Stop::target;  // the knob's, where it has one
+  // Of the condensed contact problem; none: there is no such problem.
+  std::optional<ContactSolver> contact = {};
   CaseName name() const;
 };
 
 // Scene by scene, so that methods on the same blocks run after one another.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study = Study::none,
-                             Stop stop = Stop::target);
+                             Stop stop = Stop::target,
+                             ContactSolver contact = ContactSolver::newton);
 
 // SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
 std::string fingerprint(const std::vector<Case>& plan);

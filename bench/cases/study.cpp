@@ -35,17 +35,17 @@ TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunContr
 }
 
 TurnedMethod at_paper_stop(const Method& method) {
-  return turned(method, {"", {}, Stop::paper},
+  return turned(method, {"", {}, Stop::paper, {}},
                 [](RunControl& control) { control.stop = Stop::paper; });
 }
 
 template <std::size_t count>
-std::vector<TurnedMethod> turned_to(const Method& method, const char* knob,
+std::vector<TurnedMethod> turned_to(const Method& method, const std::string& knob,
                                     const std::array<double, count>& values,
                                     void (*turn)(RunControl&, double)) {
   std::vector<TurnedMethod> points;
   for (const double value : values)
-    points.push_back(turned(method, {knob, value, {}},
+    points.push_back(turned(method, {knob, value, {}, {}},
                             [value, turn](RunControl& control) { turn(control, value); }));
   return points;
 }
@@ -58,9 +58,25 @@ std::string name_of(Study study) {
       return "error";
     case Study::stability:
       return "stability";
+    case Study::contact:
+      return "contact";
     default:
       return "";
   }
+}
+
+Study study_of(std::string_view name) {
+  for (const Study study : all_studies)
+    if (name_of(study) == name) return study;
+  return Study::none;
+}
+
+std::vector<TurnedMethod> contact_points(const Method& method) {
+  std::vector<TurnedMethod> points;
+  for (const ContactSolver solver : all_contact_solvers)
+    points.push_back(turned(method, {"", {}, {}, solver},
+                            [solver](RunControl& control) { control.contact = solver; }));
+  return points;
 }
 
 std::vector<TurnedMethod> error_points(const Method& method) {
@@ -83,11 +99,11 @@ std::vector<TurnedMethod> error_points(const Method& method) {
     case AccuracyKnob::stop:
       return {{method, {}}, at_paper_stop(method)};
     case AccuracyKnob::contact_sweeps: {
-      auto points =
-          turned_to(method, "contact sweeps", sweeps, [](RunControl& control, double value) {
-            control.contact_sweeps = static_cast<int>(value);
-            control.active_sets = false;
-          });
+      auto points = turned_to(method, std::string(sweeps_knob), sweeps,
+                              [](RunControl& control, double value) {
+                                control.contact_sweeps = static_cast<int>(value);
+                                control.contact = ContactSolver::gauss_seidel;
+                              });
       points.push_back({method, {}});
       return points;
     }
@@ -100,6 +116,7 @@ std::string default_methods(Study study) {
   if (study == Study::error)
     return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"
            "ALM:r=100,rho=100,ALM:r=300,rho=300,BLIND,BLIND:SCHUR,HYBRID,P2";
+  if (study == Study::contact) return "HYBRID";
   if (study == Study::none) {
     std::string names;
     for (const Method& method : methods())
@@ -111,8 +128,9 @@ std::string default_methods(Study study) {
          "ALM:r=20,rho=44";
 }
 
-std::vector<std::filesystem::path> stability_scenes() {
-  const std::filesystem::path folder = data_folder("scenes/stability");
+std::vector<std::filesystem::path> scenes_of(Study study) {
+  if (study != Study::stability && study != Study::contact) return {};
+  const std::filesystem::path folder = data_folder("scenes/" + name_of(study));
   std::vector<std::filesystem::path> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))

@@ -4,10 +4,14 @@
 //              sweeps of Gauss–Seidel; one point for a direct method — each point with time, memory
 //              and error: what a digit costs
 //   stability  every method on the extreme scenes of bench/scenes/stability, one outcome each:
-//   where
-//              a method works, where it says that it does not, and where it is wrong without saying
+//              where a method works, where it says that it does not, and where it is wrong
+//              without saying
+//   contact    HYBRID with every solver of the condensed contact problem, on meshes and frictions
+//   of
+//              bench/scenes/contact: the same D, to the bit, for all of them
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,14 +21,18 @@
 
 namespace airybench {
 
-enum class Study { none, error, stability };
-std::string name_of(Study study);  // empty: none
+enum class Study { none, error, stability, contact };
+inline constexpr std::array<Study, 3> all_studies = {Study::error, Study::stability,
+                                                     Study::contact};
+std::string name_of(Study study);       // empty: none
+Study study_of(std::string_view name);  // none: no such study
 
 // What a study turns in one case. The record shows it.
 struct Knob {
   std::string name;  // "tolerance"; empty: nothing is turned
   std::optional<double> value;
   std::optional<Stop> stop;  // another than the run's
+  std::optional<ContactSolver> contact;
 };
 
 struct TurnedMethod {
@@ -34,11 +42,14 @@ struct TurnedMethod {
 
 // The points of one method in the error study.
 std::vector<TurnedMethod> error_points(const Method& method);
+// With every contact solver.
+std::vector<TurnedMethod> contact_points(const Method& method);
 
 // Names of methods, as --method takes them, that a study runs by default.
 std::string default_methods(Study study);
 
-// The scene files of the atlas, by name. Throws std::invalid_argument when there are none.
-std::vector<std::filesystem::path> stability_scenes();
+// The scene files of a study that has its own, by name; else empty. Throws std::invalid_argument
+// when there should be some.
+std::vector<std::filesystem::path> scenes_of(Study study);
 
 }  // namespace airybench

@@ -26,8 +26,8 @@ CaseTable::CaseTable(const std::vector<Record>& records, const std::string& stop
     : scene_(scene_of(records, source)) {
   for (const bool of_this_stop : {false, true})  // the second replaces the first
     for (const Record& record : records) {
-      if (record.scene == scene_ && (name_of(record.stop) == stop) == of_this_stop &&
-          (of_this_stop || !record.iterative))
+      if (record.scene == scene_ && !name_of(record).contact &&
+          (name_of(record.stop) == stop) == of_this_stop && (of_this_stop || !record.iterative))
         cases_[{record.mesh, record.general_name}] = record;
     }
   for (const Record& record : records)

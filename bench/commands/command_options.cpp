@@ -106,9 +106,10 @@ Options parse_options(int argc, const char* const* argv) {
       ->excludes(app.get_option("--method"));
   std::string study;
   app.add_option("--study", study,
-                 "error (every method over its accuracy knob: what each digit costs) or stability "
-                 "(every method on the extreme scenes of bench/scenes/stability)")
-      ->check(CLI::IsMember({"error", "stability"}))
+                 "error (every method over its accuracy knob: what each digit costs), stability "
+                 "(every method on the extreme scenes of bench/scenes/stability) or contact (every "
+                 "contact solver on the same condensed problems, bench/scenes/contact)")
+      ->check(CLI::IsMember({"error", "stability", "contact"}))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
              "every iterative method is tightened until its errors and residuals are below this; a "
@@ -118,6 +119,13 @@ Options parse_options(int argc, const char* const* argv) {
                  "when iterative methods stop: target (see --target-error), or paper (the paper's "
                  "own stops, whatever error they leave)")
       ->check(CLI::IsMember({"target", "paper"}))
+      ->capture_default_str();
+  std::string contact = "newton";
+  app.add_option("--contact", contact,
+                 "what solves the condensed contact problem: newton (active sets after a few "
+                 "sweeps), gauss-seidel (as the paper has it), anderson (the same, accelerated) or "
+                 "admm")
+      ->check(CLI::IsMember({"newton", "gauss-seidel", "anderson", "admm"}))
       ->capture_default_str();
   add_whole(
       app, "--repetitions", 1, 100000, options.repetitions,
@@ -177,10 +185,22 @@ Options parse_options(int argc, const char* const* argv) {
     options.shard = *part;
   }
   if (stop == "paper") options.stop = Stop::paper;
-  if (study == "error") options.study = Study::error;
-  if (study == "stability") options.study = Study::stability;
+  options.study = study_of(study);
+  options.contact = *contact_solver_of(contact);
+  if (app.get_option("--contact")->count() > 0) {
+    if (options.stop == Stop::paper)
+      throw UsageError("--contact: not with --stop=paper, whose contact law is gauss-seidel");
+    if (options.study == Study::contact)
+      throw UsageError("--contact: not with --study=contact, which has all of them");
+  }
   if (options.study == Study::error && options.stop == Stop::paper)
     throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
+  if (options.study == Study::contact) {
+    if (options.stop == Stop::paper)
+      throw UsageError("--stop=paper: not with --study=contact, whose solvers are not the paper's");
+    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0..Mesh7";
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
+  }
   if (options.study == Study::stability) {
     if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0";
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;

@@ -94,7 +94,9 @@ Options options_of(const Record& record, const Context& context, std::filesystem
     options.study = Study::error;  // whose points have stops of their own
   else
     options.stop = record.stop;
-  if (record.study == name_of(Study::stability)) options.study = Study::stability;
+  if (record.study != name_of(Study::error)) options.study = study_of(record.study);
+  if (options.study == Study::none && record.contact_solver)
+    options.contact = *record.contact_solver;
   options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
   const auto interleaved = context.find("interleaved");
   options.interleave = interleaved != context.end() && interleaved->second == "yes";
@@ -130,9 +132,11 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
     scene.name = record.scene;
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
-  const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop);
+  const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop,
+                               options.contact);
   for (const Case& c : plan)
-    if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop)
+    if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop &&
+        (!record.contact_solver || c.contact == record.contact_solver))
       return c;
   throw FileError(fmt::format("{}: this program has no such point of the study", record.method));
 }

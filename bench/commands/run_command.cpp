@@ -57,8 +57,7 @@ std::string definition_of(const Scene& scene) {
 
 std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<Scene> scenes;
-  const bool atlas = options.study == Study::stability && options.scenes.empty();
-  for (const auto& file : atlas ? stability_scenes() : options.scenes) {
+  for (const auto& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
     scenes.push_back(read_scene(file));
     for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
       if (scenes[i].name == scenes.back().name)
@@ -133,7 +132,8 @@ void run_after(const Options& options) {
 std::vector<Case> plan_of(const Options& options) {
   const std::vector<Method> selected =
       select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
-  std::vector<Case> plan = plan_cases(pose_all(options), selected, options.study, options.stop);
+  std::vector<Case> plan =
+      plan_cases(pose_all(options), selected, options.study, options.stop, options.contact);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty()) throw UsageError("no case is left: the arguments after -- select none");
   return plan;

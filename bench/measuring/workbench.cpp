@@ -130,6 +130,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
+  control.contact = options_.contact;
   control.target_error = options_.target_error;
   control.condition = histories && options_.study == Study::stability;
   control.tolerance = choice.tolerance;

@@ -32,6 +32,7 @@ std::string CaseName::suffix() const {
     text += fmt::format("/{}={}", word, *knob_value);
   }
   if (stop == Stop::paper) text += "/stop=paper";
+  if (contact) text += fmt::format("/contact={}", name_of(*contact));
   return text;
 }
 
@@ -56,6 +57,11 @@ std::string CaseName::file() const {
   return name;
 }
 
+ContactSolver implied_contact_solver(Stop stop, std::string_view knob) {
+  return stop == Stop::paper || knob == sweeps_knob ? ContactSolver::gauss_seidel
+                                                    : ContactSolver::newton;
+}
+
 bool is_name(std::string_view text) {
   const auto is_refused = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; };
   return !text.empty() && std::none_of(text.begin(), text.end(), is_refused) && is_utf8(text);
@@ -74,6 +80,9 @@ std::optional<CaseName> case_name_of(std::string_view text) {
     const std::string_view value = parts[k].substr(std::min(equals + 1, parts[k].size()));
     if (parts[k] == "stop=paper") {
       name.stop = Stop::paper;
+    } else if (key == "contact") {
+      name.contact = contact_solver_of(value);
+      if (!name.contact || *name.contact == implied_contact_solver(name.stop, name.knob)) return {};
     } else if (key == "study") {
       name.study = value;
     } else {

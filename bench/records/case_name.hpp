@@ -1,9 +1,10 @@
 // What a case is called wherever it is printed, asked for, filed or compared:
 //
-//   MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper]
+//   MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper][/contact=SOLVER]
 //
 //   Mesh0/default/3STEPD
 //   Mesh3/default/ALM/stop=paper
+//   Mesh3/default/HYBRID/contact=anderson
 //   Mesh0/default/SSKY/study=error/tolerance=0.01
 //
 // The parts in brackets are there where they are not the default. plots/case_names.py is the same.
@@ -17,11 +18,15 @@
 
 namespace airybench {
 
+// The knob of an error study that counts Gauss–Seidel sweeps.
+inline constexpr std::string_view sweeps_knob = "contact sweeps";
+
 struct CaseName {
   std::string mesh, scene, method;
   std::string study, knob;           // empty: none
   std::optional<double> knob_value;  // none: the knob is not turned
   Stop stop = Stop::target;
+  std::optional<ContactSolver> contact;  // where it is not the implied one
 
   std::string text() const;
   std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
@@ -29,6 +34,10 @@ struct CaseName {
   // for what would be mistaken for these.
   std::string file() const;
 };
+
+// Of a case that is not told: Newton; with the paper's stop, or where sweeps are counted,
+// Gauss–Seidel.
+ContactSolver implied_contact_solver(Stop stop, std::string_view knob);
 
 // May a mesh, a scene or a method be called that? UTF-8 without '/' and control characters, not
 // empty.

@@ -49,6 +49,9 @@ struct claim {  // a status, or none
 struct stop {  // older records have none: the target
   using Type = Stop;
 };
+struct contact {  // the contact solver, or none
+  using Type = std::optional<ContactSolver>;
+};
 struct times {  // each > 0
   using Type = std::vector<double>;
 };

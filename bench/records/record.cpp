@@ -5,7 +5,10 @@
 namespace airybench {
 
 CaseName name_of(const Record& r) {
-  return {r.mesh, r.scene, r.method, r.study, r.knob, r.knob_value, r.stop};
+  CaseName name{r.mesh, r.scene, r.method, r.study, r.knob, r.knob_value, r.stop, {}};
+  if (r.contact_solver && r.contact_solver != implied_contact_solver(r.stop, r.knob))
+    name.contact = r.contact_solver;
+  return name;
 }
 
 std::string context_word(const Record& record, const std::string& key) {

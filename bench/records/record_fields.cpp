@@ -18,6 +18,9 @@ Json json_of(double number) { return std::isfinite(number) ? Json(number) : Json
 Json json_of(std::int64_t count) { return count; }
 Json json_of(Status status) { return name_of(status); }
 Json json_of(Stop stop) { return name_of(stop); }
+Json json_of(const std::optional<ContactSolver>& solver) {
+  return solver ? Json(name_of(*solver)) : Json();
+}
 Json json_of(const Json& json) { return json; }
 template <typename T>
 Json json_of(const std::optional<T>& value) {
@@ -121,6 +124,12 @@ void read(field_kind::claim, const Json& value, const Place& at, std::optional<S
 
 void read(field_kind::stop, const Json& value, const Place& at, Stop& stop) {
   if (!value.is_null()) stop = word_of(value, at, &stop_of, "target, paper, null");
+}
+
+void read(field_kind::contact, const Json& value, const Place& at,
+          std::optional<ContactSolver>& solver) {
+  if (!value.is_null())
+    solver = word_of(value, at, &contact_solver_of, "newton, gauss-seidel, anderson, admm, null");
 }
 
 void read(field_kind::times, const Json& value, const Place& at, std::vector<double>& times) {

@@ -68,6 +68,9 @@ struct Method {
     return is_tightened() || knob == AccuracyKnob::krylov_tolerance ||
            knob == AccuracyKnob::uzawa_iterations || knob == AccuracyKnob::stop;
   }
+  bool condenses_contact() const {
+    return std::find(stages.begin(), stages.end(), Stage::condense) != stages.end();
+  }
   bool is_tightened() const { return first_tolerance > 0; }  // by the harness
 };
 

@@ -47,7 +47,7 @@ struct Solution {
   std::optional<std::int64_t> factor_entries;
   std::optional<double> factor_flops;
   std::optional<std::int64_t> linear_iterations;  // of all right-hand sides
-  std::optional<int> contact_iterations;          // Gauss–Seidel sweeps
+  std::optional<int> contact_iterations;          // of the contact solver; Newton's: its sweeps
   std::optional<int> newton_steps;                // active sets of the contact law
   std::optional<int> uzawa_iterations;
   std::vector<IterationHistory> histories;
@@ -110,9 +110,9 @@ struct RunControl {
   double tolerance = 1e-10;           // of linear and Uzawa iterations, relative; see each method
   double contact_tolerance = 1e-12;   // natural map residual ≤ tolerance · ‖F_C‖
   double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
-  int contact_sweeps = 100000;        // at most
+  int contact_sweeps = 100000;        // at most, or iterations of another contact solver
   int uzawa_iterations = 20000;       // at most
-  bool active_sets = true;            // for the contact law, after a few sweeps
+  ContactSolver contact = ContactSolver::newton;  // with the paper's stop: Gauss–Seidel
 };
 
 // What all checks end with: the estimate into the solution, and `inaccurate` where it is above the

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
 
 namespace airybench {
 
@@ -80,11 +81,9 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
                      std::max(control.contact_tolerance, control.contact_acceptable);
 }
 
-ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const RunControl& control) {
-  if (!control.active_sets || control.stop == Stop::paper)
-    return solve_contact_by_gauss_seidel(condensed, contact, control);
-  constexpr int first_sweeps = 30;  // from fewer, active sets may cycle
+ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
+                                      const ContactPoints& contact, const RunControl& control) {
+  constexpr int first_sweeps = 10;  // from fewer, active sets may cycle
   ContactResult best;
   ContactResult swept;
   RunControl part = control;
@@ -93,7 +92,7 @@ ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoint
   for (int next = first_sweeps;; next *= 10) {
     part.contact_sweeps = std::min(next, control.contact_sweeps - sweeps);
     swept = solve_contact_by_gauss_seidel(condensed, contact, part, swept.F_C);
-    sweeps += swept.sweeps;
+    sweeps += swept.iterations;
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
     finish_by_active_set(condensed, contact, control, result);
@@ -101,7 +100,7 @@ ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoint
     if (!(best.natural_map_residual <= result.natural_map_residual)) best = std::move(result);
     if (best.converged || sweeps >= control.contact_sweeps || !swept.F_C.allFinite()) break;
   }
-  best.sweeps = sweeps;
+  best.iterations = sweeps;
   best.active_set_steps = steps;
   best.history = std::move(history);
   return best;

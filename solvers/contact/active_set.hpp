@@ -15,7 +15,7 @@
 #pragma once
 
 #include "assembly/load_scale.hpp"
-#include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/contact_result.hpp"
 
 namespace airybench {
 
@@ -29,9 +29,10 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
 void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints& contact,
                           const RunControl& control, ContactResult& result);
 
-// Sweeps and active sets in turn, as solve_condensed_contact() says.
-ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const RunControl& control);
+// A few sweeps, then active sets; where these do not end, ten times as many sweeps, and active sets
+// again: what sweeps alone solve is solved.
+ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
+                                      const ContactPoints& contact, const RunControl& control);
 
 // How wrong F is, with displacements ū_C that belong to it and are more accurate than D F − G. One
 // more step gives ΔF, the error to first order, where the statuses are right.

@@ -5,11 +5,40 @@
 #include <sstream>
 
 #include "solvers/contact/active_set.hpp"
+#include "solvers/contact/admm.hpp"
+#include "solvers/contact/anderson.hpp"
+#include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
 
 double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
   return std::sqrt(std::max(0.0, F.dot(D * F)));
+}
+
+Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPoints& contact) {
+  return contact.gap.size() > 0 ? Eigen::VectorXd(condensed.G + contact.gap) : condensed.G;
+}
+
+double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
+                            const Eigen::VectorXd& F) {
+  const Eigen::VectorXd u = condensed.D * F - condensed.G;
+  const double norm = F.norm(), map = natural_map(contact, condensed.D.diagonal(), F, u).norm();
+  return norm > 0 ? map / norm : map;
+}
+
+ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
+                            const RunControl& control) {
+  switch (control.stop == Stop::paper ? ContactSolver::gauss_seidel : control.contact) {
+    case ContactSolver::newton:
+      return solve_contact_by_newton(condensed, contact, control);
+    case ContactSolver::gauss_seidel:
+      return solve_contact_by_gauss_seidel(condensed, contact, control);
+    case ContactSolver::anderson:
+      return solve_contact_by_anderson(condensed, contact, control);
+    case ContactSolver::admm:
+      return solve_contact_by_admm(condensed, contact, control);
+  }
+  throw std::logic_error("no such contact solver");
 }
 
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
@@ -21,17 +50,17 @@ void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoin
   const OwnerScope scope(MemoryOwner::condensed);
   ContactResult result = solve_contact(condensed, contact, control);
   solution.F_C = std::move(result.F_C);
-  solution.contact_iterations = result.sweeps;
+  solution.contact_iterations = result.iterations;
   solution.newton_steps = result.active_set_steps;
   if (control.histories) {
     IterationHistory& history = solution.histories.emplace_back();
-    history.what = "relative change of F_C per Gauss-Seidel sweep";
+    history.what = "relative change of F_C per iteration of the contact law";
     history.residual = std::move(result.history);
   }
   if (!result.converged) {
     std::ostringstream message;
     message << "contact law: natural map residual " << result.natural_map_residual << " after "
-            << result.sweeps << " Gauss-Seidel sweeps and " << result.active_set_steps
+            << result.iterations << " iterations and " << result.active_set_steps
             << " active sets (tolerance " << control.contact_tolerance << ")";
     solution.status = Status::not_converged;
     solution.message = message.str();

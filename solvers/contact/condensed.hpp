@@ -25,8 +25,7 @@ double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F);
 // The contact law of a condensed system into the solution: its forces, status, counts and history.
 // Without contact points there is nothing to do and the status is ok.
 //
-// By Gauss–Seidel alone with the paper's stop or control.active_sets off. Else by a few sweeps,
-// then active sets; where these do not end, by ten times as many sweeps, and active sets again.
+// By control.contact; with the paper's stop by Gauss–Seidel.
 void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                              const RunControl& control, Solution& solution);
 

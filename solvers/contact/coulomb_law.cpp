@@ -24,6 +24,17 @@ Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu) {
   return {normal, std::clamp(F(1), mu * normal, -mu * normal)};
 }
 
+Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F) {
+  for (int p = 0; p < contact.count; ++p) {
+    if (contact.components == 2)
+      F.segment<2>(2 * p) =
+          project_on_coulomb(Eigen::Vector2d(F.segment<2>(2 * p)), contact.friction);
+    else
+      F(p) = std::min(F(p), 0.0);
+  }
+  return F;
+}
+
 Eigen::Vector2d solve_coulomb_law(const Eigen::Matrix2d& D, const Eigen::Vector2d& b, double mu) {
   if (b(0) <= 0) return Eigen::Vector2d::Zero();  // open: F = 0, r = b
 
@@ -49,16 +60,8 @@ Eigen::Vector2d solve_coulomb_law(const Eigen::Matrix2d& D, const Eigen::Vector2
 
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
-  const int m = contact.components;
   const Eigen::VectorXd r = relative_to_gap(contact, displacement);
-  Eigen::VectorXd residual = F_C - r.cwiseQuotient(D_diagonal);
-  for (int p = 0; p < contact.count; ++p) {
-    if (m == 2)
-      residual.segment<2>(2 * p) = project_on_coulomb(residual.segment<2>(2 * p), contact.friction);
-    else
-      residual(p) = std::min(residual(p), 0.0);
-  }
-  return F_C - residual;
+  return F_C - project_on_coulomb(contact, F_C - r.cwiseQuotient(D_diagonal));
 }
 
 }  // namespace airybench

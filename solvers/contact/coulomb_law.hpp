@@ -20,6 +20,8 @@ double solve_signorini_law(double D, double b);
 
 // Projection in two steps: F_n to min(F_n, 0), then F_t to [μF_n, −μF_n].
 Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
+// Of every point; without friction there is only the normal part.
+Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F);
 
 // r = ū_C − ḡ, in the precision of ū_C.
 template <typename Vector>

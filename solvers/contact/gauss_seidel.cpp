@@ -1,6 +1,5 @@
 #include "solvers/contact/gauss_seidel.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "solvers/contact/coulomb_law.hpp"
@@ -35,43 +34,19 @@ double sweep(const CondensedSystem& condensed, const Eigen::VectorXd& offset, do
 
 }  // namespace
 
+double gauss_seidel_sweep(const CondensedSystem& condensed, const ContactPoints& contact,
+                          const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
+  return std::sqrt(contact.components == 2 ? sweep<2>(condensed, offset, contact.friction, F)
+                                           : sweep<1>(condensed, offset, contact.friction, F));
+}
+
 ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
                                             const ContactPoints& contact, const RunControl& control,
                                             const Eigen::VectorXd& start) {
-  ContactResult result;
-  Eigen::VectorXd offset = condensed.G;  // G + ḡ
-  if (contact.gap.size() > 0) offset += contact.gap;
-  Eigen::VectorXd& F = result.F_C;
-  if (start.size() > 0)
-    F = start;
-  else
-    F.setZero(contact.size());
-
-  const auto meets_the_law = [&](double norm) {
-    const Eigen::VectorXd u = condensed.D * F - condensed.G;
-    const double residual = natural_map(contact, condensed.D.diagonal(), F, u).norm();
-    result.natural_map_residual = norm > 0 ? residual / norm : residual;
-    return residual <= control.contact_tolerance * norm;
-  };
-
-  while (result.sweeps < control.contact_sweeps && !result.converged) {
-    const double change =
-        std::sqrt(contact.components == 2 ? sweep<2>(condensed, offset, contact.friction, F)
-                                          : sweep<1>(condensed, offset, contact.friction, F));
-    ++result.sweeps;
-    const double norm = F.norm();
-    if (!std::isfinite(norm)) break;
-    if (control.histories) result.history.push_back(norm > 0 ? change / norm : 0);
-    // A small change makes it worth asking the law, which decides.
-    if (change <= control.contact_tolerance * norm) result.converged = meets_the_law(norm);
-    if (result.sweeps % 64 == 0) control.deadline.check("the contact sweeps");
-  }
-  if (!result.converged && result.sweeps > 0) {
-    const double norm = F.norm();
-    result.converged = meets_the_law(norm) ||
-                       (norm > 0 && result.natural_map_residual <= control.contact_acceptable);
-  }
-  return result;
+  const Eigen::VectorXd offset = contact_offset(condensed, contact);
+  return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& F) {
+    return gauss_seidel_sweep(condensed, contact, offset, F);
+  });
 }
 
 }  // namespace airybench

@@ -17,8 +17,8 @@ struct ElementMatricesIn {
   using Unknowns = std::array<int, size>;  // negative: prescribed
   using Matrix = Eigen::Matrix<Scalar, size, size>;
 
-  int order = 0;                  // of K
-  std::vector<Unknowns> unknown;  // per element
+  int order = 0;                                               // of K
+  std::vector<Unknowns> unknown;                               // per element
   std::vector<std::array<Scalar, size*(size + 1) / 2>> lower;  // K_e's lower triangle, by columns
 
   int count() const { return static_cast<int>(unknown.size()); }

@@ -17,19 +17,19 @@ namespace airybench {
 
 // A supernode: pivots and the rows below them, by place in the order.
 struct Front {
-  int first = 0, pivots = 0;     // places first … first + pivots − 1
-  std::size_t rows_at = 0;       // its rows in Elimination::rows: pivots, then those below
-  int rows = 0;                  // pivots and below, ascending
-  std::vector<int> children;     // by index, in the order in which they are to be done
-  std::vector<int> elements;     // whose first pivot is one of this front's
-  std::size_t panel_at = 0;      // rows × pivots doubles of the factor
+  int first = 0, pivots = 0;  // places first … first + pivots − 1
+  std::size_t rows_at = 0;    // its rows in Elimination::rows: pivots, then those below
+  int rows = 0;               // pivots and below, ascending
+  std::vector<int> children;  // by index, in the order in which they are to be done
+  std::vector<int> elements;  // whose first pivot is one of this front's
+  std::size_t panel_at = 0;   // rows × pivots doubles of the factor
   int below() const { return rows - pivots; }
 };
 
 struct Elimination {
-  std::vector<int> place;    // of every unknown
+  std::vector<int> place;  // of every unknown
   std::vector<Front> fronts;
-  std::vector<int> order;    // of the fronts: every one after its children
+  std::vector<int> order;  // of the fronts: every one after its children
   std::vector<int> rows;
   int trailing = 0;
   std::size_t panel_doubles = 0;   // of all fronts

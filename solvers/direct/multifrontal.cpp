@@ -92,9 +92,10 @@ class Fronts {
     Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> top = panel.topRows(pivots);
     const Eigen::LLT<decltype(top)> cholesky(top);
     if (cholesky.info() != Eigen::Success || !std::isfinite(top(pivots - 1, pivots - 1)))
-      throw Breakdown("multifrontal Cholesky: the matrix is not positive definite in the front at " +
-                      std::to_string(front.first + 1) + " of " +
-                      std::to_string(elimination_.place.size()) + " pivots");
+      throw Breakdown(
+          "multifrontal Cholesky: the matrix is not positive definite in the front at " +
+          std::to_string(front.first + 1) + " of " + std::to_string(elimination_.place.size()) +
+          " pivots");
     if (below == 0) return;
     cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, below, pivots, 1,
                 panel.data(), front.rows, panel.data() + pivots, front.rows);
@@ -180,7 +181,8 @@ Eigen::MatrixXd MultifrontalFactor::trailing_factor() const {
     const double* column = panels_.get() + front.panel_at;
     for (int j = 0; j < front.pivots; ++j, column += front.rows)
       if (front.first + j >= first)
-        for (int i = j; i < front.rows; ++i) L(rows[i] - first, front.first + j - first) = column[i];
+        for (int i = j; i < front.rows; ++i)
+          L(rows[i] - first, front.first + j - first) = column[i];
   }
   return L;
 }

@@ -3,7 +3,10 @@
 #include <random>
 
 #include "solvers/contact/active_set.hpp"
+#include "solvers/contact/admm.hpp"
+#include "solvers/contact/anderson.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
 
 namespace airybench::contact_test {
 namespace {
@@ -117,7 +120,7 @@ TEST(GaussSeidel, TooFewSweepsOrNaNIsNotConverged) {
   control.contact_sweeps = 2;
   const ContactResult few = solve_contact_by_gauss_seidel(condensed, contact, control);
   EXPECT_FALSE(few.converged);
-  EXPECT_EQ(few.sweeps, 2);
+  EXPECT_EQ(few.iterations, 2);
   control.contact_sweeps = 0;
   EXPECT_FALSE(solve_contact_by_gauss_seidel(condensed, contact, control).converged);
   condensed.G(3) = std::nan("");
@@ -130,7 +133,7 @@ TEST(GaussSeidel, KeepsAHistoryOnRequest) {
   RunControl control;
   control.histories = true;
   const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
-  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.sweeps));
+  EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.iterations));
   EXPECT_LE(result.history.back(), control.contact_tolerance);
   EXPECT_TRUE(solve_contact_by_gauss_seidel(condensed, contact, {}).history.empty());
 }
@@ -141,7 +144,7 @@ TEST(GaussSeidel, GoesOnFromAGivenStart) {
   const ContactResult first = solve_contact_by_gauss_seidel(condensed, contact, {});
   const ContactResult again = solve_contact_by_gauss_seidel(condensed, contact, {}, first.F_C);
   EXPECT_TRUE(again.converged);
-  EXPECT_LE(again.sweeps, 2);
+  EXPECT_LE(again.iterations, 2);
   EXPECT_LT((again.F_C - first.F_C).norm(), 1e-12 * first.F_C.norm());
 }
 
@@ -204,6 +207,60 @@ TEST(ActiveSet, NeverClaimsWhatTheNaturalMapDenies) {
   ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
   finish_by_active_set(condensed, contact, {}, result);
   EXPECT_FALSE(result.converged);
+}
+
+TEST(Anderson, HasTheSameSolutionAsTheSweepsInFewer) {
+  for (const int components : {1, 2}) {
+    const ContactPoints contact = points(40, components, components == 2 ? 0.3 : 0);
+    const CondensedSystem condensed = stiff_condensed(40, components);
+    const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
+    const ContactResult result = solve_contact_by_anderson(condensed, contact, {});
+    ASSERT_TRUE(sweeps.converged && result.converged) << components;
+    EXPECT_LT(2 * result.iterations, sweeps.iterations);
+    EXPECT_LT((result.F_C - sweeps.F_C).norm(), 1e-8 * sweeps.F_C.norm());
+  }
+}
+
+TEST(Admm, HasTheSameSolutionAsTheSweeps) {
+  for (const int components : {1, 2}) {
+    const ContactPoints contact = points(12, components, components == 2 ? 0.3 : 0);
+    const CondensedSystem condensed = random_condensed(12 * components, 19);
+    const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
+    const ContactResult result = solve_contact_by_admm(condensed, contact, {});
+    ASSERT_TRUE(sweeps.converged && result.converged) << components;
+    EXPECT_LT((result.F_C - sweeps.F_C).norm(), 1e-9 * sweeps.F_C.norm());
+  }
+}
+
+// Whatever the unit of D, the weights follow.
+TEST(Admm, DoesNotDependOnTheUnits) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  CondensedSystem condensed = random_condensed(24, 20);
+  const int iterations = solve_contact_by_admm(condensed, contact, {}).iterations;
+  condensed.D *= 0x1p-40;
+  condensed.G *= 0x1p-40;
+  ContactPoints scaled = contact;
+  scaled.gap *= 0x1p-40;
+  EXPECT_EQ(solve_contact_by_admm(condensed, scaled, {}).iterations, iterations);
+}
+
+TEST(ContactSolvers, TooFewIterationsOrNaNIsNotConverged) {
+  const ContactPoints contact = points(12, 2, 0.3);
+  CondensedSystem condensed = random_condensed(24, 21);
+  CondensedSystem poisoned = condensed;
+  poisoned.G(3) = std::nan("");
+  for (const ContactSolver solver : all_contact_solvers) {
+    RunControl control;
+    control.contact = solver;
+    EXPECT_TRUE(solve_contact(condensed, contact, control).converged) << name_of(solver);
+    EXPECT_FALSE(solve_contact(poisoned, contact, control).converged) << name_of(solver);
+    control.contact_sweeps = 0;
+    EXPECT_FALSE(solve_contact(poisoned, contact, control).converged) << name_of(solver);
+    control.deadline = Deadline::after(-1);
+    control.contact_sweeps = 1000000;
+    control.contact_tolerance = -1;
+    EXPECT_THROW(solve_contact(condensed, contact, control), TimeoutReached) << name_of(solver);
+  }
 }
 
 TEST(NaturalMap, IsZeroExactlyWhereTheLawHolds) {

@@ -114,7 +114,8 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
           if (inner > 0)
             schur -= A.bottomLeftCorner(trailing, inner) *
                      A.topLeftCorner(inner, inner).llt().solve(A.topRightCorner(inner, trailing));
-          EXPECT_LE((L * L.transpose() - schur).norm(), 1e-13 * A.norm()) << side << " " << trailing;
+          EXPECT_LE((L * L.transpose() - schur).norm(), 1e-13 * A.norm())
+              << side << " " << trailing;
         }
         const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2);
         Eigen::MatrixXd x(n, 2);

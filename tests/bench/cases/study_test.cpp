@@ -86,7 +86,7 @@ TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
 TEST(Study, NamesOfCasesAreUnique) {
   const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()},
                                           {"other", "", "", "", "{}", mesh0()}};
-  for (const Study study : {Study::error, Study::stability}) {
+  for (const Study study : all_studies) {
     const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
     std::set<std::string> names;
     for (const Case& c : cases)
@@ -100,8 +100,36 @@ TEST(Study, DefaultMethodsCanBeSelected) {
     EXPECT_GE(select_methods(default_methods(study)).size(), 7u);
 }
 
+// All solvers of the contact study find the same forces, and say who they are.
+TEST(Study, ContactSolversAgree) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases =
+      plan_cases(scenes, select_methods(default_methods(Study::contact)), Study::contact);
+  ASSERT_EQ(cases.size(), all_contact_solvers.size());
+  Options options;
+  options.study = Study::contact;
+  options.repetitions = 1;
+  Workbench bench(mesh0(), options);
+  for (const Case& c : cases) {
+    const Record record = bench.examine(c.method, {}).record;
+    EXPECT_EQ(outcome_of(record), "ok") << c.name().text();
+    EXPECT_LE(record.error_force, 1e-11) << c.name().text();
+    EXPECT_EQ(record.newton_steps.value_or(0) > 0, c.contact == ContactSolver::newton);
+  }
+}
+
+TEST(Study, OnlyWhatCondensesHasAContactSolver) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases = plan_cases(scenes, select_methods("3STEPD,ALM"), Study::none, Stop::target,
+                                ContactSolver::admm);
+  EXPECT_EQ(cases[0].contact, ContactSolver::admm);
+  EXPECT_FALSE(cases[1].contact);
+  EXPECT_EQ(plan_cases(scenes, select_methods("3STEPD"), Study::none, Stop::paper)[0].contact,
+            ContactSolver::gauss_seidel);
+}
+
 TEST(Study, ScenesOfTheAtlasAreSorted) {
-  const auto files = stability_scenes();
+  const auto files = scenes_of(Study::stability);
   EXPECT_GE(files.size(), 40u);
   EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
 }

@@ -131,7 +131,7 @@ TEST(Allocations, NoneInsideAContactSweep) {
       control.contact_sweeps = sweeps;
       const std::int64_t before = heap::allocations();
       const ContactResult result = solve_contact_by_gauss_seidel(system, contact, control);
-      EXPECT_EQ(result.sweeps, sweeps);
+      EXPECT_EQ(result.iterations, sweeps);
       return heap::allocations() - before;
     };
     EXPECT_EQ(allocations(3), allocations(30)) << components;

@@ -16,8 +16,9 @@ namespace airybench::case_name_test {
 namespace {
 
 TEST(CaseName, IsReadAsItIsWritten) {
-  const CaseName name{"Mesh0", "default",  "SYMMLQ:SSOR0.7,schur=sparse", "error", "contact sweeps",
-                      1e-12,   Stop::paper};
+  const CaseName name{
+      "Mesh0",     "default", "SYMMLQ:SSOR0.7,schur=sparse", "error", "contact sweeps", 1e-12,
+      Stop::paper, {}};
   EXPECT_EQ(
       name.text(),
       "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper");
@@ -31,8 +32,25 @@ TEST(CaseName, IsReadAsItIsWritten) {
   EXPECT_EQ(read->stop, Stop::paper);
 }
 
+TEST(CaseName, HasTheContactSolverWhereItIsNotImplied) {
+  Record record;
+  record.mesh = "Mesh0";
+  record.scene = "default";
+  record.method = "HYBRID";
+  EXPECT_EQ(name_of(record).text(), "Mesh0/default/HYBRID");  // older records say nothing
+  record.contact_solver = ContactSolver::newton;
+  EXPECT_EQ(name_of(record).text(), "Mesh0/default/HYBRID");
+  record.contact_solver = ContactSolver::gauss_seidel;
+  EXPECT_EQ(name_of(record).text(), "Mesh0/default/HYBRID/contact=gauss-seidel");
+  EXPECT_EQ(case_name_of(name_of(record).text())->contact, ContactSolver::gauss_seidel);
+  EXPECT_FALSE(case_name_of("Mesh0/default/HYBRID/contact=newton"));
+  EXPECT_FALSE(case_name_of("Mesh0/default/HYBRID/contact=lemke"));
+  record.stop = Stop::paper;
+  EXPECT_EQ(name_of(record).text(), "Mesh0/default/HYBRID/stop=paper");
+}
+
 TEST(CaseName, OfEachCaseAnotherFile) {
-  EXPECT_EQ((CaseName{"-a-", "b+--c%", "d-e", "", "", {}, Stop::target}.file()),
+  EXPECT_EQ((CaseName{"-a-", "b+--c%", "d-e", "", "", {}, Stop::target, {}}.file()),
             "%2Da%2D--b%2B%2D%2Dc%25--d-e");  // as in tests/plots/test_case_names.py
   std::set<std::string> files;
   std::size_t names = 0;
@@ -43,7 +61,7 @@ TEST(CaseName, OfEachCaseAnotherFile) {
     for (const std::string& scene : parts)
       for (const std::string& method : parts) {
         ++names;
-        files.insert(CaseName{mesh, scene, method, "", "", {}, Stop::target}.file());
+        files.insert(CaseName{mesh, scene, method, "", "", {}, Stop::target, {}}.file());
       }
   EXPECT_EQ(files.size(), names);
   for (const std::string& file : files) EXPECT_EQ(file.find('/'), file.npos);

@@ -45,7 +45,7 @@ std::vector<std::string> scene_names() {
   return {"default", "boundary_no_contact", "friction_0", "load_none", "slivers_1e3"};
 #else
   std::vector<std::string> names;
-  for (const auto& file : stability_scenes())
+  for (const auto& file : scenes_of(Study::stability))
     if (file.stem() != left_out_scene) names.push_back(file.stem());
   return names;
 #endif
@@ -136,7 +136,8 @@ class StabilityOutcomes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   const std::string scene_name = GetParam();
-  const Scene scene = read_scene(stability_scenes().front().parent_path() / (scene_name + ".json"));
+  const Scene scene =
+      read_scene(scenes_of(Study::stability).front().parent_path() / (scene_name + ".json"));
   const auto problem =
       std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
   Options options;
@@ -182,8 +183,8 @@ INSTANTIATE_TEST_SUITE_P(Atlas, StabilityOutcomes, ::testing::ValuesIn(scene_nam
 
 TEST(StabilityOutcomesTable, HasOnlyScenesThatExist) {
   for (const auto& [key, values] : table().rows())
-    EXPECT_TRUE(
-        std::filesystem::exists(stability_scenes().front().parent_path() / (key.front() + ".json")))
+    EXPECT_TRUE(std::filesystem::exists(scenes_of(Study::stability).front().parent_path() /
+                                        (key.front() + ".json")))
         << key.front();
 }
 

@@ -1,0 +1,95 @@
+"""Solvers of the condensed contact problem: their time and iterations over its size."""
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import study_parts as parts
+from figure_files import Drawing
+from figure_parts import axes_at, log_limits, log_log
+from figure_words import plain
+from record_keys import CONTACT_SOLVERS, Row
+from selection import grouped
+
+WIDTH, LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 10.5, 0.72, 0.62, 0.12, 2.3, 0.45, 0.3
+LOOKS = dict(zip(CONTACT_SOLVERS, (("#000000", "o"), ("#D55E00", "s"), ("#0072B2", "^"),
+                                   ("#00805C", "D"))))
+AT_EDGE = 0.95  # of an axes' height: where a solver that found nothing is marked
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = [row for row in rows if row.study == "contact" and row.contact_solver]
+    for method, own in grouped(study, lambda row: row.method).items():
+        name = "contact" if len({row.method for row in study}) == 1 else \
+            parts.file_name("contact", method)
+        yield Drawing(name, own, draw)
+
+
+def iterations(row: Row) -> float | None:
+    """Sweeps and steps together, where it solved the problem."""
+    if not row.completed or row.contact_iterations is None:
+        return None
+    return row.contact_iterations + (row.newton_steps or 0)
+
+
+def seconds(row: Row) -> float | None:
+    return row.stage_contact_s if row.completed else None
+
+
+QUANTITIES = ((seconds, "time of the contact law, s"), (iterations, "iterations, 1"))
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    """rows: of one method. The figure, or why there is none."""
+    if not any(seconds(row) and row.n_c for row in rows):
+        return "no case of the contact study has a time"
+    scenes = grouped(rows, lambda row: row.scene)
+    failed = [row for row in rows if not row.completed]
+    figure = parts.sheet(WIDTH, TOP + 2 * HEIGHT + GAP + BOTTOM + KEY,
+                         "Four solvers of the condensed contact problem", [
+        f"{rows[0].method}, {parts.threads(rows)}. One column is a scene, one point a mesh: all "
+        "solvers get the same D and G there. Above: the median time of the stage; below: "
+        "Gauss–Seidel sweeps, plain (gauss-seidel), accelerated (anderson) or before active sets "
+        "(newton, whose steps are added), or iterations of ADMM. " +
+        (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
+         "the iterations or the time allowed." if failed else "All cases were solved.")])
+    panel = (WIDTH - LEFT - 0.1 - GAP * (len(scenes) - 1)) / len(scenes)
+    for k, (of, words) in enumerate(QUANTITIES):
+        values = [value for row in rows if (value := of(row))]
+        for j, (scene, own) in enumerate(scenes.items()):
+            axes = axes_at(figure, LEFT + j * (panel + GAP), TOP + k * (HEIGHT + GAP), panel,
+                           HEIGHT)
+            log_log(axes, xlim=log_limits([row.n_c for row in rows if row.n_c], 1.3),
+                    ylim=log_limits(values, 1.6))
+            axes.grid(which="major")
+            draw_solvers(axes, own, of)
+            if j:
+                axes.tick_params(labelleft=False)
+            else:
+                axes.set_ylabel(words)
+            if k == 0:
+                axes.set_title(plain(scene), pad=3)
+                axes.tick_params(labelbottom=False)
+            else:
+                axes.set_xlabel("contact forces $n_C$, 1")
+    for k, (solver, (colour, marker)) in enumerate(LOOKS.items()):
+        figure.text((LEFT + 0.2 + 1.5 * k) / WIDTH, 1 - 0.36 / figure.get_size_inches()[1],
+                    plain(solver), color=colour, va="center", fontsize=9)
+        axes = axes_at(figure, LEFT + 1.5 * k, 0.31, 0.12, 0.1)
+        axes.plot(0, 0, marker=marker, color=colour, markersize=5, clip_on=False)
+        axes.set_axis_off()
+    return figure
+
+
+def draw_solvers(axes: Axes, rows: list[Row], of: object) -> None:
+    for solver, own in grouped(rows, lambda row: row.contact_solver).items():
+        colour, marker = LOOKS[solver]
+        known = sorted((row.n_c, of(row)) for row in own if of(row) and row.n_c)
+        axes.plot([n for n, _ in known], [value for _, value in known], color=colour,
+                  marker=marker, markersize=4, linewidth=1)
+        lost = [row.n_c for row in own if not row.completed and row.n_c]
+        shift = AT_EDGE - 0.06 * CONTACT_SOLVERS.index(solver)
+        axes.plot(lost, [shift] * len(lost), transform=axes.get_xaxis_transform(), color=colour,
+                  marker="x", markersize=6, linestyle="none")

@@ -1,0 +1,49 @@
+#include "solvers/contact/admm.hpp"
+
+#include <Eigen/Cholesky>
+
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+
+ContactResult solve_contact_by_admm(const CondensedSystem& condensed, const ContactPoints& contact,
+                                    const RunControl& control, const Eigen::VectorXd& start) {
+  constexpr double apart = 10, factor = 2;
+  const int m = contact.components;
+  const Eigen::VectorXd offset = contact_offset(condensed, contact);
+  Eigen::VectorXd weight = condensed.D.diagonal();
+  if (m == 2)
+    for (int p = 0; p < contact.count; ++p)
+      weight.segment<2>(2 * p).setConstant(weight.segment<2>(2 * p).mean());
+
+  Eigen::LLT<Eigen::MatrixXd> cholesky;
+  const auto factorise = [&] {
+    Eigen::MatrixXd shifted = condensed.D;
+    shifted.diagonal() += weight;
+    cholesky.compute(shifted);
+  };
+  factorise();
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(contact.size());
+  int iteration = 0, next_change = 1, pause = 1;
+  return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& z) {
+    const Eigen::VectorXd F = cholesky.solve(offset + weight.cwiseProduct(z - y));
+    const Eigen::VectorXd projected = project_on_coulomb(contact, F + y);
+    const Eigen::VectorXd root = weight.cwiseSqrt();
+    const double gap = root.cwiseProduct(F - projected).norm();
+    const double step = root.cwiseProduct(projected - z).norm();
+    y += F - projected;
+    const double change = (projected - z).norm() + (F - projected).norm();
+    z = projected;
+    // y is r in W's units: it follows W.
+    if (++iteration >= next_change && (gap > apart * step || step > apart * gap)) {
+      const double times = gap > apart * step ? factor : 1 / factor;
+      weight *= times;
+      y /= times;
+      factorise();
+      next_change = iteration + ++pause;
+    }
+    return change;
+  });
+}
+
+}  // namespace airybench

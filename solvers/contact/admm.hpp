@@ -1,0 +1,23 @@
+// The alternating direction method of multipliers for the condensed contact problem (Glowinski &
+// Marroco 1975; Boyd et al. 2011, doi:10.1561/2200000016): forces F that obey D, and a copy z that
+// obeys the law's bounds,
+//
+//   (D + W) F = G + ḡ + W (z − y),   z = P(F + y),   y ← y + F − z
+//
+// P is the projection of coulomb_law.hpp, W = w diag(W_p) one weight for a point, W_p the mean of
+// its diagonal of D. At a fixed point F = z and r = D F − G − ḡ = −W y, so that the natural map is
+// zero. Coulomb's law is no minimum, there is no proof of convergence; z counts by its natural map.
+//
+// w is chosen while it runs: where F − z and the change of z, both in W's norm, are apart by more
+// than 10, it is multiplied or divided by 2 (ibid., 3.4.1), and D + W is factorised anew. It may
+// change ever more rarely, so that it comes to rest.
+#pragma once
+
+#include "solvers/contact/contact_result.hpp"
+
+namespace airybench {
+
+ContactResult solve_contact_by_admm(const CondensedSystem& condensed, const ContactPoints& contact,
+                                    const RunControl& control, const Eigen::VectorXd& start = {});
+
+}  // namespace airybench
