@@ -27,8 +27,7 @@ class SceneReader {
       fail(prefix.empty() ? "the scene" : prefix.substr(0, prefix.size() - 2), json,
            "a JSON object");
     for (const auto& [key, value] : json.items()) {
-      const auto found = std::find_if(keys.begin(), keys.end(),
-                                      [&](const auto& known) { return known.first == key; });
+      const auto found = std::ranges::find(keys, key, &std::pair<std::string, Setter>::first);
       if (found == keys.end()) {
         std::string valid;
         for (const auto& known : keys) valid += (valid.empty() ? "" : ", ") + known.first;

@@ -53,16 +53,19 @@ void Journal::append(const std::string& line) {
   throw FileError(fmt::format("{}: cannot be written: {}", file_.string(), strerror(error)));
 }
 
-JournalLines read_journal(const std::filesystem::path& file) {
+JournalLines journal_lines_of(const std::string& text) {
   JournalLines result;
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) && !error) return result;
-  const std::string text = file_text(file);
   std::size_t begin = 0;
   for (std::size_t end; (end = text.find('\n', begin)) != text.npos; begin = end + 1)
     result.lines.push_back(text.substr(begin, end - begin));
   result.torn = begin < text.size();
   return result;
+}
+
+JournalLines read_journal(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error) && !error) return {};
+  return journal_lines_of(file_text(file));
 }
 
 }  // namespace airybench

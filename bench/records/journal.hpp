@@ -34,6 +34,7 @@ struct JournalLines {
   std::vector<std::string> lines;
   bool torn = false;  // there was such a start
 };
+JournalLines journal_lines_of(const std::string& text);
 // A file that is not there has no lines. Throws FileError.
 JournalLines read_journal(const std::filesystem::path& file);
 

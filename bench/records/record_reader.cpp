@@ -6,13 +6,14 @@
 
 namespace airybench {
 
-RecordLines read_record_lines(const std::filesystem::path& file) {
-  const JournalLines journal = read_journal(file);
+namespace {
+
+RecordLines record_lines_of(const JournalLines& journal, const std::string& file) {
   RecordLines result;
   result.torn = journal.torn;
   for (const std::string& text : journal.lines) {
     RecordLine& line = result.lines.emplace_back();
-    line.place = fmt::format("{}:{}", file.string(), result.lines.size());
+    line.place = fmt::format("{}:{}", file, result.lines.size());
     try {
       line.json = parse_json(text);
     } catch (const Json::exception& wrong) {
@@ -21,6 +22,16 @@ RecordLines read_record_lines(const std::filesystem::path& file) {
     line.record = record_of(line.json, line.place);
   }
   return result;
+}
+
+}  // namespace
+
+RecordLines record_lines_of(const std::string& text, const std::string& file) {
+  return record_lines_of(journal_lines_of(text), file);
+}
+
+RecordLines read_record_lines(const std::filesystem::path& file) {
+  return record_lines_of(read_journal(file), file.string());
 }
 
 std::vector<Record> read_records(const std::filesystem::path& file, Studies studies) {

@@ -22,6 +22,8 @@ struct RecordLines {
 
 // A file that is not there has no lines. Throws RecordError.
 RecordLines read_record_lines(const std::filesystem::path& file);
+// The same of a file's text; file is what messages name.
+RecordLines record_lines_of(const std::string& text, const std::string& file);
 
 enum class Studies { leave_out, include };
 // In the order of the lines. Throws RecordError, also where there is no such file.

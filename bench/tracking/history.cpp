@@ -70,9 +70,11 @@ bool is_date(const std::string& text) {
          });
 }
 
-Night read_night(const fs::path& file) {
+}  // namespace
+
+Night parse_night(const std::string& text, const fs::path& file) {
   try {
-    const Json json = parse_json(file_text(file));
+    const Json json = parse_json(text);
     if (json.at("format") != format_name)
       throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
                                     json_text(json.at("format")), format_name));
@@ -96,8 +98,6 @@ Night read_night(const fs::path& file) {
                                   file.string(), without_prefix(wrong)));
   }
 }
-
-}  // namespace
 
 std::string_view name_of(Lane lane) {
   constexpr std::array<std::string_view, 4> names = {"status", "counters", "errors", "times"};
@@ -146,7 +146,8 @@ std::vector<Night> read_history(const fs::path& folder) {
   if (!fs::exists(files, error)) return nights;
   if (!fs::is_directory(files, error)) throw RecordError(files.string() + ": not a folder");
   for (const auto& entry : fs::directory_iterator(files))
-    if (entry.path().extension() == ".json") nights.push_back(read_night(entry.path()));
+    if (entry.path().extension() == ".json")
+      nights.push_back(parse_night(file_text(entry.path()), entry.path()));
   std::sort(nights.begin(), nights.end(), [](const Night& a, const Night& b) {
     return std::tie(a.date, a.file) < std::tie(b.date, b.file);
   });

@@ -53,6 +53,8 @@ struct Night {
 // context's. Throws RecordError: no records, or no usable date ("date").
 Night night_of(std::vector<Record> records, const std::string& source);
 
+// A night's file, from its text. Throws RecordError.
+Night parse_night(const std::string& text, const std::filesystem::path& file);
 // In the order of dates. Empty where there is no folder yet. Throws RecordError, which names a file
 // that is no whole night.
 std::vector<Night> read_history(const std::filesystem::path& folder);

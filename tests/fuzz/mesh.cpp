@@ -1,0 +1,32 @@
+#include <sstream>
+#include <stdexcept>
+
+#include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
+#include "tests/fuzz/readers.hpp"
+
+namespace airybench::fuzz {
+namespace {
+
+std::string canonical(const Mesh& mesh) {
+  std::ostringstream out;
+  write_msh(out, mesh);
+  return out.str();
+}
+
+Mesh read(const std::string& text) {
+  std::istringstream in(text);
+  return read_msh(in, "fuzz.msh");
+}
+
+}  // namespace
+
+void mesh(const std::string& text) {
+  const Mesh mesh = read(text);
+  const std::string written = canonical(mesh);
+  if (canonical(read(written)) != written) throw std::logic_error("written and read: another mesh");
+  extent_of(mesh);
+  pose(Scene(), mesh);
+}
+
+}  // namespace airybench::fuzz
