@@ -31,9 +31,11 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
+from functools import partial
 from pathlib import Path
 
 from case_names import case_name
+from command import replace_all
 from quoted_values import QuoteError, Runs, chosen, value_of
 from record_keys import Row
 from records import RecordsError, rows_of
@@ -234,7 +236,8 @@ def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
         for difference in reversed(of_file):
             if not difference.words:
                 text = text[:difference.start] + difference.replacement + text[difference.end:]
-        path.write_text(text, encoding="utf-8")
+        replace_all(path.parent, {path.name: partial(Path.write_text, data=text,
+                                                     encoding="utf-8")})
 
 
 def main() -> None:
@@ -248,14 +251,14 @@ def main() -> None:
     arguments = parser.parse_args()
     try:
         by_file = differences(arguments.project)
+        if arguments.write:
+            rewrite(arguments.project, by_file)
     except (QuoteError, RecordsError, OSError) as error:
         print(f"quoted_numbers: {error}", file=sys.stderr)
         sys.exit(2)
     for of_file in by_file.values():
         for difference in of_file:
             print(difference.sentence())
-    if arguments.write:
-        rewrite(arguments.project, by_file)
     if any(difference.words or arguments.check
            for of_file in by_file.values() for difference in of_file):
         sys.exit(1)

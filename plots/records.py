@@ -108,7 +108,9 @@ def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]
         if header.count(name) > 1 or (lines and name in needed and name not in header):
             raise RecordsError(f"{path}:1: {header.count(name) or 'no'} columns {name}; expected "
                                f"one each of {', '.join(needed)}")
-    return [dict(zip(header, cells)) for cells in lines[1:]], header
+    # A ' before what a spreadsheet would take for a formula is not the text's.
+    return [dict(zip(header, [cell.removeprefix("'") for cell in cells]))
+            for cells in lines[1:]], header
 
 
 def cells_of(path: Path) -> list[list[str]]:
@@ -126,8 +128,9 @@ def cells_of(path: Path) -> list[list[str]]:
 
 def read_lines(path: Path) -> list[object]:
     """A JSON value per line."""
-    return [json_of(words, f"{path}:{line}")
-            for line, words in enumerate(text_of(path).splitlines(), 1)]
+    text = text_of(path)
+    lines = text.removesuffix("\n").split("\n") if text else []  # U+2028 ends none
+    return [json_of(words, f"{path}:{line}") for line, words in enumerate(lines, 1)]
 
 
 def text_of(path: Path) -> str:

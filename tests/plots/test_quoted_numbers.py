@@ -117,6 +117,12 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertIn("Mesh0/default/HYBRID    761  500 ms  200 µs  4.0 MiB       1.0e-10", text)
         self.assertIn("\n…\nMesh7/default/HYBRID  50483", text)
 
+    def test_a_file_is_replaced_whole(self) -> None:
+        with open(self.readme, encoding="utf-8") as before:
+            self.assertEqual(self.check("--write")[0], 0)
+            self.assertEqual(before.read(), TEXT)
+        self.assertNotEqual(self.readme.read_text(encoding="utf-8"), TEXT)
+
     def test_what_is_wrong_has_file_line_and_both_numbers(self) -> None:
         self.check("--write")
         self.readme.write_text(self.readme.read_text(encoding="utf-8").replace("0.25", "0.3")

@@ -1,4 +1,5 @@
 """The reader of records, and what follows from their keys.  /usr/bin/python3 -m unittest FILE"""
+import json
 import shutil
 import sys
 import tempfile
@@ -52,6 +53,17 @@ class ReaderTest(RecordsTest):
         self.assertEqual([vars(row) | {"line": row.line + 1} for row in of_lines],
                          [vars(row) for row in self.read(rows)])
 
+    def test_line_separators_of_unicode_end_no_line(self) -> None:
+        self.lines.write_text("".join(
+            json.dumps(made_up.record(case(mesh, "P2", scene="a\u2028b\x85c")),
+                       ensure_ascii=False) + "\n" for mesh in ("Mesh0", "Mesh1")),
+            encoding="utf-8")
+        self.assertEqual(list(records.read(self.lines).scene), ["a\u2028b\x85c"] * 2)
+
+    def test_what_keeps_a_text_from_being_a_formula_is_not_the_texts(self) -> None:
+        rows = self.read([case("Mesh0", "P2", scene="'=1"), case("Mesh0", "P2", scene="''a")])
+        self.assertEqual([row.scene for row in rows], ["=1", "'a"])
+
     def test_a_folder_is_read_from_its_records_if_it_has_them(self) -> None:
         self.read([case("Mesh0", "3STEPD")])
         self.assertEqual(list(records.read_run(self.results).mesh), ["Mesh0"])
@@ -82,6 +94,8 @@ class ReaderTest(RecordsTest):
                             ({"mesh": 3}, "mesh is 3, expected a name")):
             made_up.write_lines(self.lines, [good, good | wrong])
             self.assert_refused(f"{self.lines}:2: {part}", file="records.jsonl")
+        made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": 10**400}])
+        self.assert_refused(f"{self.lines}:2: time_s is 1000", file="records.jsonl")
         self.lines.write_text('[1]\n', encoding="utf-8")
         self.assert_refused(f"{self.lines}:1: [1], expected an object", file="records.jsonl")
         self.lines.write_text('{"time_s": NaN}\n', encoding="utf-8")
