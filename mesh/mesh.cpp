@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "mesh/outline.hpp"
+
 namespace airybench {
 namespace {
 
@@ -155,6 +157,23 @@ void check_one_piece_without_holes(const Mesh& mesh, const std::vector<Side>& si
                    " hole(s); a single-valued Airy function needs a body without holes");
 }
 
+// Triangles that all run counter-clockwise inside one simple curve cover it once.
+void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
+  const auto start = std::find_if(next.begin(), next.end(), [](int v) { return v != -1; });
+  std::vector<int> loop;
+  std::vector<Eigen::Vector2d> outline;
+  for (int v = static_cast<int>(start - next.begin()); loop.empty() || v != loop.front();
+       v = next[v]) {
+    loop.push_back(v);
+    outline.push_back(mesh.vertices[v]);
+  }
+  if (const auto edges = where_it_meets_itself(outline)) {
+    const auto text = [&](int i) { return edge_text(loop[i], next[loop[i]]); };
+    fail(mesh, "boundary " + text(edges->front()) + ": crosses or touches boundary " +
+                   text(edges->back()) + "; the body must not overlap itself");
+  }
+}
+
 }  // namespace
 
 std::string boundary_label(const Mesh& mesh, const BoundaryEdge& edge) {
@@ -188,6 +207,7 @@ void validate(const Mesh& mesh) {
   const std::vector<Side> sides = sorted_sides(mesh);
   const std::vector<int> next = check_boundary(mesh, sides);
   check_one_piece_without_holes(mesh, sides, next);
+  check_overlap(mesh, next);
 }
 
 MeshEdges number_edges(const Mesh& mesh) {

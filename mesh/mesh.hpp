@@ -77,7 +77,7 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
 // more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
 // its triangle, or of a group that does not exist; a boundary edge without a role; a boundary that
-// touches itself; more than one piece; a hole; no displacement edge.
+// touches or crosses itself; more than one piece; a hole; no displacement edge.
 void validate(const Mesh& mesh);
 
 // The edges of a valid mesh.

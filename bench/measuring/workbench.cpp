@@ -294,7 +294,10 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
     record.status_reason = "its error is not known: " + no_reference_;
   } else if (v.unstressed) {
     record.status = Status::unstressed;
-    record.status_reason = "the body has no stress: nothing touches or loads it";
+    record.status_reason = method.in_displacements
+                               ? "its displacements have no stress: nothing touches or loads what "
+                                 "is free of them"
+                               : "the body has no stress: nothing touches or loads it";
   }
 }
 

@@ -77,9 +77,11 @@ std::size_t CholmodFactor::bytes() const {
 
 std::size_t CholmodFactor::library_bytes() const { return common_.memory_inuse; }
 
-std::int64_t CholmodFactor::entries() const { return static_cast<std::int64_t>(common_.lnz); }
+std::int64_t CholmodFactor::entries() const {
+  return factor_ == nullptr ? 0 : static_cast<std::int64_t>(common_.lnz);
+}
 
-double CholmodFactor::flops() const { return common_.fl; }
+double CholmodFactor::flops() const { return factor_ == nullptr ? 0 : common_.fl; }
 
 void CholmodFactor::solve(Eigen::Ref<Eigen::MatrixXd> X) {
   if (factor_ == nullptr) return;

@@ -3,6 +3,7 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <array>
 
 #include "tests/support/bench_command.hpp"
 
@@ -62,6 +63,45 @@ TEST(HostileScenes, PipesAndFoldersAreNoFiles) {
   EXPECT_EQ(bench.run("claims .", patience).code, 2);
   EXPECT_EQ(bench.run("compare . .", patience).code, 2);
   EXPECT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --out=. --append", patience).code, 2);
+}
+
+// Of a mesh of one triangle, whose edges have these roles in turn.
+std::string triangle(const std::array<std::string, 3>& roles) {
+  std::string text =
+      "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n4\n1 1 \"displacement\"\n"
+      "1 2 \"force\"\n1 3 \"contact\"\n2 4 \"body\"\n$EndPhysicalNames\n"
+      "$Nodes\n3\n1 0 0 0\n2 3 0 0\n3 0 3 0\n$EndNodes\n$Elements\n4\n";
+  const auto tag = [](const std::string& role) {
+    return role == "displacement" ? "1" : role == "force" ? "2" : "3";
+  };
+  for (int k = 0; k < 3; ++k)
+    text += std::to_string(k + 1) + " 1 1 " + tag(roles[k]) + " " + std::to_string(k + 1) + " " +
+            std::to_string((k + 1) % 3 + 1) + "\n";
+  return text + "4 2 1 4 1 2 3\n$EndElements\n";
+}
+
+// Nothing is left to be solved for but contact, or nothing at all.
+TEST(OneTriangle, IsSolvedWhateverHoldsIt) {
+  const std::string d = "displacement", f = "force", c = "contact";
+  int number = 0;
+  for (const auto& roles :
+       {std::array{d, c, c}, {d, c, d}, {d, f, c}, {d, f, d}, {d, d, d}, {d, f, f}}) {
+    const BenchCommand bench;
+    SCOPED_TRACE(roles[0] + " " + roles[1] + " " + roles[2]);
+    const std::string name = "t" + std::to_string(++number);
+    testing::write_text(bench.path(name + ".msh"), triangle(roles));
+    testing::write_text(bench.path("s.json"), R"({"body_force_N_per_mm3": [1, 2]})");
+    const CommandResult result =
+        bench.run("--mesh=./" + name +
+                  ".msh --scene=s.json --method=HYBRID,P2,3STEPD,BLIND,ALM "
+                  "--repetitions=1 --out=o");
+    EXPECT_LE(result.code, 1) << result.err;
+    ASSERT_EQ(bench.records().size(), 5u);
+    const bool nodes_are_free = roles != std::array{d, d, d};
+    for (const Json& record : bench.records())
+      EXPECT_EQ(record["status"], record["method"] == "P2" && !nodes_are_free ? "unstressed" : "ok")
+          << record["method"] << record["status_reason"];
+  }
 }
 
 // A comma in a path is written with a backslash before it.
