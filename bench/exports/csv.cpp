@@ -3,14 +3,17 @@
 #include <fmt/format.h>
 
 #include "bench/exports/numbers.hpp"
+#include "support/numbers.hpp"
 
 namespace airybench {
 namespace {
 
+// A text that a spreadsheet would take for a formula, or that begins with ', has a ' before it.
 std::string cell(const Json& value) {
   if (value.is_null()) return "";
   if (!value.is_string()) return json_text(value);
   std::string text = value.get<std::string>();
+  if (text.find_first_of("=+-@\t\r'") == 0 && !parse_number(text)) text.insert(0, "'");
   if (text.find_first_of(",\"\r\n") == text.npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);

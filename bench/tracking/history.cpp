@@ -12,6 +12,7 @@
 #include "bench/statistics/robust.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -36,29 +37,60 @@ Json to_json(const Finding& finding) {
           {"sentence", finding.sentence}};
 }
 
-template <typename Enum, std::size_t size>
-Enum named(const std::array<Enum, size>& values, const std::string& name) {
-  for (const Enum value : values)
-    if (name_of(value) == name) return value;
-  throw RecordError(fmt::format("verdicts: {}: not known", name));
+// Reads the values of an object's keys; what does not fit is refused by place, key and value.
+struct ObjectReader {
+  const Json& json;
+  std::string place;  // "nights/2026-11-21T030000Z.json: verdict 3"
+
+  const Json& at(const char* key) const {
+    static const Json null;
+    const auto found = json.find(key);
+    return found == json.end() ? null : *found;
+  }
+  [[noreturn]] void fail(const char* key, const std::string& allowed) const {
+    throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place, key,
+                                  shortened(json_text(at(key))), allowed));
+  }
+  // What nlohmann's conversion accepts.
+  template <typename T>
+  T value(const char* key, const char* allowed) const {
+    try {
+      return at(key).get<T>();
+    } catch (const Json::exception&) {
+      fail(key, allowed);
+    }
+  }
+  std::string text(const char* key) const { return value<std::string>(key, "a text"); }
+  std::optional<double> number(const char* key) const {
+    return at(key).is_null() ? std::nullopt : std::optional(value<double>(key, "a number, null"));
+  }
+  const Json& list(const char* key) const {
+    if (!at(key).is_array()) fail(key, "a list");
+    return at(key);
+  }
+  template <typename Enum, std::size_t size>
+  Enum word(const char* key, const std::array<Enum, size>& values) const {
+    std::string allowed;
+    for (const Enum one : values) {
+      if (at(key) == name_of(one)) return one;
+      allowed += (allowed.empty() ? "" : ", ") + std::string(name_of(one));
+    }
+    fail(key, allowed);
+  }
+};
+
+ObjectReader reader_of(const Json& json, const std::string& place) {
+  if (!json.is_object())
+    throw RecordError(
+        fmt::format("{}: {} (allowed: a JSON object)", place, shortened(json_text(json))));
+  return {json, place};
 }
 
-std::optional<double> number_at(const Json& json, const char* key) {
-  return json.at(key).is_null() ? std::optional<double>() : json.at(key).get<double>();
-}
-
-Finding finding_of(const Json& json) {
-  return {json.at("case").get<std::string>(),
-          named(lanes, json.at("lane").get<std::string>()),
-          json.at("quantity").get<std::string>(),
-          json.at("before"),
-          json.at("after"),
-          named(kinds, json.at("kind").get<std::string>()),
-          json.at("since").get<std::string>(),
-          number_at(json, "ratio"),
-          number_at(json, "low"),
-          number_at(json, "high"),
-          json.at("sentence").get<std::string>()};
+Finding finding_of(const ObjectReader& verdict) {
+  return {verdict.text("case"),   verdict.word("lane", lanes), verdict.text("quantity"),
+          verdict.at("before"),   verdict.at("after"),         verdict.word("kind", kinds),
+          verdict.text("since"),  verdict.number("ratio"),     verdict.number("low"),
+          verdict.number("high"), verdict.text("sentence")};
 }
 
 // 2026-11-21T03:00:00Z
@@ -73,30 +105,34 @@ bool is_date(const std::string& text) {
 }  // namespace
 
 Night parse_night(const std::string& text, const fs::path& file) {
+  const std::string place = file.string();
+  Json json;
   try {
-    const Json json = parse_json(text);
-    if (json.at("format") != format_name)
-      throw RecordError(fmt::format("{}: format: {} (allowed: \"{}\")", file.string(),
-                                    json_text(json.at("format")), format_name));
-    Night night;
-    night.file = file;
-    night.date = json.at("date").get<std::string>();
-    if (!is_date(night.date))
-      throw RecordError(fmt::format("{}: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
-                                    file.string(), night.date));
-    night.context = json.at("context").get<std::map<std::string, std::string>>();
-    night.noise_samples_s = json.at("noise").at("samples_s").get<std::vector<double>>();
-    for (const Json& one : json.at("cases"))
-      night.cases.push_back(
-          record_of(one, fmt::format("{}: case {}", file.string(), night.cases.size() + 1)));
-    for (const Json& one : json.at("verdicts")) night.findings.push_back(finding_of(one));
-    night.failed = json.at("failed").get<bool>();
-    night.times_judged = json.value("times_judged", true);  // older nights do not say
-    return night;
+    json = parse_json(text);
   } catch (const Json::exception& wrong) {
-    throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)",
-                                  file.string(), without_prefix(wrong)));
+    throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)", place,
+                                  without_prefix(wrong)));
   }
+  const ObjectReader all = reader_of(json, place);
+  if (all.at("format") != format_name) all.fail("format", fmt::format("\"{}\"", format_name));
+  Night night;
+  night.file = file;
+  night.date = all.text("date");
+  if (!is_date(night.date)) all.fail("date", "as 2026-11-21T03:00:00Z");
+  night.context = all.value<std::map<std::string, std::string>>("context", "an object of texts");
+  night.noise_samples_s = reader_of(all.at("noise"), place + ": noise")
+                              .value<std::vector<double>>("samples_s", "a list of numbers");
+  for (const Json& one : all.list("cases"))
+    night.cases.push_back(
+        record_of(one, fmt::format("{}: case {}", place, night.cases.size() + 1)));
+  for (const Json& one : all.list("verdicts"))
+    night.findings.push_back(finding_of(
+        reader_of(one, fmt::format("{}: verdict {}", place, night.findings.size() + 1))));
+  night.failed = all.value<bool>("failed", "true, false");
+  // Older nights do not say.
+  night.times_judged =
+      !json.contains("times_judged") || all.value<bool>("times_judged", "true, false");
+  return night;
 }
 
 std::string_view name_of(Lane lane) {

@@ -1,5 +1,5 @@
-// The files that the fuzzer starts from, and what it has found so far: tests/data/fuzz/READER/. Files
-// named good-… are taken; all others are taken or refused, and nothing else.
+// The files that the fuzzer starts from, and what it has found so far: tests/data/fuzz/READER/.
+// Files named good-… are taken; all others are taken or refused, and nothing else.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -31,7 +31,8 @@ inline std::string name_of_test(const ::testing::TestParamInfo<Reader>& info) {
 
 inline std::vector<std::filesystem::path> corpus(const std::string& reader) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(testing::test_data("fuzz/" + reader)))
+  for (const auto& entry :
+       std::filesystem::directory_iterator(testing::test_data("fuzz/" + reader)))
     files.push_back(entry.path());
   std::ranges::sort(files);
   return files;

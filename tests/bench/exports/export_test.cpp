@@ -217,6 +217,26 @@ TEST(SeriesCsv, ARowPerNumber) {
   EXPECT_EQ(text.find("measured_once"), std::string::npos);
 }
 
+// A spreadsheet takes a text that begins so for a formula.
+TEST(Csv, TextsAreNoFormulas) {
+  for (const auto& [scene, cell] : {std::pair("=1+1", "'=1+1"),
+                                    {"+a", "'+a"},
+                                    {"-a", "'-a"},
+                                    {"@SUM(1)", "'@SUM(1)"},
+                                    {"=a,b", "\"'=a,b\""},
+                                    {"'a", "''a"},
+                                    {"-5", "-5"},
+                                    {"a=b", "a=b"}}) {
+    Json json = record("HYBRID", {1});
+    json["scene"] = scene;
+    const std::string expected = std::string("\nMesh0,") + cell + ",HYBRID,";
+    EXPECT_NE(csv_text(records_of({json})).find(expected), std::string::npos) << scene;
+    EXPECT_NE(series_csv(records_of({json})).find(std::string(",Mesh0,") + cell + ",HYBRID,"),
+              std::string::npos)
+        << scene;
+  }
+}
+
 TEST(Junit, StatusesBecomeOutcomes) {
   std::vector<Json> records = {record("HYBRID", {1, 2, 4}), awkward_record()};
   for (const char* status :

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "bench/records/record.hpp"
+#include "bench/tracking/history.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
@@ -134,6 +135,36 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   testing::write_text(folder_ / "h/nights/2026-11-21T030000Z.json", "{\"format\"");
   write_run("b", 1, "2026-11-21T03:00:00Z");
   expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
+}
+
+TEST(Nights, ThatAreWrongAreNamedByFileKeyAndValue) {
+  const Json good = Json::parse(testing::text_of(testing::test_data("fuzz/night/good-one")));
+  const std::string longish(5000, 'x');
+  for (const auto& [path, value, named] :
+       {std::tuple<const char*, Json, const char*>("/format", 1, "n.json: format: 1 (allowed: \""),
+        {"/format", longish, "n.json: format: \"xxx"},
+        {"/date", 7, "n.json: date: 7 (allowed: a text)"},
+        {"/date", "yesterday", "n.json: date: \"yesterday\" (allowed: as 2026-11-21T03:00:00Z)"},
+        {"/context", {{"cpu", 3}}, "n.json: context: {\"cpu\":3} (allowed: an object of texts)"},
+        {"/noise", 3, "n.json: noise: 3 (allowed: a JSON object)"},
+        {"/noise/samples_s", "fast", "n.json: noise: samples_s: \"fast\" (allowed: a list of"},
+        {"/cases", nullptr, "n.json: cases: null (allowed: a list)"},
+        {"/cases/0/n_phi", "many", "n.json: case 1: n_phi: \"many\" (allowed: a whole number"},
+        {"/verdicts/0", 3, "n.json: verdict 1: 3 (allowed: a JSON object)"},
+        {"/verdicts/0/lane", longish, "n.json: verdict 1: lane: \"xxx"},
+        {"/verdicts/0/kind", "odd", "n.json: verdict 1: kind: \"odd\" (allowed: worse, better, ch"},
+        {"/verdicts/0/ratio", "2", "n.json: verdict 1: ratio: \"2\" (allowed: a number, null)"},
+        {"/failed", "no", "n.json: failed: \"no\" (allowed: true, false)"}}) {
+    Json night = good;
+    night[Json::json_pointer(path)] = value;
+    try {
+      parse_night(night.dump(), "n.json");
+      ADD_FAILURE() << path << ": taken";
+    } catch (const RecordError& error) {
+      EXPECT_EQ(std::string(error.what()).find(named), 0u) << error.what();
+      EXPECT_LT(std::string(error.what()).size(), 250u);
+    }
+  }
 }
 
 TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
