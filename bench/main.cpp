@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <map>
 #include <new>
@@ -15,6 +16,8 @@
 #include "bench/commands/run_command.hpp"
 #include "bench/commands/track_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
+#include "bench/isolation/threads_at_hand.hpp"
+#include "support/lack_of_memory.hpp"
 #include "support/standard_streams.hpp"
 
 namespace {
@@ -30,7 +33,7 @@ const std::map<std::string_view, Command> commands = {
 
 // Standard error may be full; that is told by the exit code.
 int complain(std::string_view what, int exit_code) {
-  std::fputs(fmt::format("bench: {}\n", what).c_str(), stderr);
+  std::fprintf(stderr, "bench: %.*s\n", static_cast<int>(what.size()), what.data());
   return exit_code;
 }
 
@@ -65,5 +68,8 @@ int run(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
-  return airybench::checked_exit_code(run(argc, argv));
+  airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
+  if (const std::string lack = airybench::lack_of_address_space(1); !lack.empty())
+    std::_Exit(complain(lack, airybench::wrong_usage));  // an orderly end would wait for BLAS
+  return airybench::checked_exit_code(run(argc, argv), "bench");
 }

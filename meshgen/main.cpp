@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 
 #include "meshgen/commands.hpp"
 #include "support/data_folder.hpp"
+#include "support/standard_streams.hpp"
 
 namespace {
 
@@ -187,9 +189,7 @@ std::string valid_options(const CLI::App& app) {
   return names;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App app("Makes, checks and converts the meshes of airybench.", "meshgen");
   Arguments arguments;
   declare(app, arguments);
@@ -206,6 +206,14 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     return complain(error.what(), exit_usage);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return exit_usage;  // which fmt throws for
     return complain(error.what(), exit_failure);
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  airybench::open_standard_streams();
+  return airybench::checked_exit_code(parse_and_run(argc, argv), "meshgen");
 }

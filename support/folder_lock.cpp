@@ -30,6 +30,7 @@ std::string holder(int descriptor) {
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".lock") {
+  const std::string own_name = this_process();  // before there is a file that would stay
   for (;;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     struct flock whole = {};
@@ -48,7 +49,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".l
     close(descriptor_);  // its holder took the file away in between
   }
   // For who is refused; a lock without a name still locks.
-  if (ftruncate(descriptor_, 0) == 0) static_cast<void>(write_all(descriptor_, this_process()));
+  if (ftruncate(descriptor_, 0) == 0) static_cast<void>(write_all(descriptor_, own_name));
 }
 
 FolderLock::~FolderLock() {

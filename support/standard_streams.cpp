@@ -18,10 +18,10 @@ void open_standard_streams() {
       static_cast<void>(open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY));
 }
 
-int checked_exit_code(int code) {
+int checked_exit_code(int code, const char* program) {
   const bool flushed = std::fflush(stdout) == 0;
   if (!flushed || std::ferror(stdout) != 0) {
-    std::fputs("bench: standard output: cannot be written (a full disk?)\n", stderr);
+    std::fprintf(stderr, "%s: standard output: cannot be written (a full disk?)\n", program);
     code = std::max<int>(code, wrong_usage);
   }
   if (std::ferror(stderr) != 0 || !std::cerr) code = std::max<int>(code, wrong_usage);

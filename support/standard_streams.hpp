@@ -8,7 +8,8 @@ namespace airybench {
 void open_standard_streams();
 
 // How a command ends: `code`, but wrong_usage where that is less and something could not be written
-// to standard output (a full disk; said on standard error) or to standard error.
-int checked_exit_code(int code);
+// to standard output (a full disk; said on standard error in the program's name) or to standard
+// error.
+int checked_exit_code(int code, const char* program);
 
 }  // namespace airybench

@@ -7,6 +7,7 @@
 #include "bench/cases/scene_file.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/isolation/isolated_scene.hpp"
+#include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/output/record_files.hpp"
 #include "bench/running/runner.hpp"
@@ -167,6 +168,7 @@ int replay_command(int argc, const char* const* argv) {
   const Record record = find_record(asked.record);
   const Context& recorded = record.context;
   const Options options = options_of(record, recorded, asked.out);
+  require_threads(options.threads);
   set_threads(options.threads);
   Context context = context_of_run(options);
   for (const auto& [key, value] : recorded)  // what that run said of itself

@@ -15,6 +15,7 @@
 #include "bench/commands/command_options.hpp"
 #include "bench/forecast/prediction.hpp"
 #include "bench/isolation/isolated_scene.hpp"
+#include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/measuring/machine_warnings.hpp"
 #include "bench/measuring/noise_kernel.hpp"
@@ -168,6 +169,7 @@ int run_command(int argc, const char* const* argv) {
   if (options.explain) print_stages(plan);
   if (options.dry_run) print_prediction(plan, options);
   if (options.explain || options.dry_run) return all_ok;
+  require_threads(options.threads);
   set_threads(options.threads);
   catch_interrupts();
   Context context = context_of_run(options);

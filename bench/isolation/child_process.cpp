@@ -17,7 +17,11 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <new>
 #include <system_error>
+
+#include "bench/isolation/oom_kills.hpp"
+#include "support/lack_of_memory.hpp"
 
 namespace airybench {
 namespace {
@@ -33,8 +37,11 @@ constexpr int poll_ms = 100;
   std::ofstream("/proc/self/oom_score_adj") << 1000;
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
+  end_for_lack_of_memory_with("", no_memory_exit_code);
   try {
     body(channel);
+  } catch (const std::bad_alloc&) {
+    _exit(no_memory_exit_code);
   } catch (const std::exception& error) {
     std::cerr << fmt::format("bench: in a child process: {}\n", error.what());
     _exit(1);
@@ -86,6 +93,7 @@ ChildProcess::ChildProcess(const std::function<void(Channel&)>& body) {
   std::array<int, 2> ends;
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     throw std::system_error(errno, std::generic_category(), "a line to a child process");
+  oom_kills_before_ = oom_kills();
   std::fflush(nullptr);  // or the child would write it, too
   const pid_t parent = getpid();
   pid_ = fork();
@@ -117,6 +125,8 @@ void ChildProcess::finish(int patience_ms) {
   }
   if (WIFEXITED(status)) end_.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) end_.signal = WTERMSIG(status);
+  if (const auto now = oom_kills(); now && oom_kills_before_)
+    end_.oom_killed = end_.signal == SIGKILL && *now > *oom_kills_before_;
   rlimit limit = {};  // its own, too
   end_.used_up_processor_time =
       getrlimit(RLIMIT_CPU, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&

@@ -9,6 +9,7 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,7 @@ class Channel {
   std::string received_;
 };
 
+inline constexpr int no_memory_exit_code = 97;  // of a child: std::bad_alloc outside of a solve
 struct ChildEnd {
   int exit_code = -1;     // of one that ended by itself
   int signal = 0;         // that ended it
@@ -40,6 +42,7 @@ struct ChildEnd {
   bool stopped = false;   // somebody had stopped it (SIGSTOP) for seconds: it was killed
   bool lingered = false;  // it closed the line and did not end: it was killed
   bool used_up_processor_time = false;  // as much as its limit (ulimit -t) allows
+  std::optional<bool> oom_killed;       // did the kernel kill for lack of memory meanwhile?
 };
 std::string signal_name(int signal);  // "SIGSEGV"
 
@@ -63,6 +66,7 @@ class ChildProcess {
 
   pid_t pid_ = -1;  // -1: reaped
   std::optional<Channel> channel_;
+  std::optional<std::int64_t> oom_kills_before_;
   ChildEnd end_;
 };
 

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <csignal>
 #include <system_error>
+#include <tuple>
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/isolation/scene_process.hpp"
@@ -24,6 +25,17 @@ void on_interrupt(int signal) {
   interrupting_signal = signal;
 }
 
+// Of a scene's process.
+std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
+  if (end.stopped)
+    return {Status::machine_fault, "the process of its scene was stopped by somebody, and ended"};
+  if (end.given_up)
+    return {Status::machine_fault, "the process of its scene did not answer, and was ended"};
+  if (end.exit_code == no_memory_exit_code)
+    return {Status::machine_fault, "the process of its scene ended for lack of memory"};
+  return {Status::crashed, "the process of its scene ended"};
+}
+
 }  // namespace
 
 Interrupted::Interrupted(int number)
@@ -41,8 +53,17 @@ void throw_if_interrupted() {
 IsolatedScene::IsolatedScene(const std::vector<const Case*>& cases, const Options& options)
     : cases_(cases), options_(options) {}
 
+// Its process does something that it shows on the board, or waits for a case's and beats.
 bool IsolatedScene::overdue() const {
-  return interrupting_signal != 0 || is_overdue(board_, options_);
+  constexpr double most_silent_s = 20;
+  return interrupting_signal != 0 || is_overdue(board_, options_) ||
+         (board_.activity() == Activity::none && board_.silent_s() > most_silent_s);
+}
+
+std::optional<std::string> IsolatedScene::ask(const std::string& line) {
+  if (process_ == nullptr) return {};
+  board_.beat();
+  return process_->ask(line, [this] { return overdue(); });
 }
 
 // All before the first case: a scene's process that breaks takes its cases' processes along.
@@ -68,7 +89,7 @@ void IsolatedScene::prepare(std::size_t k) {
         return;
       }
     }
-    if (process_->ask(fmt::format("prepare {}", k), [this] { return overdue(); })) break;
+    if (ask(fmt::format("prepare {}", k))) break;
     throw_if_interrupted();
     const std::string why = obituary_of(process_->end(), board_, options_).message;
     switch (board_.activity()) {
@@ -92,9 +113,7 @@ void IsolatedScene::prepare(std::size_t k) {
 Record IsolatedScene::examine(std::size_t k) {
   prepare_all();
   examined_in_[k] = generation_;
-  std::optional<std::string> answer;
-  if (process_ != nullptr)
-    answer = process_->ask(fmt::format("examine {}", k), [] { return interrupting_signal != 0; });
+  const std::optional<std::string> answer = ask(fmt::format("examine {}", k));
   throw_if_interrupted();
   if (answer) return record_of(parse_json(*answer), "the case's process");
   Record record = blank_record(*cases_[k], options_);
@@ -103,28 +122,25 @@ Record IsolatedScene::examine(std::size_t k) {
     record.status_reason = no_process_;
     return record;
   }
-  if (process_->end().stopped) record.status = Status::machine_fault;
-  record.status_reason = process_->end().stopped
-                             ? "the process of its scene was stopped by somebody, and ended"
-                             : "the process of its scene ended";
+  std::tie(record.status, record.status_reason) = why_no_answer(process_->end());
   process_.reset();
   return record;
 }
 
 TimedRun IsolatedScene::measure_time(std::size_t k) {
   std::optional<std::string> answer;
-  if (process_ != nullptr && examined_in_[k] == generation_)
-    answer = process_->ask(fmt::format("time {}", k), [] { return interrupting_signal != 0; });
+  if (examined_in_[k] == generation_) answer = ask(fmt::format("time {}", k));
   throw_if_interrupted();
   if (answer) return timed_run_of(parse_json(*answer));
-  if (examined_in_[k] == generation_) process_.reset();
   TimedRun run;
-  run.message = "the process of its scene ended";
+  std::tie(run.status, run.message) =
+      why_no_answer(process_ == nullptr ? ChildEnd() : process_->end());
+  if (examined_in_[k] == generation_) process_.reset();
   return run;
 }
 
 void IsolatedScene::end(std::size_t k) {
-  if (process_ != nullptr) process_->ask(fmt::format("end {}", k));
+  if (process_ != nullptr && !ask(fmt::format("end {}", k))) process_.reset();
 }
 
 }  // namespace airybench

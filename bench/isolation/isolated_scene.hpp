@@ -48,6 +48,8 @@ class IsolatedScene {
   void prepare_all();
   void prepare(std::size_t k);
   bool overdue() const;
+  // Empty: there is no process any more, or it is silent for too long and was ended.
+  std::optional<std::string> ask(const std::string& line);
 
   const std::vector<const Case*>& cases_;
   const Options& options_;

@@ -98,6 +98,9 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
   } else if (end.exit_code == heap::backstop_exit_code) {
     run.status = Status::out_of_memory;
     run.message = fmt::format("its process was ended {}: it passed the memory limit", place);
+  } else if (end.exit_code == no_memory_exit_code) {
+    run.status = is_run(board.activity()) ? Status::out_of_memory : Status::machine_fault;
+    run.message = fmt::format("its process was ended {}: there was no memory", place);
   } else if ((end.signal == SIGKILL || end.signal == SIGXCPU) && end.used_up_processor_time) {
     run.status = Status::machine_fault;
     run.signal = signal_name(end.signal);
@@ -106,10 +109,15 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
                     place, run.signal);
   } else if (end.signal != 0) {
     run.signal = signal_name(end.signal);
-    const bool killed = end.signal == SIGKILL && !end.lingered;
-    if (killed) run.status = Status::out_of_memory;
-    run.message = fmt::format("its process was ended {} by {}{}", place, run.signal,
-                              killed ? ", as the kernel does when memory runs out" : "");
+    const char* who = "";
+    if (end.signal == SIGKILL && !end.lingered) {
+      const bool by_somebody = end.oom_killed == false;
+      run.status = by_somebody ? Status::machine_fault : Status::out_of_memory;
+      who = by_somebody      ? ", not of the kernel for lack of memory"
+            : end.oom_killed ? " of the kernel for lack of memory"
+                             : ", as the kernel does when memory runs out";
+    }
+    run.message = fmt::format("its process was ended {} by {}{}", place, run.signal, who);
   } else {
     run.message = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
   }
@@ -144,7 +152,10 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
           const ObservedStages observed(&own.board);
           serve_case(to_scene, c, options, bench, own.board);
         });
-      const auto answer = own.process->ask(*line, [&] { return is_overdue(own.board, options); });
+      const auto answer = own.process->ask(*line, [&] {
+        board.beat();
+        return is_overdue(own.board, options);
+      });
       if (answer) {
         channel.send(*answer);
         continue;

@@ -13,7 +13,7 @@
 namespace airybench {
 
 // Serves the cases of one scene until the line ends. board: its own, for "prepare 3", which
-// assembles and computes what the cases share.
+// assembles and computes what the cases share; it beats there while it waits for a case.
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
                  ActivityBoard& board, const LeftOut& left_out);
 

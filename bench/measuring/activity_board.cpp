@@ -42,13 +42,20 @@ ActivityBoard::ActivityBoard() {
 ActivityBoard::~ActivityBoard() { munmap(page_, sizeof(Page)); }
 
 void ActivityBoard::begins(Activity activity) {
+  beat();
   page_->began_ns = now_ns();
   page_->activity = static_cast<int>(activity);
 }
 
 void ActivityBoard::ends() {
   if (is_run(activity())) page_->in_runs_ns += now_ns() - page_->began_ns;
+  beat();
   page_->activity = static_cast<int>(Activity::none);
+}
+
+void ActivityBoard::beat() { page_->beat_ns = now_ns(); }
+double ActivityBoard::silent_s() const {
+  return 1e-9 * static_cast<double>(now_ns() - page_->beat_ns);
 }
 
 void ActivityBoard::begins(Stage stage) { page_->stage = static_cast<int>(stage); }

@@ -43,10 +43,14 @@ class ActivityBoard : public StageObserver {
   std::string where() const;       // "timed run, factor"
   double seconds_in_runs() const;  // of all runs that have ended, or are under way
 
+  // That the process still listens, while it waits for others; begins() and ends() say so, too.
+  void beat();
+  double silent_s() const;  // since the last of these
+
  private:
   struct Page {
     std::atomic<int> activity, stage;  // stage: -1 between stages
-    std::atomic<std::int64_t> began_ns, in_runs_ns;
+    std::atomic<std::int64_t> began_ns, in_runs_ns, beat_ns;
   };
   Page* page_;
 };

@@ -68,6 +68,22 @@ class Command : public ::testing::Test {
 
 using Names = std::vector<std::string>;
 
+TEST_F(Command, OutputThatCannotBeWrittenIsTold) {
+  for (const char* arguments : {"--check", "--help", "--modify=Mesh0 --out=m.msh"}) {
+    const std::string command = "cd '" + folder.path().string() + "' && '" +
+                                testing::meshgen_executable().string() + "' " + arguments;
+    const auto code = [&](const char* redirection) {
+      const int status = std::system((command + redirection).c_str());
+      return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    };
+    EXPECT_EQ(code(" >/dev/full 2>.err"), 2) << arguments;
+    EXPECT_EQ(text_of(folder / ".err"),
+              "meshgen: standard output: cannot be written (a full disk?)\n");
+    EXPECT_EQ(code(" >&- 2>&-"), 0) << arguments;
+  }
+  EXPECT_EQ(text_of(folder / "m.msh").substr(0, 12), "$MeshFormat\n");
+}
+
 TEST_F(Command, HelpNamesTheModes) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.exit_code, 0);

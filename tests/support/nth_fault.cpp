@@ -1,7 +1,9 @@
 // Preloaded into bench: the n-th call of one kind, counted over a run and its child processes,
 // fails.
 //
-//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork) and which call of it
+//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork, alloc) and which call of
+//                             it; allocations from main() on, of the program and its libraries;
+//                             hang: a fork that does not return
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -22,6 +24,8 @@ namespace {
 std::atomic<long>* calls = nullptr;  // shared with the children
 char kind[16] = "";
 long failing = 0;
+bool in_main = false;
+int (*main_of_program)(int, char**, char**) = nullptr;
 
 __attribute__((constructor)) void begin() {
   const char* const fault = std::getenv("AIRYBENCH_FAULT");
@@ -41,6 +45,13 @@ bool fails(const char* call, int error) {
   syscall(SYS_close, told);
   errno = error;
   return true;
+}
+
+bool allocation_fails() { return in_main && fails("alloc", ENOMEM); }
+
+int main_with_faults(int argc, char** argv, char** environment) {
+  in_main = true;
+  return main_of_program(argc, argv, environment);
 }
 
 template <typename Function>
@@ -74,7 +85,36 @@ int rename(const char* from, const char* to) noexcept {
 }
 pid_t fork() noexcept {
   if (fails("fork", EAGAIN)) return -1;
+  if (fails("hang", 0))
+    for (;;) pause();
   return real<pid_t()>("fork")();
+}
+
+// What the heap probe takes for the C library's own.
+void* __libc_malloc(size_t bytes) {
+  static const auto next = real<void*(size_t)>("__libc_malloc");
+  return allocation_fails() ? nullptr : next(bytes);
+}
+void* __libc_calloc(size_t count, size_t bytes) {
+  static const auto next = real<void*(size_t, size_t)>("__libc_calloc");
+  return allocation_fails() ? nullptr : next(count, bytes);
+}
+void* __libc_realloc(void* block, size_t bytes) {
+  static const auto next = real<void*(void*, size_t)>("__libc_realloc");
+  return allocation_fails() ? nullptr : next(block, bytes);
+}
+void* __libc_memalign(size_t alignment, size_t bytes) {
+  static const auto next = real<void*(size_t, size_t)>("__libc_memalign");
+  return allocation_fails() ? nullptr : next(alignment, bytes);
+}
+
+int __libc_start_main(int (*program)(int, char**, char**), int argc, char** argv, void (*init)(),
+                      void (*fini)(), void (*loader_fini)(), void* stack_end) {
+  main_of_program = program;
+  using Start =
+      int(int (*)(int, char**, char**), int, char**, void (*)(), void (*)(), void (*)(), void*);
+  return real<Start>("__libc_start_main")(main_with_faults, argc, argv, init, fini, loader_fini,
+                                          stack_end);
 }
 
 }  // extern "C"

@@ -11,6 +11,8 @@
 #include "assembly/scene.hpp"
 #include "bench/heap/heap_probe.hpp"
 #include "bench/isolation/child_process.hpp"
+#include "bench/isolation/oom_kills.hpp"
+#include "bench/isolation/scene_process.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
@@ -84,9 +86,10 @@ TEST_F(Isolation, AProcessThatLeavesOrIsKilledIsRecorded) {
   Record record = run_between(harmful("LEAVES", [](Solution&) { _exit(3); }));
   EXPECT_EQ(record.status, Status::crashed);
   EXPECT_NE(record.status_reason.find("exit code 3"), std::string::npos) << record.status_reason;
-  // As the kernel does to one that takes the last of the machine's memory.
+  // As the kernel does to one that takes the last of the machine's memory; but it counts those.
   record = run_between(harmful("KILLED", [](Solution&) { die_of(SIGKILL); }));
-  EXPECT_EQ(record.status, Status::out_of_memory);
+  EXPECT_EQ(record.status, oom_kills() ? Status::machine_fault : Status::out_of_memory)
+      << record.status_reason;
   EXPECT_EQ(record.signal, "SIGKILL");
 }
 
@@ -193,6 +196,49 @@ TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
     EXPECT_EQ(record.status, Status::ok);
     EXPECT_EQ(record.samples_s.size(), 5u);
     EXPECT_EQ(record.stage_samples.size(), 5u);
+  }
+}
+
+// Whom the kernel killed is what its counters say: the control group's, else the machine's.
+TEST(OomKills, AreTheKernelsCount) {
+  const testing::TemporaryFolder root;
+  EXPECT_EQ(oom_kills(root.path()), std::nullopt);
+  for (const char* folder : {"proc/self", "sys/fs/cgroup/night/run"})
+    std::filesystem::create_directories(root / folder);
+  testing::write_text(root / "proc/vmstat", "nr_free_pages 81\noom_kill 4\nswap_ra 0\n");
+  EXPECT_EQ(oom_kills(root.path()), 4);
+  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/night/run\n");
+  EXPECT_EQ(oom_kills(root.path()), 4) << "the group has no count";
+  testing::write_text(root / "sys/fs/cgroup/night/run/memory.events",
+                      "low 0\nhigh 7\nmax 9\noom 3\noom_kill 2\noom_group_kill 1\n");
+  EXPECT_EQ(oom_kills(root.path()), 2);
+}
+
+TEST(ChildProcess, ThatIsKilledWithoutTheKernelsCountIsNotOutOfMemory) {
+  ActivityBoard board;
+  ChildEnd end;
+  end.signal = SIGKILL;
+  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory) << "a guess";
+  end.oom_killed = true;
+  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory);
+  end.oom_killed = false;
+  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::machine_fault);
+}
+
+TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
+  for (const bool in_noexcept : {false, true}) {
+    ChildProcess child([&](Channel& channel) {
+      channel.receive();
+      const auto fail = [] { throw std::bad_alloc(); };
+      if (in_noexcept) [&]() noexcept { fail(); }();
+      fail();
+    });
+    EXPECT_FALSE(child.ask("are you there"));
+    ActivityBoard board;
+    EXPECT_EQ(obituary_of(child.end(), board, Options()).status, Status::machine_fault)
+        << child.end().exit_code << " " << child.end().signal;
+    board.begins(Activity::detail_run);
+    EXPECT_EQ(obituary_of(child.end(), board, Options()).status, Status::out_of_memory);
   }
 }
 

@@ -47,6 +47,12 @@ std::string strangers(const BenchCommand& bench) {
   return found;
 }
 
+// How the shell begins a run whose n-th call of a kind fails.
+std::string with_fault(const std::string& kind, int n) {
+  return "AIRYBENCH_FAULT_TOLD=told AIRYBENCH_FAULT=" + kind + ":" + std::to_string(n) +
+         " LD_PRELOAD='" + (testing::build_folder() / "tests/libnth_fault.so").string() + "' ";
+}
+
 class NthFault : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(NthFault, IsSurvivedAndResumed) {
@@ -58,10 +64,8 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
   int n = 0;
   for (bool failed = true; failed;) {
     const BenchCommand bench;
-    const std::string fault = std::string(GetParam()) + ":" + std::to_string(++n);
-    const CommandResult result =
-        bench.run(two, "AIRYBENCH_FAULT_TOLD=told AIRYBENCH_FAULT=" + fault + " LD_PRELOAD='" +
-                           (testing::build_folder() / "tests/libnth_fault.so").string() + "' ");
+    const std::string fault = GetParam() + std::string(":") + std::to_string(++n);
+    const CommandResult result = bench.run(two, with_fault(GetParam(), n));
     failed = fs::exists(bench.path("told"));
     EXPECT_GE(result.code, 0) << fault << ": ended by a signal: " << result.err;
     EXPECT_LE(result.code, 2) << fault << ": " << result.err;
@@ -83,6 +87,53 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
 INSTANTIATE_TEST_SUITE_P(Of, NthFault,
                          ::testing::Values("open", "write", "fsync", "rename", "fork"),
                          [](const auto& of) { return std::string(of.param); });
+
+// Of some ten thousand, in all three processes: of the program, and of BLAS, CHOLMOD and the rest.
+// A method that got no memory says so, as it does under --memory-limit, and is not run again.
+TEST(NthAllocation, IsSurvivedAndResumed) {
+  const char* const asked = std::getenv("AIRYBENCH_ALLOCATION_STRIDE");
+  const int stride = asked == nullptr ? 251 : std::atoi(asked);
+  const std::string one = "--mesh=./m.msh --method=HYBRID --repetitions=1 --out=o ";
+  const auto place_mesh = [](const BenchCommand& bench) {
+    fs::copy_file(testing::test_data("fuzz/mesh/good-groups"), bench.path("m.msh"));
+  };
+  const BenchCommand undisturbed;
+  place_mesh(undisturbed);
+  ASSERT_EQ(undisturbed.run(one).code, 0);
+  const auto records = lasting(undisturbed);
+  int failures = 0, without_memory = 0;
+  bool failed = true;
+  for (int n = 1; failed; n += stride) {
+    const BenchCommand bench;
+    place_mesh(bench);
+    SCOPED_TRACE("allocation " + std::to_string(n));
+    const CommandResult result = bench.run(one, with_fault("alloc", n));
+    failed = fs::exists(bench.path("told"));
+    failures += failed;
+    EXPECT_GE(result.code, 0) << "ended by a signal: " << result.err;
+    EXPECT_LE(result.code, 3) << result.err;
+    // Without memory to unwind, inside a library, it ends as if killed: the lock's file may stay.
+    if (fs::exists(bench.path("o"))) {
+      EXPECT_EQ(strangers(bench).find(".part"), std::string::npos);
+    }
+    const CommandResult resumed = bench.run(one + "--resume");
+    EXPECT_LE(resumed.code, 1) << resumed.err;
+    if (resumed.code == 0) {
+      EXPECT_EQ(lasting(bench), records);
+      continue;
+    }
+    ++without_memory;
+    ASSERT_EQ(bench.records().size(), 1u);
+    const Json record = bench.records().front();
+    EXPECT_TRUE(record["status"] == "out_of_memory" ||
+                record["status_reason"].get<std::string>().ends_with("out of memory"))
+        << record["status"] << record["status_reason"];
+  }
+  EXPECT_GE(failures, 4) << "this test fails nothing";
+  EXPECT_LT(without_memory, failures / 2);
+  std::cout << failures << " allocations refused, one at a time; the method said so of "
+            << without_memory << "\n";
+}
 
 TEST(MachineFault, IsNotTheMethodsAndIsRunAgain) {
   const BenchCommand bench;
@@ -111,6 +162,29 @@ TEST(MachineFault, OfALimitOnProcessorTime) {
   EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
   EXPECT_NE(bench.records()[0]["status_reason"].get<std::string>().find("limit on processor time"),
             std::string::npos);
+}
+
+// Its fork waits for ever: 20 seconds later the main process no longer does.
+TEST(MachineFault, OfASilentProcess) {
+  const BenchCommand bench;
+  EXPECT_EQ(bench.run(two, with_fault("hang", 2)).code, 1);
+  ASSERT_EQ(bench.records().size(), 2u);
+  EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
+  EXPECT_NE(bench.records()[0]["status_reason"].get<std::string>().find("did not answer"),
+            std::string::npos);
+  EXPECT_EQ(bench.records()[1]["status"], "ok") << bench.records()[1]["status_reason"];
+}
+
+// Planning is not caught up in what it makes.
+TEST(Interrupts, EndPlanning) {
+  const BenchCommand bench;
+  testing::write_text(bench.path("s.json"), R"({"mesh": {"refine": 4}})");
+  std::signal(SIGINT, SIG_DFL);  // a shell's background jobs ignore it
+  testing::BackgroundRun run(bench, "--mesh=Mesh4 --scene=s.json --method=HYBRID --dry-run");
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it takes some seconds
+  const int status = run.end(SIGINT);
+  EXPECT_TRUE(WIFSIGNALED(status)) << bench.content("bg_err.txt");
+  EXPECT_EQ(bench.content("bg_out.txt"), "");
 }
 
 // A process that somebody stops is not waited for without end.

@@ -1,6 +1,7 @@
 // What a run finds around it: descriptors that are closed or full, an environment that is not its
 // own.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 
@@ -62,6 +63,43 @@ TEST(FullStreams, OfErrorsEndNoRun) {
   EXPECT_EQ(bench.records().size(), 2u);
   EXPECT_EQ(redirected(bench, "--mesh=Mesh9", "2>/dev/full"), 2);
   EXPECT_EQ(redirected(bench, "--mesh=Mesh9", "2>/dev/full >/dev/full"), 2);
+}
+
+// BLAS would wait for memory for ever. Sanitizers take more address space than there is.
+#ifndef AIRYBENCH_SANITIZED
+TEST(AddressSpace, ThatIsTooSmallForBlasIsRefused) {
+  const BenchCommand bench;
+  for (const char* arguments : {"--threads=2 ", "--list ", "compare o o "})
+    for (const char* limit : {"ulimit -v 150000; ", "ulimit -v 200000; "}) {
+      const CommandResult result =
+          bench.run(arguments + std::string(arguments[2] == 't' ? two : ""), limit);
+      EXPECT_EQ(result.code, 2) << arguments << limit;
+      EXPECT_NE(result.err.find("the address space is limited to 1"), std::string::npos)
+          << result.err;
+      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
+    }
+  EXPECT_EQ(bench.run(two + "--threads=64", "ulimit -v 4000000; ").code, 2);
+  EXPECT_EQ(bench.run(two, "export OPENBLAS_NUM_THREADS=2; ulimit -v 500000; ").code, 0);
+}
+#endif
+
+// OpenMP would end the case's process, and BLAS this one.
+TEST(Processes, ThatAreTooFewForTheThreadsAreRefused) {
+  const BenchCommand bench;
+  std::filesystem::permissions(bench.path(""), std::filesystem::perms::all);
+  std::string as_user;
+  if (geteuid() == 0) as_user = "setpriv --reuid=54321 --clear-groups ";  // root is not limited
+  const std::string command = "cd '" + bench.path("").string() + "' && timeout -s KILL 60 " +
+                              as_user + "bash -c 'ulimit -u 8; OPENBLAS_NUM_THREADS=1 exec \"" +
+                              testing::bench_executable().string() + "\" " + two +
+                              "--threads=6' >out.txt 2>err.txt";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 2) << bench.content("err.txt");
+  EXPECT_NE(bench.content("err.txt").find("bench: --threads: 6 (allowed: fewer"), std::string::npos)
+      << bench.content("err.txt");
+  EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
 }
 
 TEST(Environment, OfGoogleBenchmarkIsIgnored) {

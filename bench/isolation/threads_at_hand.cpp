@@ -1,0 +1,60 @@
+#include "bench/isolation/threads_at_hand.hpp"
+
+#include <cblas.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <future>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+#include "support/errors.hpp"
+
+namespace airybench {
+namespace {
+
+// All at once.
+bool can_start(int threads) {
+  std::promise<void> end;
+  const std::shared_future<void> ended = end.get_future().share();
+  std::vector<std::jthread> started;
+  bool all = true;
+  try {
+    for (int k = 0; k < threads; ++k) started.emplace_back([ended] { ended.wait(); });
+  } catch (const std::system_error&) {
+    all = false;
+  }
+  end.set_value();
+  return all;
+}
+
+}  // namespace
+
+std::string lack_of_address_space(int threads) {
+  constexpr std::uint64_t MiB = 1024 * 1024;
+  // A thread's stack and BLAS's buffer of 128 MiB; the program itself.
+  constexpr std::uint64_t of_thread = 136 * MiB, of_program = 96 * MiB;
+  rlimit limit = {};
+  threads = std::max(threads, openblas_get_num_threads());
+  const std::uint64_t needed = of_program + static_cast<std::uint64_t>(threads) * of_thread;
+  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
+      limit.rlim_cur >= needed)
+    return {};
+  return fmt::format(
+      "the address space is limited to {} MiB (ulimit -v; allowed: from {} MiB on for BLAS on {} "
+      "threads, fewer with OPENBLAS_NUM_THREADS=1)",
+      limit.rlim_cur / MiB, needed / MiB, threads);
+}
+
+void require_threads(int threads) {
+  if (const std::string lack = lack_of_address_space(threads); !lack.empty())
+    throw UsageError(lack);
+  // Of BLAS, of OpenMP and of a method, and the processes of a scene and a case.
+  if (threads > 1 && !can_start(3 * threads + 2))
+    throw UsageError(fmt::format(
+        "--threads: {} (allowed: fewer, as the machine has no more to give: ulimit -u)", threads));
+}
+
+}  // namespace airybench
