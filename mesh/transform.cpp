@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
+#include "mesh/bisection.hpp"
 #include "mesh/refinement.hpp"
 
 namespace airybench {
@@ -38,10 +38,7 @@ double longest_edge_at(const Mesh& mesh, int v) {
 
 // Bisection ends only as long as a middle is another point than the ends.
 void check_can_be_told_apart(const Mesh& mesh, double longest_mm, double ratio) {
-  double largest = 0;
-  for (const Eigen::Vector2d& x : mesh.vertices)
-    largest = std::max(largest, x.cwiseAbs().maxCoeff());
-  const double most = longest_mm / (64 * std::numeric_limits<double>::epsilon() * largest);
+  const double most = longest_mm / shortest_divisible_edge(mesh);
   if (!(ratio <= most)) {
     std::ostringstream allowed;
     allowed << "(allowed: up to " << most << ", where the points of the mesh " << mesh.name

@@ -4,7 +4,7 @@
 //   refine   k times: each triangle into four by its edges' middles, each boundary edge into two.
 //            V, E, T become V + E, 2E + 3T, 4T; shapes, roles and bodies are kept.
 //   grade    the edges at the vertex v nearest to a point are halved until none is longer than
-//            (the longest of them before) / ratio, by longest-edge bisection (mesh_refinement.hpp);
+//            (the longest of them before) / ratio, by longest-edge bisection (bisection.hpp);
 //            that length must be at least 64 roundings of the largest coordinate
 //   slivers  in `count` triangles, every T/count-th of those that are fit for it, a vertex is put
 //   at

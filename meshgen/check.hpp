@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "mesh/quality.hpp"
 #include "meshgen/catalogue.hpp"
-#include "meshgen/quality.hpp"
 
 namespace airybench {
 

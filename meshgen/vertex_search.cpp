@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <optional>
 
-#include "meshgen/quality.hpp"
+#include "mesh/quality.hpp"
 
 namespace airybench {
 namespace {

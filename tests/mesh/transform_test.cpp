@@ -8,31 +8,14 @@
 #include <numbers>
 
 #include "mesh/msh_format.hpp"
+#include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::mesh_transform_test {
 namespace {
 
-using testing::catalogue_mesh, testing::small_tooth;
-
-double area(const Mesh& mesh, int body = -1) {
-  double sum = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    const auto& [a, b, c] = mesh.triangles[t];
-    if (body < 0 || mesh.triangle_body[t] == body)
-      sum += cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
-  }
-  return sum;
-}
-
-double boundary_length(const Mesh& mesh, BoundaryRole role) {
-  double sum = 0;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == role)
-      sum += (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
-  return sum;
-}
+using testing::catalogue_mesh, testing::expect_same_body, testing::small_tooth;
 
 // Of one triangle: its longest edge over its height there; its smallest angle in degrees.
 struct Shape {
@@ -69,17 +52,6 @@ double longest_edge_at(const Mesh& mesh, const Eigen::Vector2d& x) {
       for (const int w : triangle)
         longest = std::max(longest, (mesh.vertices[w] - *nearest).norm());
   return longest;
-}
-
-// The same body with the same roles on its boundary.
-void expect_same_body(const Mesh& fine, const Mesh& coarse) {
-  EXPECT_NO_THROW(validate(fine));
-  EXPECT_EQ(fine.name, coarse.name);
-  EXPECT_EQ(fine.body_names, coarse.body_names);
-  for (int body = 0; body < static_cast<int>(coarse.body_names.size()); ++body)
-    EXPECT_NEAR(area(fine, body), area(coarse, body), 1e-12 * area(coarse));
-  for (const auto role : {BoundaryRole::displacement, BoundaryRole::force, BoundaryRole::contact})
-    EXPECT_NEAR(boundary_length(fine, role), boundary_length(coarse, role), 1e-12);
 }
 
 std::string complaint(const MeshTransform& transform, Mesh mesh = small_tooth(4, 4)) {
@@ -170,7 +142,7 @@ TEST(MeshTransform, GeometryIsMovedInOrder) {
     const Eigen::Vector2d& x = before.vertices[v];
     EXPECT_EQ(after.vertices[v], Eigen::Vector2d(6 * x.x() + 100, x.y() - 7));
   }
-  EXPECT_NEAR(area(after), 6 * area(before), 1e-10);
+  EXPECT_NEAR(extent_of(after).area_mm2, 6 * extent_of(before).area_mm2, 1e-10);
 }
 
 TEST(MeshTransform, FarAwayTheShapeIsRoundedNoMoreThanCoordinatesAre) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "meshgen/quality.hpp"
+#include "mesh/quality.hpp"
 
 namespace airybench::vertex_search_test {
 namespace {

@@ -1,4 +1,4 @@
-#include "meshgen/quality.hpp"
+#include "mesh/quality.hpp"
 
 #include <algorithm>
 #include <cmath>

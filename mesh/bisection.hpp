@@ -1,0 +1,38 @@
+// Longest-edge bisection: finer meshes of the same body, where they are asked for.
+//
+// A triangle is cut from the middle of its longest edge. So that the mesh stays conforming, the
+// neighbour across that edge is cut first until the edge is its longest one too (Rivara, Int. J.
+// Numer. Meth. Engng 20, 1984; walked along the longest-edge propagation path, ibid. 40, 1997).
+// No angle becomes smaller than half the smallest one before, however often this is repeated
+// (Rosenberg & Stenger, SIAM J. Numer. Anal. 12, 1975). Edges of equal length are ordered by their
+// vertices' numbers, so every path ends, and the same marks give the same mesh.
+//
+// New vertices are put behind the old ones, new triangles and boundary edges too; roles, groups and
+// bodies are inherited. Time and memory are linear in the triangles of the result.
+#pragma once
+
+#include <cstdint>
+
+#include "mesh/mesh.hpp"
+
+namespace airybench {
+
+struct BisectedMesh {
+  Mesh mesh;
+  // Marked triangles that were left: the middle of their longest edge could not be told apart from
+  // its ends, with 64 roundings of the largest coordinate between them.
+  int too_small = 0;
+  std::int64_t visits = 0;  // triangles looked at on the way, each once per look
+};
+
+// Cuts every marked triangle at least once. marked: numbers of triangles, in any order. Takes a
+// valid mesh; returns one.
+BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& marked);
+
+// Bisects triangles at vertex v until no edge there is longer than length_mm.
+Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm);
+
+// The shortest edge, in mm, that bisection may halve in a mesh of these coordinates.
+double shortest_divisible_edge(const Mesh& mesh);
+
+}  // namespace airybench

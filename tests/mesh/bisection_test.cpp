@@ -1,0 +1,147 @@
+#include "mesh/bisection.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <set>
+
+#include "mesh/quality.hpp"
+#include "mesh/refinement.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::bisection_test {
+namespace {
+
+using testing::catalogue_mesh, testing::expect_same_body, testing::small_block,
+    testing::small_tooth;
+
+double smallest_angle(const Mesh& mesh) { return mesh_quality(mesh).smallest_angle_deg; }
+
+std::vector<int> all_of(const Mesh& mesh) {
+  std::vector<int> all(mesh.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+// The triangles that have a vertex within a distance of a point.
+std::vector<int> near(const Mesh& mesh, const Eigen::Vector2d& point, double distance_mm) {
+  std::vector<int> found;
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+    if (std::ranges::any_of(mesh.triangles[t], [&](int v) {
+          return (mesh.vertices[v] - point).norm() <= distance_mm;
+        }))
+      found.push_back(t);
+  return found;
+}
+
+// Two bodies, named groups on the boundary.
+Mesh block() {
+  Mesh mesh = small_block(4, 4, 17);
+  mesh.body_names = {"root", "tip"};
+  for (std::size_t t = 15; t < mesh.triangles.size(); ++t) mesh.triangle_body[t] = 1;
+  return mesh;
+}
+
+TEST(Bisection, NoMarksNoChange) {
+  const Mesh mesh = block();
+  const BisectedMesh same = bisected(mesh, {});
+  EXPECT_EQ(same.mesh.vertices, mesh.vertices);
+  EXPECT_EQ(same.mesh.triangles, mesh.triangles);
+  EXPECT_EQ(same.visits, 0);
+}
+
+TEST(Bisection, OneMarkCutsTheTriangleAtTheMiddleOfItsLongestEdge) {
+  const Mesh mesh = block();
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    const Mesh fine = bisected(mesh, {t}).mesh;
+    expect_same_body(fine, mesh);
+    const auto& old = mesh.triangles[t];
+    std::pair<double, Eigen::Vector2d> longest(0, Eigen::Vector2d::Zero());
+    for (int k = 0; k < 3; ++k) {
+      const auto &a = mesh.vertices[old[k]], &b = mesh.vertices[old[(k + 1) % 3]];
+      if ((b - a).norm() > longest.first) longest = {(b - a).norm(), (a + b) / 2};
+    }
+    EXPECT_TRUE(std::ranges::any_of(fine.triangles[t], [&](int v) {
+      return v >= static_cast<int>(mesh.vertices.size()) &&
+             (fine.vertices[v] - longest.second).norm() < 1e-12;
+    })) << t;
+  }
+}
+
+TEST(Bisection, EveryMarkedTriangleIsCutAndBodiesGroupsAndOldVerticesStay) {
+  const Mesh mesh = block();
+  const std::vector<int> marked = {3, 29, 3, 11, 0};  // in any order, one of them twice
+  const Mesh fine = bisected(mesh, marked).mesh;
+  expect_same_body(fine, mesh);
+  for (const int t : marked) EXPECT_NE(fine.triangles[t], mesh.triangles[t]) << t;
+  EXPECT_TRUE(std::equal(mesh.vertices.begin(), mesh.vertices.end(), fine.vertices.begin()));
+  EXPECT_LT(fine.triangles.size(), 2 * mesh.triangles.size());
+}
+
+TEST(Bisection, TheSameMarksGiveTheSameMesh) {
+  const Mesh mesh = catalogue_mesh("Mesh1");
+  const std::vector<int> marked = near(mesh, {10, 3}, 2);
+  const Mesh one = bisected(mesh, marked).mesh, other = bisected(mesh, marked).mesh;
+  EXPECT_EQ(one.vertices, other.vertices);
+  EXPECT_EQ(one.triangles, other.triangles);
+}
+
+// Rosenberg and Stenger's bound, over grading by eight orders of magnitude towards two corners.
+TEST(Bisection, NoAngleFallsBelowHalfTheSmallestOfTheStart) {
+  for (const Mesh& start : {small_tooth(4, 4), block(), catalogue_mesh("Mesh4")}) {
+    const std::array<Eigen::Vector2d, 2> corners = {start.vertices.front(), start.vertices.back()};
+    Mesh mesh = start;
+    for (double distance = 1; distance > 1e-8; distance *= 0.6) {
+      for (const Eigen::Vector2d& corner : corners)
+        mesh = bisected(mesh, near(mesh, corner, distance)).mesh;
+      ASSERT_GE(smallest_angle(mesh), 0.5 * smallest_angle(start)) << distance;
+    }
+    expect_same_body(mesh, start);
+  }
+}
+
+TEST(Bisection, AllMarkedAgainAndAgainKeepsItsShapes) {
+  const Mesh start = small_tooth(3, 3);
+  Mesh mesh = start;
+  for (int k = 0; k < 8; ++k) {
+    const std::size_t before = mesh.triangles.size();
+    mesh = bisected(mesh, all_of(mesh)).mesh;
+    EXPECT_GE(mesh.triangles.size(), 2 * before);
+  }
+  expect_same_body(mesh, start);
+  EXPECT_GE(smallest_angle(mesh), 0.5 * smallest_angle(start));
+}
+
+// A mesh of more than a million unknowns: looks at triangles grow with what is made, not with what
+// is there or with the square of either.
+TEST(Bisection, TheWorkIsLinearInTheTrianglesThatAreMade) {
+  Mesh mesh = catalogue_mesh("Mesh7");
+  for (int k = 0; k < 2; ++k) mesh = uniformly_refined(mesh);
+  ASSERT_GT(mesh_sizes(mesh).n_phi, 750'000);
+  const std::size_t before = mesh.triangles.size();
+  const BisectedMesh some = bisected(mesh, near(mesh, {10, 6.25}, 0.01));
+  EXPECT_LE(some.visits, 100);
+  const BisectedMesh all = bisected(mesh, all_of(mesh));
+  const auto made = static_cast<std::int64_t>(all.mesh.triangles.size() - before);
+  EXPECT_GE(made, static_cast<std::int64_t>(before));
+  EXPECT_GT(mesh_sizes(all.mesh).n_phi, 1'000'000);
+  EXPECT_LE(all.visits, 2 * made);
+  EXPECT_NO_THROW(validate(all.mesh));
+}
+
+TEST(Bisection, ATriangleTooSmallToBeCutIsLeftAndCounted) {
+  Mesh mesh = small_tooth(2, 2);
+  for (Eigen::Vector2d& x : mesh.vertices) x = 1e-10 * x + Eigen::Vector2d(1e4, 0);
+  EXPECT_EQ(bisected(mesh, {0, 1}).too_small, 0);
+  for (Eigen::Vector2d& x : mesh.vertices) x += Eigen::Vector2d(9e4, 0);
+  const BisectedMesh same = bisected(mesh, {0, 1});
+  EXPECT_EQ(same.too_small, 2);
+  EXPECT_EQ(same.mesh.triangles, mesh.triangles);
+}
+
+}  // namespace
+}  // namespace airybench::bisection_test

@@ -1,0 +1,44 @@
+// What every mesh made from another must keep.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "mesh/mesh.hpp"
+
+namespace airybench::testing {
+
+inline std::map<std::string, double> area_of_bodies(const Mesh& mesh) {
+  std::map<std::string, double> area;
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    const auto& [a, b, c] = mesh.triangles[t];
+    area[mesh.body_names[mesh.triangle_body[t]]] +=
+        cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
+  }
+  return area;
+}
+
+inline std::map<std::string, double> length_of_boundaries(const Mesh& mesh) {
+  std::map<std::string, double> length;
+  for (const BoundaryEdge& edge : mesh.boundary)
+    length[boundary_label(mesh, edge)] +=
+        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  return length;
+}
+
+// The same bodies with the same roles and groups on their boundary.
+inline void expect_same_body(const Mesh& fine, const Mesh& coarse) {
+  EXPECT_NO_THROW(validate(fine));
+  EXPECT_EQ(fine.name, coarse.name);
+  EXPECT_EQ(fine.body_names, coarse.body_names);
+  const auto expect_same = [](const auto& of_fine, const auto& of_coarse) {
+    ASSERT_EQ(of_fine.size(), of_coarse.size());
+    for (const auto& [name, value] : of_coarse)
+      EXPECT_NEAR(of_fine.at(name), value, 1e-12 * value) << name;
+  };
+  expect_same(area_of_bodies(fine), area_of_bodies(coarse));
+  expect_same(length_of_boundaries(fine), length_of_boundaries(coarse));
+}
+
+}  // namespace airybench::testing
