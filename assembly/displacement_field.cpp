@@ -84,9 +84,9 @@ QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double are
   return strain.transpose() * dual;
 }
 
-Eigen::Matrix3d elasticity_of(const Problem& problem, int triangle) {
+Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance) {
   Eigen::Matrix3d elasticity = Eigen::Matrix3d::Identity();
-  SmallCholesky<double, 3>(problem.compliance_of(triangle)).solve(elasticity);
+  SmallCholesky<double, 3>(compliance).solve(elasticity);
   return elasticity;
 }
 
@@ -103,12 +103,15 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
+  std::vector<Eigen::Matrix3d> elasticity;
+  for (const Eigen::Matrix3d& compliance : problem.compliance)
+    elasticity.push_back(elasticity_of(compliance));
   StressField field(problem.mesh.triangles.size());
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {
     const LocalCoefficients local = local_coefficients(problem, u, t);
     Eigen::Matrix3d strain;  // columns: corners
     strain.reshaped() = quadratic_strain(problem.vertices_of(t)) * local.reshaped();
-    const Eigen::Matrix3d corners = elasticity_of(problem, t) * strain;
+    const Eigen::Matrix3d corners = elasticity[problem.mesh.triangle_body[t]] * strain;
     for (int k = 0; k < 3; ++k)
       field[t].middleCols<3>(3 * k) << corners.col(k), corners.col((k + 1) % 3),
           corners.rowwise().mean();
@@ -190,9 +193,9 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem) {
   return prescribed;
 }
 
-double potential_energy(const Problem& problem, const DisplacementField& u) {
-  return stress_norm_squared(problem, stress_of_displacement(problem, u)) / 2 -
-         nodal_loads(problem).cwiseProduct(u).sum();
+double work_of_loads(const Problem& problem, const DisplacementField& u) {
+  if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return 0;
+  return nodal_loads(problem).cwiseProduct(u).sum();
 }
 
 }  // namespace airybench

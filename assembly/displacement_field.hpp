@@ -43,7 +43,7 @@ QuadraticStrain quadratic_strain(const TriangleVertices& v);
 using QuadraticStiffness = Eigen::Matrix<double, 12, 12>;
 QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
                                        const Eigen::Matrix3d& elasticity);
-Eigen::Matrix3d elasticity_of(const Problem& problem, int triangle);
+Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);  // its inverse
 
 // u = w + ρ: with the rigid motion that the problem has been freed of.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
@@ -71,7 +71,7 @@ struct PrescribedDisplacement {
 };
 PrescribedDisplacement prescribed_displacement(const Problem& problem);
 
-// Π(u) = ½ ∫ ε(u):A:ε(u) − ∫ b·u − ∫_{Γ_F} f·u, N mm.
-double potential_energy(const Problem& problem, const DisplacementField& u);
+// ∫ b·u + ∫_{Γ_F} f·u, N mm.
+double work_of_loads(const Problem& problem, const DisplacementField& u);
 
 }  // namespace airybench

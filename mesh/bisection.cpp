@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace airybench {
@@ -16,6 +17,8 @@ class Bisection {
     std::vector<int> first(static_cast<std::size_t>(edges.count()), none);
     for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row)
       first[edges.of_boundary[row]] = beyond(row);
+    origin_.resize(mesh_.triangles.size());
+    std::iota(origin_.begin(), origin_.end(), 0);
     for (int t = 0; t < triangles(); ++t)
       for (int k = 0; k < 3; ++k) {
         int& other = first[edges.of_triangle[t][k]];
@@ -27,6 +30,7 @@ class Bisection {
 
   const Mesh& mesh() const { return mesh_; }
   Mesh take() { return std::move(mesh_); }
+  std::vector<int> take_origin() { return std::move(origin_); }
   std::int64_t visits() const { return visits_; }
   int triangles() const { return static_cast<int>(mesh_.triangles.size()); }
   double longest_edge(int t) const { return std::sqrt(length_squared(t, longest_side(t))); }
@@ -121,6 +125,7 @@ class Bisection {
     across_[t] = {none, born, beyond_ca};
     mesh_.triangles.push_back({middle, b, c});
     mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
+    origin_.push_back(origin_[t]);
     across_.push_back({none, beyond_bc, t});
     if (beyond_bc >= 0) across_[beyond_bc][side_towards(beyond_bc, b)] = born;
     return born;
@@ -128,6 +133,7 @@ class Bisection {
 
   Mesh mesh_;
   std::vector<std::array<int, 3>> across_;  // per triangle and side: the neighbour, or beyond(row)
+  std::vector<int> origin_;                 // per triangle
   std::vector<int> path_;
   std::int64_t visits_ = 0;
 };
@@ -153,6 +159,7 @@ BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& marked) {
       ++result.too_small;
   }
   result.visits = bisection.visits();
+  result.origin = bisection.take_origin();
   result.mesh = bisection.take();
   return result;
 }

@@ -19,6 +19,7 @@ namespace airybench {
 
 struct BisectedMesh {
   Mesh mesh;
+  std::vector<int> origin;  // per triangle: the one of the given mesh that it is a part of
   // Marked triangles that were left: the middle of their longest edge could not be told apart from
   // its ends, with 64 roundings of the largest coordinate between them.
   int too_small = 0;

@@ -98,14 +98,22 @@ void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u,
     error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
 }
 
+// Both fields, with their strain energies, N mm.
+struct Fields {
+  const StressField& stress;
+  const Eigen::VectorXd& F_C;
+  const DisplacementField& u;
+  double energy, energy_of_u;
+};
+
 // What is left of the inequalities' violation, and rounding, could have moved each bound by the
 // allowance.
-void note_bounds(const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
-                 const DisplacementField& u, double highest_gap, ConstitutiveError& error) {
+void note_bounds(const DualSystem& system, const Fields& fields, double highest_gap,
+                 ConstitutiveError& error) {
   constexpr double rounding = 1e-12;
-  const double energy = stress_norm_squared(*system.problem, stress) / 2;
-  const double lower = -complementary_energy(system, stress, F_C),
-               upper = potential_energy(*system.problem, u);
+  const auto& [stress, F_C, u, energy, energy_of_u] = fields;
+  const double lower = work_of_prescribed(system, stress, F_C) - energy,
+               upper = energy_of_u - work_of_loads(*system.problem, u);
   double pressing = 0, pulling = 0;  // N
   for (int p = 0; p < system.contact.count; ++p) {
     const double F_n = F_C(system.contact.components * p);
@@ -130,14 +138,17 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
   const Problem& problem = *system.problem;
   ConstitutiveError error;
   const StressField other = stress_of_displacement(problem, u);
+  Fields fields{stress, F_C, u, 0, 0};
   error.of_triangle_Nmm.resize(stress.size());
   std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const ElementStress difference = stress[t] - other[t];
-    error.of_triangle_Nmm[t] =
-        difference
-            .cwiseProduct(stress_dual(difference, problem.area_mm2(t), problem.compliance_of(t)))
-            .sum();
+    const auto energy = [&](const ElementStress& s) {
+      return s.cwiseProduct(stress_dual(s, problem.area_mm2(t), problem.compliance_of(t))).sum() /
+             2;
+    };
+    error.of_triangle_Nmm[t] = 2 * energy(stress[t] - other[t]);
+    fields.energy += energy(stress[t]);
+    fields.energy_of_u += energy(other[t]);
     error.body_Nmm += error.of_triangle_Nmm[t];
     for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
   }
@@ -152,10 +163,9 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
     highest_force = std::max(highest_force, terms.highest_force);
   }
   judge_admissibility(F_C, u, highest_gap, highest_force, error);
-  note_bounds(system, stress, F_C, u, highest_gap, error);
+  note_bounds(system, fields, highest_gap, error);
   error.relative = relative_error(std::sqrt(std::max(0.0, error.squared_Nmm())),
-                                  std::sqrt(stress_norm_squared(problem, stress)),
-                                  load_scale(problem).energy_norm);
+                                  std::sqrt(2 * fields.energy), load_scale(problem).energy_norm);
   return error;
 }
 

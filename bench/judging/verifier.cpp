@@ -126,11 +126,8 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   result.friction_coupling = coupling;
 }
 
-double complementary_energy(const DualSystem& system, const StressField& stress,
-                            const Eigen::VectorXd& F_C, const EdgeBalance& balance) {
-  double work = work_of_prescribed_displacement(*system.problem, balance);
-  if (system.contact.gap.size() > 0) work += system.contact.gap.dot(F_C);
-  return stress_norm_squared(*system.problem, stress) / 2 - work;
+double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
+  return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
 }
 
 }  // namespace
@@ -169,9 +166,12 @@ void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
   if (m == 2) result.coulomb_violation_N = coulomb;
 }
 
-double complementary_energy(const DualSystem& system, const StressField& stress,
-                            const Eigen::VectorXd& F_C) {
-  return complementary_energy(system, stress, F_C, edge_balance(*system.problem, stress));
+double work_of_prescribed(const DualSystem& system, const StressField& stress,
+                          const Eigen::VectorXd& F_C) {
+  const Problem& problem = *system.problem;
+  const double of_gap = work_of_gap(system.contact, F_C);
+  if (!problem.loads.displacement_mm) return of_gap;
+  return work_of_prescribed_displacement(problem, edge_balance(problem, stress)) + of_gap;
 }
 
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
@@ -200,8 +200,9 @@ Verification verify(const DualSystem& system, const Solution& solution,
   const LoadScale scale = load_scale(problem);
   result.equilibrium_residual = equilibrium_residual(system, solution, balance, scale);
   result.strain_energy_Nmm = stress_norm_squared(problem, solution.stress) / 2;
-  result.complementary_energy_Nmm =
-      complementary_energy(system, solution.stress, solution.F_C, balance);
+  result.complementary_energy_Nmm = result.strain_energy_Nmm -
+                                    work_of_prescribed_displacement(problem, balance) -
+                                    work_of_gap(system.contact, solution.F_C);
   if (reference != nullptr) {
     const double reference_norm = std::sqrt(stress_norm_squared(problem, reference->stress));
     const double distance = stress_distance(problem, solution.stress, reference->stress);

@@ -54,9 +54,9 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
-// Π*(σ) = ½ ∫ σ:C:σ − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n, N mm; F_C at the contact points.
-double complementary_energy(const DualSystem& system, const StressField& stress,
-                            const Eigen::VectorXd& F_C);
+// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n, N mm, what Π* lacks of the energy; F_C at the contact points.
+double work_of_prescribed(const DualSystem& system, const StressField& stress,
+                          const Eigen::VectorXd& F_C);
 
 // Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
 // the contact law, with ρ = 1/D_diagonal.

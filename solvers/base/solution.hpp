@@ -36,6 +36,9 @@ struct Solution {
   // Displacement methods only: Bernstein coefficients of w, without the problem's rigid motion, mm;
   // columns: every vertex, then every edge.
   Eigen::Matrix2Xd displacement;
+  // Hybridized methods only: the moments ū (edge_forces.hpp) of w on every edge; rows: x, y at its
+  // low vertex, x, y at its high one; mm.
+  Eigen::Matrix4Xd edge_moments;
   StageTimes times;
   // By the method's own count, entries × size: what it holds from one stage to the next, and the
   // vectors of its iteration. Without the blocks.

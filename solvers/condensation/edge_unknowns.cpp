@@ -60,6 +60,27 @@ std::vector<Eigen::Vector4d> prescribed_displacements(const Problem& problem) {
   return displacement;
 }
 
+Eigen::Matrix4Xd edge_moments(const Problem& problem, const EdgeUnknowns& unknown,
+                              const std::vector<Eigen::Vector4d>& prescribed,
+                              const Eigen::VectorXd& u) {
+  Eigen::Matrix4Xd moments = Eigen::Matrix4Xd::Zero(4, problem.edges.count());
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    if (!prescribed.empty()) moments.col(edge) = prescribed[edge];
+    for (int k = 0; k < 4; ++k)
+      if (unknown[edge][k] != prescribed_unknown) moments(k, edge) = u(unknown[edge][k]);
+  }
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (!problem.condition(row).in_frame) continue;
+    const auto [a, b] = problem.mesh.boundary[row].vertices;
+    const EdgeFrame frame = edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]);
+    auto own = moments.col(problem.edges.of_boundary[row]);
+    const Eigen::Vector2d start = own(0) * frame.normal + own(1) * frame.tangent,
+                          end = own(2) * frame.normal + own(3) * frame.tangent;
+    own << (a < b ? start : end), (a < b ? end : start);
+  }
+  return moments;
+}
+
 std::array<int, 12> element_unknowns(const Problem& problem, const EdgeUnknowns& unknown, int t) {
   std::array<int, 12> numbers;
   for (int k = 0; k < 3; ++k)

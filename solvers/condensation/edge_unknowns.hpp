@@ -26,6 +26,12 @@ std::array<int, 12> element_unknowns(const Problem& problem, const EdgeUnknowns&
 // Per edge: are its unknowns normal and tangential?
 std::vector<bool> edges_in_frame(const Problem& problem);
 
+// ū of every edge, in x and y, from the unknowns and prescribed_displacements(); rows: at its low
+// vertex, at its high one. mm
+Eigen::Matrix4Xd edge_moments(const Problem& problem, const EdgeUnknowns& unknown,
+                              const std::vector<Eigen::Vector4d>& prescribed,
+                              const Eigen::VectorXd& u);
+
 // ū0 per edge, in its components, zero where nothing is prescribed; empty: all zero.
 std::vector<Eigen::Vector4d> prescribed_displacements(const Problem& problem);
 

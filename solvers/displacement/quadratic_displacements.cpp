@@ -87,7 +87,7 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
       for (int k = 0; k < 2; ++k) unknown[2 * m + k] = system.unknown[nodes[m]][k];
     }
     const QuadraticStiffness K =
-        quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem, t));
+        quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem.compliance_of(t)));
     const Eigen::Matrix<double, 12, 1> force = K * given;
     system.K.add(unknown, K);
     for (int j = 0; j < 12; ++j) {

@@ -29,6 +29,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
       [&](const Eigen::VectorXd& u) {
         answer = recover_stresses(problem, system, u);
         solution.stress = std::move(answer.stress);
+        solution.edge_moments = edge_moments(problem, system.unknown, system.displacement, u);
       },
       [&] {
         UnbalancedForces unbalanced =

@@ -82,6 +82,20 @@ TEST(Bisection, EveryMarkedTriangleIsCutAndBodiesGroupsAndOldVerticesStay) {
   EXPECT_LT(fine.triangles.size(), 2 * mesh.triangles.size());
 }
 
+TEST(Bisection, ATriangleLiesInTheOneItIsAPartOf) {
+  const Mesh mesh = block();
+  const BisectedMesh fine = bisected(mesh, near(mesh, mesh.vertices[0], 3));
+  ASSERT_EQ(fine.origin.size(), fine.mesh.triangles.size());
+  for (std::size_t t = 0; t < fine.origin.size(); ++t) {
+    const auto& [a, b, c] = fine.mesh.triangles[t];
+    const Eigen::Vector2d inside =
+        (fine.mesh.vertices[a] + fine.mesh.vertices[b] + fine.mesh.vertices[c]) / 3;
+    const auto& whole = mesh.triangles[fine.origin[t]];
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GT(cross_area(mesh.vertices[whole[k]], mesh.vertices[whole[(k + 1) % 3]], inside), 0);
+  }
+}
+
 TEST(Bisection, TheSameMarksGiveTheSameMesh) {
   const Mesh mesh = catalogue_mesh("Mesh1");
   const std::vector<int> marked = near(mesh, {10, 3}, 2);

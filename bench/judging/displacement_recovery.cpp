@@ -1,0 +1,245 @@
+#include "bench/judging/displacement_recovery.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <vector>
+
+#include "assembly/control_points.hpp"
+#include "assembly/edge_forces.hpp"
+
+namespace airybench {
+namespace {
+
+using LocalCoefficients = Eigen::Matrix<double, 2, 6>;
+
+// The L² projection on linear fields of a stress that is linear on each third; columns: corners.
+Eigen::Matrix3d linear_stress(const ElementStress& stress) {
+  // ∫ σ λ_i up to area/36: σ's moments against a third's own linear functions, of which λ_i is a
+  // third part at the centroid.
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  for (int t = 0; t < 3; ++t) {
+    const Eigen::Matrix3d corners = stress.middleCols<3>(3 * t);
+    const Eigen::Matrix3d own = corners.colwise() + corners.rowwise().sum();
+    moments.col(t) += own.col(0);
+    moments.col((t + 1) % 3) += own.col(1);
+    moments.colwise() += own.col(2) / 3;
+  }
+  const Eigen::Vector3d sum = moments.rowwise().sum();
+  return (moments.colwise() - sum / 4) / 3;
+}
+
+// A displacement with this linear strain (columns: corners), by its polar form: u(p, p) is the
+// displacement at p, u(p, q) the Bernstein coefficient of the edge pq. Points from the centroid.
+class IntegratedStrain {
+ public:
+  IntegratedStrain(const Eigen::Matrix3d& strain, const Eigen::Matrix<double, 2, 3>& gradients)
+      : mean_(strain.rowwise().mean()), slope_(strain * gradients.transpose()) {}
+
+  Eigen::Vector2d operator()(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
+    const Eigen::Vector2d middle = (p + q) / 2;
+    const double xx = p.x() * q.x(), yy = p.y() * q.y(),
+                 xy = (p.x() * q.y() + p.y() * q.x()) / 2;
+    return {mean_(0) * middle.x() + mean_(2) / 2 * middle.y() + slope_(0, 0) / 2 * xx +
+                slope_(0, 1) * xy + (slope_(2, 1) - slope_(1, 0)) / 2 * yy,
+            mean_(1) * middle.y() + mean_(2) / 2 * middle.x() + slope_(1, 1) / 2 * yy +
+                slope_(1, 0) * xy + (slope_(2, 0) - slope_(0, 1)) / 2 * xx};
+  }
+
+ private:
+  Eigen::Vector3d mean_;
+  Eigen::Matrix<double, 3, 2> slope_;  // rows xx, yy, 2xy; columns ∂x, ∂y
+};
+
+// Corners from the centroid, and ∇λ at them.
+struct Shape {
+  Eigen::Matrix<double, 2, 3> corner, gradient;
+};
+
+Shape shape_of(const TriangleVertices& v) {
+  Shape shape;
+  const Eigen::Vector2d centroid = v.rowwise().mean();
+  shape.corner = v.colwise() - centroid;
+  const double twice_area = cross_area(v.col(0), v.col(1), v.col(2));
+  for (int j = 0; j < 3; ++j) {
+    const Eigen::Vector2d opposite = v.col((j + 2) % 3) - v.col((j + 1) % 3);
+    shape.gradient.col(j) << -opposite.y() / twice_area, opposite.x() / twice_area;
+  }
+  return shape;
+}
+
+// Adds to w the rigid motion by which its edge moments are nearest to those given.
+void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
+                      const Eigen::Matrix4Xd& edge_moments, LocalCoefficients& w) {
+  Eigen::Vector2d translation = Eigen::Vector2d::Zero();
+  double turned = 0, spread = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int next = (k + 1) % 3;
+    const auto& corners = problem.mesh.triangles[triangle];
+    const auto moments = edge_moments.col(problem.edges.of_triangle[triangle][k]);
+    for (const bool at_start : {true, false}) {
+      const int here = at_start ? k : next, there = at_start ? next : k;
+      const bool low = corners[here] < corners[there];
+      const Eigen::Vector2d missing =
+          moments.segment<2>(low ? 0 : 2) -
+          (w.col(here) / 2 + w.col(3 + k) / 3 + w.col(there) / 6);
+      // The moment of a linear field is its value here.
+      const Eigen::Vector2d arm = (2 * shape.corner.col(here) + shape.corner.col(there)) / 3;
+      translation += missing / 6;
+      turned += arm.x() * missing.y() - arm.y() * missing.x();
+      spread += arm.squaredNorm();
+    }
+  }
+  const double rotation = turned / spread;
+  for (int m = 0; m < 6; ++m) {
+    const Eigen::Vector2d x =
+        m < 3 ? Eigen::Vector2d(shape.corner.col(m))
+              : Eigen::Vector2d((shape.corner.col(m - 3) + shape.corner.col((m - 2) % 3)) / 2);
+    w.col(m) += translation + rotation * Eigen::Vector2d(-x.y(), x.x());
+  }
+}
+
+LocalCoefficients local_displacement(const Problem& problem, int triangle, const Shape& shape,
+                                     const ElementStress& stress,
+                                     const Eigen::Matrix4Xd& edge_moments) {
+  const IntegratedStrain u(problem.compliance_of(triangle) * linear_stress(stress),
+                           shape.gradient);
+  LocalCoefficients w;
+  for (int k = 0; k < 3; ++k) {
+    w.col(k) = u(shape.corner.col(k), shape.corner.col(k));
+    w.col(3 + k) = u(shape.corner.col(k), shape.corner.col((k + 1) % 3));
+  }
+  set_rigid_motion(problem, triangle, shape, edge_moments, w);
+  return w;
+}
+
+// Per node of a triangle ∫ E |∇B|², E = 1/C_xxxx: about what moving its coefficient meets.
+Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, const Shape& shape) {
+  const double factor = 2. / 3 * problem.area_mm2(triangle) / problem.compliance_of(triangle)(0, 0);
+  Eigen::Matrix<double, 6, 1> stiffness;
+  for (int k = 0; k < 3; ++k) {
+    const auto &g = shape.gradient.col(k), &h = shape.gradient.col((k + 1) % 3);
+    stiffness(k) = factor * g.squaredNorm();
+    stiffness(3 + k) = factor * (g.squaredNorm() + h.squaredNorm() + g.dot(h));
+  }
+  return stiffness;
+}
+
+// n·w ≤ limit, at a node of Γ_C by one edge there.
+struct Wall {
+  Eigen::Vector2d normal;
+  double limit;
+  double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
+};
+struct ContactNode {
+  std::vector<Wall> walls;  // one or two
+  Eigen::Vector2d motion;   // ρ
+  Eigen::Vector2d force = {0, 0};  // ∫ σn B over Γ_C, N
+};
+
+std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  constexpr std::array<double, 3> of_start = {1. / 2, 1. / 3, 1. / 6};  // (2/L) ∫ N B over an edge
+  const Problem& problem = *system.problem;
+  const int m = system.contact.components;
+  std::map<int, ContactNode> contact;
+  for (int point = 0; point < system.contact.count; point += 2) {
+    const int row = system.contact.boundary[point];
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    const auto &a = problem.mesh.vertices[nodes[0]], &b = problem.mesh.vertices[nodes[2]];
+    const EdgeFrame frame = edge_frame(a, b);
+    const std::array<double, 3> gap = gap_coefficients(problem, row);
+    for (int k = 0; k < 3; ++k) {
+      ContactNode& node = contact[nodes[k]];
+      node.motion = problem.motion.at(a + k * (b - a) / 2);
+      node.walls.push_back({frame.normal, gap[k] - frame.normal.dot(node.motion)});
+      const auto force = [&](int component) {
+        return of_start[k] * F_C(m * point + component) +
+               of_start[2 - k] * F_C(m * (point + 1) + component);
+      };
+      node.force += force(0) * frame.normal;
+      if (m == 2) node.force += force(1) * frame.tangent;
+    }
+  }
+  return contact;
+}
+
+// The nearest point behind one or two walls.
+Eigen::Vector2d behind(const std::vector<Wall>& walls, Eigen::Vector2d w) {
+  const auto move_behind = [&](const Wall& wall) {
+    w -= std::max(0.0, wall.excess(w)) * wall.normal;
+  };
+  for (const Wall& wall : walls) move_behind(wall);
+  if (walls.size() < 2 || !(walls[0].excess(w) > 0)) return w;
+  const Eigen::Vector2d &n = walls[0].normal, &m = walls[1].normal;
+  const double sine = n.x() * m.y() - n.y() * m.x();
+  if (std::abs(sine) < straight_roller) {
+    move_behind(walls[0]);
+    return w;
+  }
+  return Eigen::Vector2d(walls[0].limit * m.y() - walls[1].limit * n.y(),
+                         walls[1].limit * n.x() - walls[0].limit * m.x()) /
+         sine;
+}
+
+// The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||w_t + ρ_t| + F_t (w_t + ρ_t) behind the
+// walls: the two contact terms of e² and what moving w costs in the first one. A closed node goes to
+// the wall, a sticking one back to where it was.
+Eigen::Vector2d in_contact(const ContactNode& node, double mu, double k,
+                           const Eigen::Vector2d& w_0) {
+  Eigen::Vector2d n = node.walls.front().normal;
+  if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
+  const Eigen::Vector2d t(-n.y(), n.x());
+  const double slope = mu * std::abs(n.dot(node.force)) / k, at_rest = -t.dot(node.motion),
+               slid = t.dot(w_0 - node.force / k) - at_rest;
+  const double w_n = n.dot(w_0 - node.force / k),
+               w_t = at_rest + std::copysign(std::max(0.0, std::abs(slid) - slope), slid);
+  return behind(node.walls, w_n * n + w_t * t);
+}
+
+// u = u0 on Γ_D, of rollers the normal part, and the contact terms on Γ_C where that leaves it free.
+void make_admissible(const DualSystem& system, const Eigen::VectorXd& F_C,
+                     const Eigen::VectorXd& stiffness, DisplacementField& w) {
+  const PrescribedDisplacement given = prescribed_displacement(*system.problem);
+  for (Eigen::Index node = 0; node < w.cols(); ++node)
+    if (given.at[static_cast<std::size_t>(node)]) w.col(node) = given.u.col(node);
+  for (const auto& [node, n] : given.normal)
+    w.col(node) += given.u.col(node) - n * n.dot(w.col(node));
+  for (const auto& [number, node] : contact_nodes(system, F_C)) {
+    if (given.at[static_cast<std::size_t>(number)]) continue;
+    const auto roller = given.normal.find(number);
+    if (roller == given.normal.end()) {
+      w.col(number) = in_contact(node, system.contact.friction, stiffness(number), w.col(number));
+      continue;
+    }
+    const Eigen::Vector2d along(-roller->second.y(), roller->second.x());
+    for (const Wall& wall : node.walls)
+      if (const double cosine = wall.normal.dot(along); std::abs(cosine) >= straight_roller)
+        w.col(number) -= std::max(0.0, wall.excess(w.col(number))) / cosine * along;
+  }
+}
+
+}  // namespace
+
+DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
+                                         const Eigen::VectorXd& F_C,
+                                         const Eigen::Matrix4Xd& edge_moments) {
+  const Problem& problem = *system.problem;
+  const int nodes = displacement_nodes(problem);
+  DisplacementField w = DisplacementField::Zero(2, nodes);
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(nodes);
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const Shape shape = shape_of(problem.vertices_of(t));
+    const LocalCoefficients local = local_displacement(problem, t, shape, stress[t], edge_moments);
+    const Eigen::Matrix<double, 6, 1> weight = stiffnesses(problem, t, shape);
+    const std::array<int, 6> node = triangle_nodes(problem, t);
+    for (int m = 0; m < 6; ++m) {
+      w.col(node[m]) += weight(m) * local.col(m);
+      stiffness(node[m]) += weight(m);
+    }
+  }
+  w.array().rowwise() /= stiffness.transpose().array();
+  make_admissible(system, F_C, stiffness, w);
+  return w;
+}
+
+}  // namespace airybench
