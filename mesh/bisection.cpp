@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <tuple>
 
 namespace airybench {
@@ -12,13 +11,13 @@ namespace {
 // A mesh that is being bisected, with the neighbours of its triangles.
 class Bisection {
  public:
-  explicit Bisection(const Mesh& mesh) : mesh_(mesh), across_(mesh.triangles.size()) {
+  // cuts: per triangle.
+  Bisection(const Mesh& mesh, std::vector<int> cuts)
+      : mesh_(mesh), across_(mesh.triangles.size()), due_(std::move(cuts)) {
     const MeshEdges edges = number_edges(mesh_);
     std::vector<int> first(static_cast<std::size_t>(edges.count()), none);
     for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row)
       first[edges.of_boundary[row]] = beyond(row);
-    origin_.resize(mesh_.triangles.size());
-    std::iota(origin_.begin(), origin_.end(), 0);
     for (int t = 0; t < triangles(); ++t)
       for (int k = 0; k < 3; ++k) {
         int& other = first[edges.of_triangle[t][k]];
@@ -30,8 +29,8 @@ class Bisection {
 
   const Mesh& mesh() const { return mesh_; }
   Mesh take() { return std::move(mesh_); }
-  std::vector<int> take_origin() { return std::move(origin_); }
   std::int64_t visits() const { return visits_; }
+  bool is_due(int t) const { return due_[t] > 0; }
   int triangles() const { return static_cast<int>(mesh_.triangles.size()); }
   double longest_edge(int t) const { return std::sqrt(length_squared(t, longest_side(t))); }
 
@@ -125,7 +124,7 @@ class Bisection {
     across_[t] = {none, born, beyond_ca};
     mesh_.triangles.push_back({middle, b, c});
     mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
-    origin_.push_back(origin_[t]);
+    due_.push_back(--due_[t]);
     across_.push_back({none, beyond_bc, t});
     if (beyond_bc >= 0) across_[beyond_bc][side_towards(beyond_bc, b)] = born;
     return born;
@@ -133,7 +132,7 @@ class Bisection {
 
   Mesh mesh_;
   std::vector<std::array<int, 3>> across_;  // per triangle and side: the neighbour, or beyond(row)
-  std::vector<int> origin_;                 // per triangle
+  std::vector<int> due_;                    // per triangle: cuts still to make
   std::vector<int> path_;
   std::int64_t visits_ = 0;
 };
@@ -147,25 +146,21 @@ double shortest_divisible_edge(const Mesh& mesh) {
   return 64 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& marked) {
+BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts) {
   const double least_mm = shortest_divisible_edge(mesh);
-  Bisection bisection(mesh);
+  Bisection bisection(mesh, cuts);
   BisectedMesh result;
-  for (const int t : marked) {
-    if (bisection.mesh().triangles[t] != mesh.triangles[t]) continue;  // on another one's path
-    if (bisection.longest_edge(t) > least_mm)
-      bisection.cut(t);
-    else
-      ++result.too_small;
+  for (int t = 0; t < bisection.triangles(); ++t) {  // and those that are born on the way
+    while (bisection.is_due(t) && bisection.longest_edge(t) > least_mm) bisection.cut(t);
+    result.too_small += bisection.is_due(t);
   }
   result.visits = bisection.visits();
-  result.origin = bisection.take_origin();
   result.mesh = bisection.take();
   return result;
 }
 
 Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm) {
-  Bisection bisection(mesh);
+  Bisection bisection(mesh, std::vector<int>(mesh.triangles.size(), 0));
   const auto too_long = [&](int t) {
     const auto& triangle = bisection.mesh().triangles[t];
     const auto& x = bisection.mesh().vertices;

@@ -19,16 +19,15 @@ namespace airybench {
 
 struct BisectedMesh {
   Mesh mesh;
-  std::vector<int> origin;  // per triangle: the one of the given mesh that it is a part of
-  // Marked triangles that were left: the middle of their longest edge could not be told apart from
-  // its ends, with 64 roundings of the largest coordinate between them.
+  // Triangles and parts of them that were left: the middle of their longest edge could not be told
+  // apart from its ends, with 64 roundings of the largest coordinate between them.
   int too_small = 0;
   std::int64_t visits = 0;  // triangles looked at on the way, each once per look
 };
 
-// Cuts every marked triangle at least once. marked: numbers of triangles, in any order. Takes a
-// valid mesh; returns one.
-BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& marked);
+// Cuts every triangle, and then every part of it, until each part comes from at least so many cuts.
+// cuts: per triangle, 0 where it is not marked. Takes a valid mesh; returns one.
+BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts);
 
 // Bisects triangles at vertex v until no edge there is longer than length_mm.
 Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm);

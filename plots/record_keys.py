@@ -143,6 +143,8 @@ class Row:
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)
+    adapt_level: int | None = key(COUNT)          # of an adaptive loop; None: the mesh as it is
+    adapt_time_s: float | None = key(POSITIVE)    # of the loop up to this level
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
     study: str = key(words(("error", "stability", "contact"), may_be_empty=True))

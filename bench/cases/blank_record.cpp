@@ -62,6 +62,12 @@ void identify(const Case& planned, Record& record) {
   record.scene_definition = parse_json(planned.posed.scene_definition);
   record.mesh_file = planned.posed.mesh_file;
   record.mesh_sha256 = planned.posed.mesh_sha256;
+  if (const auto& adapted = planned.posed.adapted) {
+    record.adapt_level = adapted->level;
+    record.adapt_time_s = adapted->time_s;
+    record.adapt_estimate_share = adapted->estimate_share;
+    record.smallest_angle_deg = adapted->smallest_angle_deg;
+  }
   record.case_number = planned.number;
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;

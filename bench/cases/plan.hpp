@@ -13,11 +13,20 @@
 
 namespace airybench {
 
+// A level of an adaptive loop.
+struct AdaptedMesh {
+  int level = 0;
+  double time_s = 0;          // of the loop up to this level
+  double estimate_share = 0;  // of that time
+  double smallest_angle_deg = 0;
+};
+
 struct PosedScene {
   std::string scene_name, scene_group;
   std::string mesh_file, mesh_sha256;
   std::string scene_definition = "{}";  // the scene file's JSON
   std::shared_ptr<const Problem> problem;
+  std::optional<AdaptedMesh> adapted = {};
 };
 
 struct Case {

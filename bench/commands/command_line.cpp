@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <iostream>
+
 #include "support/errors.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
@@ -58,6 +62,15 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, dou
   return app.add_option_function<std::string>(name, read, description)
       ->type_name("NUMBER")
       ->default_str(fmt::format("{}", number));
+}
+
+void run_after(const std::string& command, const std::filesystem::path& folder) {
+  if (command.empty()) return;
+  std::string quoted;
+  for (const char c : folder.string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  std::fflush(stdout);
+  if (std::system(fmt::format("{} '{}'", command, quoted).c_str()) != 0)
+    std::cerr << fmt::format("note: --then: {}: failed\n", command);
 }
 
 }  // namespace airybench

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
@@ -23,5 +24,9 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t leas
 enum class Least { zero, above_zero };
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);
+
+// A command for the shell with the folder as its last argument, whatever becomes of it; empty:
+// none.
+void run_after(const std::string& command, const std::filesystem::path& folder);
 
 }  // namespace airybench

@@ -26,7 +26,7 @@ Other commands (each has --help)
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
-             1  some case is not
+             1  some case is not, or a mesh could not be adapted as far as --adapt says
              2  wrong usage, or a file that cannot be used or written: one line on standard error
              3  out of memory, or a defect of bench itself: one line on standard error (so with every
                 command)
@@ -37,6 +37,7 @@ Examples
   bench --figure=3 --out=results/figure3
   bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
   bench --study=stability --out=results/stability
+  bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
   bench --mesh=Mesh0..Mesh7 --out=results/night --resume
   bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
@@ -144,6 +145,22 @@ Options parse_options(int argc, const char* const* argv) {
       app, "--memory-limit", 1, std::int64_t{1} << 40, 0,
       [&](std::int64_t MiB) { options.memory_limit_bytes = MiB * 1024 * 1024; },
       "MiB of heap that one solve may use, its blocks included");
+  std::string adapt;
+  CLI::Option* adapts = app.add_option(
+      "--adapt", adapt,
+      "refine each mesh where the error is, until this total error (1%) or number of unknowns "
+      "(50000); the methods are measured on the meshes on the way, which are kept in OUT/meshes");
+  app.add_option("--adapt-by", options.adapt_by, "the method that solves for the error")
+      ->capture_default_str()
+      ->needs(adapts);
+  add_number(app, "--marking", Least::above_zero, 1, options.marking,
+             "part of the squared error that the triangles hold which a level refines")
+      ->needs(adapts);
+  std::string levels = "all";
+  app.add_option("--levels", levels, "on which of these meshes methods are measured: all, last")
+      ->check(CLI::IsMember({"all", "last"}))
+      ->capture_default_str()
+      ->needs(adapts);
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   app.add_option("--then", options.then,
                  "a command for the shell after the run; the output folder becomes its last "
@@ -184,6 +201,17 @@ Options parse_options(int argc, const char* const* argv) {
           fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(shard)));
     options.shard = *part;
   }
+  if (!adapt.empty()) {
+    options.adapt = adapt_goal_of(adapt);
+    if (!options.adapt)
+      throw UsageError(
+          fmt::format("--adapt: {} (allowed: a total error above 0% and below 100%, as "
+                      "1%, or a number of unknowns from 1 to 5000000)",
+                      shortened(adapt)));
+    if (options.dry_run || options.explain)
+      throw UsageError("--adapt: not with --dry-run or --explain: the meshes are not there yet");
+  }
+  options.last_level_only = levels == "last";
   if (stop == "paper") options.stop = Stop::paper;
   options.study = study_of(study);
   options.contact = *contact_solver_of(contact);

@@ -10,9 +10,9 @@
 #include "bench/cases/blank_record.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
-#include "bench/cases/scene_file.hpp"
 #include "bench/cases/stages.hpp"
 #include "bench/commands/command_options.hpp"
+#include "bench/commands/posed_scenes.hpp"
 #include "bench/forecast/prediction.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
@@ -25,7 +25,6 @@
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
-#include "support/file_text.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -48,31 +47,6 @@ void print_list() {
       "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
       "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
       "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE\n");
-}
-
-// The scene file as it is, on a line.
-std::string definition_of(const Scene& scene) {
-  if (scene.source == Scene().source) return "{}";
-  return json_text(parse_json(file_text(scene.source)));
-}
-
-std::vector<PosedScene> pose_all(const Options& options) {
-  std::vector<Scene> scenes;
-  for (const auto& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
-    scenes.push_back(read_scene(file));
-    for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
-      if (scenes[i].name == scenes.back().name)
-        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scenes[i].name,
-                                     scenes[i].source, scenes.back().source));
-  }
-  if (scenes.empty()) scenes.emplace_back();
-  std::vector<PosedScene> posed;
-  for (const MeshFile& file : read_meshes(options.meshes))
-    for (const Scene& scene : scenes)
-      posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
-                       definition_of(scene),
-                       std::make_shared<const Problem>(pose(scene, file.mesh))});
-  return posed;
 }
 
 void print_stages(const std::vector<Case>& plan) {
@@ -121,22 +95,16 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
     fmt::print("note: {}\n", warning);
 }
 
-void run_after(const Options& options) {
-  std::string folder;
-  for (const char c : options.out.string()) folder += c == '\'' ? "'\\''" : std::string(1, c);
-  std::fflush(stdout);
-  if (std::system(fmt::format("{} '{}'", options.then, folder).c_str()) != 0)
-    std::cerr << fmt::format("note: --then: {}: failed\n", options.then);
-}
-
 // The cases of the command line, before they are shared out.
-std::vector<Case> plan_of(const Options& options) {
+std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   const std::vector<Method> selected =
       select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
   std::vector<Case> plan =
-      plan_cases(pose_all(options), selected, options.study, options.stop, options.contact);
+      plan_cases(pose_and_adapt(options, short_of), selected, options.study, options.stop,
+                 options.contact);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
-  if (plan.empty()) throw UsageError("no case is left: the arguments after -- select none");
+  if (plan.empty() && short_of.empty())
+    throw UsageError("no case is left: the arguments after -- select none");
   return plan;
 }
 
@@ -161,7 +129,11 @@ int run_command(int argc, const char* const* argv) {
     print_list();
     return all_ok;
   }
-  const std::vector<Case> whole = plan_of(options);
+  catch_interrupts();
+  std::vector<std::string> short_of;  // goals of --adapt that were not reached
+  const std::vector<Case> whole = plan_of(options, short_of);
+  for (const std::string& why : short_of) std::cerr << fmt::format("note: {}\n", why);
+  if (whole.empty()) return some_case_failed;
   const std::vector<Case> plan = part_of(whole, options.shard);
   if (plan.empty())
     throw UsageError(
@@ -171,7 +143,6 @@ int run_command(int argc, const char* const* argv) {
   if (options.explain || options.dry_run) return all_ok;
   require_threads(options.threads);
   set_threads(options.threads);
-  catch_interrupts();
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
   context["plan_sha256"] = fingerprint(whole);
@@ -184,10 +155,11 @@ int run_command(int argc, const char* const* argv) {
   if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
   print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
-  if (!options.then.empty()) run_after(options);
+  run_after(options.then, options.out);
   if (result.records.size() != plan.size())
     throw std::logic_error(fmt::format("{} of {} cases have no record",
                                        plan.size() - result.records.size(), plan.size()));
+  if (!short_of.empty()) return some_case_failed;
   for (const Record& record : result.records)
     if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
   return all_ok;

@@ -38,8 +38,7 @@ class IntegratedStrain {
 
   Eigen::Vector2d operator()(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
     const Eigen::Vector2d middle = (p + q) / 2;
-    const double xx = p.x() * q.x(), yy = p.y() * q.y(),
-                 xy = (p.x() * q.y() + p.y() * q.x()) / 2;
+    const double xx = p.x() * q.x(), yy = p.y() * q.y(), xy = (p.x() * q.y() + p.y() * q.x()) / 2;
     return {mean_(0) * middle.x() + mean_(2) / 2 * middle.y() + slope_(0, 0) / 2 * xx +
                 slope_(0, 1) * xy + (slope_(2, 1) - slope_(1, 0)) / 2 * yy,
             mean_(1) * middle.y() + mean_(2) / 2 * middle.x() + slope_(1, 1) / 2 * yy +
@@ -81,8 +80,7 @@ void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
       const int here = at_start ? k : next, there = at_start ? next : k;
       const bool low = corners[here] < corners[there];
       const Eigen::Vector2d missing =
-          moments.segment<2>(low ? 0 : 2) -
-          (w.col(here) / 2 + w.col(3 + k) / 3 + w.col(there) / 6);
+          moments.segment<2>(low ? 0 : 2) - (w.col(here) / 2 + w.col(3 + k) / 3 + w.col(there) / 6);
       // The moment of a linear field is its value here.
       const Eigen::Vector2d arm = (2 * shape.corner.col(here) + shape.corner.col(there)) / 3;
       translation += missing / 6;
@@ -102,8 +100,7 @@ void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
 LocalCoefficients local_displacement(const Problem& problem, int triangle, const Shape& shape,
                                      const ElementStress& stress,
                                      const Eigen::Matrix4Xd& edge_moments) {
-  const IntegratedStrain u(problem.compliance_of(triangle) * linear_stress(stress),
-                           shape.gradient);
+  const IntegratedStrain u(problem.compliance_of(triangle) * linear_stress(stress), shape.gradient);
   LocalCoefficients w;
   for (int k = 0; k < 3; ++k) {
     w.col(k) = u(shape.corner.col(k), shape.corner.col(k));
@@ -113,9 +110,11 @@ LocalCoefficients local_displacement(const Problem& problem, int triangle, const
   return w;
 }
 
-// Per node of a triangle ∫ E |∇B|², E = 1/C_xxxx: about what moving its coefficient meets.
+// Per node of a triangle the diagonal of its stiffness, the mean of x and y.
 Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, const Shape& shape) {
-  const double factor = 2. / 3 * problem.area_mm2(triangle) / problem.compliance_of(triangle)(0, 0);
+  const Eigen::Matrix3d& c = problem.compliance_of(triangle);
+  const double along = c(0, 0) / (c(0, 0) * c(0, 0) - c(0, 1) * c(0, 1)), shear = 1 / c(2, 2);
+  const double factor = 2. / 3 * problem.area_mm2(triangle) * (along + shear) / 2;
   Eigen::Matrix<double, 6, 1> stiffness;
   for (int k = 0; k < 3; ++k) {
     const auto &g = shape.gradient.col(k), &h = shape.gradient.col((k + 1) % 3);
@@ -125,6 +124,30 @@ Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, co
   return stiffness;
 }
 
+// Half the gradient of ‖σ − Aε(w)‖², N: Σ K_e (w − w_e) with the triangles' own displacements w_e.
+Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCoefficients>& own,
+                               const DisplacementField& w) {
+  std::vector<Eigen::Matrix3d> elasticity;
+  for (const Eigen::Matrix3d& compliance : problem.compliance)
+    elasticity.push_back(elasticity_of(compliance));
+  Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, w.cols());
+  for (int t = 0; t < static_cast<int>(own.size()); ++t) {
+    const std::array<int, 6> nodes = triangle_nodes(problem, t);
+    LocalCoefficients difference;
+    for (int m = 0; m < 6; ++m) difference.col(m) = w.col(nodes[m]) - own[t].col(m);
+    const QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
+    Eigen::Matrix3d corners;
+    corners.reshaped() = strain * difference.reshaped();
+    const Eigen::Matrix3d dual = problem.area_mm2(t) / 12 *
+                                 elasticity[problem.mesh.triangle_body[t]] *
+                                 (corners.colwise() + corners.rowwise().sum());
+    LocalCoefficients force;
+    force.reshaped() = strain.transpose() * dual.reshaped();
+    for (int m = 0; m < 6; ++m) gradient.col(nodes[m]) += force.col(m);
+  }
+  return gradient;
+}
+
 // n·w ≤ limit, at a node of Γ_C by one edge there.
 struct Wall {
   Eigen::Vector2d normal;
@@ -132,8 +155,8 @@ struct Wall {
   double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
 };
 struct ContactNode {
-  std::vector<Wall> walls;  // one or two
-  Eigen::Vector2d motion;   // ρ
+  std::vector<Wall> walls;         // one or two
+  Eigen::Vector2d motion;          // ρ
   Eigen::Vector2d force = {0, 0};  // ∫ σn B over Γ_C, N
 };
 
@@ -182,8 +205,8 @@ Eigen::Vector2d behind(const std::vector<Wall>& walls, Eigen::Vector2d w) {
 }
 
 // The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||w_t + ρ_t| + F_t (w_t + ρ_t) behind the
-// walls: the two contact terms of e² and what moving w costs in the first one. A closed node goes to
-// the wall, a sticking one back to where it was.
+// walls: the two contact terms of e² and what moving w costs in the first one. A closed node goes
+// to the wall, a sticking one back to where it was.
 Eigen::Vector2d in_contact(const ContactNode& node, double mu, double k,
                            const Eigen::Vector2d& w_0) {
   Eigen::Vector2d n = node.walls.front().normal;
@@ -196,49 +219,71 @@ Eigen::Vector2d in_contact(const ContactNode& node, double mu, double k,
   return behind(node.walls, w_n * n + w_t * t);
 }
 
-// u = u0 on Γ_D, of rollers the normal part, and the contact terms on Γ_C where that leaves it free.
-void make_admissible(const DualSystem& system, const Eigen::VectorXd& F_C,
-                     const Eigen::VectorXd& stiffness, DisplacementField& w) {
-  const PrescribedDisplacement given = prescribed_displacement(*system.problem);
-  for (Eigen::Index node = 0; node < w.cols(); ++node)
-    if (given.at[static_cast<std::size_t>(node)]) w.col(node) = given.u.col(node);
-  for (const auto& [node, n] : given.normal)
-    w.col(node) += given.u.col(node) - n * n.dot(w.col(node));
-  for (const auto& [number, node] : contact_nodes(system, F_C)) {
-    if (given.at[static_cast<std::size_t>(number)]) continue;
-    const auto roller = given.normal.find(number);
-    if (roller == given.normal.end()) {
-      w.col(number) = in_contact(node, system.contact.friction, stiffness(number), w.col(number));
-      continue;
+// What a displacement must keep to: u = u0 on Γ_D, of rollers the normal part, and u_n ≤ g0 on Γ_C.
+class Constraints {
+ public:
+  Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)
+      : given_(prescribed_displacement(*system.problem)),
+        contact_(contact_nodes(system, F_C)),
+        friction_(system.contact.friction) {}
+
+  // stiffness: per node, k of in_contact().
+  void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const {
+    for (Eigen::Index node = 0; node < w.cols(); ++node)
+      if (given_.at[static_cast<std::size_t>(node)]) w.col(node) = given_.u.col(node);
+    for (const auto& [node, n] : given_.normal)
+      w.col(node) += given_.u.col(node) - n * n.dot(w.col(node));
+    for (const auto& [number, node] : contact_) {
+      if (given_.at[static_cast<std::size_t>(number)]) continue;
+      if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
+        move_along_roller(roller->second, node.walls, w.col(number));
+      else
+        w.col(number) = in_contact(node, friction_, stiffness(number), w.col(number));
     }
-    const Eigen::Vector2d along(-roller->second.y(), roller->second.x());
-    for (const Wall& wall : node.walls)
-      if (const double cosine = wall.normal.dot(along); std::abs(cosine) >= straight_roller)
-        w.col(number) -= std::max(0.0, wall.excess(w.col(number))) / cosine * along;
   }
-}
+
+ private:
+  static void move_along_roller(const Eigen::Vector2d& normal, const std::vector<Wall>& walls,
+                                Eigen::Ref<Eigen::Vector2d> w) {
+    const Eigen::Vector2d along(-normal.y(), normal.x());
+    for (const Wall& wall : walls)
+      if (const double cosine = wall.normal.dot(along); std::abs(cosine) >= straight_roller)
+        w -= std::max(0.0, wall.excess(w)) / cosine * along;
+  }
+
+  PrescribedDisplacement given_;
+  std::map<int, ContactNode> contact_;
+  double friction_;
+};
 
 }  // namespace
 
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::Matrix4Xd& edge_moments) {
+  constexpr double damping = 0.6;  // of the Jacobi step
   const Problem& problem = *system.problem;
   const int nodes = displacement_nodes(problem);
+  std::vector<LocalCoefficients> own(stress.size());
   DisplacementField w = DisplacementField::Zero(2, nodes);
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(nodes);
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const Shape shape = shape_of(problem.vertices_of(t));
-    const LocalCoefficients local = local_displacement(problem, t, shape, stress[t], edge_moments);
+    own[t] = local_displacement(problem, t, shape, stress[t], edge_moments);
     const Eigen::Matrix<double, 6, 1> weight = stiffnesses(problem, t, shape);
     const std::array<int, 6> node = triangle_nodes(problem, t);
     for (int m = 0; m < 6; ++m) {
-      w.col(node[m]) += weight(m) * local.col(m);
+      w.col(node[m]) += weight(m) * own[t].col(m);
       stiffness(node[m]) += weight(m);
     }
   }
   w.array().rowwise() /= stiffness.transpose().array();
-  make_admissible(system, F_C, stiffness, w);
+  const Constraints constraints(system, F_C);
+  constraints.apply(stiffness, w);
+
+  stiffness /= damping;
+  w.array() -= half_gradient(problem, own, w).array().rowwise() / stiffness.transpose().array();
+  constraints.apply(stiffness, w);
   return w;
 }
 

@@ -7,12 +7,16 @@
 // which is integrated in closed form. The rigid motion that this leaves free is the one by which w
 // is nearest to the edge displacements ū in their moments (least squares over the edges' ends).
 //
-// The coefficients of a vertex or an edge are then averaged over its triangles, weighted by how
-// stiffly each resists a change, and set to u0 on Γ_D. On Γ_C they take the proximal step of the
-// contact terms of e²: with F = ∫ σn B and k the node's stiffness, w_n moves by −F_n/k towards the
-// wall and no further, w_t by −F_t/k and then up to μ|F_n|/k back to where the body has not slid.
-// Terms that would be of first order in the error of w, as σ_n (u_n − g0) where the contact is
-// closed, so become quadratic. Every contact edge's own u_n ≤ g0 holds, on curved faces, too.
+// The coefficients of a vertex or an edge are then averaged over its triangles, weighted by the
+// diagonals k of their stiffnesses, and set to u0 on Γ_D. On Γ_C they take the proximal step of the
+// contact terms of e²: with F = ∫ σn B, w_n moves by −F_n/k towards the wall and no further, w_t by
+// −F_t/k and then up to μ|F_n|/k back to where the body has not slid. Terms that would be of first
+// order in the error of w, as σ_n (u_n − g0) where the contact is closed, so become quadratic.
+// Every contact edge's own u_n ≤ g0 holds, on curved faces, too.
+//
+// One damped Jacobi step on ‖σ − Aε(w)‖² follows, with the same on Γ_D and Γ_C. e is then about 1.1
+// times that with P2's displacement, which without friction is the least (measured; 1.4 without
+// this step).
 //
 // The idea of averaging is Zienkiewicz & Zhu's (1987), that of going from stresses to an admissible
 // displacement Ladevèze's (discretisation_error.hpp): whatever the field, if it is admissible, e is

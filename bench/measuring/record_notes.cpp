@@ -57,11 +57,13 @@ void note(const Verification& v, Record& record) {
   record.answer_hash = answer_hash(v);
 }
 
-void note(const ConstitutiveError& error, Record& record) {
-  if (error.flaw.empty())
+void note(const ConstitutiveError& error, const char* by, Record& record) {
+  if (error.flaw.empty()) {
     record.error_discretisation = error.relative;
-  else
+    record.discretisation_by = by;
+  } else {
     record.no_discretisation_error = error.flaw;
+  }
   if (error.guaranteed) {
     record.lower_bound_Nmm = error.lower_bound_Nmm;
     record.upper_bound_Nmm = error.upper_bound_Nmm;

@@ -14,7 +14,8 @@ void note(const Solution& solution, Record& record);
 void note(const std::vector<IterationHistory>& histories, Record& record);  // none: nothing
 void note(const std::vector<GridPoint>& grid, Record& record);              // none: nothing
 void note(const Verification& verification, Record& record);
-void note(const ConstitutiveError& error, Record& record);
+// by: whose displacements it was made with, Record::discretisation_by.
+void note(const ConstitutiveError& error, const char* by, Record& record);
 void note(const MemorySplit& memory, Record& record);
 
 }  // namespace airybench

@@ -10,6 +10,7 @@
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/heap/heap_probe.hpp"
+#include "bench/judging/displacement_recovery.hpp"
 #include "bench/measuring/field_files.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
@@ -26,8 +27,15 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
   return heap::is_active() ? std::optional(bytes) : std::nullopt;
 }
 
-bool asks_for_discretisation(const Method& method, const Options& options) {
-  return options.study == Study::error || method.in_displacements;
+// Whose displacements the discretisation error of the method's record is made with.
+std::optional<Workbench::Bound> bound_for(const Method& method, const Options& options) {
+  if (options.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
+  if (options.adapt) return Workbench::Bound::recovery;
+  return {};
+}
+
+const char* name_of(Workbench::Bound bound) {
+  return bound == Workbench::Bound::p2 ? "P2" : "recovery";
 }
 
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
@@ -63,7 +71,7 @@ void Workbench::prepare(const Method& method) {
     return;
   }
   reference();
-  if (asks_for_discretisation(method, options_)) discretisation();
+  if (const auto bound = bound_for(method, options_)) discretisation(*bound);
 }
 
 const AssembledBlocks& Workbench::blocks(Blocks which) {
@@ -107,18 +115,22 @@ const Reference* Workbench::reference() {
   return reference_ ? &*reference_ : nullptr;
 }
 
-const ConstitutiveError* Workbench::discretisation() {
-  if (!discretisation_ && !discretisation_failed_) {
-    discretisation_failed_ = true;
-    if (reference() == nullptr || !left_out_.discretisation.empty()) return nullptr;
+const ConstitutiveError* Workbench::discretisation(Bound bound) {
+  const auto [found, is_new] = discretisation_.try_emplace(bound);
+  if (is_new && reference() != nullptr && left_out_.discretisation.empty()) {
     const ActivityScope scope(board_, Activity::discretisation);
     const DualSystem system = assemble(problem_, Blocks::contact_points);
-    const Solution u = run(select_methods("P2").front(), system, {});
-    if (u.status != Status::ok) return nullptr;
-    discretisation_ =
-        constitutive_error(system, reference_->stress, reference_->F_C, u.displacement);
+    const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
+    const Solution own = run(select_methods(method).front(), system, {});
+    if (own.status == Status::ok && bound == Bound::p2)
+      found->second =
+          constitutive_error(system, reference_->stress, reference_->F_C, own.displacement);
+    else if (own.status == Status::ok)
+      found->second =
+          constitutive_error(system, own.stress, own.F_C,
+                             recovered_displacement(system, own.stress, own.F_C, own.edge_moments));
   }
-  return discretisation_ ? &*discretisation_ : nullptr;
+  return found->second ? &*found->second : nullptr;
 }
 
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
@@ -338,9 +350,12 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    const ConstitutiveError* error =
-        asks_for_discretisation(method, options_) ? discretisation() : nullptr;
-    if (error != nullptr) note(*error, record);
+    const std::optional<Bound> bound = bound_for(method, options_);
+    const ConstitutiveError* error = bound ? discretisation(*bound) : nullptr;
+    if (error != nullptr && record.other_solution)
+      record.no_discretisation_error = "it is known for the reference's solution only";
+    else if (error != nullptr)
+      note(*error, name_of(*bound), record);
     if (!fields.empty()) {
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
       if (error != nullptr && error->flaw.empty())

@@ -37,6 +37,10 @@ class Workbench {
  public:
   Workbench(std::shared_ptr<const Problem> problem, const Options& options, LeftOut left_out = {});
 
+  // The discretisation error of the reference's stresses against the displacements of P2, or of the
+  // stresses of --adapt-by against displacements recovered from them.
+  enum class Bound { p2, recovery };
+
   void show_on(ActivityBoard* board) { board_ = board; }  // what it does from now on
   // Blocks, reference, and what else cases of this method share.
   void prepare(const Method& method);
@@ -71,8 +75,8 @@ class Workbench {
   const AssembledBlocks& blocks(Blocks which);
   double reference_error_at_most() const;
   const Reference* reference();  // null when there is none; no_reference_ says why
-  // Of the reference's stresses against the displacements of P2; null when one of them is missing.
-  const ConstitutiveError* discretisation();
+  // Null when the stresses or the displacements are missing.
+  const ConstitutiveError* discretisation(Bound bound);
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
@@ -94,8 +98,7 @@ class Workbench {
   std::map<Blocks, AssembledBlocks> blocks_;
   std::optional<Reference> reference_;
   std::string no_reference_;
-  std::optional<ConstitutiveError> discretisation_;
-  bool discretisation_failed_ = false;
+  std::map<Bound, std::optional<ConstitutiveError>> discretisation_;
 };
 
 }  // namespace airybench

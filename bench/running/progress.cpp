@@ -11,14 +11,20 @@
 namespace airybench {
 
 std::string results_table(const std::vector<Record>& records) {
-  const std::vector<std::string> header = {"case", "n_phi",        "time",        "±",
-                                           "heap", "error stress", "error force", "status"};
+  const bool adapted =
+      std::ranges::any_of(records, [](const Record& r) { return r.adapt_level.has_value(); });
+  std::vector<std::string> header = {"case", "n_phi",        "time",        "±",
+                                     "heap", "error stress", "error force", "status"};
+  if (adapted) header.insert(header.end() - 1, {"error total", "adapted in"});
   std::vector<std::vector<std::string>> rows = {header};
-  for (const Record& r : records)
-    rows.push_back({name_of(r).text(), fmt::format("{}", r.n_phi.value_or(0)),
-                    show_seconds(r.time_s), r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s),
-                    show_bytes(r.peak_heap_bytes), show_error(r.error_stress),
-                    show_error(r.error_force), std::string(name_of(r.status))});
+  for (const Record& r : records) {
+    auto& row = rows.emplace_back(std::vector<std::string>{
+        name_of(r).text(), fmt::format("{}", r.n_phi.value_or(0)), show_seconds(r.time_s),
+        r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s), show_bytes(r.peak_heap_bytes),
+        show_error(r.error_stress), show_error(r.error_force), std::string(name_of(r.status))});
+    if (adapted)
+      row.insert(row.end() - 1, {show_error(r.error_total), show_seconds(r.adapt_time_s)});
+  }
   std::string table = aligned_table(rows, 1);
   for (const Record& r : records)
     if (r.status != Status::ok)

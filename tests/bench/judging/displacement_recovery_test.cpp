@@ -1,4 +1,5 @@
-// The recovered displacement: exact where HYBRID is, admissible everywhere, and its error near P2's.
+// The recovered displacement: exact where HYBRID is, admissible everywhere, and its error near
+// P2's.
 #include "bench/judging/displacement_recovery.hpp"
 
 #include <gtest/gtest.h>
@@ -111,17 +112,17 @@ TEST(RecoveredDisplacement, OnARollerOnlyTheNormalPartIsSet) {
     }
     EXPECT_GT(along, 1e-5);
     EXPECT_TRUE(r.error().guaranteed) << r.error().flaw;
-    EXPECT_LE(r.error().relative, 1.6 * r.error_with_p2().relative);
+    EXPECT_LE(r.error().relative, 1.35 * r.error_with_p2().relative);
   }
 }
 
-// P2's is the least of all e² with a quadratic displacement, without friction; with friction that is
-// not so, but nearly.
+// P2's is the least of all e² with a quadratic displacement, without friction; with friction that
+// is not so, but nearly.
 TEST(RecoveredDisplacement, ItsErrorIsNearThatOfTheBestDisplacement) {
   for (const Problem& problem : problems()) {
     const Recovered r(problem);
     const double own = r.error().relative, best = r.error_with_p2().relative;
-    EXPECT_LE(own, 1.8 * best);  // measured 1.1 to 1.67 on these coarse meshes
+    EXPECT_LE(own, 1.5 * best);  // 1.03 to 1.42 on these coarse meshes, most with two materials
     EXPECT_GE(own, (problem.friction == 0 ? 1 - 1e-9 : 0.9) * best);
   }
 }
@@ -139,7 +140,7 @@ TEST(RecoveredDisplacement, TheBoundsHoldTheExactEnergyAndCloseInOnIt) {
     EXPECT_LT(error.upper_bound_Nmm - error.lower_bound_Nmm, gap) << mesh;
     gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
   }
-  EXPECT_LT(gap, 8e-4 * finest_upper_bound_Nmm);
+  EXPECT_LT(gap, 5e-4 * finest_upper_bound_Nmm);
 }
 
 // A contact face of two edges that are not in line: each keeps its own inequality.

@@ -1,0 +1,18 @@
+// The meshes and scenes of a command line, posed.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/cases/options.hpp"
+#include "bench/cases/plan.hpp"
+
+namespace airybench {
+
+// Every mesh under every scene. Throws UsageError and what reading them throws.
+std::vector<PosedScene> pose_all(const Options& options);
+
+// With --adapt the levels of each instead. short_of: goals that were not reached, a line each.
+std::vector<PosedScene> pose_and_adapt(const Options& options, std::vector<std::string>& short_of);
+
+}  // namespace airybench

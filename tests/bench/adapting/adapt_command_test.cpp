@@ -1,0 +1,107 @@
+// bench --adapt from outside: levels, files, exit codes, one-line complaints.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "mesh/msh_format.hpp"
+#include "support/sha256.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::adapt_command_test {
+namespace {
+
+class AdaptCommand : public ::testing::Test {
+ protected:
+  int bench(const std::string& arguments) const { return bench_.run(arguments).code; }
+  std::string complaint() const { return bench_.content("err.txt"); }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(bench_.path(name)) << text;
+  }
+  const testing::BenchCommand bench_;
+};
+
+TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID,3STEPD,P2 --adapt=2.5% --repetitions=1 --out=o"), 0)
+      << complaint();
+  const auto records = bench_.records();
+  ASSERT_GE(records.size(), 6u);
+  double time_s = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    const Json& r = records[i];
+    const int level = static_cast<int>(i / 3);
+    EXPECT_EQ(r["mesh"], "Mesh0+adapt" + std::to_string(level));
+    EXPECT_EQ(r["adapt_level"], level);
+    EXPECT_EQ(r["discretisation_by"], r["method"] == "P2" ? "P2" : "recovery");
+    EXPECT_GE(r["error_total"].get<double>(), r["error_discretisation"].get<double>());
+    EXPECT_TRUE(r["adapt_time_s"] > time_s || i % 3 > 0);
+    time_s = r["adapt_time_s"];
+    EXPECT_GT(r["adapt_estimate_share"].get<double>(), 0);
+    EXPECT_GE(r["smallest_angle_deg"].get<double>(),
+              0.5 * records[0]["smallest_angle_deg"].get<double>());
+    const auto file = bench_.path("o") / r["mesh_file"].get<std::string>();
+    EXPECT_EQ(sha256_of_file(file), r["mesh_sha256"]);
+    EXPECT_EQ(mesh_sizes(read_msh(file)).n_phi, r["n_phi"]);
+  }
+  const Json& last = records[records.size() - 2];
+  ASSERT_EQ(last["method"], "HYBRID");
+  EXPECT_LE(last["error_discretisation"].get<double>(), 0.025);
+
+  // A level is a mesh as any other, and its record can be run again.
+  const std::string mesh = last["mesh_file"], level = last["mesh"];
+  ASSERT_EQ(bench("--mesh='o/" + mesh + "' --scene=o/meshes/default/default.json --method=HYBRID "
+                  "--repetitions=1 --out=again"), 0)
+      << complaint();
+  EXPECT_EQ(bench_.records("again")[0]["strain_energy_Nmm"], last["strain_energy_Nmm"]);
+  EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
+}
+
+TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
+  write("layered.json", R"({"mesh": {"scale": 2}, "layers": {"count": 2,
+        "materials": [{"young_MPa": 1000}, {"young_MPa": 3000, "poisson": 0.4}]}})");
+  ASSERT_EQ(bench("--mesh=Mesh0 --scene=layered.json --method=HYBRID --adapt=1000 --levels=last "
+                  "--repetitions=1 --out=o"), 0)
+      << complaint();
+  ASSERT_EQ(bench_.records().size(), 1u);
+  const Json record = bench_.records()[0];
+  EXPECT_GE(record["n_phi"].get<int>(), 1000);
+  EXPECT_NEAR(record["width_mm"].get<double>(), 20, 1e-9);
+  const Json definition = Json::parse(bench_.content("o/meshes/layered/layered.json"));
+  EXPECT_EQ(definition, record["scene_definition"]);
+  EXPECT_FALSE(definition.contains("mesh") || definition.contains("layers"));
+  EXPECT_EQ(definition["materials"]["layer 2"]["young_MPa"], 3000);
+  EXPECT_EQ(definition["materials"]["layer 1"]["poisson"], 0.3);
+}
+
+TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+                  "--repetitions=1 --out=o"), 1);
+  EXPECT_NE(complaint().find("note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on "),
+            std::string::npos)
+      << complaint();
+  EXPECT_EQ(bench_.records().size(), 1u);  // what there is is measured
+}
+
+TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
+  for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
+           {"--adapt=foo", "--adapt: foo (allowed: a total error"},
+           {"--adapt=0%", "--adapt: 0% (allowed"},
+           {"--adapt=100%", "--adapt: 100% (allowed"},
+           {"--adapt=-5", "--adapt: -5 (allowed"},
+           {"--adapt=1% --marking=0", "--marking: 0 (allowed"},
+           {"--adapt=1% --marking=2", "--marking: 2 (allowed"},
+           {"--marking=0.5", "--marking requires --adapt"},
+           {"--levels=last", "--levels requires --adapt"},
+           {"--adapt=1% --levels=first", "--levels"},
+           {"--adapt=1% --dry-run", "--adapt: not with --dry-run"},
+           {"--adapt=1% --adapt-by=P2", "--adapt-by: P2 (allowed: HYBRID"},
+           {"--adapt=1% --adapt-by=3STEPD", "--adapt-by: 3STEPD (allowed: HYBRID"},
+           {"--adapt=1% --adapt-by=FOO", "--adapt-by: FOO (allowed: HYBRID"}}) {
+    EXPECT_EQ(bench(arguments + " --mesh=Mesh0 --method=HYBRID --out=o"), 2) << arguments;
+    EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
+    EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();
+    EXPECT_FALSE(std::filesystem::exists(bench_.path("o"))) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::adapt_command_test
