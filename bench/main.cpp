@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "bench/commands/advise_command.hpp"
 #include "bench/commands/claims_command.hpp"
 #include "bench/commands/compare_command.hpp"
 #include "bench/commands/export_command.hpp"
@@ -26,9 +27,10 @@ using Command = int (*)(int argc, const char* const* argv);
 
 // `bench WORD …`; without such a word it is a run.
 const std::map<std::string_view, Command> commands = {
-    {"claims", airybench::claims_command}, {"compare", airybench::compare_command},
-    {"export", airybench::export_command}, {"merge", airybench::merge_command},
-    {"replay", airybench::replay_command}, {"track", airybench::track_command},
+    {"advise", airybench::advise_command},   {"claims", airybench::claims_command},
+    {"compare", airybench::compare_command}, {"export", airybench::export_command},
+    {"merge", airybench::merge_command},     {"replay", airybench::replay_command},
+    {"track", airybench::track_command},
 };
 
 // Standard error may be full; that is told by the exit code.

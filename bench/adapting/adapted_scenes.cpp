@@ -15,9 +15,11 @@
 #include "bench/measuring/environment.hpp"
 #include "bench/records/json.hpp"
 #include "mesh/msh_format.hpp"
+#include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "support/sha256.hpp"
 #include "support/shortened.hpp"
 #include "support/text_table.hpp"
 
@@ -134,6 +136,21 @@ void print(const Json& said, const std::string& name) {
 }
 
 }  // namespace
+
+PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
+  PosedScene refined = level_0;
+  refined.adapted.reset();
+  Mesh mesh = uniformly_refined(level_0.problem->mesh);
+  mesh.name = mesh.name.substr(0, mesh.name.rfind("+adapt")) + "+refined1";
+  const std::filesystem::path file =
+      options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
+  write_file_atomically(file, text_of(mesh));
+  refined.mesh_file = recorded_path(file, options.out);
+  refined.mesh_sha256 = sha256_of_file(file);
+  Scene scene = scene_of(level_0.scene_definition, mesh.name);
+  refined.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+  return refined;
+}
 
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   adapting_method(options.adapt_by);

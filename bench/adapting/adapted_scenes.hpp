@@ -22,4 +22,7 @@ struct AdaptedScenes {
 // Throws UsageError (the method of --adapt-by), FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
+// Level 0 refined once everywhere, as a mesh file beside it: MESH+refined1.msh.
+PosedScene refined_scene(const PosedScene& level_0, const Options& options);
+
 }  // namespace airybench

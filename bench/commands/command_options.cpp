@@ -16,6 +16,7 @@ namespace {
 
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
+  bench advise           which mesh and which method give an error that one chooses
   bench claims DIR       the paper's sentences, checked against a results folder
   bench compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
   bench track            a night's run, added to a history and judged

@@ -1,0 +1,57 @@
+// bench advise from outside: the table, its CSV, and what it leaves in the folder.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::advise_command_test {
+namespace {
+
+class AdviseCommand : public ::testing::Test {
+ protected:
+  int bench(const std::string& arguments) const { return bench_.run("advise " + arguments).code; }
+  std::string complaint() const { return bench_.content("err.txt"); }
+  const testing::BenchCommand bench_;
+};
+
+TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --error=2% --method=HYBRID,3STEPD --out=o"), 0) << complaint();
+  std::istringstream csv(bench_.content("o/advice.csv"));
+  std::string header, best;
+  std::getline(csv, header);
+  std::getline(csv, best);
+  EXPECT_EQ(header,
+            "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
+  EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2% --levels=last --method="),
+            std::string::npos)
+      << best;
+  EXPECT_NE(bench_.content("o/advice.csv").find("Mesh0+refined1"), std::string::npos);
+  const auto records = bench_.records();
+  const auto meeting = std::ranges::count_if(
+      records, [](const Json& r) { return r["error_total"].get<double>() <= 0.02; });
+  EXPECT_EQ(meeting, 2);
+  EXPECT_FALSE(std::filesystem::is_empty(bench_.path("o/fields")));
+}
+
+TEST_F(AdviseCommand, RefusesWhatItCannotAdviseOn) {
+  for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
+           {"--mesh=Mesh0", "--error"},
+           {"--error=1%", "--mesh"},
+           {"--mesh=Mesh0 --error=5000", "--error: 5000 (allowed"},
+           {"--mesh=Mesh0 --error=0%", "--error: 0% (allowed"},
+           {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3 (allowed: one mesh)"}}) {
+    EXPECT_EQ(bench(arguments + " --out=o"), 2) << arguments;
+    EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
+    EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();
+    EXPECT_FALSE(std::filesystem::exists(bench_.path("o"))) << arguments;
+  }
+}
+
+TEST_F(AdviseCommand, SaysWhenNothingMeetsTheError) {
+  EXPECT_EQ(bench("--mesh=Mesh0 --error=0.01% --memory-limit=3 --method=HYBRID --out=o"), 1);
+  EXPECT_NE(complaint().find("not reached"), std::string::npos) << complaint();
+}
+
+}  // namespace
+}  // namespace airybench::advise_command_test
