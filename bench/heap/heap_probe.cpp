@@ -31,7 +31,7 @@ using airybench::current_memory_owner;
 using airybench::MemoryOwner;
 
 constexpr std::size_t always_granted = 64 * 1024;
-std::atomic<bool> limit_passed{false};
+std::atomic<bool> limit_passed{false}, refused_by_machine{false};
 constexpr std::int64_t no_limit = std::numeric_limits<std::int64_t>::max();
 std::atomic<std::int64_t> live{0}, peak{0}, peak_ever{0}, lap_peak{0}, limit{no_limit},
     backstop{no_limit};
@@ -120,7 +120,9 @@ void* refused() {
 
 // block: given for so many bytes and the tag, or null.
 void* counted(void* block, std::size_t bytes, MemoryOwner owner = current_memory_owner) {
-  if (block != nullptr) {
+  if (block == nullptr) {
+    refused_by_machine.store(true, std::memory_order_relaxed);
+  } else {
     tag_of(block) = static_cast<unsigned char>(owner) | (fills_a_block(bytes) ? enlarged : 0);
     add(owner, size_of(block));
     count.fetch_add(1, std::memory_order_relaxed);
@@ -161,8 +163,7 @@ void* realloc(void* block, std::size_t bytes) {
     return refused();
   const MemoryOwner owner = owner_of(block);
   void* moved = __libc_realloc(block, with_tag(bytes));
-  if (moved == nullptr) return nullptr;  // the old block is still there
-  add(owner, -before);
+  if (moved != nullptr) add(owner, -before);  // else the old block is still there
   return counted(moved, bytes, owner);
 }
 
@@ -201,6 +202,7 @@ void reset_peak() {
   copy(live_of, highest_of);
   peak.store(live_bytes(), std::memory_order_relaxed);
 }
+bool was_refused() { return refused_by_machine.load(std::memory_order_relaxed); }
 std::int64_t lap_peak_bytes() { return lap_peak.load(std::memory_order_relaxed); }
 void reset_lap_peak() { lap_peak.store(live_bytes(), std::memory_order_relaxed); }
 std::int64_t allocated_bytes() { return given_out.load(std::memory_order_relaxed); }

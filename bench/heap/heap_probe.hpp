@@ -25,6 +25,7 @@ std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
 std::int64_t allocations();      // calls that returned a block, since the start
 std::int64_t allocated_bytes();  // asked for by these calls together, whether freed or not
 void reset_peak();               // the peaks are then what is live now
+bool was_refused();              // has the machine, not a Limit, refused an allocation so far?
 
 // By owner. The live bytes sum to live_bytes().
 ByOwner<std::int64_t> live_by_owner();

@@ -9,6 +9,7 @@ std::int64_t peak_ever_bytes() { return 0; }
 std::int64_t allocations() { return 0; }
 std::int64_t allocated_bytes() { return 0; }
 void reset_peak() {}
+bool was_refused() { return false; }
 ByOwner<std::int64_t> live_by_owner() { return {}; }
 ByOwner<std::int64_t> peak_by_owner() { return {}; }
 ByOwner<std::int64_t> highest_by_owner() { return {}; }

@@ -20,6 +20,7 @@
 #include <new>
 #include <system_error>
 
+#include "bench/heap/heap_probe.hpp"
 #include "bench/isolation/oom_kills.hpp"
 #include "support/lack_of_memory.hpp"
 
@@ -38,6 +39,9 @@ constexpr int poll_ms = 100;
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
   end_for_lack_of_memory_with("", no_memory_exit_code);
+  std::atexit([] {  // of a library: we use _exit()
+    if (heap::was_refused()) _exit(no_memory_exit_code);
+  });
   try {
     body(channel);
   } catch (const std::bad_alloc&) {

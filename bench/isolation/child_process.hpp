@@ -34,7 +34,7 @@ class Channel {
   std::string received_;
 };
 
-inline constexpr int no_memory_exit_code = 97;  // of a child: std::bad_alloc outside of a solve
+inline constexpr int no_memory_exit_code = 97;  // of a child: nobody could go on without the memory
 struct ChildEnd {
   int exit_code = -1;     // of one that ended by itself
   int signal = 0;         // that ended it

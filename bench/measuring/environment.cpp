@@ -12,8 +12,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdlib>
 #include <fstream>
+#include <system_error>
 #include <thread>
 
 #include "bench/heap/heap_probe.hpp"
@@ -25,15 +27,25 @@
 namespace airybench {
 namespace {
 
+// Without an answer for lack of memory or descriptors a run would seem to be another machine's.
+std::ifstream opened(const char* path) {
+  std::ifstream file(path);
+  if (!file && (errno == ENOMEM || errno == EMFILE || errno == ENFILE))
+    throw FileError(
+        fmt::format("{}: cannot be opened: {}", path, std::generic_category().message(errno)));
+  file.exceptions(std::ios::badbit);
+  return file;
+}
+
 std::string cpu_model() {
-  std::ifstream file("/proc/cpuinfo");
+  std::ifstream file = opened("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
     if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
   return "unknown";
 }
 
 std::string first_line(const char* path) {
-  std::ifstream file(path);
+  std::ifstream file = opened(path);
   std::string line;
   std::getline(file, line);
   return line.empty() ? "unknown" : line;

@@ -242,6 +242,20 @@ TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
   }
 }
 
+// As OpenMP's library does.
+TEST(ChildProcess, ThatALibraryEndsForLackOfMemoryIsNoCrash) {
+  if (!heap::is_active()) GTEST_SKIP();
+  ChildProcess child([](Channel& channel) {
+    channel.receive();
+    volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max() / 2;
+    void* volatile block = std::malloc(too_much);  // or the compiler leaves it out
+    std::free(block);
+    std::exit(1);
+  });
+  EXPECT_FALSE(child.ask("are you there"));
+  EXPECT_EQ(child.end().exit_code, no_memory_exit_code);
+}
+
 TEST(ChildProcess, AnswersUntilItEnds) {
   ChildProcess child([](Channel& channel) {
     while (const auto line = channel.receive()) channel.send("you said " + *line);
