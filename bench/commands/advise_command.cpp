@@ -12,6 +12,7 @@
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/forecast/power_law.hpp"
 #include "bench/isolation/isolated_scene.hpp"
+#include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/running/runner.hpp"
 #include "support/atomic_file.hpp"
@@ -180,6 +181,7 @@ std::string csv_of(const std::vector<Advice>& rows) {
 
 int advise_command(int argc, const char* const* argv) {
   const Options options = parse_advise(argc, argv);
+  require_threads(options.threads);
   catch_interrupts();
   const std::vector<PosedScene> start = pose_all(options);
   if (start.size() != 1)

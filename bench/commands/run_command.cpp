@@ -129,7 +129,10 @@ int run_command(int argc, const char* const* argv) {
     print_list();
     return all_ok;
   }
-  catch_interrupts();
+  if (options.adapt) {  // which runs solves; other planning the signal itself ends
+    require_threads(options.threads);
+    catch_interrupts();
+  }
   std::vector<std::string> short_of;  // goals of --adapt that were not reached
   const std::vector<Case> whole = plan_of(options, short_of);
   for (const std::string& why : short_of) std::cerr << fmt::format("note: {}\n", why);
@@ -143,6 +146,7 @@ int run_command(int argc, const char* const* argv) {
   if (options.explain || options.dry_run) return all_ok;
   require_threads(options.threads);
   set_threads(options.threads);
+  catch_interrupts();
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
   context["plan_sha256"] = fingerprint(whole);
