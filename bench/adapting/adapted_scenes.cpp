@@ -84,8 +84,8 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
   set_threads(options.threads);
   const heap::Backstop backstop(options.memory_limit_bytes);
   AdaptiveLoop loop(scene, mesh, adapting_method(options.adapt_by),
-                    {*options.adapt, options.marking, options.timeout_s,
-                     options.memory_limit_bytes, options.threads});
+                    {*options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
+                     options.threads});
   while (channel.receive()) {
     Json answer;
     try {
@@ -130,9 +130,10 @@ PosedScene posed_level(const Json& said, const Scene& scene, const std::string& 
 void print(const Json& said, const std::string& name) {
   const std::string error =
       said.contains("error") ? fmt::format("{:.3g} %", 100 * said["error"].get<double>()) : "?";
-  std::cerr << fmt::format("adapt {}: level {}, n_phi {}, total error {}, smallest angle {:.1f}°, {}\n",
-                           name, said["number"].get<int>(), said["unknowns"].get<int>(), error,
-                           said["angle"].get<double>(), show_seconds(said["time_s"].get<double>()));
+  std::cerr << fmt::format(
+      "adapt {}: level {}, n_phi {}, total error {}, smallest angle {:.1f}°, {}\n", name,
+      said["number"].get<int>(), said["unknowns"].get<int>(), error, said["angle"].get<double>(),
+      show_seconds(said["time_s"].get<double>()));
 }
 
 }  // namespace

@@ -17,16 +17,28 @@
 namespace airybench {
 namespace {
 
-// How often each triangle is to be cut.
+// How often each triangle is to be cut (adaptive_loop.hpp).
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   constexpr double part_of_a_cut = 4;
+  constexpr double cheap = 0.1;  // of the triangles, that a level may add at least
   std::vector<int> cuts(parts.size(), 0);
   const std::vector<int> marked = bulk_marks(parts, marking);
   double least = std::numeric_limits<double>::infinity();
   for (const int t : marked) least = std::min(least, parts[t]);
   for (const int t : marked)
     cuts[t] = 1 + static_cast<int>(std::log(parts[t] / least) / std::log(part_of_a_cut));
+  const auto born = [&] {
+    double count = 0;
+    for (const int t : marked) count += std::exp2(cuts[t]) - 1;
+    return count;
+  };
+  while (!marked.empty() && 2 * born() < cheap * static_cast<double>(parts.size()))
+    for (const int t : marked) ++cuts[t];
   return cuts;
+}
+
+BisectedMesh refined(const Mesh& mesh, const std::vector<double>& parts, double marking) {
+  return bisected(mesh, cuts_of(parts, marking));
 }
 
 }  // namespace
@@ -74,8 +86,10 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   level.smallest_angle_deg = mesh_quality(mesh_).smallest_angle_deg;
   level.time_s = time_s_;
   level.estimate_s = estimate_s_;
-  if (error.flaw.empty()) level.error = error.relative;
-  else ended_ = "nothing can be said of the error: " + error.flaw;
+  if (error.flaw.empty())
+    level.error = error.relative;
+  else
+    ended_ = "nothing can be said of the error: " + error.flaw;
   parts_Nmm_ = std::move(error.of_triangle_Nmm);
   judge_progress(level);
   return level;
@@ -96,7 +110,18 @@ void AdaptiveLoop::judge_progress(const AdaptiveLevel& level) {
 }
 
 bool AdaptiveLoop::refine() {
-  BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, settings_.marking));
+  constexpr double margin = 1.1, step = 0.85, least_marking = 0.1;
+  const auto& [unknowns, error] = history_.back();
+  const double needed = settings_.goal.error
+                            ? margin * unknowns * error / *settings_.goal.error  // e ~ 1/N
+                            : *settings_.goal.unknowns;
+  double marking = settings_.marking;
+  BisectedMesh finer = refined(mesh_, parts_Nmm_, marking);
+  while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
+    BisectedMesh smaller = refined(mesh_, parts_Nmm_, marking *= step);
+    if (mesh_sizes(smaller.mesh).n_phi < needed) break;
+    finer = std::move(smaller);
+  }
   if (finer.mesh.triangles.size() > most_triangles)
     ended_ = fmt::format("the next mesh would have more than {} triangles", most_triangles);
   else if (finer.mesh.triangles.size() == mesh_.triangles.size())

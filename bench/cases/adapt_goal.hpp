@@ -6,7 +6,7 @@
 
 namespace airybench {
 
-struct AdaptGoal {  // one of the two
+struct AdaptGoal {              // one of the two
   std::optional<double> error;  // total error, relative
   std::optional<int> unknowns;  // n_φ, at least
 };

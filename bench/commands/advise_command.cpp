@@ -65,8 +65,8 @@ Options parse_advise(int argc, const char* const* argv) {
   parse_command_line(app, argc, argv);
   options.adapt = adapt_goal_of(error);
   if (!options.adapt || !options.adapt->error)
-    throw UsageError(fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%)",
-                                 shortened(error)));
+    throw UsageError(
+        fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%)", shortened(error)));
   if (options.methods.empty()) options.methods = candidates;
   if (!scene.empty()) options.scenes = {scene};
   return options;
@@ -99,8 +99,8 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
     if (!options.scenes.empty()) text += " --scene=" + quoted(options.scenes.front().string());
   } else {
     const std::filesystem::path file = recorded_file(r.mesh_file, options.out);
-    text += quoted(file.string()) + " --scene=" +
-            quoted((file.parent_path() / (r.scene + ".json")).string());
+    text += quoted(file.string()) +
+            " --scene=" + quoted((file.parent_path() / (r.scene + ".json")).string());
   }
   if (is_adapted) text += fmt::format(" --adapt={} --levels=last", text_of(*options.adapt));
   return text + " --method=" + quoted(r.method);
@@ -126,13 +126,13 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
       !coarse.peak_heap_bytes || !fine.peak_heap_bytes || *fine.error_total >= *coarse.error_total)
     return {};
   const double per_step = *fine.error_total / *coarse.error_total;
-  const int steps = static_cast<int>(std::ceil(std::log(error / *fine.error_total) /
-                                               std::log(per_step)));
+  const int steps =
+      static_cast<int>(std::ceil(std::log(error / *fine.error_total) / std::log(per_step)));
   if (steps < 1 || steps > most_steps) return {};
   const double growth = std::pow(static_cast<double>(*fine.n_phi) / *coarse.n_phi, steps);
   const auto at = [&](double of_coarse, double of_fine) {
-    const double exponent = std::log(of_fine / of_coarse) /
-                            std::log(static_cast<double>(*fine.n_phi) / *coarse.n_phi);
+    const double exponent =
+        std::log(of_fine / of_coarse) / std::log(static_cast<double>(*fine.n_phi) / *coarse.n_phi);
     return of_fine * std::pow(growth, exponent);
   };
   Advice advice;
@@ -142,8 +142,8 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
   advice.n_phi = std::llround(static_cast<double>(*fine.n_phi) * growth);
   advice.error_total = *fine.error_total * std::pow(per_step, steps);
   advice.time_s = at(*coarse.time_s, *fine.time_s);
-  advice.peak_heap_bytes = std::llround(at(static_cast<double>(*coarse.peak_heap_bytes),
-                                           static_cast<double>(*fine.peak_heap_bytes)));
+  advice.peak_heap_bytes = std::llround(
+      at(static_cast<double>(*coarse.peak_heap_bytes), static_cast<double>(*fine.peak_heap_bytes)));
   return advice;
 }
 
@@ -170,10 +170,10 @@ std::string csv_of(const std::vector<Advice>& rows) {
     return "\"" + doubled + "\"";
   };
   for (const Advice& row : rows)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell(row.mesh), cell(row.method),
-                        row.n_phi, number(row.error_total), number(row.time_s),
-                        number(row.adapt_time_s), number(row.peak_heap_bytes), row.basis,
-                        name_of(row.status), cell(row.command));
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell(row.mesh), cell(row.method), row.n_phi,
+                    number(row.error_total), number(row.time_s), number(row.adapt_time_s),
+                    number(row.peak_heap_bytes), row.basis, name_of(row.status), cell(row.command));
   return text;
 }
 
@@ -209,9 +209,8 @@ int advise_command(int argc, const char* const* argv) {
   std::vector<Advice> rows;
   for (std::size_t k = uniform; k < records.size(); ++k)
     rows.push_back(advice_of(records[k], options, is_refined));
-  std::ranges::stable_sort(rows, {}, [&](const Advice& row) {
-    return std::pair(!row.meets(goal), row.whole_time_s());
-  });
+  std::ranges::stable_sort(
+      rows, {}, [&](const Advice& row) { return std::pair(!row.meets(goal), row.whole_time_s()); });
   const bool met = rows.front().meets(goal);
   for (std::size_t k = 0; k < uniform; ++k) rows.push_back(advice_of(records[k], options, false));
   if (is_refined)

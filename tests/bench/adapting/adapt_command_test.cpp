@@ -48,8 +48,10 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
 
   // A level is a mesh as any other, and its record can be run again.
   const std::string mesh = last["mesh_file"], level = last["mesh"];
-  ASSERT_EQ(bench("--mesh='o/" + mesh + "' --scene=o/meshes/default/default.json --method=HYBRID "
-                  "--repetitions=1 --out=again"), 0)
+  ASSERT_EQ(bench("--mesh='o/" + mesh +
+                  "' --scene=o/meshes/default/default.json --method=HYBRID "
+                  "--repetitions=1 --out=again"),
+            0)
       << complaint();
   EXPECT_EQ(bench_.records("again")[0]["strain_energy_Nmm"], last["strain_energy_Nmm"]);
   EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
@@ -59,7 +61,8 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   write("layered.json", R"({"mesh": {"scale": 2}, "layers": {"count": 2,
         "materials": [{"young_MPa": 1000}, {"young_MPa": 3000, "poisson": 0.4}]}})");
   ASSERT_EQ(bench("--mesh=Mesh0 --scene=layered.json --method=HYBRID --adapt=1000 --levels=last "
-                  "--repetitions=1 --out=o"), 0)
+                  "--repetitions=1 --out=o"),
+            0)
       << complaint();
   ASSERT_EQ(bench_.records().size(), 1u);
   const Json record = bench_.records()[0];
@@ -74,7 +77,8 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
 
 TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
   EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
-                  "--repetitions=1 --out=o"), 1);
+                  "--repetitions=1 --out=o"),
+            1);
   EXPECT_NE(complaint().find("note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on "),
             std::string::npos)
       << complaint();

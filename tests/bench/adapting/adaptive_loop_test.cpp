@@ -77,9 +77,8 @@ Mesh corner_piece() {
   for (const auto& t : mesh.triangles)
     if (is_there(t)) {
       piece.triangles.push_back(t);
-      piece.triangle_body.push_back(mesh.vertices[t[0]].x() + mesh.vertices[t[1]].x() +
-                                            mesh.vertices[t[2]].x() >
-                                        15);
+      piece.triangle_body.push_back(
+          mesh.vertices[t[0]].x() + mesh.vertices[t[1]].x() + mesh.vertices[t[2]].x() > 15);
     }
   return piece;
 }
@@ -103,7 +102,7 @@ Mesh with_boundary(Mesh mesh) {
   for (const auto& [side, count] : sides) {
     if (sides.contains({side[1], side[0]})) continue;
     const Eigen::Vector2d middle = (mesh.vertices[side[0]] + mesh.vertices[side[1]]) / 2;
-    mesh.boundary.push_back({side, middle.y() > 9.99  ? BoundaryRole::displacement
+    mesh.boundary.push_back({side, middle.y() > 9.99   ? BoundaryRole::displacement
                                    : middle.x() > 9.99 ? BoundaryRole::contact
                                                        : BoundaryRole::force});
   }
@@ -122,8 +121,8 @@ TEST(AdaptiveLoop, TheErrorFallsWithTheInverseOfTheUnknowns) {
     const std::vector<AdaptiveLevel> levels = levels_of(loop);
     ASSERT_TRUE(loop.reached()) << loop.why_ended();
     const AdaptiveLevel& fine = levels.back();
-    const auto coarse =
-        std::ranges::find_if(levels, [](const AdaptiveLevel& level) { return *level.error < 0.03; });
+    const auto coarse = std::ranges::find_if(
+        levels, [](const AdaptiveLevel& level) { return *level.error < 0.03; });
     const double slope = std::log(*fine.error / *coarse->error) /
                          std::log(static_cast<double>(fine.unknowns) / coarse->unknowns);
     EXPECT_LT(slope, -0.9) << mesh.name;
@@ -138,10 +137,11 @@ TEST(AdaptiveLoop, EnergiesOfAllLevelsAreBracketedAndTheBoundIsNearP2s) {
   for (const AdaptiveLevel& level : levels_of(loop)) {
     const DualSystem system =
         assemble(std::make_shared<const Problem>(pose(scene, level.mesh)), Blocks::contact_points);
-    const Solution own = run(hybrid(), system, {}), p2 = run(select_methods("P2").front(), system, {});
-    const ConstitutiveError error = constitutive_error(
-        system, own.stress, own.F_C,
-        recovered_displacement(system, own.stress, own.F_C, own.edge_moments));
+    const Solution own = run(hybrid(), system, {}),
+                   p2 = run(select_methods("P2").front(), system, {});
+    const ConstitutiveError error =
+        constitutive_error(system, own.stress, own.F_C,
+                           recovered_displacement(system, own.stress, own.F_C, own.edge_moments));
     EXPECT_TRUE(error.guaranteed) << error.flaw;
     EXPECT_EQ(error.relative, *level.error);
     EXPECT_LE(error.relative,

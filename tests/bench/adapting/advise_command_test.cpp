@@ -21,8 +21,9 @@ TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
   std::string header, best;
   std::getline(csv, header);
   std::getline(csv, best);
-  EXPECT_EQ(header,
-            "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
+  EXPECT_EQ(
+      header,
+      "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
   EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2% --levels=last --method="),
             std::string::npos)
       << best;
