@@ -149,6 +149,7 @@ class Row:
     upper_bound_Nmm: float | None = key(FINITE)
     study: str = key(words(("error", "stability", "contact"), may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
+    claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)
     knob: str = key(TEXT)  # what an error study turned; empty: nothing, this is the one point
     knob_value: float | None = key(NOT_NEGATIVE)

@@ -11,6 +11,7 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/plan.hpp"
 #include "bench/cases/stages.hpp"
+#include "bench/commands/command_line.hpp"
 #include "bench/commands/command_options.hpp"
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/forecast/prediction.hpp"
