@@ -36,7 +36,7 @@ Examples
   bench advise --mesh=part.msh --scene=load.json --error=1% --out=results/part
 )";
 
-constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,3STEPD:CHOLMOD,3STEPD";
+constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,BLIND:SCHUR:REFINED,3STEPD";
 constexpr const char* uniform_candidate = "HYBRID";
 
 Options parse_advise(int argc, const char* const* argv) {
