@@ -9,11 +9,13 @@ std::array<int, 10> hct_third(int t) {
 
 template HctCoefficientsIn<double> hct_coefficients(const TriangleVertices&, const EdgeSigns&);
 template HctStressIn<double> hct_stress(const TriangleVertices&, const EdgeSigns&);
-template HctFlexibilityIn<double> hct_flexibility(const HctStressIn<double>&, double,
-                                                  const Eigen::Matrix3d&);
+template Eigen::Matrix<double, 12, 12> hct_flexibility(const Eigen::Matrix<double, 27, 12>&, double,
+                                                       const Eigen::Matrix3d&);
+template Eigen::Matrix<double, 9, 9> hct_flexibility(const Eigen::Matrix<double, 27, 9>&, double,
+                                                     const Eigen::Matrix3d&);
 template HctCoefficientsIn<long double> hct_coefficients(const TriangleVertices&, const EdgeSigns&);
 template HctStressIn<long double> hct_stress(const TriangleVertices&, const EdgeSigns&);
-template HctFlexibilityIn<long double> hct_flexibility(const HctStressIn<long double>&, long double,
-                                                       const Eigen::Matrix3d&);
+template Eigen::Matrix<long double, 9, 9> hct_flexibility(const Eigen::Matrix<long double, 27, 9>&,
+                                                          long double, const Eigen::Matrix3d&);
 
 }  // namespace airybench

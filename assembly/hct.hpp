@@ -55,13 +55,11 @@ HctStressIn<Scalar> hct_stress(const TriangleVertices& v, const EdgeSigns& outwa
 // ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick: the element's flexibility.
 // compliance: 3×3 in (xx, yy, xy), see elasticity.hpp. Exact: on a third of area a with corner
 // values σ_m, ∫ = a/12 (Σσ_m : Σσ_m + Σ σ_m : σ_m). Symmetric, positive semidefinite; kernel:
-// affine φ.
-template <typename Scalar>
-using HctFlexibilityIn = Eigen::Matrix<Scalar, 12, 12>;
-using HctFlexibility = HctFlexibilityIn<double>;
-template <typename Scalar>
-HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& stress,
-                                         std::type_identity_t<Scalar> area_mm2,
-                                         const Eigen::Matrix3d& compliance);
+// affine φ. Of the degrees of freedom whose columns `stress` has: 12, or the last 9.
+using HctFlexibility = Eigen::Matrix<double, 12, 12>;
+template <typename Scalar, int dofs>
+Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
+                                                  std::type_identity_t<Scalar> area_mm2,
+                                                  const Eigen::Matrix3d& compliance);
 
 }  // namespace airybench

@@ -124,16 +124,16 @@ HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns
   return stress;
 }
 
-template <typename Scalar>
-HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& stress,
-                                         std::type_identity_t<Scalar> area_mm2,
-                                         const Eigen::Matrix3d& compliance) {
+template <typename Scalar, int dofs>
+Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
+                                                  std::type_identity_t<Scalar> area_mm2,
+                                                  const Eigen::Matrix3d& compliance) {
   using std::sqrt;
   // With compliance = RᵀR the flexibility is MᵀM, where M stacks √(a/12) R σ for the sum and the
   // three corner values of every third.
   const SmallCholesky<Scalar, 3> cholesky(compliance.cast<Scalar>());
   const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
-  Eigen::Matrix<Scalar, 36, 12> m;
+  Eigen::Matrix<Scalar, 36, dofs> m;
   for (int t = 0; t < 3; ++t) {
     for (int corner = 0; corner < 3; ++corner)
       m.template middleRows<3>(12 * t + 3 * corner) =
@@ -142,8 +142,8 @@ HctFlexibilityIn<Scalar> hct_flexibility(const Eigen::Matrix<Scalar, 27, 12>& st
                                            m.template middleRows<3>(12 * t + 3) +
                                            m.template middleRows<3>(12 * t + 6);
   }
-  HctFlexibilityIn<Scalar> flexibility;
-  for (int j = 0; j < 12; ++j)
+  Eigen::Matrix<Scalar, dofs, dofs> flexibility;
+  for (int j = 0; j < dofs; ++j)
     for (int i = 0; i <= j; ++i) flexibility(i, j) = flexibility(j, i) = m.col(i).dot(m.col(j));
   return flexibility;
 }

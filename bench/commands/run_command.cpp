@@ -100,9 +100,8 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   const std::vector<Method> selected =
       select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
-  std::vector<Case> plan =
-      plan_cases(pose_and_adapt(options, short_of), selected, options.study, options.stop,
-                 options.contact);
+  std::vector<Case> plan = plan_cases(pose_and_adapt(options, short_of), selected, options.study,
+                                      options.stop, options.contact);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty() && short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");

@@ -34,9 +34,8 @@ HybridElement<Scalar> make_hybrid_element(const Problem& problem, const std::vec
   const Scalar area = problem.area_mm2<Scalar>(t);
   HybridElement<Scalar> element;
   element.stress = hct_stress<Scalar>(v, outward);
-  const HctFlexibilityIn<Scalar> flexibility =
-      hct_flexibility<Scalar>(element.stress, area, compliance);
-  element.flexibility = SmallCholesky<Scalar, 9>(flexibility.template bottomRightCorner<9, 9>());
+  const Eigen::Matrix<Scalar, 27, 9> stress = element.stress.template rightCols<9>();
+  element.flexibility = SmallCholesky<Scalar, 9>(hct_flexibility(stress, area, compliance));
   if (!element.flexibility.positive())
     throw Breakdown("hybridized: triangle " + std::to_string(t + 1) +
                     ": its flexibility is not positive definite to rounding");

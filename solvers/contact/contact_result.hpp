@@ -15,8 +15,8 @@ struct ContactResult {
   Eigen::VectorXd F_C;  // N
   // ‖natural map‖ ≤ tolerance · ‖F_C‖, or RunControl::contact_acceptable where it ended.
   bool converged = false;
-  int iterations = 0;        // sweeps
-  int active_set_steps = 0;  // active_set.hpp
+  int iterations = 0;                                                     // sweeps
+  int active_set_steps = 0;                                               // active_set.hpp
   double natural_map_residual = std::numeric_limits<double>::infinity();  // relative to ‖F_C‖
   std::vector<double> history;  // ‖change of an iteration‖/‖F_C‖; kept if the control says so
 };

@@ -135,7 +135,7 @@ TEST(QuadraticDisplacements, ContactForcesBalanceReactionsAndLoads) {
   for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
     const QuadraticStiffness K =
         quadratic_stiffness(quadratic_strain(problem->vertices_of(t)), problem->area_mm2(t),
-                            elasticity_of(*problem, t));
+                            elasticity_of(problem->compliance_of(t)));
     const std::array<int, 6> nodes = triangle_nodes(*problem, t);
     Eigen::Matrix<double, 2, 6> local;
     for (int m = 0; m < 6; ++m) local.col(m) = solution.displacement.col(nodes[m]);
