@@ -8,7 +8,8 @@ namespace airybench {
 namespace {
 
 std::int64_t bytes_of_answer(const Solution& solution) {
-  const auto doubles = solution.F_C.size() + solution.phi.size() + solution.displacement.size();
+  const auto doubles = solution.F_C.size() + solution.phi.size() + solution.displacement.size() +
+                       solution.edge_moments.size();
   return static_cast<std::int64_t>(static_cast<std::size_t>(doubles) * sizeof(double) +
                                    solution.stress.size() * sizeof(ElementStress));
 }

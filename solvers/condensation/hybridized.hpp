@@ -24,11 +24,11 @@
 #include <vector>
 
 #include "assembly/dual_system.hpp"
+#include "solvers/base/element_matrices.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
-#include "solvers/direct/element_matrices.hpp"
 
 namespace airybench {
 

@@ -97,7 +97,8 @@ ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
     ContactResult result = swept;
     finish_by_active_set(condensed, contact, control, result);
     steps += result.active_set_steps;
-    if (!(best.natural_map_residual <= result.natural_map_residual)) best = std::move(result);
+    if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
+      best = std::move(result);
     if (best.converged || sweeps >= control.contact_sweeps || !swept.F_C.allFinite()) break;
   }
   best.iterations = sweeps;

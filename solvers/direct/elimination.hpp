@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "solvers/direct/element_matrices.hpp"
+#include "solvers/base/element_matrices.hpp"
 
 namespace airybench {
 

@@ -191,7 +191,7 @@ std::size_t MultifrontalFactor::bytes() const {
   std::size_t elements = 0;
   for (const Front& front : elimination_.fronts)
     elements += front.elements.size() + front.children.size();
-  return (elimination_.panel_doubles + elimination_.update_doubles) * sizeof(double) +
+  return elimination_.panel_doubles * sizeof(double) +
          elimination_.fronts.size() * (sizeof(Front) + sizeof(int)) +
          (elimination_.rows.size() + 2 * elimination_.place.size() + elements) * sizeof(int);
 }

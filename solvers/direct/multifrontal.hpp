@@ -38,7 +38,7 @@ class MultifrontalFactor {
   Eigen::VectorXd backward(const Eigen::VectorXd& z) const;
   Eigen::MatrixXd trailing_factor() const;  // L_CC, lower triangular
 
-  std::size_t bytes() const;     // of L, its structure, and the updates that waited at most
+  std::size_t bytes() const;     // of L and its structure
   std::int64_t entries() const;  // of L, with the zeros that fronts store
   double flops() const;          // of the numeric factorisation
 

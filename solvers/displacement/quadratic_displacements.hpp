@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "assembly/control_points.hpp"
-#include "solvers/direct/element_matrices.hpp"
+#include "solvers/base/element_matrices.hpp"
 
 namespace airybench {
 

@@ -412,9 +412,18 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   const auto first = counts("", every);
   EXPECT_EQ(first.size(), 25u);
   EXPECT_EQ(counts("", every), first);
-  std::vector<std::string> linear;  // of the first run
-  for (std::size_t k = 0; k < first.size(); k += every.size()) linear.push_back(first[k]);
-  EXPECT_EQ(counts(" --threads=2", {"linear_iterations"}), linear);
+  // On two threads too, but for the solves of the check: they correct roundings, and BLAS rounds
+  // otherwise there.
+  const auto iterations = [&](const std::string& entry) {
+    const std::string number = entry.substr(entry.rfind('"') + 1);
+    return number == "null" ? 0 : std::stoi(number);
+  };
+  const auto on_two = counts(" --threads=2", {"linear_iterations"});
+  ASSERT_EQ(on_two.size(), first.size() / every.size());
+  for (std::size_t k = 0; k < on_two.size(); ++k)
+    EXPECT_NEAR(iterations(on_two[k]), iterations(first[k * every.size()]),
+                0.02 * iterations(on_two[k]))
+        << on_two[k];
 }
 
 TEST_F(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {

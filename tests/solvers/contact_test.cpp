@@ -253,7 +253,9 @@ TEST(ContactSolvers, TooFewIterationsOrNaNIsNotConverged) {
     RunControl control;
     control.contact = solver;
     EXPECT_TRUE(solve_contact(condensed, contact, control).converged) << name_of(solver);
-    EXPECT_FALSE(solve_contact(poisoned, contact, control).converged) << name_of(solver);
+    const ContactResult of_nan = solve_contact(poisoned, contact, control);
+    EXPECT_FALSE(of_nan.converged) << name_of(solver);
+    EXPECT_EQ(of_nan.F_C.size(), contact.size()) << name_of(solver);
     control.contact_sweeps = 0;
     EXPECT_FALSE(solve_contact(poisoned, contact, control).converged) << name_of(solver);
     control.deadline = Deadline::after(-1);
