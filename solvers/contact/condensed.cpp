@@ -8,6 +8,7 @@
 #include "solvers/contact/admm.hpp"
 #include "solvers/contact/anderson.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/gauss_seidel.hpp"
 
 namespace airybench {
 
