@@ -130,10 +130,12 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
       static_cast<int>(std::ceil(std::log(error / *fine.error_total) / std::log(per_step)));
   if (steps < 1 || steps > most_steps) return {};
   const double growth = std::pow(static_cast<double>(*fine.n_phi) / *coarse.n_phi, steps);
+  // Small meshes are dear for their size: what grows less than in proportion there will not further
+  // on.
   const auto at = [&](double of_coarse, double of_fine) {
     const double exponent =
         std::log(of_fine / of_coarse) / std::log(static_cast<double>(*fine.n_phi) / *coarse.n_phi);
-    return of_fine * std::pow(growth, exponent);
+    return of_fine * std::pow(growth, std::max(exponent, 1.0));
   };
   Advice advice;
   advice.mesh = fmt::format("refined {} times", steps + 1);
