@@ -4,7 +4,9 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace airybench {
 
@@ -50,5 +52,13 @@ inline constexpr std::array<ContactSolver, 4> all_contact_solvers = {
     ContactSolver::admm};
 std::string_view name_of(ContactSolver solver);  // "gauss-seidel"
 std::optional<ContactSolver> contact_solver_of(std::string_view name);
+
+// Of all_statuses, all_contact_solvers and the like.
+template <typename Words>
+std::vector<std::string> names_of(const Words& all) {
+  std::vector<std::string> names;
+  for (const auto& word : all) names.emplace_back(name_of(word));
+  return names;
+}
 
 }  // namespace airybench

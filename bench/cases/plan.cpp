@@ -42,16 +42,14 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
 }
 
 CaseName Case::name() const {
-  CaseName name{posed.problem->mesh.name,
-                posed.scene_name,
-                method.name,
-                name_of(study),
-                knob.name,
-                knob.value,
-                stop,
-                {}};
-  if (contact && contact != implied_contact_solver(stop, knob.name)) name.contact = contact;
-  return name;
+  return {posed.problem->mesh.name,
+          posed.scene_name,
+          method.name,
+          name_of(study),
+          knob.name,
+          knob.value,
+          stop,
+          unless_implied(contact, stop, knob.name)};
 }
 
 std::string fingerprint(const std::vector<Case>& plan) {

@@ -6,8 +6,7 @@
 //   stability  every method on the extreme scenes of bench/scenes/stability, one outcome each:
 //              where a method works, where it says that it does not, and where it is wrong
 //              without saying
-//   contact    HYBRID with every solver of the condensed contact problem, on meshes and frictions
-//   of
+//   contact    HYBRID with every solver of the condensed contact problem, under the frictions of
 //              bench/scenes/contact: the same D, to the bit, for all of them
 #pragma once
 

@@ -10,7 +10,7 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/posed_scenes.hpp"
-#include "bench/forecast/power_law.hpp"
+#include "bench/exports/csv.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/environment.hpp"
@@ -87,23 +87,19 @@ struct Advice {
   double whole_time_s() const { return time_s.value_or(INFINITY) + adapt_time_s.value_or(0); }
 };
 
-std::string quoted(const std::string& word) {
-  return word.find_first_of(" ,:*?;&()'\"") == word.npos ? word : "'" + word + "'";
-}
-
 // Of a level or of the refined mesh, as a file; of the best one from the start.
 std::string command_of(const Options& options, const Record& r, bool is_adapted) {
   std::string text = "bench --mesh=";
   if (is_adapted || r.adapt_level == 0) {
-    text += quoted(options.meshes);
-    if (!options.scenes.empty()) text += " --scene=" + quoted(options.scenes.front().string());
+    text += shell_word(options.meshes);
+    if (!options.scenes.empty()) text += " --scene=" + shell_word(options.scenes.front().string());
   } else {
     const std::filesystem::path file = recorded_file(r.mesh_file, options.out);
-    text += quoted(file.string()) +
-            " --scene=" + quoted((file.parent_path() / (r.scene + ".json")).string());
+    text += shell_word(file.string()) +
+            " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
   }
   if (is_adapted) text += fmt::format(" --adapt={} --levels=last", text_of(*options.adapt));
-  return text + " --method=" + quoted(r.method);
+  return text + " --method=" + shell_word(r.method);
 }
 
 Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
@@ -166,16 +162,11 @@ std::string csv_of(const std::vector<Advice>& rows) {
   const auto number = [](const auto& value) {
     return value ? fmt::format("{}", *value) : std::string();
   };
-  const auto cell = [](const std::string& word) {
-    std::string doubled;
-    for (const char c : word) doubled += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return "\"" + doubled + "\"";
-  };
   for (const Advice& row : rows)
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", cell(row.mesh), cell(row.method), row.n_phi,
-                    number(row.error_total), number(row.time_s), number(row.adapt_time_s),
-                    number(row.peak_heap_bytes), row.basis, name_of(row.status), cell(row.command));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_quoted(row.mesh),
+                        csv_quoted(row.method), row.n_phi, number(row.error_total),
+                        number(row.time_s), number(row.adapt_time_s), number(row.peak_heap_bytes),
+                        row.basis, name_of(row.status), csv_quoted(row.command));
   return text;
 }
 

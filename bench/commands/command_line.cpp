@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <iostream>
 
 #include "support/errors.hpp"
@@ -64,12 +67,20 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, dou
       ->default_str(fmt::format("{}", number));
 }
 
+std::string shell_word(const std::string& word) {
+  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_./+-=%@", c) != nullptr;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
 void run_after(const std::string& command, const std::filesystem::path& folder) {
   if (command.empty()) return;
-  std::string quoted;
-  for (const char c : folder.string()) quoted += c == '\'' ? "'\\''" : std::string(1, c);
   std::fflush(stdout);
-  if (std::system(fmt::format("{} '{}'", command, quoted).c_str()) != 0)
+  if (std::system(fmt::format("{} {}", command, shell_word(folder.string())).c_str()) != 0)
     std::cerr << fmt::format("note: --then: {}: failed\n", command);
 }
 

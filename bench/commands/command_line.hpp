@@ -25,6 +25,10 @@ enum class Least { zero, above_zero };
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);
 
+// A word as the shell reads it again: in quotation marks where it has more than letters, digits and
+// what is nothing to the shell.
+std::string shell_word(const std::string& word);
+
 // A command for the shell with the folder as its last argument, whatever becomes of it; empty:
 // none.
 void run_after(const std::string& command, const std::filesystem::path& folder);

@@ -111,7 +111,7 @@ Options parse_options(int argc, const char* const* argv) {
                  "error (every method over its accuracy knob: what each digit costs), stability "
                  "(every method on the extreme scenes of bench/scenes/stability) or contact (every "
                  "contact solver on the same condensed problems, bench/scenes/contact)")
-      ->check(CLI::IsMember({"error", "stability", "contact"}))
+      ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
              "every iterative method is tightened until its errors and residuals are below this; a "
@@ -127,7 +127,7 @@ Options parse_options(int argc, const char* const* argv) {
                  "what solves the condensed contact problem: newton (active sets after a few "
                  "sweeps), gauss-seidel (as the paper has it), anderson (the same, accelerated) or "
                  "admm")
-      ->check(CLI::IsMember({"newton", "gauss-seidel", "anderson", "admm"}))
+      ->check(CLI::IsMember(names_of(all_contact_solvers)))
       ->capture_default_str();
   add_whole(
       app, "--repetitions", 1, 100000, options.repetitions,

@@ -9,18 +9,27 @@ namespace airybench {
 namespace {
 
 // A text that a spreadsheet would take for a formula, or that begins with ', has a ' before it.
-std::string cell(const Json& value) {
-  if (value.is_null()) return "";
-  if (!value.is_string()) return json_text(value);
-  std::string text = value.get<std::string>();
+std::string no_formula(std::string text) {
   if (text.find_first_of("=+-@\t\r'") == 0 && !parse_number(text)) text.insert(0, "'");
-  if (text.find_first_of(",\"\r\n") == text.npos) return text;
+  return text;
+}
+
+std::string in_quotes(const std::string& text) {
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
 
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  if (!value.is_string()) return json_text(value);
+  const std::string text = no_formula(value.get<std::string>());
+  return text.find_first_of(",\"\r\n") == text.npos ? text : in_quotes(text);
+}
+
 }  // namespace
+
+std::string csv_quoted(const std::string& text) { return in_quotes(no_formula(text)); }
 
 std::string csv_text(const std::vector<Record>& records) {
   const std::vector<const Field*> columns = fields_with(column);

@@ -62,6 +62,11 @@ ContactSolver implied_contact_solver(Stop stop, std::string_view knob) {
                                                     : ContactSolver::newton;
 }
 
+std::optional<ContactSolver> unless_implied(std::optional<ContactSolver> solver, Stop stop,
+                                            std::string_view knob) {
+  return solver == implied_contact_solver(stop, knob) ? std::nullopt : solver;
+}
+
 bool is_name(std::string_view text) {
   const auto is_refused = [](char c) { return c == '/' || static_cast<unsigned char>(c) < ' '; };
   return !text.empty() && std::none_of(text.begin(), text.end(), is_refused) && is_utf8(text);
@@ -81,8 +86,7 @@ std::optional<CaseName> case_name_of(std::string_view text) {
     if (parts[k] == "stop=paper") {
       name.stop = Stop::paper;
     } else if (key == "contact") {
-      name.contact = contact_solver_of(value);
-      if (!name.contact || *name.contact == implied_contact_solver(name.stop, name.knob)) return {};
+      name.contact = unless_implied(contact_solver_of(value), name.stop, name.knob);
     } else if (key == "study") {
       name.study = value;
     } else {

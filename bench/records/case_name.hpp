@@ -38,6 +38,9 @@ struct CaseName {
 // Of a case that is not told: Newton; with the paper's stop, or where sweeps are counted,
 // Gauss–Seidel.
 ContactSolver implied_contact_solver(Stop stop, std::string_view knob);
+// For CaseName::contact.
+std::optional<ContactSolver> unless_implied(std::optional<ContactSolver> solver, Stop stop,
+                                            std::string_view knob);
 
 // May a mesh, a scene or a method be called that? UTF-8 without '/' and control characters, not
 // empty.

@@ -5,10 +5,8 @@
 namespace airybench {
 
 CaseName name_of(const Record& r) {
-  CaseName name{r.mesh, r.scene, r.method, r.study, r.knob, r.knob_value, r.stop, {}};
-  if (r.contact_solver && r.contact_solver != implied_contact_solver(r.stop, r.knob))
-    name.contact = r.contact_solver;
-  return name;
+  return {r.mesh, r.scene,      r.method, r.study,
+          r.knob, r.knob_value, r.stop,   unless_implied(r.contact_solver, r.stop, r.knob)};
 }
 
 std::string context_word(const Record& record, const std::string& key) {

@@ -112,10 +112,8 @@ Word word_of(const Json& value, const Place& at, std::optional<Word> (*named)(st
 }
 
 void read(field_kind::status, const Json& value, const Place& at, Status& status) {
-  std::string allowed;
-  for (const Status one : all_statuses)
-    allowed += (allowed.empty() ? "" : ", ") + std::string(name_of(one));
-  status = word_of(value, at, &status_of, allowed);
+  status =
+      word_of(value, at, &status_of, fmt::format("{}", fmt::join(names_of(all_statuses), ", ")));
 }
 
 void read(field_kind::claim, const Json& value, const Place& at, std::optional<Status>& claim) {
@@ -129,7 +127,8 @@ void read(field_kind::stop, const Json& value, const Place& at, Stop& stop) {
 void read(field_kind::contact, const Json& value, const Place& at,
           std::optional<ContactSolver>& solver) {
   if (!value.is_null())
-    solver = word_of(value, at, &contact_solver_of, "newton, gauss-seidel, anderson, admm, null");
+    solver = word_of(value, at, &contact_solver_of,
+                     fmt::format("{}, null", fmt::join(names_of(all_contact_solvers), ", ")));
 }
 
 void read(field_kind::times, const Json& value, const Place& at, std::vector<double>& times) {

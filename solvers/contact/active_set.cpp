@@ -58,11 +58,9 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
   Eigen::VectorXd F = result.F_C;
   int since_best = 0;
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
-    const double norm = F.norm();
-    if (!std::isfinite(norm)) break;
+    if (!std::isfinite(F.norm())) break;
     const Eigen::VectorXd u = condensed.D * F - condensed.G;
-    const double residual = natural_map(contact, condensed.D.diagonal(), F, u).norm();
-    const double relative = norm > 0 ? residual / norm : residual;
+    const double relative = relative_natural_map(contact, condensed.D.diagonal(), F, u);
     const double before = result.natural_map_residual;
     if (step == 0 || relative < before) {
       result.F_C = F;

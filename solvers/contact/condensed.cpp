@@ -22,9 +22,7 @@ Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPo
 
 double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
                             const Eigen::VectorXd& F) {
-  const Eigen::VectorXd u = condensed.D * F - condensed.G;
-  const double norm = F.norm(), map = natural_map(contact, condensed.D.diagonal(), F, u).norm();
-  return norm > 0 ? map / norm : map;
+  return relative_natural_map(contact, condensed.D.diagonal(), F, condensed.D * F - condensed.G);
 }
 
 ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,

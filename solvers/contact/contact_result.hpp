@@ -21,7 +21,7 @@ struct ContactResult {
   std::vector<double> history;  // ‖change of an iteration‖/‖F_C‖; kept if the control says so
 };
 
-// ‖F − P(F − ρ r)‖ / ‖F‖ (coulomb_law.hpp) with r = D F − G − ḡ; where F = 0 it is absolute.
+// That of coulomb_law.hpp, with r = D F − G − ḡ.
 double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
                             const Eigen::VectorXd& F);
 

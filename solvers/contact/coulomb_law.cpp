@@ -64,4 +64,10 @@ Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd&
   return F_C - project_on_coulomb(contact, F_C - r.cwiseQuotient(D_diagonal));
 }
 
+double relative_natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement) {
+  const double norm = F_C.norm(), map = natural_map(contact, D_diagonal, F_C, displacement).norm();
+  return norm > 0 ? map / norm : map;
+}
+
 }  // namespace airybench

@@ -34,5 +34,8 @@ Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
 // holds; N. displacement: ū_C. The vectors are ordered as DualSystem::contact says.
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
+// Its norm over ‖F_C‖; where F_C = 0 its norm.
+double relative_natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                            const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
 
 }  // namespace airybench

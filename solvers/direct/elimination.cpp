@@ -199,15 +199,18 @@ void expand(const cholmod_factor& supernodes, const Blocks& blocks, const std::v
   }
 }
 
-std::size_t squared(int n) { return static_cast<std::size_t>(n) * n; }
+// Of every place, the front that has it as a pivot.
+std::vector<int> fronts_of_places(const Elimination& elimination) {
+  std::vector<int> front_at(elimination.place.size());
+  for (int f = 0; f < static_cast<int>(elimination.fronts.size()); ++f)
+    std::fill_n(front_at.begin() + elimination.fronts[f].first, elimination.fronts[f].pivots, f);
+  return front_at;
+}
 
 // The fronts' tree, its children so ordered that few updates wait at a time (Liu 1986,
 // doi:10.1145/6497.6499): by how much more a child needs than it leaves.
-void order_fronts(Elimination& result) {
+void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   const int count = static_cast<int>(result.fronts.size());
-  std::vector<int> front_at(result.place.size());
-  for (int f = 0; f < count; ++f)
-    for (int i = 0; i < result.fronts[f].pivots; ++i) front_at[result.fronts[f].first + i] = f;
   std::vector<int> roots;
   for (int f = 0; f < count; ++f) {
     const Front& front = result.fronts[f];
@@ -220,7 +223,7 @@ void order_fronts(Elimination& result) {
   std::vector<std::size_t> need(static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
     Front& front = result.fronts[f];
-    const auto leaves = [&](int child) { return squared(result.fronts[child].below()); };
+    const auto leaves = [&](int child) { return result.fronts[child].update_doubles(); };
     std::ranges::sort(front.children, std::greater{},
                       [&](int child) { return need[child] - leaves(child); });
     std::size_t waiting = 0;
@@ -248,10 +251,8 @@ void order_fronts(Elimination& result) {
   }
 }
 
-void hand_out_elements(const ElementMatrices& K, Elimination& result) {
-  std::vector<int> front_at(result.place.size());
-  for (int f = 0; f < static_cast<int>(result.fronts.size()); ++f)
-    for (int i = 0; i < result.fronts[f].pivots; ++i) front_at[result.fronts[f].first + i] = f;
+void hand_out_elements(const ElementMatrices& K, const std::vector<int>& front_at,
+                       Elimination& result) {
   for (int e = 0; e < K.count(); ++e) {
     int first = K.order;
     for (const int u : K.unknown[e])
@@ -273,7 +274,10 @@ std::int64_t Elimination::entries() const {
 double Elimination::flops() const {
   double sum = 0;
   for (const Front& front : fronts)
-    for (int k = 0; k < front.pivots; ++k) sum += static_cast<double>(squared(front.rows - k));
+    for (int k = 0; k < front.pivots; ++k) {
+      const double height = front.rows - k;
+      sum += height * height;
+    }
   return sum;
 }
 
@@ -285,8 +289,9 @@ Elimination analyse_elimination(const ElementMatrices& K, int trailing) {
   Analysis analysis(K, blocks);
   const std::vector<int> order = order_blocks(analysis, blocks);
   expand(*analysis.given(order), blocks, order, result);
-  order_fronts(result);
-  hand_out_elements(K, result);
+  const std::vector<int> front_at = fronts_of_places(result);
+  order_fronts(front_at, result);
+  hand_out_elements(K, front_at, result);
   return result;
 }
 

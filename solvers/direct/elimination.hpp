@@ -24,6 +24,9 @@ struct Front {
   std::vector<int> elements;  // whose first pivot is one of this front's
   std::size_t panel_at = 0;   // rows × pivots doubles of the factor
   int below() const { return rows - pivots; }
+  std::size_t update_doubles() const {  // of what it leaves to its parent
+    return static_cast<std::size_t>(below()) * static_cast<std::size_t>(below());
+  }
 };
 
 struct Elimination {

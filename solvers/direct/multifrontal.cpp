@@ -35,17 +35,15 @@ class Fronts {
     std::size_t base = top_;
     for (std::size_t k = front.children.size(); k-- > 0;) {
       const Front& child = elimination_.fronts[front.children[k]];
-      base -= squared(child.below());
+      base -= child.update_doubles();
       add_update(child, waiting_.get() + base, panel, update);
     }
     factorise(front, panel, update);
     if (base < top_) std::copy_n(update.data(), update.size(), waiting_.get() + base);
-    top_ = base + squared(front.below());
+    top_ = base + front.update_doubles();
   }
 
  private:
-  static std::size_t squared(int n) { return static_cast<std::size_t>(n) * n; }
-
   // The column of the front's matrix, to be indexed by the front's rows.
   static double* column(int j, Panel& panel, Panel& update) {
     const auto pivots = panel.cols();
