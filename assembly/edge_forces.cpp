@@ -2,8 +2,9 @@
 
 namespace airybench {
 
-template EdgeForcesIn<double> edge_forces(const Eigen::Vector2d&, const Eigen::Vector2d&, double);
-template EdgeForcesIn<long double> edge_forces(const Eigen::Vector2d&, const Eigen::Vector2d&,
-                                               double);
+template EdgeForcesIn<double> edge_forces<double>(const Eigen::Vector2d&, const Eigen::Vector2d&,
+                                                  double);
+template EdgeForcesIn<long double> edge_forces<long double>(const Eigen::Vector2d&,
+                                                            const Eigen::Vector2d&, double);
 
 }  // namespace airybench

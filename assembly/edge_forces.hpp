@@ -10,11 +10,13 @@
 // of φ, normal part the edge's own degree of freedom — and R = [0 1; −1 0]:
 //   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
 //
-// Templates are instantiated for double and long double. Coordinates are doubles
-// and exact; their differences are taken in the scalar.
+// Templates are instantiated for double and long double. Coordinates are exact (exact_data.hpp);
+// their differences are taken in the scalar.
 #pragma once
 
 #include <Eigen/Core>
+
+#include "assembly/exact_data.hpp"
 
 namespace airybench {
 
@@ -26,8 +28,9 @@ struct EdgeFrameIn {
 using EdgeFrame = EdgeFrameIn<double>;
 
 template <typename Scalar = double>
-EdgeFrameIn<Scalar> edge_frame(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2<Scalar> edge = b.cast<Scalar>() - a.cast<Scalar>();
+EdgeFrameIn<Scalar> edge_frame(const Eigen::Vector2<Data<Scalar>>& a,
+                               const Eigen::Vector2<Data<Scalar>>& b) {
+  const Eigen::Vector2<Scalar> edge = b.template cast<Scalar>() - a.template cast<Scalar>();
   const Scalar length = edge.norm();
   const Eigen::Vector2<Scalar> s = edge / length;
   return {length, s, {s.y(), -s.x()}};
@@ -39,8 +42,8 @@ template <typename Scalar>
 using EdgeForcesIn = Eigen::Matrix<Scalar, 4, 7>;
 using EdgeForces = EdgeForcesIn<double>;
 template <typename Scalar = double>
-EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                 double outward);
+EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2<Data<Scalar>>& a,
+                                 const Eigen::Vector2<Data<Scalar>>& b, Data<Scalar> outward);
 
 // ū_a, ū_b (rows) of a field sampled at the edge's start, middle and end (columns): Simpson's rule,
 // exact for quadratic fields.

@@ -8,8 +8,8 @@
 namespace airybench {
 
 template <typename Scalar>
-EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
-                                 double outward) {
+EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2<Data<Scalar>>& a,
+                                 const Eigen::Vector2<Data<Scalar>>& b, Data<Scalar> outward) {
   const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(a, b);
   const Eigen::Vector2<Scalar>& s = frame.tangent;
 

@@ -16,19 +16,26 @@
 // doi:10.1002/nme.1620170510; Lai & Schumaker, Spline Functions on Triangulations, ch. 6 (2007).
 //
 // The functions are templates over the scalar they compute in, instantiated for double and long
-// double (for others: hct_templates.hpp); without an argument it is double. Coordinates are doubles
-// and exact: the first thing formed are their differences, in the scalar.
+// double (for others: hct_templates.hpp); without an argument it is double. Coordinates are exact
+// (exact_data.hpp): the first thing formed are their differences, in the scalar.
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <type_traits>
 
+#include "assembly/exact_data.hpp"
+
 namespace airybench {
 
-using TriangleVertices = Eigen::Matrix<double, 2, 3>;  // columns V1 V2 V3, counter-clockwise, mm
-using EdgeSigns =
-    std::array<double, 3>;  // +1: the edge's global normal is outward here, −1: inward
+// Columns V1 V2 V3, counter-clockwise, mm.
+template <typename Scalar>
+using TriangleVerticesFor = Eigen::Matrix<Data<Scalar>, 2, 3>;
+using TriangleVertices = TriangleVerticesFor<double>;
+// +1: the edge's global normal is outward here, −1: inward.
+template <typename Scalar>
+using EdgeSignsFor = std::array<Data<Scalar>, 3>;
+using EdgeSigns = EdgeSignsFor<double>;
 
 // Rows: the 19 Bernstein coefficients; columns: the 12 degrees of freedom.
 //   0..2    at V_i                           12..14  inside third t
@@ -38,28 +45,31 @@ template <typename Scalar>
 using HctCoefficientsIn = Eigen::Matrix<Scalar, 19, 12>;
 using HctCoefficients = HctCoefficientsIn<double>;
 template <typename Scalar = double>
-HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& v, const EdgeSigns& outward);
+HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& v,
+                                           const EdgeSignsFor<Scalar>& outward);
 
 // Rows of HctCoefficients that belong to third t, in the order
 // 300 030 003 210 120 201 021 111 102 012 of the barycentric exponents on V_t, V_{t+1}, V4.
 std::array<int, 10> hct_third(int t);
 
 // Rows (3 corner + component) with corner = 3 t + (0: V_t, 1: V_{t+1}, 2: V4) and component xx, yy,
-// xy; columns: degrees of freedom. Product with them: stress in MPa when φ is in N.
-template <typename Scalar>
-using HctStressIn = Eigen::Matrix<Scalar, 27, 12>;
+// xy; columns: degrees of freedom, all 12 or the last ones. Product with them: stress in MPa when φ
+// is in N.
+template <typename Scalar, int dofs = 12>
+using HctStressIn = Eigen::Matrix<Scalar, 27, dofs>;
 using HctStress = HctStressIn<double>;
-template <typename Scalar = double>
-HctStressIn<Scalar> hct_stress(const TriangleVertices& v, const EdgeSigns& outward);
+template <typename Scalar = double, int dofs = 12>
+HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& v,
+                                     const EdgeSignsFor<Scalar>& outward);
 
 // ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick: the element's flexibility.
 // compliance: 3×3 in (xx, yy, xy), see elasticity.hpp. Exact: on a third of area a with corner
 // values σ_m, ∫ = a/12 (Σσ_m : Σσ_m + Σ σ_m : σ_m). Symmetric, positive semidefinite; kernel:
-// affine φ. Of the degrees of freedom whose columns `stress` has: 12, or the last 9.
+// affine φ. Of the degrees of freedom whose columns `stress` has.
 using HctFlexibility = Eigen::Matrix<double, 12, 12>;
 template <typename Scalar, int dofs>
 Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
                                                   std::type_identity_t<Scalar> area_mm2,
-                                                  const Eigen::Matrix3d& compliance);
+                                                  const Eigen::Matrix3<Data<Scalar>>& compliance);
 
 }  // namespace airybench

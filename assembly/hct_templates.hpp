@@ -39,8 +39,8 @@ Corners<Scalar> barycentric_gradients(const Eigen::Vector2<Scalar>& a,
 
 // The triangle moved to the origin: far from it, sums of coordinates would lose digits.
 template <typename Scalar>
-Corners<Scalar> at_origin(const TriangleVertices& v) {
-  const Corners<Scalar> corners = v.cast<Scalar>();
+Corners<Scalar> at_origin(const TriangleVerticesFor<Scalar>& v) {
+  const Corners<Scalar> corners = v.template cast<Scalar>();
   return corners.colwise() - corners.col(0);
 }
 template <typename Scalar>
@@ -51,8 +51,8 @@ Eigen::Vector2<Scalar> mean(const Corners<Scalar>& v) {
 }  // namespace hct_formulas
 
 template <typename Scalar>
-HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& vertices,
-                                           const EdgeSigns& outward) {
+HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& vertices,
+                                           const EdgeSignsFor<Scalar>& outward) {
   using namespace hct_formulas;
   using Vector = Eigen::Vector2<Scalar>;
   const Scalar two = 2, three = 3;
@@ -92,8 +92,9 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVertices& vertices,
   return c;
 }
 
-template <typename Scalar>
-HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns& outward) {
+template <typename Scalar, int dofs>
+HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& vertices,
+                                     const EdgeSignsFor<Scalar>& outward) {
   using namespace hct_formulas;
   const Corners<Scalar> v = at_origin<Scalar>(vertices);
   // Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
@@ -101,7 +102,7 @@ HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns
   constexpr int at[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
   const HctCoefficientsIn<Scalar> c = hct_coefficients<Scalar>(vertices, outward);
   const Eigen::Vector2<Scalar> centroid = mean(v);
-  HctStressIn<Scalar> stress;
+  HctStressIn<Scalar, dofs> stress;
   for (int t = 0; t < 3; ++t) {
     const Corners<Scalar> g = barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid);
     // Second derivatives at corner m: 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}.
@@ -116,8 +117,8 @@ HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns
     weights *= Scalar(6);
     const std::array<int, 10> third = hct_third(t);
     for (int m = 0; m < 3; ++m) {
-      Eigen::Matrix<Scalar, 6, 12> near;
-      for (int k = 0; k < 6; ++k) near.row(k) = c.row(third[at[m][k]]);
+      Eigen::Matrix<Scalar, 6, dofs> near;
+      for (int k = 0; k < 6; ++k) near.row(k) = c.row(third[at[m][k]]).template tail<dofs>();
       stress.template middleRows<3>(3 * (3 * t + m)) = weights.lazyProduct(near);
     }
   }
@@ -127,11 +128,11 @@ HctStressIn<Scalar> hct_stress(const TriangleVertices& vertices, const EdgeSigns
 template <typename Scalar, int dofs>
 Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
                                                   std::type_identity_t<Scalar> area_mm2,
-                                                  const Eigen::Matrix3d& compliance) {
+                                                  const Eigen::Matrix3<Data<Scalar>>& compliance) {
   using std::sqrt;
   // With compliance = RᵀR the flexibility is MᵀM, where M stacks √(a/12) R σ for the sum and the
   // three corner values of every third.
-  const SmallCholesky<Scalar, 3> cholesky(compliance.cast<Scalar>());
+  const SmallCholesky<Scalar, 3> cholesky(compliance.template cast<Scalar>());
   const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
   Eigen::Matrix<Scalar, 36, dofs> m;
   for (int t = 0; t < 3; ++t) {

@@ -17,9 +17,7 @@ class SmallCholesky {
     for (int j = 0; j < n; ++j) {
       Scalar pivot = 0;
       for (int k = 0; k < j; ++k) pivot += L_(j, k) * L_(j, k);
-      pivot = S(j, j) - pivot;
-      positive_ = positive_ && pivot > 0;
-      L_(j, j) = sqrt(pivot);
+      L_(j, j) = sqrt(S(j, j) - pivot);
       for (int i = j + 1; i < n; ++i) {
         Scalar sum = 0;
         for (int k = 0; k < j; ++k) sum += L_(i, k) * L_(j, k);
@@ -27,7 +25,8 @@ class SmallCholesky {
       }
     }
   }
-  bool positive() const { return positive_; }  // S is positive definite to rounding
+  // Positive if S is positive definite to rounding: from the first pivot that is not, no other is.
+  const Scalar& last_pivot() const { return L_(n - 1, n - 1); }
   const Eigen::Matrix<Scalar, n, n>& L() const { return L_; }
 
   // X ← S⁻¹ X, L⁻¹ X, L⁻ᵀ X.
@@ -55,7 +54,6 @@ class SmallCholesky {
 
  private:
   Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
-  bool positive_ = true;
 };
 
 }  // namespace airybench

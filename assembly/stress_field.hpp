@@ -36,7 +36,7 @@ ElementStressIn<Scalar> particular_element_stress(const Problem& problem, int tr
 template <typename Scalar>
 ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
-                                    const Eigen::Matrix3d& compliance);
+                                    const Eigen::Matrix3<Data<Scalar>>& compliance);
 
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm. Twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
@@ -47,7 +47,7 @@ double stress_distance(const Problem& problem, const StressField& stress, const 
 // Generalised forces (edge_forces.hpp) of an element's stress on its edge k, with the outward
 // normal: columns at the edge's start and end as the element walks it; rows x, y; N.
 template <typename Scalar>
-Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVertices& v,
+Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVerticesFor<Scalar>& v,
                                            const Eigen::Matrix<Scalar, 3, 9>& stress, int k);
 
 }  // namespace airybench

@@ -37,9 +37,9 @@ void subtract_affine_part(const TriangleVertices& v, const EdgeSigns& outward,
 template <typename Scalar>
 ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
-                                    const Eigen::Matrix3d& compliance) {
+                                    const Eigen::Matrix3<Data<Scalar>>& compliance) {
   // On a third of area a: ∫ λ_m λ_n = a (1 + δ_mn) / 12.
-  const Eigen::Matrix3<Scalar> weight = area_mm2 / Scalar(36) * compliance.cast<Scalar>();
+  const Eigen::Matrix3<Scalar> weight = area_mm2 / Scalar(36) * compliance.template cast<Scalar>();
   ElementStressIn<Scalar> dual;
   for (int t = 0; t < 3; ++t) {
     const Eigen::Matrix3<Scalar> corners = stress.template middleCols<3>(3 * t);
@@ -49,7 +49,7 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
 }
 
 template <typename Scalar>
-Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVertices& v,
+Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVerticesFor<Scalar>& v,
                                            const Eigen::Matrix<Scalar, 3, 9>& stress, int k) {
   const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(v.col(k), v.col((k + 1) % 3));
   Eigen::Matrix2<Scalar> forces;

@@ -20,6 +20,7 @@
 
 #include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/build_info.hpp"
+#include "solvers/condensation/hybrid_kernels.hpp"
 #include "support/errors.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
@@ -82,6 +83,7 @@ Context describe_environment(int threads) {
       {"mumps", MUMPS_VERSION},
       {"blas", openblas_get_config()},
       {"blas_core", openblas_get_corename()},
+      {"hybrid_kernels", hybrid_kernels<double>().name},
       {"blas_threads", std::to_string(openblas_get_num_threads())},
       {"google_benchmark", build_info.benchmark_version},
       {"cpu", cpu_model()},

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -29,6 +30,12 @@ struct ElementMatricesIn {
     unknown.reserve(elements);
     lower.reserve(elements);
   }
+  // K_e's lower triangle, by columns.
+  void add(const Unknowns& of_element, const Scalar* of_lower) {
+    unknown.push_back(of_element);
+    auto& entries = lower.emplace_back();
+    std::copy_n(of_lower, entries.size(), entries.begin());
+  }
   // K_e: its lower triangle is read.
   void add(const Unknowns& of_element, const Matrix& K_e) {
     unknown.push_back(of_element);
@@ -45,6 +52,19 @@ struct ElementMatricesIn {
     K_e(0, 0) = stiffness;
     add(alone, K_e);
   }
+  // K_e x.
+  Eigen::Matrix<Scalar, size, 1> product(int e, const Eigen::Matrix<Scalar, size, 1>& x) const {
+    Eigen::Matrix<Scalar, size, 1> y = Eigen::Matrix<Scalar, size, 1>::Zero();
+    const Scalar* entry = lower[e].data();
+    for (int j = 0; j < size; ++j) {
+      y(j) += *entry++ * x(j);
+      for (int i = j + 1; i < size; ++i, ++entry) {
+        y(i) += *entry * x(j);
+        y(j) += *entry * x(i);
+      }
+    }
+    return y;
+  }
 };
 using ElementMatrices = ElementMatricesIn<double>;
 
@@ -54,16 +74,9 @@ void add_product(const ElementMatricesIn<Scalar>& K, const Eigen::VectorX<Scalar
                  Eigen::VectorX<Scalar>& y) {
   constexpr int size = ElementMatricesIn<Scalar>::size;
   for (int e = 0; e < K.count(); ++e) {
-    Eigen::Matrix<Scalar, size, 1> from, to = Eigen::Matrix<Scalar, size, 1>::Zero();
+    Eigen::Matrix<Scalar, size, 1> from;
     for (int i = 0; i < size; ++i) from(i) = K.unknown[e][i] < 0 ? 0 : x(K.unknown[e][i]);
-    const Scalar* entry = K.lower[e].data();
-    for (int j = 0; j < size; ++j) {
-      to(j) += *entry++ * from(j);
-      for (int i = j + 1; i < size; ++i, ++entry) {
-        to(i) += *entry * from(j);
-        to(j) += *entry * from(i);
-      }
-    }
+    const Eigen::Matrix<Scalar, size, 1> to = K.product(e, from);
     for (int i = 0; i < size; ++i)
       if (K.unknown[e][i] >= 0) y(K.unknown[e][i]) += to(i);
   }

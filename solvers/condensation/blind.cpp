@@ -123,8 +123,7 @@ CondensedSystem condense_blindly(const Eigen::MatrixXd& schur,
   CondensedSystem condensed;
   if (schur.size() == 0) return condensed;
   const auto llt = cholesky(-schur, "blind condensation: W");
-  const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(schur.rows(), schur.cols()));
-  condensed.D = (inverse + inverse.transpose()) / 2;
+  condensed.D = inverse_from_factor(llt.matrixLLT());
   condensed.G = llt.solve(-reduced_load);
   return condensed;
 }

@@ -1,4 +1,4 @@
-// One triangle of the hybridized system (hybridized.hpp), in double or long double.
+// One triangle of the hybridized system (hybridized.hpp), in any scalar.
 //
 //   S_e φ_e = T_eᵀ ū_e − p_e,   F_e = T_e φ_e + F_p   ⇒   F_e = K_e ū_e + f_e
 //   K_e = T_e S_e⁻¹ T_eᵀ,       f_e = F_p − T_e S_e⁻¹ p_e
@@ -6,6 +6,9 @@
 // over the nine unknowns φ_e that are left when vertex 1's three are dropped. Edge components are
 // those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
 // semidefinite to rounding.
+//
+// What goes in and what comes out are plain arrays, matrices by columns, so that elements in double
+// can be gathered into packs (hybrid_kernels.hpp).
 #pragma once
 
 #include <vector>
@@ -16,36 +19,56 @@
 
 namespace airybench {
 
+// What an element is made from.
+template <typename Scalar>
+struct HybridInput {
+  Data<Scalar> vertices[6];    // TriangleVertices
+  Data<Scalar> outward[3];     // EdgeSigns
+  Data<Scalar> compliance[9];  // C
+  Scalar area;                 // mm²
+  Scalar components[3][16];    // per edge: edge_components
+  Scalar particular[27];       // σ_p
+};
+
+template <typename Scalar>
+struct HybridStiffness {
+  Scalar lower[78];   // K_e's lower triangle, N/mm
+  Scalar load[12];    // f_e, N
+  Scalar last_pivot;  // of L: positive only if S_e is positive definite to rounding
+};
+
+template <typename Scalar>
+struct HybridStress {
+  Scalar stress[27];  // ElementStress: the total stress that ū_e makes, MPa
+  Scalar forces[12];  // of that stress on the edges, N
+  // g_e = T_eᵀ ū_e − ∫ σ(φ_i):C:σ is zero for the stress that ū_e makes, but for rounding, that of
+  // S_e and its factor, too, which are not in it. The correction S_e⁻¹ g_e of φ_e has
+  Scalar defect[12];     // the forces T_e S_e⁻¹ g_e, N
+  Scalar defect_energy;  // and the energy g_eᵀ S_e⁻¹ g_e, N mm
+};
+
 template <typename Scalar>
 struct HybridElement {
-  HctStressIn<Scalar> stress;                      // of all twelve unknowns
+  HctStressIn<Scalar, 9> stress;
   SmallCholesky<Scalar, 9> flexibility;            // S_e, factorised
   Eigen::Matrix<Scalar, 9, 12> forces;             // T_eᵀ
-  bool loaded = false;                             // by a body force; else the rest is zero
+  bool loaded;                                     // by a body force; else the rest is zero
   ElementStressIn<Scalar> particular;              // σ_p
   Eigen::Matrix<Scalar, 9, 1> particular_load;     // p_e
   Eigen::Matrix<Scalar, 12, 1> particular_forces;  // F_p
-
-  Eigen::Matrix<Scalar, 12, 12> stiffness() const;  // K_e
-  Eigen::Matrix<Scalar, 12, 1> load() const;        // f_e
-  ElementStressIn<Scalar> stress_at(
-      const Eigen::Matrix<Scalar, 12, 1>& displacement) const;  // the total stress that ū_e makes
-  // T_eᵀ ū_e − ∫ σ(φ_i):C:σ: zero for the stress that ū_e makes, but for rounding, that of S_e and
-  // its factor, too, which are not in it. mm
-  Eigen::Matrix<Scalar, 9, 1> incompatibility(const Problem& problem, int triangle,
-                                              const Eigen::Matrix<Scalar, 12, 1>& displacement,
-                                              const ElementStressIn<Scalar>& total) const;
 };
 
-// How the components of EdgeUnknowns make an element's edge components: x, y at the
-// start and at the end of its walk along edge k.
-template <typename Scalar = double>
-Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool in_frame);
-
-// in_frame: per edge (edges_in_frame). Throws Breakdown naming the triangle whose flexibility is
-// not positive definite to rounding.
 template <typename Scalar>
-HybridElement<Scalar> make_hybrid_element(const Problem& problem, const std::vector<bool>& in_frame,
-                                          int triangle);
+HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool loaded);
+template <typename Scalar>
+HybridStiffness<Scalar> hybrid_stiffness(const HybridInput<Scalar>& input, bool loaded);
+template <typename Scalar>
+HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded,
+                                   const Eigen::Matrix<Scalar, 12, 1>& displacement);
+
+// in_frame: per edge (edges_in_frame).
+template <typename Scalar>
+HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<bool>& in_frame,
+                                 int triangle);
 
 }  // namespace airybench

@@ -1,6 +1,7 @@
 #include "solvers/condensation/hybridized_templates.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace airybench {
 
@@ -8,48 +9,26 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
                                   const Eigen::VectorXd& u) {
   HybridizedAnswer answer;
   answer.stress.resize(problem.mesh.triangles.size());
-  answer.defect.setZero(system.b.size());
-  visit_stresses(
-      problem, system, u,
-      [&](int t, const HybridElement<double>& element, const auto& local,
-          const std::array<int, 12>& unknown, const ElementStress& stress) {
-        answer.stress[t] = stress;
-        const Eigen::Matrix<double, 9, 1> g = element.incompatibility(problem, t, local, stress);
-        Eigen::Matrix<double, 9, 1> phi = g;
-        element.flexibility.solve(phi);
-        answer.defect_energy += std::max(0.0, g.dot(phi));
-        const Eigen::Matrix<double, 12, 1> forces = element.forces.transpose().lazyProduct(phi);
-        for (int k = 0; k < 12; ++k)
-          if (unknown[k] != prescribed_unknown) answer.defect(unknown[k]) -= forces(k);
-      });
-  return answer;
-}
-
-UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
-                                   const StressField& stress, const Eigen::VectorXd& F_C) {
-  const std::vector<bool> in_frame = edges_in_frame(problem);
-  UnbalancedForces result;
-  result.r.setZero(system.b.size());
-  add_tractions(problem, system.unknown, result.r);
-  result.r.tail(system.n_c) += F_C;
-  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const int edge = problem.edges.of_triangle[t][k];
-      const Eigen::Vector4d forces =
-          edge_components(problem.mesh, t, k, in_frame[edge]).transpose() *
-          element_edge_forces(problem.vertices_of(t), stress[t], k).reshaped();
-      result.largest = std::max(result.largest, forces.cwiseAbs().maxCoeff());
-      for (int i = 0; i < 4; ++i)
-        if (const int unknown = system.unknown[edge][i]; unknown != prescribed_unknown)
-          result.r(unknown) -= forces(i);
+  UnbalancedForces& unbalanced = answer.unbalanced;
+  unbalanced.r.setZero(system.b.size());
+  unbalanced.defect.setZero(system.b.size());
+  add_tractions(problem, system.unknown, unbalanced.r);
+  visit_stresses(problem, system, u, [&](int t, const HybridStress<double>& of_triangle) {
+    answer.stress[t] = Eigen::Map<const ElementStress>(of_triangle.stress);
+    unbalanced.defect_energy += std::max(0.0, of_triangle.defect_energy);
+    for (int k = 0; k < 12; ++k) {
+      unbalanced.largest = std::max(unbalanced.largest, std::abs(of_triangle.forces[k]));
+      const int unknown = system.K.unknown[t][k];
+      if (unknown == prescribed_unknown) continue;
+      unbalanced.r(unknown) -= of_triangle.forces[k];
+      unbalanced.defect(unknown) -= of_triangle.defect[k];
     }
-  return result;
+  });
+  return answer;
 }
 
 template struct HybridizedSystemIn<double>;
 template HybridizedSystemIn<double> assemble_hybridized(const Problem&, const ContactPoints&);
-template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<double>&,
-                                       const Eigen::VectorX<double>&);
 
 template struct HybridizedSystemIn<long double>;
 template HybridizedSystemIn<long double> assemble_hybridized(const Problem&, const ContactPoints&);

@@ -28,7 +28,6 @@
 #include "solvers/base/solution.hpp"
 #include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
-#include "solvers/condensation/stiffness_condensation.hpp"
 
 namespace airybench {
 
@@ -55,18 +54,12 @@ StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<S
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u);
 
 // Stresses of u, and how far each is from what its edges' displacements ask of it, g_e of
-// HybridElement::incompatibility(): its correction S_e⁻¹ g_e has the energy g_eᵀ S_e⁻¹ g_e and the
-// forces T_e S_e⁻¹ g_e.
+// hybrid_element.hpp.
 struct HybridizedAnswer {
   StressField stress;
-  double defect_energy = 0;  // Σ g_eᵀ S_e⁻¹ g_e, N mm
-  Eigen::VectorXd defect;    // −Σ T_e S_e⁻¹ g_e, N, one per unknown
+  UnbalancedForces unbalanced;  // by the stresses and the tractions on Γ_F; without F_C
 };
 HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem& system,
                                   const Eigen::VectorXd& u);
-
-// The forces that stresses, the tractions on Γ_F and F_C leave unbalanced; no defect.
-UnbalancedForces unbalanced_forces(const Problem& problem, const HybridizedSystem& system,
-                                   const StressField& stress, const Eigen::VectorXd& F_C);
 
 }  // namespace airybench

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "assembly/edge_forces.hpp"
-#include "solvers/condensation/hybrid_element.hpp"
+#include "solvers/condensation/hybrid_element_templates.hpp"
+#include "solvers/condensation/hybrid_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
@@ -25,10 +26,70 @@ void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::V
   }
 }
 
+// ū_e: what is prescribed, and the unknowns' values where there are any.
+template <typename Scalar>
+Eigen::Matrix<Scalar, 12, 1> element_displacement(const Problem& problem,
+                                                  const HybridizedSystemIn<Scalar>& system,
+                                                  const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u,
+                                                  int t) {
+  Eigen::Matrix<Scalar, 12, 1> local = Eigen::Matrix<Scalar, 12, 1>::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const int edge = problem.edges.of_triangle[t][k];
+    if (!system.displacement.empty())
+      local.template segment<4>(4 * k) = system.displacement[edge].template cast<Scalar>();
+    if (u.size() > 0)
+      for (int i = 0; i < 4; ++i)
+        if (const int unknown = system.unknown[edge][i]; unknown != prescribed_unknown)
+          local(4 * k + i) = u(unknown);
+  }
+  return local;
+}
+
+// b −= K ū0.
+template <typename Scalar>
+void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+  for (int t = 0; t < system.K.count(); ++t) {
+    const Eigen::Matrix<Scalar, 12, 1> u0 = element_displacement(problem, system, {}, t);
+    if (u0.isZero(0)) continue;
+    const Eigen::Matrix<Scalar, 12, 1> f = system.K.product(t, u0);
+    for (int j = 0; j < 12; ++j)
+      if (const int unknown = system.K.unknown[t][j]; unknown != prescribed_unknown)
+        system.b(unknown) -= f(j);
+  }
+}
+
 template <typename Scalar>
 std::size_t HybridizedSystemIn<Scalar>::bytes() const {
   return K.bytes() + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
          unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
+}
+
+template <typename Scalar>
+HybridKernels<Scalar> hybrid_kernels() {
+  return {"one by one", 1,
+          [](const HybridInput<Scalar>* input, bool loaded, HybridStiffness<Scalar>* result) {
+            *result = hybrid_stiffness(*input, loaded);
+          },
+          [](const HybridInput<Scalar>* input, bool loaded, const Scalar* displacement,
+             HybridStress<Scalar>* result) {
+            const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> u(displacement);
+            *result = hybrid_stress<Scalar>(*input, loaded, u);
+          }};
+}
+
+// Calls work(first triangle, how many, their inputs) until all have been at work; the inputs are
+// as many as the kernels take, the last repeated where there are no more.
+template <typename Scalar, typename Work>
+void in_batches(const Problem& problem, const HybridKernels<Scalar>& kernels, Work work) {
+  const std::vector<bool> in_frame = edges_in_frame(problem);
+  const int triangles = static_cast<int>(problem.mesh.triangles.size());
+  std::vector<HybridInput<Scalar>> input(static_cast<std::size_t>(kernels.width));
+  for (int first = 0; first < triangles; first += kernels.width) {
+    const int count = std::min(kernels.width, triangles - first);
+    for (int l = 0; l < kernels.width; ++l)
+      input[l] = l < count ? hybrid_input<Scalar>(problem, in_frame, first + l) : input[count - 1];
+    work(first, count, input.data());
+  }
 }
 
 template <typename Scalar>
@@ -38,57 +99,56 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   system.n_c = contact.size();
   const int n = number_unknowns(problem, contact, system.unknown) + system.n_c;
   system.displacement = prescribed_displacements(problem);
-  const std::vector<bool> in_frame = edges_in_frame(problem);
   system.b = Eigen::VectorX<Scalar>::Zero(n);
   system.K.order = n;
   system.K.reserve(problem.mesh.triangles.size());
 
-  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const auto element = make_hybrid_element<Scalar>(problem, in_frame, t);
-    const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
-    const Eigen::Matrix<Scalar, 12, 12> K = element.stiffness();
-    Eigen::Matrix<Scalar, 12, 1> f = element.load();  // f_e + K_e ū0
-    if (!system.displacement.empty())
-      for (int k = 0; k < 3; ++k)
-        f += K.template middleCols<4>(4 * k) *
-             system.displacement[problem.edges.of_triangle[t][k]].template cast<Scalar>();
-
-    system.K.add(unknown, K);
-    for (int j = 0; j < 12; ++j)
-      if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
-  }
+  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
+  std::vector<HybridStiffness<Scalar>> result(static_cast<std::size_t>(kernels.width));
+  const bool loaded = problem.loads.has_body_force();
+  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
+    kernels.stiffness(input, loaded, result.data());
+    for (int l = 0; l < count; ++l) {
+      if (!(result[l].last_pivot > 0))
+        throw Breakdown("hybridized: triangle " + std::to_string(first + l + 1) +
+                        ": its flexibility is not positive definite to rounding");
+      const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, first + l);
+      system.K.add(unknown, result[l].lower);
+      const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> f(result[l].load);
+      for (int j = 0; j < 12; ++j)
+        if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
+    }
+  });
+  if (!system.displacement.empty()) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
   return system;
 }
 
-// Calls visit(triangle, element, its edge displacements, its unknowns, the stress that they make).
+// Calls visit(triangle, hybrid_stress of what u makes of its edges).
 template <typename Scalar, typename Visit>
 void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
-  const std::vector<bool> in_frame = edges_in_frame(problem);
-  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
-    Eigen::Matrix<Scalar, 12, 1> local;
-    for (int k = 0; k < 12; ++k) {
-      const int edge = problem.edges.of_triangle[t][k / 4];
-      if (unknown[k] != prescribed_unknown)
-        local(k) = u(unknown[k]);
-      else
-        local(k) = system.displacement.empty() ? 0 : system.displacement[edge](k % 4);
-    }
-    const auto element = make_hybrid_element<Scalar>(problem, in_frame, t);
-    visit(t, element, local, unknown, element.stress_at(local));
-  }
+  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
+  std::vector<HybridStress<Scalar>> result(static_cast<std::size_t>(kernels.width));
+  Eigen::Matrix<Scalar, 12, Eigen::Dynamic> local =
+      Eigen::Matrix<Scalar, 12, Eigen::Dynamic>::Zero(12, kernels.width);
+  const bool loaded = problem.loads.has_body_force();
+  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
+    for (int l = 0; l < count; ++l)
+      local.col(l) = element_displacement(problem, system, u, first + l);
+    kernels.stress(input, loaded, local.data(), result.data());
+    for (int l = 0; l < count; ++l) visit(first + l, result[l]);
+  });
 }
 
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
   StressField field(problem.mesh.triangles.size());
-  visit_stresses(problem, system, u,
-                 [&](int t, const auto&, const auto&, const auto&, const auto& stress) {
-                   field[t] = stress.template cast<double>();
-                 });
+  visit_stresses(problem, system, u, [&](int t, const HybridStress<Scalar>& of_triangle) {
+    field[t] =
+        Eigen::Map<const ElementStressIn<Scalar>>(of_triangle.stress).template cast<double>();
+  });
   return field;
 }
 

@@ -1,5 +1,6 @@
 #include "solvers/condensation/stiffness_condensation.hpp"
 
+#include "solvers/direct/dense_cholesky.hpp"
 #include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
@@ -8,10 +9,8 @@ CondensedSystem condense(const StiffnessFactor& factor) {
   CondensedSystem condensed;
   const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
   if (L.rows() == 0) return condensed;
-  const auto lower = L.triangularView<Eigen::Lower>();
-  const Eigen::MatrixXd inverse = lower.solve(Eigen::MatrixXd::Identity(L.rows(), L.rows()));
-  condensed.D = inverse.transpose() * inverse;
-  condensed.G = -lower.transpose().solve(factor.y.tail(L.rows()));
+  condensed.G = -L.triangularView<Eigen::Lower>().transpose().solve(factor.y.tail(L.rows()));
+  condensed.D = inverse_from_factor(L);
   return condensed;
 }
 

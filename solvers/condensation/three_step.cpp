@@ -105,8 +105,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
     if (steps.lambda_0.size() > 0) g.noalias() -= K_CF * steps.lambda_0;
     const OwnerScope scope_of_D(MemoryOwner::condensed);
     const auto llt = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
-    const Eigen::MatrixXd inverse = llt.solve(Eigen::MatrixXd::Identity(n_c, n_c));
-    steps.condensed.D = (inverse + inverse.transpose()) / 2;
+    steps.condensed.D = inverse_from_factor(llt.matrixLLT());
     steps.condensed.G = llt.solve(g);
   }
   return steps;

@@ -100,26 +100,23 @@ class Analysis {
 
   using Factor = std::unique_ptr<cholmod_factor, std::function<void(cholmod_factor*)>>;
 
-  // Of the first `blocks` of them, by an ordering of CHOLMOD's.
-  Factor by(int ordering, int blocks) {
+  // Orders of the first `blocks` of them.
+  std::vector<int> by_minimum_degree(int blocks) {
+    Leading leading = leading_part(blocks);
+    std::vector<int> order(static_cast<std::size_t>(blocks));
+    if (!cholmod_amd(&leading.matrix, nullptr, 0, order.data(), &common_)) throw std::bad_alloc();
+    return order;
+  }
+  std::vector<int> by_nested_dissection(int blocks) {
+    Leading leading = leading_part(blocks);
     common_.nmethods = 1;
-    common_.method[0].ordering = ordering;
+    common_.method[0].ordering = CHOLMOD_METIS;
     common_.postorder = 1;
-    cholmod_sparse leading = pattern();
-    std::vector<int> start, row;
-    if (blocks < n_) {
-      start.push_back(0);
-      for (int j = 0; j < blocks; ++j) {
-        std::copy_if(row_.begin() + start_[j], row_.begin() + start_[j + 1],
-                     std::back_inserter(row), [&](int i) { return i < blocks; });
-        start.push_back(static_cast<int>(row.size()));
-      }
-      leading.nrow = leading.ncol = static_cast<std::size_t>(blocks);
-      leading.nzmax = row.size();
-      leading.p = start.data();
-      leading.i = row.data();
-    }
-    return owned(cholmod_analyze(&leading, &common_));
+    common_.supernodal = CHOLMOD_SIMPLICIAL;  // only the order is wanted
+    const Factor factor = owned(cholmod_analyze(&leading.matrix, &common_));
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    const auto* order = static_cast<const int*>(factor->Perm);
+    return {order, order + blocks};
   }
   // Of all of them, in a given order.
   Factor given(std::vector<int> order) {
@@ -129,9 +126,29 @@ class Analysis {
     cholmod_sparse whole = pattern();
     return owned(cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common_));
   }
-  double flops() const { return common_.fl; }  // of the last analysis, a block for an unknown
+  double flops() const { return common_.fl; }  // by the last order, a block for an unknown
 
  private:
+  struct Leading {
+    std::vector<int> start, row;
+    cholmod_sparse matrix;
+  };
+  Leading leading_part(int blocks) {
+    Leading leading;
+    leading.matrix = pattern();
+    if (blocks == n_) return leading;
+    leading.start.push_back(0);
+    for (int j = 0; j < blocks; ++j) {
+      std::copy_if(row_.begin() + start_[j], row_.begin() + start_[j + 1],
+                   std::back_inserter(leading.row), [&](int i) { return i < blocks; });
+      leading.start.push_back(static_cast<int>(leading.row.size()));
+    }
+    leading.matrix.nrow = leading.matrix.ncol = static_cast<std::size_t>(blocks);
+    leading.matrix.nzmax = leading.row.size();
+    leading.matrix.p = leading.start.data();
+    leading.matrix.i = leading.row.data();
+    return leading;
+  }
   cholmod_sparse pattern() {
     cholmod_sparse matrix{};
     matrix.nrow = matrix.ncol = static_cast<std::size_t>(n_);
@@ -156,17 +173,17 @@ class Analysis {
 
 // Blocks in the order of elimination, the trailing ones last.
 std::vector<int> order_blocks(Analysis& analysis, const Blocks& blocks) {
-  std::vector<int> order(static_cast<std::size_t>(blocks.count()));
-  std::iota(order.begin(), order.end(), 0);
-  if (blocks.inner == 0) return order;
-  auto best = analysis.by(CHOLMOD_AMD, blocks.inner);
-  const double flops = analysis.flops();
-  const double unknowns_per_block = static_cast<double>(blocks.first.back()) / blocks.count();
-  if (flops * std::pow(unknowns_per_block, 3) > many_flops) {
-    auto other = analysis.by(CHOLMOD_METIS, blocks.inner);
-    if (analysis.flops() < flops) best = std::move(other);
+  std::vector<int> order;
+  if (blocks.inner > 0) {
+    order = analysis.by_minimum_degree(blocks.inner);
+    const double flops = analysis.flops();
+    const double unknowns_per_block = static_cast<double>(blocks.first.back()) / blocks.count();
+    if (flops * std::pow(unknowns_per_block, 3) > many_flops) {
+      std::vector<int> other = analysis.by_nested_dissection(blocks.inner);
+      if (analysis.flops() < flops) order = std::move(other);
+    }
   }
-  std::copy_n(static_cast<const int*>(best->Perm), blocks.inner, order.begin());
+  for (int block = blocks.inner; block < blocks.count(); ++block) order.push_back(block);
   return order;
 }
 

@@ -32,11 +32,8 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control) {
         solution.edge_moments = edge_moments(problem, system.unknown, system.displacement, u);
       },
       [&] {
-        UnbalancedForces unbalanced =
-            unbalanced_forces(problem, system, solution.stress, solution.F_C);
-        unbalanced.defect = std::move(answer.defect);
-        unbalanced.defect_energy = answer.defect_energy;
-        return unbalanced;
+        answer.unbalanced.r.tail(system.n_c) += solution.F_C;
+        return std::move(answer.unbalanced);
       },
       solution);
   return solution;

@@ -1,0 +1,62 @@
+// The kernels of hybrid_kernels.hpp for one instruction set: compiled once for each, with
+//
+//   AIRYBENCH_ISA    its name: baseline, avx2, avx512f
+//   AIRYBENCH_LANES  doubles per vector register
+//
+// Instructions of this set must not reach code that other processors run. So nothing here is
+// instantiated for a type that other files use too — all are packs of this width —, and a test
+// reads the object's symbols.
+#include "solvers/base/pack.hpp"
+#include "solvers/condensation/hybrid_element_templates.hpp"
+#include "solvers/condensation/hybrid_kernels.hpp"
+
+namespace airybench {
+namespace {
+
+using Lanes = Pack<AIRYBENCH_LANES>;
+
+// Values are structs of numbers and nothing else.
+template <typename Values, typename ValuesOfDoubles>
+Values gather(const ValuesOfDoubles* from) {
+  constexpr int count = sizeof(Values) / sizeof(Lanes);
+  static_assert(sizeof(ValuesOfDoubles) == count * sizeof(double));
+  const auto* number = reinterpret_cast<const double*>(from);
+  Values values;
+  auto* pack = reinterpret_cast<Lanes*>(&values);
+  for (int i = 0; i < count; ++i)
+    for (int l = 0; l < AIRYBENCH_LANES; ++l) pack[i].lanes[l] = number[l * count + i];
+  return values;
+}
+template <typename Values, typename ValuesOfDoubles>
+void scatter(const Values& values, ValuesOfDoubles* to) {
+  constexpr int count = sizeof(Values) / sizeof(Lanes);
+  static_assert(sizeof(ValuesOfDoubles) == count * sizeof(double));
+  auto* number = reinterpret_cast<double*>(to);
+  const auto* pack = reinterpret_cast<const Lanes*>(&values);
+  for (int l = 0; l < AIRYBENCH_LANES; ++l)
+    for (int i = 0; i < count; ++i) number[l * count + i] = pack[i].lanes[l];
+}
+
+void stiffness(const HybridInput<double>* input, bool loaded, HybridStiffness<double>* result) {
+  scatter(hybrid_stiffness(gather<HybridInput<Lanes>>(input), loaded), result);
+}
+
+void stress(const HybridInput<double>* input, bool loaded, const double* displacement,
+            HybridStress<double>* result) {
+  Eigen::Matrix<Lanes, 12, 1> u;
+  for (int i = 0; i < 12; ++i)
+    for (int l = 0; l < AIRYBENCH_LANES; ++l) u(i).lanes[l] = displacement[12 * l + i];
+  scatter(hybrid_stress(gather<HybridInput<Lanes>>(input), loaded, u), result);
+}
+
+}  // namespace
+
+#define AIRYBENCH_NAME_2(isa) hybrid_kernels_##isa
+#define AIRYBENCH_NAME(isa) AIRYBENCH_NAME_2(isa)
+#define AIRYBENCH_TEXT_2(isa) #isa
+#define AIRYBENCH_TEXT(isa) AIRYBENCH_TEXT_2(isa)
+extern const HybridKernels<double> AIRYBENCH_NAME(AIRYBENCH_ISA);
+const HybridKernels<double> AIRYBENCH_NAME(AIRYBENCH_ISA) = {AIRYBENCH_TEXT(AIRYBENCH_ISA),
+                                                             AIRYBENCH_LANES, stiffness, stress};
+
+}  // namespace airybench
