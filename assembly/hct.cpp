@@ -13,15 +13,15 @@ template HctStressIn<double> hct_stress<double>(const TriangleVertices&, const E
 template HctStressIn<double, 9> hct_stress<double, 9>(const TriangleVertices&, const EdgeSigns&);
 template Eigen::Matrix<double, 12, 12> hct_flexibility(const Eigen::Matrix<double, 27, 12>&, double,
                                                        const Eigen::Matrix3d&);
-template Eigen::Matrix<double, 9, 9> hct_flexibility(const Eigen::Matrix<double, 27, 9>&, double,
-                                                     const Eigen::Matrix3d&);
+template Eigen::Matrix<double, 36, 9> hct_flexibility_root(const Eigen::Matrix<double, 27, 9>&,
+                                                           double, const Eigen::Matrix3d&);
 template HctCoefficientsIn<long double> hct_coefficients<long double>(const TriangleVertices&,
                                                                       const EdgeSigns&);
 template HctStressIn<long double> hct_stress<long double>(const TriangleVertices&,
                                                           const EdgeSigns&);
 template HctStressIn<long double, 9> hct_stress<long double, 9>(const TriangleVertices&,
                                                                 const EdgeSigns&);
-template Eigen::Matrix<long double, 9, 9> hct_flexibility(const Eigen::Matrix<long double, 27, 9>&,
-                                                          long double, const Eigen::Matrix3d&);
+template Eigen::Matrix<long double, 36, 9> hct_flexibility_root(
+    const Eigen::Matrix<long double, 27, 9>&, long double, const Eigen::Matrix3d&);
 
 }  // namespace airybench

@@ -72,4 +72,10 @@ Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27
                                                   std::type_identity_t<Scalar> area_mm2,
                                                   const Eigen::Matrix3<Data<Scalar>>& compliance);
 
+// M with MᵀM = the flexibility.
+template <typename Scalar, int dofs>
+Eigen::Matrix<Scalar, 36, dofs> hct_flexibility_root(
+    const Eigen::Matrix<Scalar, 27, dofs>& stress, std::type_identity_t<Scalar> area_mm2,
+    const Eigen::Matrix3<Data<Scalar>>& compliance);
+
 }  // namespace airybench

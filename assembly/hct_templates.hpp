@@ -126,11 +126,11 @@ HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& vertices
 }
 
 template <typename Scalar, int dofs>
-Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
-                                                  std::type_identity_t<Scalar> area_mm2,
-                                                  const Eigen::Matrix3<Data<Scalar>>& compliance) {
+Eigen::Matrix<Scalar, 36, dofs> hct_flexibility_root(
+    const Eigen::Matrix<Scalar, 27, dofs>& stress, std::type_identity_t<Scalar> area_mm2,
+    const Eigen::Matrix3<Data<Scalar>>& compliance) {
   using std::sqrt;
-  // With compliance = RᵀR the flexibility is MᵀM, where M stacks √(a/12) R σ for the sum and the
+  // With compliance = RᵀR, M stacks √(a/12) R σ for the sum and the
   // three corner values of every third.
   const SmallCholesky<Scalar, 3> cholesky(compliance.template cast<Scalar>());
   const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
@@ -143,6 +143,14 @@ Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27
                                            m.template middleRows<3>(12 * t + 3) +
                                            m.template middleRows<3>(12 * t + 6);
   }
+  return m;
+}
+
+template <typename Scalar, int dofs>
+Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,
+                                                  std::type_identity_t<Scalar> area_mm2,
+                                                  const Eigen::Matrix3<Data<Scalar>>& compliance) {
+  const Eigen::Matrix<Scalar, 36, dofs> m = hct_flexibility_root(stress, area_mm2, compliance);
   Eigen::Matrix<Scalar, dofs, dofs> flexibility;
   for (int j = 0; j < dofs; ++j)
     for (int i = 0; i <= j; ++i) flexibility(i, j) = flexibility(j, i) = m.col(i).dot(m.col(j));

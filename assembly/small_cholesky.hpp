@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 
 namespace airybench {
@@ -25,6 +26,30 @@ class SmallCholesky {
       }
     }
   }
+  // S = MᵀM without forming it, which would square M's condition number: M = Q Lᵀ by modified
+  // Gram–Schmidt (Björck 1967, doi:10.1007/BF01934122).
+  template <int rows>
+  static SmallCholesky of_root(Eigen::Matrix<Scalar, rows, n> M) {
+    using std::min;
+    using std::sqrt;
+    SmallCholesky result;
+    Eigen::Matrix<Scalar, n, 1> length;
+    for (int j = 0; j < n; ++j) length(j) = sqrt(M.col(j).dot(M.col(j)));
+    for (int j = 0; j < n; ++j) {
+      result.L_(j, j) = sqrt(M.col(j).dot(M.col(j)));
+      // In this order what is not a number stays: the last column has it, too.
+      result.independence_ = min(Scalar(result.L_(j, j) / length(j)), result.independence_);
+      M.col(j) /= result.L_(j, j);
+      for (int i = j + 1; i < n; ++i) {
+        result.L_(i, j) = M.col(j).dot(M.col(i));
+        M.col(i) -= result.L_(i, j) * M.col(j);
+      }
+    }
+    return result;
+  }
+  // Of M's columns: the smallest sine of the angle between one and those before it. Below a few
+  // roundings they are not independent, and S is not positive definite.
+  const Scalar& independence() const { return independence_; }
   // Positive if S is positive definite to rounding: from the first pivot that is not, no other is.
   const Scalar& last_pivot() const { return L_(n - 1, n - 1); }
   const Eigen::Matrix<Scalar, n, n>& L() const { return L_; }
@@ -54,6 +79,7 @@ class SmallCholesky {
 
  private:
   Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
+  Scalar independence_ = 1;
 };
 
 }  // namespace airybench

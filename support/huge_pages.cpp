@@ -11,7 +11,8 @@ void prefer_huge_pages([[maybe_unused]] void* array, [[maybe_unused]] std::size_
 #ifdef __linux__
   constexpr std::uintptr_t page = 4096;
   const auto start = reinterpret_cast<std::uintptr_t>(array);
-  const std::uintptr_t first = (start + page - 1) / page * page, end = (start + bytes) / page * page;
+  const std::uintptr_t first = (start + page - 1) / page * page,
+                       end = (start + bytes) / page * page;
   if (end > first) ::madvise(reinterpret_cast<void*>(first), end - first, MADV_HUGEPAGE);
 #endif
 }

@@ -45,6 +45,9 @@ struct Pack {
   friend Pack operator-(const Pack& a, const Pack& b) { return Pack(a.lanes - b.lanes); }
   friend Pack operator*(const Pack& a, const Pack& b) { return Pack(a.lanes * b.lanes); }
   friend Pack operator/(const Pack& a, const Pack& b) { return Pack(a.lanes / b.lanes); }
+  friend Pack min(const Pack& a, const Pack& b) {
+    return Pack(b.lanes < a.lanes ? b.lanes : a.lanes);
+  }
   friend Pack sqrt(const Pack& a) {
     Pack root;
     for (int l = 0; l < width; ++l) root.lanes[l] = std::sqrt(a.lanes[l]);

@@ -4,8 +4,8 @@
 //   K_e = T_e S_e⁻¹ T_eᵀ,       f_e = F_p − T_e S_e⁻¹ p_e
 //
 // over the nine unknowns φ_e that are left when vertex 1's three are dropped. Edge components are
-// those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ: it is positive
-// semidefinite to rounding.
+// those of EdgeUnknowns. K_e = RᵀR with R = L⁻¹T_eᵀ, S_e = LLᵀ from the
+// stresses themselves (SmallCholesky::of_root): it is positive semidefinite to rounding.
 //
 // What goes in and what comes out are plain arrays, matrices by columns, so that elements in double
 // can be gathered into packs (hybrid_kernels.hpp).
@@ -32,9 +32,9 @@ struct HybridInput {
 
 template <typename Scalar>
 struct HybridStiffness {
-  Scalar lower[78];   // K_e's lower triangle, N/mm
-  Scalar load[12];    // f_e, N
-  Scalar last_pivot;  // of L: positive only if S_e is positive definite to rounding
+  Scalar lower[78];     // K_e's lower triangle, N/mm
+  Scalar load[12];      // f_e, N
+  Scalar independence;  // of the stresses: S_e is positive definite if it is above rounding
 };
 
 template <typename Scalar>

@@ -59,8 +59,8 @@ HybridElement<Scalar> make_hybrid_element(const HybridInput<Scalar>& input, bool
       Eigen::Map<const Eigen::Matrix3<Data<Scalar>>>(input.compliance);
   HybridElement<Scalar> element;
   element.stress = hct_stress<Scalar, 9>(v, outward);
-  element.flexibility =
-      SmallCholesky<Scalar, 9>(hct_flexibility(element.stress, input.area, compliance));
+  element.flexibility = SmallCholesky<Scalar, 9>::of_root(
+      hct_flexibility_root(element.stress, input.area, compliance));
 
   element.loaded = loaded;
   element.particular = Eigen::Map<const ElementStressIn<Scalar>>(input.particular);
@@ -105,7 +105,7 @@ HybridStiffness<Scalar> hybrid_stiffness(const HybridInput<Scalar>& input, bool 
     element.flexibility.solve_lower(phi);
     f -= root.transpose().lazyProduct(phi);
   }
-  result.last_pivot = element.flexibility.last_pivot();
+  result.independence = element.flexibility.independence();
   return result;
 }
 

@@ -47,5 +47,41 @@ TYPED_TEST(SmallCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
   }
 }
 
+TYPED_TEST(SmallCholeskyOf, ARootHasTheFactorOfItsNormalMatrix) {
+  using Scalar = typename TypeParam::Scalar;
+  constexpr int n = TypeParam::n, rows = 2 * n;
+  using Root = Eigen::Matrix<Scalar, rows, n>;
+  constexpr Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
+  std::srand(1);
+  Root M = Root::Random();
+  // Nearly dependent: the normal matrix itself would have lost this column's sine altogether.
+  const Scalar sine = Scalar(1e-10);
+  M.col(n - 1) = M.col(0) + sine * M.col(1);
+  M.col(1) = Root::Random().col(0);
+  const auto cholesky = SmallCholesky<Scalar, n>::of_root(M);
+  const auto S = (M.transpose() * M).eval();
+  EXPECT_TRUE(cholesky.L().isLowerTriangular(0));
+  EXPECT_LT((cholesky.L() * cholesky.L().transpose() - S).norm(), rounding * S.norm());
+  EXPECT_GT(cholesky.independence(), sine / 100);
+  EXPECT_LT(cholesky.independence(), sine * 100);
+  // ‖M x‖ = ‖Lᵀ x‖ where x takes the dependent columns from each other.
+  Eigen::Matrix<Scalar, n, 1> x = Eigen::Matrix<Scalar, n, 1>::Zero();
+  x(0) = -1;
+  x(n - 1) = 1;
+  const Scalar length = (M * x).norm();
+  EXPECT_LT(std::abs((cholesky.L().transpose() * x).norm() - length), length * rounding / sine);
+}
+
+TYPED_TEST(SmallCholeskyOf, ARootOfDependentColumnsIsSaidToBeOne) {
+  using Scalar = typename TypeParam::Scalar;
+  constexpr int n = TypeParam::n;
+  using Root = Eigen::Matrix<Scalar, 2 * n, n>;
+  for (const Scalar entry : {Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()}) {
+    Root M = Root::Random();
+    M.col(1).setConstant(entry);
+    EXPECT_FALSE((SmallCholesky<Scalar, n>::of_root(M).independence() > 0)) << entry;
+  }
+}
+
 }  // namespace
 }  // namespace airybench::small_cholesky_test
