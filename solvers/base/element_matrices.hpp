@@ -3,6 +3,7 @@
 //   K = Σ_e P_eᵀ K_e P_e,   K_e 12×12; P_e picks the element's unknowns, and drops prescribed ones
 //
 // This is what a multifrontal factorisation reads (multifrontal.hpp), and products need no more.
+// Where the elements are helps to order the unknowns (dissection.hpp).
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -17,40 +18,45 @@ struct ElementMatricesIn {
   static constexpr int size = 12;
   using Unknowns = std::array<int, size>;  // negative: prescribed
   using Matrix = Eigen::Matrix<Scalar, size, size>;
+  using Point = std::array<double, 2>;
 
   int order = 0;                                               // of K
   std::vector<Unknowns> unknown;                               // per element
+  std::vector<Point> centre;                                   // per element, mm
   std::vector<std::array<Scalar, size*(size + 1) / 2>> lower;  // K_e's lower triangle, by columns
 
   int count() const { return static_cast<int>(unknown.size()); }
   std::size_t bytes() const {
-    return unknown.size() * sizeof(unknown[0]) + lower.size() * sizeof(lower[0]);
+    return unknown.size() * (sizeof(unknown[0]) + sizeof(centre[0]) + sizeof(lower[0]));
   }
   void reserve(std::size_t elements) {
     unknown.reserve(elements);
+    centre.reserve(elements);
     lower.reserve(elements);
   }
   // K_e's lower triangle, by columns.
-  void add(const Unknowns& of_element, const Scalar* of_lower) {
+  void add(const Unknowns& of_element, const Point& at, const Scalar* of_lower) {
     unknown.push_back(of_element);
+    centre.push_back(at);
     auto& entries = lower.emplace_back();
     std::copy_n(of_lower, entries.size(), entries.begin());
   }
   // K_e: its lower triangle is read.
-  void add(const Unknowns& of_element, const Matrix& K_e) {
+  void add(const Unknowns& of_element, const Point& at, const Matrix& K_e) {
     unknown.push_back(of_element);
+    centre.push_back(at);
     auto* entry = lower.emplace_back().data();
     for (int j = 0; j < size; ++j)
       for (int i = j; i < size; ++i) *entry++ = K_e(i, j);
   }
   // An unknown by itself.
-  void add_diagonal(int of, Scalar stiffness) {
+  void add_diagonal(int of, const Point& at, Scalar stiffness) {
     Unknowns alone;
     alone.fill(-1);
     alone[0] = of;
     Matrix K_e = Matrix::Zero();
     K_e(0, 0) = stiffness;
-    add(alone, K_e);
+    add(alone, at, K_e);
   }
   // K_e x.
   Eigen::Matrix<Scalar, size, 1> product(int e, const Eigen::Matrix<Scalar, size, 1>& x) const {
@@ -107,6 +113,7 @@ ElementMatricesIn<To> rounded(const ElementMatricesIn<From>& K) {
   ElementMatricesIn<To> result;
   result.order = K.order;
   result.unknown = K.unknown;
+  result.centre = K.centre;
   result.lower.resize(K.lower.size());
   for (std::size_t e = 0; e < K.lower.size(); ++e)
     for (std::size_t k = 0; k < K.lower[e].size(); ++k)

@@ -116,7 +116,8 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
         throw Breakdown("hybridized: triangle " + std::to_string(first + l + 1) +
                         ": its flexibility is not positive definite to rounding");
       const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, first + l);
-      system.K.add(unknown, result[l].lower);
+      const TriangleVertices v = problem.vertices_of(first + l);
+      system.K.add(unknown, {v.row(0).mean(), v.row(1).mean()}, result[l].lower);
       const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> f(result[l].load);
       for (int j = 0; j < 12; ++j)
         if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);

@@ -3,29 +3,22 @@
 #include <cholmod.h>
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <memory>
 #include <new>
 #include <numeric>
-#include <span>
+
+#include "solvers/direct/dissection.hpp"
+#include "solvers/direct/index_lists.hpp"
 
 namespace airybench {
 namespace {
 
-// Above so many operations METIS's time is worth a try.
-constexpr double many_flops = 1e10;
+// Minimum degree alone is faster, and as good, on fewer.
+constexpr int many_elements = 30000;
 
-// Rows of indices, one after the other.
-struct Lists {
-  std::vector<int> start, entry;
-  std::span<const int> operator[](int i) const {
-    return {entry.data() + start[i], entry.data() + start[i + 1]};
-  }
-};
-
-Lists elements_of_unknowns(const ElementMatrices& K) {
-  Lists lists;
+IndexLists elements_of_unknowns(const ElementMatrices& K) {
+  IndexLists lists;
   lists.start.assign(static_cast<std::size_t>(K.order) + 1, 0);
   for (const auto& unknowns : K.unknown)
     for (const int u : unknowns)
@@ -49,7 +42,7 @@ struct Blocks {
 };
 
 Blocks find_blocks(const ElementMatrices& K, int trailing) {
-  const Lists elements = elements_of_unknowns(K);
+  const IndexLists elements = elements_of_unknowns(K);
   Blocks blocks;
   blocks.of.resize(static_cast<std::size_t>(K.order));
   for (int u = 0; u < K.order; ++u) {
@@ -63,10 +56,28 @@ Blocks find_blocks(const ElementMatrices& K, int trailing) {
   return blocks;
 }
 
+// The blocks of each element, ascending.
+IndexLists blocks_of_elements(const ElementMatrices& K, const Blocks& blocks) {
+  IndexLists lists;
+  lists.start.reserve(K.unknown.size() + 1);
+  lists.entry.reserve(4 * K.unknown.size());
+  for (const auto& unknowns : K.unknown) {
+    std::array<int, ElementMatrices::size> own;
+    auto end = own.begin();
+    for (const int u : unknowns)
+      if (u >= 0) *end++ = blocks.of[u];
+    std::sort(own.begin(), end);
+    lists.entry.insert(lists.entry.end(), own.begin(), std::unique(own.begin(), end));
+    lists.end_list();
+  }
+  return lists;
+}
+
 // CHOLMOD with the pattern of the graph of blocks.
 class Analysis {
  public:
-  Analysis(const ElementMatrices& K, const Blocks& blocks) : n_(blocks.count()) {
+  // own: the blocks of each element.
+  Analysis(const IndexLists& own, int blocks) : n_(blocks) {
     cholmod_start(&common_);
     common_.print = 0;
     common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -75,22 +86,22 @@ class Analysis {
     common_.nrelax[0] = 1;
     common_.nrelax[1] = 4;
     common_.nrelax[2] = 12;
-    std::vector<std::vector<int>> below(static_cast<std::size_t>(n_));
-    std::vector<int> own;
-    for (const auto& unknowns : K.unknown) {
-      own.clear();
-      for (const int u : unknowns)
-        if (u >= 0) own.push_back(blocks.of[u]);
-      std::ranges::sort(own);
-      own.erase(std::unique(own.begin(), own.end()), own.end());
-      for (std::size_t j = 0; j < own.size(); ++j)
-        below[own[j]].insert(below[own[j]].end(), own.begin() + j, own.end());
+    std::vector<int> pairs_of(static_cast<std::size_t>(n_) + 1, 0);
+    for (int e = 0; e < own.count(); ++e) {
+      const int last = static_cast<int>(own[e].size());
+      for (int j = 0; j < last; ++j) pairs_of[own[e][j] + 1] += last - j;
     }
+    std::partial_sum(pairs_of.begin(), pairs_of.end(), pairs_of.begin());
+    std::vector<int> below(static_cast<std::size_t>(pairs_of.back()));
+    std::vector<int> next(pairs_of.begin(), pairs_of.end() - 1);
+    for (int e = 0; e < own.count(); ++e)
+      for (std::size_t j = 0; j < own[e].size(); ++j)
+        for (const int i : own[e].subspan(j)) below[next[own[e][j]]++] = i;
     start_.push_back(0);
-    for (auto& rows : below) {
-      std::ranges::sort(rows);
-      rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-      row_.insert(row_.end(), rows.begin(), rows.end());
+    for (int j = 0; j < n_; ++j) {
+      const auto first = below.begin() + pairs_of[j], end = below.begin() + pairs_of[j + 1];
+      std::sort(first, end);
+      row_.insert(row_.end(), first, std::unique(first, end));
       start_.push_back(static_cast<int>(row_.size()));
     }
   }
@@ -100,23 +111,13 @@ class Analysis {
 
   using Factor = std::unique_ptr<cholmod_factor, std::function<void(cholmod_factor*)>>;
 
-  // Orders of the first `blocks` of them.
-  std::vector<int> by_minimum_degree(int blocks) {
-    Leading leading = leading_part(blocks);
-    std::vector<int> order(static_cast<std::size_t>(blocks));
-    if (!cholmod_amd(&leading.matrix, nullptr, 0, order.data(), &common_)) throw std::bad_alloc();
+  // Minimum degree, each stage after those before.
+  std::vector<int> by_minimum_degree(std::vector<int> stage) {
+    cholmod_sparse whole = pattern();
+    std::vector<int> order(static_cast<std::size_t>(n_));
+    if (!cholmod_camd(&whole, nullptr, 0, stage.data(), order.data(), &common_))
+      throw std::bad_alloc();
     return order;
-  }
-  std::vector<int> by_nested_dissection(int blocks) {
-    Leading leading = leading_part(blocks);
-    common_.nmethods = 1;
-    common_.method[0].ordering = CHOLMOD_METIS;
-    common_.postorder = 1;
-    common_.supernodal = CHOLMOD_SIMPLICIAL;  // only the order is wanted
-    const Factor factor = owned(cholmod_analyze(&leading.matrix, &common_));
-    common_.supernodal = CHOLMOD_SUPERNODAL;
-    const auto* order = static_cast<const int*>(factor->Perm);
-    return {order, order + blocks};
   }
   // Of all of them, in a given order.
   Factor given(std::vector<int> order) {
@@ -126,29 +127,8 @@ class Analysis {
     cholmod_sparse whole = pattern();
     return owned(cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common_));
   }
-  double flops() const { return common_.fl; }  // by the last order, a block for an unknown
 
  private:
-  struct Leading {
-    std::vector<int> start, row;
-    cholmod_sparse matrix;
-  };
-  Leading leading_part(int blocks) {
-    Leading leading;
-    leading.matrix = pattern();
-    if (blocks == n_) return leading;
-    leading.start.push_back(0);
-    for (int j = 0; j < blocks; ++j) {
-      std::copy_if(row_.begin() + start_[j], row_.begin() + start_[j + 1],
-                   std::back_inserter(leading.row), [&](int i) { return i < blocks; });
-      leading.start.push_back(static_cast<int>(leading.row.size()));
-    }
-    leading.matrix.nrow = leading.matrix.ncol = static_cast<std::size_t>(blocks);
-    leading.matrix.nzmax = leading.row.size();
-    leading.matrix.p = leading.start.data();
-    leading.matrix.i = leading.row.data();
-    return leading;
-  }
   cholmod_sparse pattern() {
     cholmod_sparse matrix{};
     matrix.nrow = matrix.ncol = static_cast<std::size_t>(n_);
@@ -171,20 +151,15 @@ class Analysis {
   std::vector<int> start_, row_;  // the lower triangle by columns
 };
 
-// Blocks in the order of elimination, the trailing ones last.
-std::vector<int> order_blocks(Analysis& analysis, const Blocks& blocks) {
-  std::vector<int> order;
-  if (blocks.inner > 0) {
-    order = analysis.by_minimum_degree(blocks.inner);
-    const double flops = analysis.flops();
-    const double unknowns_per_block = static_cast<double>(blocks.first.back()) / blocks.count();
-    if (flops * std::pow(unknowns_per_block, 3) > many_flops) {
-      std::vector<int> other = analysis.by_nested_dissection(blocks.inner);
-      if (analysis.flops() < flops) order = std::move(other);
-    }
+// When each block is to be eliminated; the trailing ones last.
+std::vector<int> stages(const ElementMatrices& K, const IndexLists& own, const Blocks& blocks) {
+  std::vector<int> stage(static_cast<std::size_t>(blocks.count()), 0);
+  if (K.count() > many_elements) stage = dissect(blocks.count(), own, K.centre);
+  if (blocks.inner < blocks.count()) {
+    const int last = *std::ranges::max_element(stage) + 1;
+    std::fill(stage.begin() + blocks.inner, stage.end(), last);
   }
-  for (int block = blocks.inner; block < blocks.count(); ++block) order.push_back(block);
-  return order;
+  return stage;
 }
 
 // Places, pivots and rows of the fronts, from supernodes of blocks.
@@ -303,8 +278,10 @@ Elimination analyse_elimination(const ElementMatrices& K, int trailing) {
   result.trailing = trailing;
   if (K.order == 0) return result;
   const Blocks blocks = find_blocks(K, trailing);
-  Analysis analysis(K, blocks);
-  const std::vector<int> order = order_blocks(analysis, blocks);
+  const IndexLists own = blocks_of_elements(K, blocks);
+  Analysis analysis(own, blocks.count());
+  std::vector<int> order = analysis.by_minimum_degree(stages(K, own, blocks));
+  std::iota(order.begin() + blocks.inner, order.end(), blocks.inner);
   expand(*analysis.given(order), blocks, order, result);
   const std::vector<int> front_at = fronts_of_places(result);
   order_fronts(front_at, result);

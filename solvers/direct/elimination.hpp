@@ -3,9 +3,9 @@
 //
 // Unknowns that the same elements have are alike (those of an edge, of a node). They are ordered,
 // and their fill is found, as one vertex of a compressed graph (Ashcraft 1995,
-// doi:10.1137/0916081): minimum degree, or METIS's nested dissection where that leaves fewer
-// operations; the last `trailing` unknowns stay last. Ordering, elimination tree and supernodes are
-// CHOLMOD's.
+// doi:10.1137/0916081): by minimum degree, within the parts of a nested dissection where there are
+// many (dissection.hpp); the last `trailing` unknowns stay last. Minimum degree (CAMD), elimination
+// tree and supernodes are CHOLMOD's.
 #pragma once
 
 #include <cstdint>

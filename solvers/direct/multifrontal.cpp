@@ -14,6 +14,10 @@ namespace {
 using Panel = Eigen::Map<Eigen::MatrixXd>;
 using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
+void add(int n, const double* __restrict from, double* __restrict to) {
+  for (int i = 0; i < n; ++i) to[i] += from[i];
+}
+
 // The fronts of one factorisation, and the updates that wait for their parents: a stack, since
 // children are done right before.
 class Fronts {
@@ -23,7 +27,9 @@ class Fronts {
         K_(K),
         panels_(panels),
         waiting_(std::make_unique_for_overwrite<double[]>(elimination.update_doubles)),
-        row_of_(elimination.place.size(), -1) {}
+        row_of_(elimination.place.size(), -1) {
+    prefer_huge_pages(waiting_.get(), elimination.update_doubles * sizeof(double));
+  }
 
   void eliminate(const Front& front) {
     const int* rows = elimination_.rows.data() + front.rows_at;
@@ -57,15 +63,17 @@ class Fronts {
   void add_element(int element, Panel& panel, Panel& update) {
     constexpr int size = ElementMatrices::size;
     std::array<int, size> row;
+    std::array<double*, size> at;
     for (int i = 0; i < size; ++i) {
       const int unknown = K_.unknown[element][i];
       row[i] = unknown < 0 ? -1 : row_of_[elimination_.place[unknown]];
+      at[i] = unknown < 0 ? nullptr : column(row[i], panel, update);
     }
     const double* entry = K_.lower[element].data();
     for (int j = 0; j < size; ++j)
       for (int i = j; i < size; ++i, ++entry) {
-        const auto [low, high] = std::minmax(row[i], row[j]);
-        if (low >= 0) column(low, panel, update)[high] += *entry;
+        double* low = row[i] < row[j] ? at[i] : at[j];
+        if (low != nullptr) low[std::max(row[i], row[j])] += *entry;
       }
   }
 
@@ -82,8 +90,8 @@ class Fronts {
       double* target = column(to_[j], panel, update);
       for (int i = j; i < n;) {
         const int end = run_end_[i];
-        double* shifted = target + to_[i] - i;
-        for (; i < end; ++i) shifted[i] += left[i];
+        add(end - i, left + i, target + to_[i]);
+        i = end;
       }
     }
   }

@@ -73,7 +73,9 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
   system.K.reserve(problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
+    const TriangleVertices v = problem.vertices_of(t);
+    const std::array<double, 2> centre = {v.row(0).mean(), v.row(1).mean()};
+    QuadraticStrain strain = quadratic_strain(v);
     const std::array<int, 6> nodes = triangle_nodes(problem, t);
     std::array<int, 12> unknown;
     Eigen::Matrix<double, 12, 1> given;
@@ -89,13 +91,13 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
     const QuadraticStiffness K =
         quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem.compliance_of(t)));
     const Eigen::Matrix<double, 12, 1> force = K * given;
-    system.K.add(unknown, K);
+    system.K.add(unknown, centre, K);
     for (int j = 0; j < 12; ++j) {
       if (unknown[j] != QuadraticDisplacements::prescribed) {
         system.b(unknown[j]) -= force(j);
       } else if (const auto row = system.held_tangent.find(nodes[j / 2]);
                  j % 2 == 1 && row != system.held_tangent.end()) {
-        system.K.add_diagonal(row->second, K(j, j));
+        system.K.add_diagonal(row->second, centre, K(j, j));
       }
     }
   }

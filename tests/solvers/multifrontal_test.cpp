@@ -31,15 +31,16 @@ ElementMatrices grid_elements(int side, bool blocks_of_unlike_size = false) {
       }
       const ElementMatrices::Matrix root =
           ElementMatrices::Matrix::NullaryExpr([&] { return number(random); });
-      K.add(own, root * root.transpose());
+      K.add(own, {x + 0.5, y + 0.5}, root * root.transpose());
     }
   K.order = 4 * 2 * columns * side;
   for (int u = 0; u < K.order; u += 4) {
     ElementMatrices::Unknowns edge;
     edge.fill(-1);
     std::iota(edge.begin(), edge.begin() + 4, u);
-    K.add(edge, ElementMatrices::Matrix::Identity());
-    if (blocks_of_unlike_size) K.add_diagonal(u, 1);
+    const ElementMatrices::Point at = {u / 4 % side + 1.0, u / 4 / side % columns + 0.0};
+    K.add(edge, at, ElementMatrices::Matrix::Identity());
+    if (blocks_of_unlike_size) K.add_diagonal(u, at, 1);
   }
   return K;
 }
