@@ -185,6 +185,15 @@ DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks) {
   return system;
 }
 
+void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem) {
+  system.problem = std::move(problem);
+  system.contact = contact_points(*system.problem);
+  for (Eigen::VectorXd* load : {&system.q, &system.F, &system.F0}) load->resize(0);
+  if (system.n() == 0) return;  // contact points only
+  build_constraints(system);
+  build_load(system);
+}
+
 Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x) {
   const DofNumbering& dofs = system.dofs;
   const auto vertices = static_cast<Eigen::Index>(dofs.of_vertex.size());

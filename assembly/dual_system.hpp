@@ -62,6 +62,9 @@ struct DualSystem {
 // contact points only (the rest stays empty).
 enum class Blocks { airy, contact_points };
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy);
+// Another load case of the same body (same_body): q, F, F0 and the contact points anew, S as it is.
+// Costs the boundary, and with a body force a pass over the triangles.
+void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem);
 
 // From x to φ, φ,x, φ,y of every vertex, then ∂φ/∂n of every edge (3V + E values).
 Eigen::VectorXd airy_function(const DualSystem& system, const Eigen::VectorXd& x);

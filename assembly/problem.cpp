@@ -1,5 +1,6 @@
 #include "assembly/problem.hpp"
 
+#include <algorithm>
 #include <cassert>
 #include <limits>
 
@@ -65,6 +66,21 @@ std::array<Eigen::Vector2d, 2> Problem::prescribed_moments(int boundary_row) con
   if (!is_roller(boundary_row)) return {u_a, u_b};
   const Eigen::Vector2d n = edge_frame(a, b).normal;
   return {n.dot(u_a) * n, n.dot(u_b) * n};
+}
+
+bool same_body(const Problem& a, const Problem& b) {
+  const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
+    return x.vertices == y.vertices && x.role == y.role;
+  };
+  if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
+      a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
+      !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike))
+    return false;
+  for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
+    if (const EdgeCondition x = a.condition(row), y = b.condition(row);
+        x.in_frame != y.in_frame || x.component != y.component)
+      return false;
+  return true;
 }
 
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,

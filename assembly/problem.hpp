@@ -99,6 +99,10 @@ struct Problem {
   }
 };
 
+// Whether two problems differ in loads, gap and friction at most: the same mesh, materials and
+// known components on every boundary edge. (Without friction others are known than with it.)
+bool same_body(const Problem& a, const Problem& b);
+
 // Takes a valid mesh (see validate()), one compliance per body, and the loads with all of u0.
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);

@@ -13,6 +13,11 @@
 
 namespace airybench {
 
+// Of a triangle's corners, in its columns.
+inline std::array<double, 2> centre_of(const Eigen::Matrix<double, 2, 3>& corners) {
+  return {corners.row(0).mean(), corners.row(1).mean()};
+}
+
 template <typename Scalar>
 struct ElementMatricesIn {
   static constexpr int size = 12;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,9 @@
 #include "support/status.hpp"
 
 namespace airybench {
+
+struct DualSystem;
+struct RunControl;
 
 struct IterationHistory {
   std::string what;              // "natural map residual of the contact sweeps"
@@ -60,6 +64,9 @@ struct Solution {
   // RunControl::target_error the method says `inaccurate`.
   std::optional<double> error_estimate;
   std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm
+  // With RunControl::keep_body, where the method can: solves another load case of the same body
+  // with what this solve has factorised and condensed, which it owns (kept_body.hpp).
+  std::function<Solution(const DualSystem& load_case, const RunControl&)> solve_again;
 };
 
 // The storage of its matrices, wherever they are: without the vectors of an iteration.
@@ -107,6 +114,7 @@ struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
   bool condition = false;  // estimate it, where a factor is at hand: a few more solves
+  bool keep_body = false;  // for other load cases; the deadline then is one for all of them
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;
   double target_error = 1e-6;         // a method that knows that it misses this must say so

@@ -158,7 +158,8 @@ Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const
 }
 
 void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
-                   const BlindSolve& solve, int columns_at_once, Solution& solution) {
+                   const BlindSolve& solve, int columns_at_once, Solution& solution,
+                   const std::shared_ptr<const void>& owner) {
   if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
   CondensedSystem condensed;
   if (system.n_c() > 0)
@@ -171,12 +172,12 @@ void solve_blindly(const DualSystem& system, const RunControl& control, const Bl
         solve(x);
         return by_blocks(system, blind, x);
       },
-      [&](SaddleVector& v) {
-        Eigen::VectorXd x = in_one(system, blind, v);
+      [&blind, solve](const DualSystem& body, SaddleVector& v) {
+        Eigen::VectorXd x = in_one(body, blind, v);
         solve(x);
-        v = by_blocks(system, blind, x);
+        v = by_blocks(body, blind, x);
       },
-      Refine::no, solution);
+      Refine::no, solution, owner);
 }
 
 void check_inertia(int negative_pivots, int expected) {

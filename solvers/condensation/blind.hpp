@@ -53,9 +53,11 @@ SaddleVector by_blocks(const DualSystem& system, const BlindSystem& blind,
                        const Eigen::VectorXd& solution);
 Eigen::VectorXd in_one(const DualSystem& system, const BlindSystem& blind, const SaddleVector& v);
 
-// All that follows the factorisation of M₁₁, by solves: condenses, and finishes.
+// All that follows the factorisation of M₁₁, by solves: condenses, and finishes. owner: of `blind`
+// and of what `solve` refers to.
 void solve_blindly(const DualSystem& system, const RunControl& control, const BlindSystem& blind,
-                   const BlindSolve& solve, int columns_at_once, Solution& solution);
+                   const BlindSolve& solve, int columns_at_once, Solution& solution,
+                   const std::shared_ptr<const void>& owner);
 
 // Throws Breakdown when the factor of M₁₁ has another number of negative pivots than expected.
 void check_inertia(int negative_pivots, int expected);

@@ -1,5 +1,7 @@
 #include "solvers/condensation/finish.hpp"
 
+#include "solvers/base/kept_body.hpp"
+
 namespace airybench {
 namespace {
 
@@ -15,6 +17,40 @@ void finish(const CondensedSystem& condensed, const ContactPoints& contact,
   run_stage(solution.times, Stage::check, MemoryOwner::check, check);
 }
 
+// Whatever the load case says of b, all of it.
+SaddleVector load_of(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const auto or_zero = [](const Eigen::VectorXd& v, int size) {
+    return v.size() > 0 ? v : Eigen::VectorXd(Eigen::VectorXd::Zero(size));
+  };
+  SaddleVector load{or_zero(system.q, system.n()), or_zero(system.F, system.n_f()),
+                    or_zero(F_C, system.n_c())};
+  if (system.F0.size() > 0) load.lambda_C -= system.F0;
+  return load;
+}
+
+// What other load cases in the Airy function need.
+struct KeptAiryBody {
+  CondensedSystem condensed;
+  BodySolve solve;
+  Refine refine;
+  std::shared_ptr<const void> owner;  // of what `solve` refers to
+};
+
+Solution solve_load_case(KeptAiryBody& body, const DualSystem& system, const RunControl& control) {
+  const auto solved = [&](const Eigen::VectorXd& F_C) {
+    SaddleVector v = load_of(system, F_C);
+    body.solve(system, v);
+    return v;
+  };
+  Solution solution;
+  if (system.n_c() > 0)
+    run_stage(solution.times, Stage::contact, MemoryOwner::condensed,
+              [&] { body.condensed.G = solved({}).lambda_C; });
+  finish_in_airy_function(system, control, body.condensed, solved, body.solve, body.refine,
+                          solution);
+  return solution;
+}
+
 }  // namespace
 
 void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solution& solution) {
@@ -26,7 +62,9 @@ void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solut
 void finish_in_airy_function(const DualSystem& system, const RunControl& control,
                              const CondensedSystem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
-                             const SaddleSolve& solve, Refine refine, Solution& solution) {
+                             const BodySolve& solve, Refine refine, Solution& solution,
+                             std::shared_ptr<const void> owner) {
+  const SaddleSolve solve_here = [&](SaddleVector& v) { solve(system, v); };
   SaddleVector answer;
   finish(
       condensed, system.contact, control,
@@ -36,11 +74,16 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
       },
       [&] {
         if (refine == Refine::yes)
-          refine_airy_answer(system, condensed.D, solve, answer, control, solution);
+          refine_airy_answer(system, condensed.D, solve_here, answer, control, solution);
         else
-          check_airy_answer(system, condensed.D, solve, answer, control, solution);
+          check_airy_answer(system, condensed.D, solve_here, answer, control, solution);
       },
       solution);
+  if (!control.keep_body || !owner) return;
+  const auto body = std::make_shared<KeptAiryBody>(condensed, solve, refine, std::move(owner));
+  solution.solve_again = for_the_same_body(
+      system,
+      [body](const DualSystem& s, const RunControl& c) { return solve_load_case(*body, s, c); });
 }
 
 void finish_in_displacements(const Problem& problem, const ContactPoints& contact,

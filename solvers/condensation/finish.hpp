@@ -3,9 +3,12 @@
 //   contact   the contact forces, by the contact law on ū_C = D F_C − G
 //   recover   from them φ or u, and the stresses
 //   check     the method's own estimate of its error, by one more solve; refinement
+//
+// and what another load case of the same body then begins with (kept_body.hpp): D stays, G is new.
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "solvers/condensation/airy_refinement.hpp"
 #include "solvers/condensation/stiffness_check.hpp"
@@ -15,12 +18,20 @@ namespace airybench {
 
 enum class Refine { no, yes };
 
+// SaddleSolve with the matrices of the load case at hand, which are those of the first.
+using BodySolve = std::function<void(const DualSystem&, SaddleVector&)>;
+
 // Of a method in the Airy function. recover: x and the multipliers that belong to F_C. solve: as
-// for any right-hand side.
+// for any right-hand side. owner: of all that `solve` refers to, so that it can be kept; without
+// one nothing is.
+//
+// Other load cases need no more than D and `solve`:  [S Cᵀ; C 0] (x, λ, λ') = (q, F, F_C − F0)  has
+// λ' = G for F_C = 0, and is the recovery for the F_C found.
 void finish_in_airy_function(const DualSystem& system, const RunControl& control,
                              const CondensedSystem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
-                             const SaddleSolve& solve, Refine refine, Solution& solution);
+                             const BodySolve& solve, Refine refine, Solution& solution,
+                             std::shared_ptr<const void> owner = nullptr);
 
 // φ and stresses into the solution.
 void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solution& solution);

@@ -29,6 +29,7 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
 
 template struct HybridizedSystemIn<double>;
 template HybridizedSystemIn<double> assemble_hybridized(const Problem&, const ContactPoints&);
+template void set_load_case(const Problem&, HybridizedSystemIn<double>&);
 
 template struct HybridizedSystemIn<long double>;
 template HybridizedSystemIn<long double> assemble_hybridized(const Problem&, const ContactPoints&);

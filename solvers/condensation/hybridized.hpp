@@ -48,6 +48,10 @@ template <typename Scalar = double>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact);
 
+// Another load case of the same body: b and ū0 anew. With a body force all f_e are made again.
+template <typename Scalar>
+void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system);
+
 // The stresses that belong to u: computed in Scalar, rounded at the end.
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,

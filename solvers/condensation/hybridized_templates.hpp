@@ -94,6 +94,34 @@ void in_batches(const Problem& problem, const HybridKernels<Scalar>& kernels, Wo
   }
 }
 
+// Calls visit(triangle, K_e and f_e). Throws Breakdown where there is no K_e.
+template <typename Scalar, typename Visit>
+void visit_stiffness(const Problem& problem, Visit visit) {
+  constexpr double few_roundings = 100 * std::numeric_limits<double>::epsilon();
+  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
+  std::vector<HybridStiffness<Scalar>> result(static_cast<std::size_t>(kernels.width));
+  const bool loaded = problem.loads.has_body_force();
+  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
+    kernels.stiffness(input, loaded, result.data());
+    for (int l = 0; l < count; ++l) {
+      if (!(result[l].independence > few_roundings))
+        throw Breakdown("hybridized: triangle " + std::to_string(first + l + 1) +
+                        ": its flexibility is not positive definite to rounding");
+      visit(first + l, result[l]);
+    }
+  });
+}
+
+// b −= f_e.
+template <typename Scalar>
+void subtract_load(const Problem& problem, int t, const HybridStiffness<Scalar>& element,
+                   HybridizedSystemIn<Scalar>& system) {
+  const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
+  const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> f(element.load);
+  for (int j = 0; j < 12; ++j)
+    if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
+}
+
 template <typename Scalar>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact) {
@@ -105,27 +133,26 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   system.K.order = n;
   system.K.reserve(problem.mesh.triangles.size());
 
-  constexpr double few_roundings = 100 * std::numeric_limits<double>::epsilon();
-  const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
-  std::vector<HybridStiffness<Scalar>> result(static_cast<std::size_t>(kernels.width));
-  const bool loaded = problem.loads.has_body_force();
-  in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
-    kernels.stiffness(input, loaded, result.data());
-    for (int l = 0; l < count; ++l) {
-      if (!(result[l].independence > few_roundings))
-        throw Breakdown("hybridized: triangle " + std::to_string(first + l + 1) +
-                        ": its flexibility is not positive definite to rounding");
-      const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, first + l);
-      const TriangleVertices v = problem.vertices_of(first + l);
-      system.K.add(unknown, {v.row(0).mean(), v.row(1).mean()}, result[l].lower);
-      const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> f(result[l].load);
-      for (int j = 0; j < 12; ++j)
-        if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
-    }
+  visit_stiffness<Scalar>(problem, [&](int t, const HybridStiffness<Scalar>& element) {
+    system.K.add(element_unknowns(problem, system.unknown, t), centre_of(problem.vertices_of(t)),
+                 element.lower);
+    subtract_load(problem, t, element, system);
   });
   if (!system.displacement.empty()) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
   return system;
+}
+
+template <typename Scalar>
+void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+  system.displacement = prescribed_displacements(problem);
+  system.b.setZero();
+  if (problem.loads.has_body_force())
+    visit_stiffness<Scalar>(problem, [&](int t, const HybridStiffness<Scalar>& element) {
+      subtract_load(problem, t, element, system);
+    });
+  if (!system.displacement.empty()) subtract_prescribed(problem, system);
+  add_tractions(problem, system.unknown, system.b);
 }
 
 // Calls visit(triangle, hybrid_stress of what u makes of its edges).

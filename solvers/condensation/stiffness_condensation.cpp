@@ -14,6 +14,13 @@ CondensedSystem condense(const StiffnessFactor& factor) {
   return condensed;
 }
 
+void condense_load(const Eigen::VectorXd& b, StiffnessFactor& factor, CondensedSystem& condensed) {
+  factor.y = factor.cholesky.forward(b);
+  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
+  if (L.rows() == 0) return;
+  condensed.G = -L.triangularView<Eigen::Lower>().transpose().solve(factor.y.tail(L.rows()));
+}
+
 CondensedSystem factorise_and_condense(const ElementMatrices& K, const Eigen::VectorXd& b, int n_c,
                                        const std::string& system, const RunControl& control,
                                        StiffnessFactor& factor, Solution& solution) {

@@ -22,6 +22,8 @@ struct StiffnessFactor {
 
 // D and G; empty without contact.
 CondensedSystem condense(const StiffnessFactor& factor);
+// G of other loads b, D as it is: y and G anew.
+void condense_load(const Eigen::VectorXd& b, StiffnessFactor& factor, CondensedSystem& condensed);
 
 // Orders, factorises and condenses K u = b + F_C, n_c contact unknowns last: the factor, D and G,
 // their stages' times and bytes into the solution. system: what messages call it.

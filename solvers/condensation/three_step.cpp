@@ -166,9 +166,18 @@ void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveI
 
 void solve_in_three_steps(const DualSystem& system, const RunControl& control,
                           const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
-                          Solution& solution) {
-  const ThreeStep steps = run_stage(solution.times, Stage::condense, MemoryOwner::intermediate,
-                                    [&] { return condense_in_three_steps(system, solve_S, keep); });
+                          Solution& solution, const std::shared_ptr<const void>& owner) {
+  struct Condensed {
+    ThreeStep steps;
+    SolveInPlace solve_S;
+    std::shared_ptr<const void> owner;  // of what solve_S refers to
+  };
+  const auto kept = std::make_shared<Condensed>();
+  kept->steps = run_stage(solution.times, Stage::condense, MemoryOwner::intermediate,
+                          [&] { return condense_in_three_steps(system, solve_S, keep); });
+  kept->solve_S = solve_S;
+  kept->owner = owner;
+  const ThreeStep& steps = kept->steps;
   solution.storage[MemoryOwner::intermediate] = steps.bytes();
   solution.file_bytes = steps.X.bytes() - steps.X.heap_bytes();
   finish_in_airy_function(
@@ -176,7 +185,10 @@ void solve_in_three_steps(const DualSystem& system, const RunControl& control,
       [&](const Eigen::VectorXd& F_C) {
         return recover_airy_unknowns(steps, system, F_C, solve_S);
       },
-      [&](SaddleVector& v) { solve_saddle(steps, system, solve_S, v); }, refine, solution);
+      [own = kept.get()](const DualSystem& body, SaddleVector& v) {
+        solve_saddle(own->steps, body, own->solve_S, v);
+      },
+      refine, solution, owner ? kept : nullptr);
 }
 
 }  // namespace airybench

@@ -46,10 +46,11 @@ struct ThreeStep {
 ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& solve,
                                   const KeepX& keep = {});
 
-// All that follows a factorisation of S, or its preconditioner: condenses, and finishes.
+// All that follows a factorisation of S, or its preconditioner: condenses, and finishes. owner: of
+// what solve_S refers to, if the body can be kept for other load cases.
 void solve_in_three_steps(const DualSystem& system, const RunControl& control,
                           const SolveInPlace& solve_S, const KeepX& keep, Refine refine,
-                          Solution& solution);
+                          Solution& solution, const std::shared_ptr<const void>& owner = nullptr);
 
 // The scaled Airy unknowns and multipliers that belong to contact forces F_C (see DualSystem).
 // `solve` is called once if X was kept nowhere.

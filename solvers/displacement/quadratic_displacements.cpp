@@ -1,5 +1,7 @@
 #include "solvers/displacement/quadratic_displacements.hpp"
 
+#include <algorithm>
+
 namespace airybench {
 namespace {
 
@@ -62,6 +64,52 @@ std::size_t QuadraticDisplacements::bytes() const {
          unknown.size() * sizeof(unknown[0]);
 }
 
+namespace {
+
+// A triangle in the unknowns' directions.
+struct Element {
+  std::array<int, 6> nodes;
+  std::array<int, 12> unknown;
+  Eigen::Matrix<double, 12, 1> given;  // the prescribed coefficients, else 0
+  QuadraticStiffness K;
+};
+
+Element element(const Problem& problem, const QuadraticDisplacements& system,
+                const std::map<int, Eigen::Matrix2d>& frame, int t) {
+  Element result;
+  QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
+  result.nodes = triangle_nodes(problem, t);
+  for (int m = 0; m < 6; ++m) {
+    const int node = result.nodes[m];
+    result.given.segment<2>(2 * m) = system.given.u.col(node);
+    if (const auto own = frame.find(node); own != frame.end()) {
+      auto columns = strain.middleCols<2>(2 * m);
+      columns = (columns * own->second).eval();
+      result.given.segment<2>(2 * m) = own->second.transpose() * system.given.u.col(node);
+    }
+    for (int k = 0; k < 2; ++k) result.unknown[2 * m + k] = system.unknown[node][k];
+  }
+  result.K =
+      quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem.compliance_of(t)));
+  return result;
+}
+
+// b −= K_e u0 of a triangle.
+void subtract_known_forces(const Element& element, QuadraticDisplacements& system) {
+  const Eigen::Matrix<double, 12, 1> force = element.K * element.given;
+  for (int j = 0; j < 12; ++j)
+    if (element.unknown[j] != QuadraticDisplacements::prescribed)
+      system.b(element.unknown[j]) -= force(j);
+}
+
+void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& frame,
+               QuadraticDisplacements& system) {
+  if (problem.loads.has_body_force() || problem.loads.traction_MPa)
+    add_nodal(nodal_loads(problem), frame, system, system.b);
+}
+
+}  // namespace
+
 QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) {
   QuadraticDisplacements system;
   system.control = control_points(problem);
@@ -73,37 +121,29 @@ QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) 
   system.K.reserve(problem.mesh.triangles.size());
 
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const TriangleVertices v = problem.vertices_of(t);
-    const std::array<double, 2> centre = {v.row(0).mean(), v.row(1).mean()};
-    QuadraticStrain strain = quadratic_strain(v);
-    const std::array<int, 6> nodes = triangle_nodes(problem, t);
-    std::array<int, 12> unknown;
-    Eigen::Matrix<double, 12, 1> given;
-    for (int m = 0; m < 6; ++m) {
-      given.segment<2>(2 * m) = system.given.u.col(nodes[m]);
-      if (const auto own = frame.find(nodes[m]); own != frame.end()) {
-        auto columns = strain.middleCols<2>(2 * m);
-        columns = (columns * own->second).eval();
-        given.segment<2>(2 * m) = own->second.transpose() * system.given.u.col(nodes[m]);
-      }
-      for (int k = 0; k < 2; ++k) unknown[2 * m + k] = system.unknown[nodes[m]][k];
-    }
-    const QuadraticStiffness K =
-        quadratic_stiffness(strain, problem.area_mm2(t), elasticity_of(problem.compliance_of(t)));
-    const Eigen::Matrix<double, 12, 1> force = K * given;
-    system.K.add(unknown, centre, K);
-    for (int j = 0; j < 12; ++j) {
-      if (unknown[j] != QuadraticDisplacements::prescribed) {
-        system.b(unknown[j]) -= force(j);
-      } else if (const auto row = system.held_tangent.find(nodes[j / 2]);
-                 j % 2 == 1 && row != system.held_tangent.end()) {
-        system.K.add_diagonal(row->second, centre, K(j, j));
-      }
-    }
+    const Element own = element(problem, system, frame, t);
+    const auto centre = centre_of(problem.vertices_of(t));
+    system.K.add(own.unknown, centre, own.K);
+    subtract_known_forces(own, system);
+    for (int j = 1; j < 12; j += 2)
+      if (const auto row = system.held_tangent.find(own.nodes[j / 2]);
+          row != system.held_tangent.end() && own.unknown[j] == QuadraticDisplacements::prescribed)
+        system.K.add_diagonal(row->second, centre, own.K(j, j));
   }
-  if (problem.loads.has_body_force() || problem.loads.traction_MPa)
-    add_nodal(nodal_loads(problem), frame, system, system.b);
+  add_loads(problem, frame, system);
   return system;
+}
+
+void set_load_case(const Problem& problem, QuadraticDisplacements& system) {
+  system.control = control_points(problem);
+  system.given = prescribed_displacement(problem);
+  system.b.setZero();
+  const std::map<int, Eigen::Matrix2d> frame = frames(system);
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
+    if (std::ranges::any_of(triangle_nodes(problem, t),
+                            [&](int node) { return !system.given.u.col(node).isZero(0); }))
+      subtract_known_forces(element(problem, system, frame, t), system);
+  add_loads(problem, frame, system);
 }
 
 DisplacementField displacement_field(const QuadraticDisplacements& system,

@@ -8,32 +8,44 @@
 namespace airybench {
 namespace {
 
-// M₁₁ and its factor; the last `trailing` unknowns are left to the Schur complement.
-BlindSystem factorise(const DualSystem& system, const RunControl& control, int trailing,
-                      MumpsFactor& factor, Solution& solution) {
-  BlindSystem blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
+// M₁₁ and its factor, and what is condensed of them.
+template <typename Factor>
+struct BlindBody {
+  BlindSystem blind;
+  Factor factor;
+  CondensedSystem condensed;
+};
+using MumpsBody = BlindBody<MumpsFactor>;
+
+// The last `trailing` unknowns are left to the Schur complement.
+std::shared_ptr<MumpsBody> factorise(const DualSystem& system, const RunControl& control,
+                                     int trailing, Solution& solution) {
+  auto body = std::make_shared<MumpsBody>();
+  body->blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
     return make_blind_system(system, BlindNumbering::multipliers_last);
   });
+  MumpsFactor& factor = body->factor;
   run_stage(solution.times, Stage::order, MemoryOwner::factor,
-            [&] { factor.analyse(blind.lower, trailing); });
+            [&] { factor.analyse(body->blind.lower, trailing); });
   control.deadline.check("MUMPS's analysis");
   run_stage(solution.times, Stage::factor, MemoryOwner::factor,
-            [&] { factor.factor(blind.lower); });
+            [&] { factor.factor(body->blind.lower); });
   control.deadline.check("MUMPS's factorisation");
   check_inertia(factor.negative_pivots(), system.n_f() + system.n_c() - trailing);
-  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  solution.storage[MemoryOwner::system_matrix] = body->blind.bytes();
   count_factor(factor, solution);
-  return blind;
+  return body;
 }
 
 Solution solve_blind_mumps(const DualSystem& system, const RunControl& control) {
   Solution solution;
-  MumpsFactor factor;
-  const BlindSystem blind = factorise(system, control, 0, factor, solution);
+  const std::shared_ptr<MumpsBody> body = factorise(system, control, 0, solution);
   solve_blindly(
-      system, control, blind,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) { factor.solve_in_place(X, control.deadline); },
-      MumpsFactor::columns_at_once, solution);
+      system, control, body->blind,
+      [&factor = body->factor, deadline = control.deadline](Eigen::Ref<Eigen::MatrixXd> X) {
+        factor.solve_in_place(X, deadline);
+      },
+      MumpsFactor::columns_at_once, solution, body);
   return solution;
 }
 
@@ -41,10 +53,11 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
                                  Refine refine) {
   const int n_c = system.n_c();
   Solution solution;
-  MumpsFactor factor;
-  const BlindSystem blind = factorise(system, control, n_c, factor, solution);
+  const std::shared_ptr<MumpsBody> body = factorise(system, control, n_c, solution);
+  const BlindSystem& blind = body->blind;
+  MumpsFactor& factor = body->factor;
+  CondensedSystem& condensed = body->condensed;
   const Eigen::VectorXd load = blind_right_hand_side(system, blind, {});
-  CondensedSystem condensed;
   if (n_c > 0)
     condensed = run_stage(solution.times, Stage::condense, MemoryOwner::condensed,
                           [&] { return condense_blindly(factor.schur(), factor.reduce(load)); });
@@ -58,33 +71,34 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
           factor.solve_in_place(x, control.deadline);
         return by_blocks(system, blind, x);
       },
-      [&](SaddleVector& v) {
-        Eigen::VectorXd x = in_one(system, blind, v);
-        if (n_c > 0)
+      [&blind, &factor, &condensed, deadline = control.deadline](const DualSystem& of,
+                                                                 SaddleVector& v) {
+        Eigen::VectorXd x = in_one(of, blind, v);
+        if (of.n_c() > 0)
           x = factor.expand(-condensed.D * factor.reduce(x));
         else
-          factor.solve_in_place(x, control.deadline);
-        v = by_blocks(system, blind, x);
+          factor.solve_in_place(x, deadline);
+        v = by_blocks(of, blind, x);
       },
-      refine, solution);
+      refine, solution, body);
   return solution;
 }
 
 Solution solve_blind_skyline(const DualSystem& system, const RunControl& control) {
   Solution solution;
-  const BlindSystem blind = run_stage(
-      solution.times, Stage::order, MemoryOwner::system_matrix,
-      [&] { return make_blind_system(system, BlindNumbering::multipliers_after_unknowns); });
-  const SkylineFactor factor = factor_in_stages(blind.lower, control, solution);
-  check_inertia(static_cast<int>((factor.diagonal.array() < 0).count()),
+  const auto body = std::make_shared<BlindBody<SkylineFactor>>();
+  body->blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
+    return make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+  });
+  body->factor = factor_in_stages(body->blind.lower, control, solution);
+  check_inertia(static_cast<int>((body->factor.diagonal.array() < 0).count()),
                 system.n_f() + system.n_c());
-  solution.storage[MemoryOwner::system_matrix] = blind.bytes();
+  solution.storage[MemoryOwner::system_matrix] = body->blind.bytes();
   solve_blindly(
-      system, control, blind,
-      [&](Eigen::Ref<Eigen::MatrixXd> X) {
-        solve_in_place(factor, X, control.deadline, control.threads);
-      },
-      skyline_columns_at_once * control.threads, solution);
+      system, control, body->blind,
+      [&factor = body->factor, deadline = control.deadline, threads = control.threads](
+          Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X, deadline, threads); },
+      skyline_columns_at_once * control.threads, solution, body);
   return solution;
 }
 

@@ -4,32 +4,41 @@
 
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
+#include "solvers/condensation/stiffness_body.hpp"
 
 namespace airybench {
 namespace {
 
-Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl& control) {
+using QuadraticBody = StiffnessBody<QuadraticDisplacements>;
+
+void finish_quadratic(const DualSystem& airy, const RunControl& control, QuadraticBody& body,
+                      Solution& solution) {
   const Problem& problem = *airy.problem;
-  Solution solution;
-  const QuadraticDisplacements system =
-      run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
-                [&] { return assemble_quadratic_displacements(problem); });
-  solution.storage[MemoryOwner::system_matrix] = system.bytes();
-  StiffnessFactor factor;
-  const CondensedSystem condensed = factorise_and_condense(
-      system.K, system.b, system.n_c(), "displacement system", control, factor, solution);
   finish_in_displacements(
-      problem, system.control.law, control, condensed, factor,
+      problem, body.system.control.law, control, body.condensed, body.factor,
       [&](const Eigen::VectorXd& unknowns) {
-        solution.displacement = displacement_field(system, unknowns);
+        solution.displacement = displacement_field(body.system, unknowns);
         solution.stress = stress_of_displacement(problem, solution.displacement);
       },
       [&] {
         const NodalForces forces = nodal_forces(problem, solution.stress);
         return UnbalancedForces{
-            unbalanced_forces(problem, system, forces, solution.F_C), forces.largest, {}, 0};
+            unbalanced_forces(problem, body.system, forces, solution.F_C), forces.largest, {}, 0};
       },
       solution);
+}
+
+Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl& control) {
+  const auto body = std::make_shared<QuadraticBody>();
+  QuadraticDisplacements& system = body->system;
+  Solution solution;
+  system = run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
+                     [&] { return assemble_quadratic_displacements(*airy.problem); });
+  solution.storage[MemoryOwner::system_matrix] = system.bytes();
+  body->condensed = factorise_and_condense(system.K, system.b, system.n_c(), "displacement system",
+                                           control, body->factor, solution);
+  finish_quadratic(airy, control, *body, solution);
+  keep_if_told(airy, control, body, finish_quadratic, solution);
   return solution;
 }
 

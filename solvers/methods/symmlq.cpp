@@ -75,7 +75,7 @@ Solution solve_symmlq(const DualSystem& system, const RunControl& control,
           if (n_c > 0) b.tail(n_c) += F_C;
         });
       },
-      [&](SaddleVector& v) {
+      [&](const DualSystem&, SaddleVector& v) {
         v = solve_one([&](LaneColumn b) {
           b.head(n) = v.x;
           b.segment(n, n_f) = v.lambda_F;

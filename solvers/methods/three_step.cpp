@@ -12,27 +12,28 @@ namespace {
 Solution solve_with_skyline(const DualSystem& system, const RunControl& control, KeepX::Where where,
                             Refine refine) {
   Solution solution;
-  const SkylineFactor factor = factor_in_stages(system.S, control, solution);
-  const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
-    solve_in_place(factor, X, control.deadline, control.threads);
+  const auto factor =
+      std::make_shared<const SkylineFactor>(factor_in_stages(system.S, control, solution));
+  const auto solve_S = [own = factor.get(), deadline = control.deadline,
+                        threads = control.threads](Eigen::Ref<Eigen::MatrixXd> X) {
+    solve_in_place(*own, X, deadline, threads);
   };
   if (control.condition) solution.condition_estimate = estimate_condition(system.S, solve_S);
   solve_in_three_steps(system, control, solve_S, {where, skyline_columns_at_once * control.threads},
-                       refine, solution);
+                       refine, solution, factor);
   return solution;
 }
 
 Solution solve_with_cholmod(const DualSystem& system, const RunControl& control) {
   Solution solution;
-  CholmodFactor factor;
-  run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor.analyse(system.S); });
-  run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] { factor.factor(system.S); });
-  const auto solve_S = [&](Eigen::Ref<Eigen::MatrixXd> X) {
-    factor.solve_in_place(X, control.deadline);
-  };
+  const auto factor = std::make_shared<CholmodFactor>();
+  run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor->analyse(system.S); });
+  run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] { factor->factor(system.S); });
+  const auto solve_S = [own = factor.get(), deadline = control.deadline](
+                           Eigen::Ref<Eigen::MatrixXd> X) { own->solve_in_place(X, deadline); };
   if (control.condition) solution.condition_estimate = estimate_condition(system.S, solve_S);
-  solve_in_three_steps(system, control, solve_S, {}, Refine::no, solution);
-  count_factor(factor, solution);
+  solve_in_three_steps(system, control, solve_S, {}, Refine::no, solution, factor);
+  count_factor(*factor, solution);
   return solution;
 }
 

@@ -1,0 +1,39 @@
+// A body in displacements, condensed once for all load cases (kept_body.hpp).
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "solvers/base/kept_body.hpp"
+#include "solvers/condensation/stiffness_condensation.hpp"
+
+namespace airybench {
+
+// System: K u = b + F_C, whose b set_load_case(problem, system) makes anew; K stays.
+template <typename System>
+struct StiffnessBody {
+  System system;
+  StiffnessFactor factor;
+  CondensedSystem condensed;
+};
+
+// Has the solution solve other load cases, if the control says so. finish(load case, control, body,
+// solution): what comes after D and G.
+template <typename System, typename Finish>
+void keep_if_told(const DualSystem& first, const RunControl& control,
+                  std::shared_ptr<StiffnessBody<System>> body, Finish finish, Solution& solution) {
+  if (!control.keep_body) return;
+  solution.solve_again = for_the_same_body(
+      first,
+      [body = std::move(body), finish](const DualSystem& load_case, const RunControl& again) {
+        Solution other;
+        run_stage(other.times, Stage::contact, MemoryOwner::system_matrix, [&] {
+          set_load_case(*load_case.problem, body->system);
+          condense_load(body->system.b, body->factor, body->condensed);
+        });
+        finish(load_case, again, *body, other);
+        return other;
+      });
+}
+
+}  // namespace airybench

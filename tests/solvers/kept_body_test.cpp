@@ -1,0 +1,111 @@
+// A body that is condensed once: other load cases have the answers of solves of their own.
+#include "solvers/base/kept_body.hpp"
+
+#include <gtest/gtest.h>
+
+#include "assembly/scene.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/method_names.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::kept_body_test {
+namespace {
+
+std::shared_ptr<const Problem> posed(const Scene& scene, int nx = 6) {
+  return std::make_shared<const Problem>(pose(scene, testing::small_tooth(nx, 5)));
+}
+
+std::vector<std::pair<std::string, Scene>> load_cases() {
+  std::vector<std::pair<std::string, Scene>> all(6);
+  all[0].first = "another displacement";
+  all[0].second.displacement_mm = {0.03, -0.01};
+  all[1].first = "body force";
+  all[1].second.body_force_N_per_mm3 = {3, -1};
+  all[2].first = "clearance";
+  all[2].second.clearance_mm = 0.005;
+  all[3].first = "flat wall";
+  all[3].second.crown_radius_mm.reset();
+  all[4].first = "more friction";
+  all[4].second.friction = 0.7;
+  all[5].first = "the first again";
+  return all;
+}
+
+class KeptBody : public ::testing::TestWithParam<Method> {
+ protected:
+  static RunControl keeping() {
+    RunControl control;
+    control.keep_body = true;
+    return control;
+  }
+};
+
+std::vector<Method> keeping_methods() {
+  return select_methods(
+      "HYBRID,P2,3STEPD,3STEPD:REFINED,3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,"
+      "BLIND:SCHUR,BLIND:SCHUR:REFINED");
+}
+INSTANTIATE_TEST_SUITE_P(Table, KeptBody, ::testing::ValuesIn(keeping_methods()),
+                         testing::readable);
+
+TEST_P(KeptBody, SolvesOtherLoadCasesAsIfTheyWereAlone) {
+  DualSystem system = assemble(posed({}), GetParam().blocks);
+  const Solution first = run(GetParam(), system, keeping());
+  ASSERT_EQ(first.status, Status::ok) << first.message;
+  ASSERT_TRUE(first.solve_again);
+  for (const auto& [name, scene] : load_cases()) {
+    const auto problem = posed(scene);
+    set_load_case(system, problem);
+    const Solution again = run(first.solve_again, system, {});
+    const Solution alone = run(GetParam(), assemble(problem, GetParam().blocks), {});
+    ASSERT_EQ(again.status, Status::ok) << name << ": " << again.message;
+    EXPECT_LT((again.F_C - alone.F_C).norm(), 1e-10 * alone.F_C.norm()) << name;
+    EXPECT_LT(stress_distance(*problem, again.stress, alone.stress), 1e-9) << name;
+    EXPECT_LT(again.error_estimate.value(), 1e-8) << name;
+    for (const Stage stage : {Stage::order, Stage::factor, Stage::condense})
+      EXPECT_FALSE(again.times[stage]) << name << ": " << name_of(stage);
+  }
+}
+
+TEST_P(KeptBody, WithoutFrictionToo) {
+  Scene scene;
+  scene.friction = 0;
+  DualSystem system = assemble(posed(scene), GetParam().blocks);
+  const Solution first = run(GetParam(), system, keeping());
+  scene.displacement_mm = {0.01, 0};
+  set_load_case(system, posed(scene));
+  const Solution again = run(first.solve_again, system, {});
+  const Solution alone = run(GetParam(), assemble(posed(scene), GetParam().blocks), {});
+  EXPECT_LT((again.F_C - alone.F_C).norm(), 1e-10 * alone.F_C.norm());
+}
+
+TEST_P(KeptBody, IsKeptOnRequestOnlyAndChangesNothing) {
+  const DualSystem system = assemble(posed({}), GetParam().blocks);
+  const Solution kept = run(GetParam(), system, keeping()), plain = run(GetParam(), system, {});
+  EXPECT_FALSE(plain.solve_again);
+  EXPECT_EQ(kept.F_C, plain.F_C);
+  EXPECT_EQ(kept.stress, plain.stress);
+}
+
+TEST_P(KeptBody, RefusesAnotherBody) {
+  const Solution first = run(GetParam(), assemble(posed({}), GetParam().blocks), keeping());
+  Scene frictionless, softer;
+  frictionless.friction = 0;
+  softer.material.young_MPa /= 2;
+  for (const auto& problem : {posed({}, 7), posed(frictionless), posed(softer)}) {
+    const Solution refused = run(first.solve_again, assemble(problem, GetParam().blocks), {});
+    EXPECT_EQ(refused.status, Status::crashed);
+    EXPECT_NE(refused.message.find("of another body"), std::string::npos) << refused.message;
+  }
+}
+
+TEST(KeptBodies, AreNotThoseOfIterations) {
+  const DualSystem system = assemble(posed({}));
+  RunControl control;
+  control.keep_body = true;
+  for (const char* method : {"SYMMLQ:SKY", "3STEPCG:SKY"})
+    EXPECT_FALSE(run(select_methods(method).front(), system, control).solve_again) << method;
+}
+
+}  // namespace
+}  // namespace airybench::kept_body_test
