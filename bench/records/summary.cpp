@@ -44,6 +44,23 @@ void summarise_stages(Record& r) {
   }
 }
 
+void summarise_load_cases(Record& r) {
+  r.time_once_s.reset();
+  r.time_per_load_s.reset();
+  if (r.samples_s.size() != r.stage_samples.size()) return;
+  std::vector<double> once, per_load;
+  for (std::size_t run = 0; run < r.samples_s.size(); ++run) {
+    double sum = 0;
+    for (const char* stage : {"order", "precondition", "factor", "condense"})
+      if (const auto found = r.stage_samples[run].find(stage); found != r.stage_samples[run].end())
+        sum += found->second;
+    once.push_back(sum);
+    per_load.push_back(std::max(0.0, r.samples_s[run] - sum));
+  }
+  r.time_once_s = median_of(once);
+  r.time_per_load_s = median_of(per_load);
+}
+
 void summarise_grid(Record& r) {
   if (r.grid.empty()) return;
   std::vector<double> iterations;
@@ -75,6 +92,7 @@ std::string column_of_stage(const std::string& stage) { return "stage_" + stage 
 void summarise(Record& r) {
   summarise_times(r);
   summarise_stages(r);
+  summarise_load_cases(r);
   summarise_grid(r);
   r.outcome = outcome_of(r);
   // A displacement method has no algebraic error against the reference.
