@@ -24,7 +24,7 @@ Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu) {
   return {normal, std::clamp(F(1), mu * normal, -mu * normal)};
 }
 
-Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F) {
+void project_in_place(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F) {
   for (int p = 0; p < contact.count; ++p) {
     if (contact.components == 2)
       F.segment<2>(2 * p) =
@@ -32,6 +32,10 @@ Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd
     else
       F(p) = std::min(F(p), 0.0);
   }
+}
+
+Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F) {
+  project_in_place(contact, F);
   return F;
 }
 

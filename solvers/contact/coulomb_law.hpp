@@ -22,6 +22,7 @@ double solve_signorini_law(double D, double b);
 Eigen::Vector2d project_on_coulomb(const Eigen::Vector2d& F, double mu);
 // Of every point; without friction there is only the normal part.
 Eigen::VectorXd project_on_coulomb(const ContactPoints& contact, Eigen::VectorXd F);
+void project_in_place(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F);
 
 // r = ū_C − ḡ, in the precision of ū_C.
 template <typename Vector>
