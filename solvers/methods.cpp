@@ -67,6 +67,7 @@ const std::vector<Method>& methods() {
         alias("SSKY", "SYMMLQ:SKY"),
         METHOD(three_step),
         METHOD(tuned_alm),
+        METHOD(automatic_alm),
         METHOD(blind),
         METHOD(blind_schur),
         METHOD(blind_schur_refined),

@@ -1,36 +1,20 @@
 // ALM: the augmented Lagrangian method with given parameters, ALM:r=…,rho=…, and with the best of
 // the paper's grid.
-#include "solvers/uzawa/augmented_lagrangian.hpp"
+#include "solvers/uzawa/uzawa_answer.hpp"
 
 #include <algorithm>
 #include <array>
 #include <sstream>
 
-#include "solvers/condensation/finish.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/names/general_names.hpp"
 
 namespace airybench {
 namespace {
 
-UzawaOptions uzawa_options(const RunControl& control) {
-  UzawaOptions options;
-  options.stop = control.stop;
-  options.tolerance = control.tolerance;
-  options.most_iterations = control.uzawa_iterations;
-  return options;
-}
-
 std::string describe(double r, double rho) {
   std::ostringstream text;
   text << "r=" << r << ", rho=" << rho;
-  return text.str();
-}
-
-std::string residuals(const UzawaResult& result) {
-  std::ostringstream text;
-  text << "i_C " << result.primal_N << " N, relative residuals " << result.primal << " and "
-       << result.dual << " after " << result.iterations << " iterations";
   return text.str();
 }
 
@@ -43,21 +27,6 @@ std::string name_of(UzawaOutcome outcome) {
     default:
       return "given up";
   }
-}
-
-void check_uzawa_result(const DualSystem& system, const AugmentedFactor& augmented,
-                        const UzawaResult& result, const RunControl& control, Solution& solution) {
-  bool solved = true;
-  run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
-    check_airy_answer_without_D(
-        system,
-        [&](SaddleVector& v) { solved = solve_saddle(system, augmented, v, control.deadline); },
-        {result.x, result.lambda, result.lambda_c}, control, solution);
-  });
-  if (solved || solution.status != Status::ok) return;
-  solution.status = Status::inaccurate;
-  solution.message = "its error could not be estimated: " + solution.parameters +
-                     " leave too badly conditioned a system";
 }
 
 Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& control, double r,
@@ -74,27 +43,8 @@ Solution solve_augmented_lagrangian(const DualSystem& system, const RunControl& 
     const StageTimer timer(solution.times, system.n_c() > 0 ? Stage::contact : Stage::recover);
     return iterate_uzawa(system, augmented, {rho}, options, false, control.deadline).front();
   }();
-  solution.parameters = describe(r, rho);
-  solution.uzawa_iterations = result.iterations;
-  solution.F_C = std::move(result.F_C);
-  run_stage(solution.times, Stage::recover, MemoryOwner::answer,
-            [&] { store_airy_answer(system, result.x, solution); });
-  if (control.histories)
-    solution.histories.push_back({control.stop == Stop::paper
-                                      ? "i_C of the Uzawa iteration, N"
-                                      : "relative residual of the Uzawa iteration",
-                                  std::move(result.history)});
-  if (result.outcome == UzawaOutcome::converged) {
-    solution.status = Status::ok;
-    solution.message.clear();
-  } else {
-    solution.status = Status::not_converged;
-    solution.message = "Uzawa iteration (" + solution.parameters + ") " +
-                       (result.outcome == UzawaOutcome::diverged ? "diverged: " : "too slow: ") +
-                       residuals(result);
-  }
-  if (solution.status == Status::ok && control.stop == Stop::target)
-    check_uzawa_result(system, augmented, result, control, solution);
+  store_uzawa_answer(system, control, penalised_solve(system, augmented), describe(r, rho),
+                     std::move(result), solution);
   return solution;
 }
 

@@ -20,22 +20,14 @@ double mean_magnitude_symmetric(const SparseColumns& lower) {
          (2 * static_cast<double>(lower.nonZeros()) - n);
 }
 
-// S += weight · CᵀC, lower triangle, inside the pattern of S.
-void add_normal_product(const SparseRows& C, double weight, SparseColumns& lower) {
+// S += Cᵀ W C, lower triangle, inside the pattern of S.
+void add_normal_product(const SparseRows& C, const Eigen::Ref<const Eigen::VectorXd>& weights,
+                        SparseColumns& lower) {
   for (int i = 0; i < C.rows(); ++i)
     for (SparseRows::InnerIterator a(C, i); a; ++a)
       for (SparseRows::InnerIterator b(C, i); b && b.col() <= a.col(); ++b)
-        lower.coeffRef(a.col(), b.col()) += weight * a.value() * b.value();
+        lower.coeffRef(a.col(), b.col()) += weights(i) * a.value() * b.value();
   assert(lower.isCompressed());  // nothing new was inserted
-}
-
-void project(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> F) {
-  for (int p = 0; p < contact.count; ++p) {
-    if (contact.components == 2)
-      F.segment<2>(2 * p) = project_on_coulomb(F.segment<2>(2 * p), contact.friction);
-    else
-      F(p) = std::min(F(p), 0.0);
-  }
 }
 
 // The iterates of all ρ as columns; those that have ended are moved behind the active ones.
@@ -107,7 +99,7 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
     change = F_C;
     F_C = contact + it.lambda_c.col(k) / a.r_C;
     if (system.contact.gap.size() > 0) F_C += system.contact.gap / a.r_C;
-    project(system.contact, F_C);
+    project_in_place(system.contact, F_C);
     change -= F_C;
     moved = a.r_C * change.norm();
     contact -= F_C;
@@ -124,7 +116,26 @@ void update_column(const DualSystem& system, const AugmentedFactor& a, Iterates&
   result.dual = relative(moved, it.displacement_scale[k]);
 }
 
+Eigen::VectorXd penalties(const DualSystem& system, const AugmentedFactor& augmented) {
+  Eigen::VectorXd R(system.n_f() + system.n_c());
+  R << Eigen::VectorXd::Constant(system.n_f(), augmented.r_F),
+      Eigen::VectorXd::Constant(system.n_c(), augmented.r_C);
+  return R;
+}
+
 }  // namespace
+
+SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R) {
+  SparseColumns lower = system.S;
+  add_normal_product(system.C_F, R.head(system.n_f()), lower);
+  add_normal_product(system.C_C, R.tail(system.n_c()), lower);
+  return lower;
+}
+
+PenalisedSolve penalised_solve(const DualSystem& system, const AugmentedFactor& augmented) {
+  return {penalties(system, augmented),
+          [&augmented](Eigen::VectorXd& x) { solve_in_place(augmented.factor, x); }};
+}
 
 AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadline& deadline) {
   const double mean_S = mean_magnitude_symmetric(system.S);
@@ -133,9 +144,7 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
   result.r = r;
   result.r_F = r * mean_S / (mean_F * mean_F);
   result.r_C = r * mean_S / (mean_C * mean_C);
-  SparseColumns lower = system.S;
-  add_normal_product(system.C_F, result.r_F, lower);
-  add_normal_product(system.C_C, result.r_C, lower);
+  const SparseColumns lower = penalised_matrix(system, penalties(system, result));
   result.factor = factor_ldlt(analyse_skyline(lower), lower, deadline);
   return result;
 }
@@ -193,13 +202,13 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
   return results;
 }
 
-bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, SaddleVector& v,
+bool solve_saddle(const DualSystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline) {
   constexpr int most_iterations = 500;
-  constexpr double tolerance = 1e-4;
   const int n_f = system.n_f(), n_c = system.n_c();
+  const Eigen::VectorXd& R = penalised.R;
   const auto solve = [&](Eigen::VectorXd b) {
-    solve_in_place(augmented.factor, b);
+    penalised.solve(b);
     return b;
   };
   const auto C = [&](const Eigen::VectorXd& x) {
@@ -211,8 +220,7 @@ bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, Sa
     return Eigen::VectorXd(system.C_F.transpose() * y.head(n_f) +
                            system.C_C.transpose() * y.tail(n_c));
   };
-  Eigen::VectorXd R(n_f + n_c), forces(n_f + n_c);  // S̃ = S + CᵀRC
-  R << Eigen::VectorXd::Constant(n_f, augmented.r_F), Eigen::VectorXd::Constant(n_c, augmented.r_C);
+  Eigen::VectorXd forces(n_f + n_c);
   forces << v.lambda_F, v.lambda_C;
   const Eigen::VectorXd load = v.x + C_transposed(R.cwiseProduct(forces));
   Eigen::VectorXd residual = C(solve(load)) - forces;
@@ -220,7 +228,7 @@ bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, Sa
   // The right-hand side is made so that λ is 0 for R → ∞; R is then the preconditioner.
   Eigen::VectorXd z = R.cwiseProduct(residual), direction = z;
   double rz = residual.dot(z);
-  const double enough = tolerance * tolerance * rz;
+  const double enough = penalised.tolerance * penalised.tolerance * rz;
   bool met = rz == 0;
   for (int k = 0; k < most_iterations && !met; ++k) {
     deadline.check("the check of the answer");

@@ -23,6 +23,7 @@
 // where the scales are the largest ‖(C_F φ, C_C φ + F0, F)‖ and ‖(λ, λ')‖ so far.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "assembly/dual_system.hpp"
@@ -31,6 +32,9 @@
 #include "solvers/direct/skyline.hpp"
 
 namespace airybench {
+
+// S + Cᵀ R C, lower triangle, R diagonal over the rows of C = [C_F; C_C].
+SparseColumns penalised_matrix(const DualSystem& system, const Eigen::VectorXd& R);
 
 struct AugmentedFactor {
   double r = 0, r_F = 0, r_C = 0;
@@ -69,9 +73,18 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race = false, const Deadline& deadline = {});
 
+// What S̃⁻¹ is to who needs no more of it: S̃ = S + Cᵀ R C, solve: x ← S̃⁻¹ x.
+struct PenalisedSolve {
+  Eigen::VectorXd R;
+  std::function<void(Eigen::VectorXd& x)> solve;
+  double tolerance = 1e-4;  // of solve_saddle, the residual's over the first one's
+};
+// Refers to the factor.
+PenalisedSolve penalised_solve(const DualSystem& system, const AugmentedFactor& augmented);
+
 // Solves [S Cᵀ; C 0] for any right-hand side, in place, by conjugate gradients on C S̃⁻¹ Cᵀ, to a
-// relative residual of 1e-4. False where that is not reached in 500 iterations.
-bool solve_saddle(const DualSystem& system, const AugmentedFactor& augmented, SaddleVector& v,
+// relative residual. False where that is not reached in 500 iterations.
+bool solve_saddle(const DualSystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -99,6 +99,22 @@ TEST_P(KeptBody, RefusesAnotherBody) {
   }
 }
 
+// Its factor is kept; the iterations are every load case's own.
+TEST(KeptBodies, OfTheAugmentedLagrangianAreItsFactor) {
+  DualSystem system = assemble(posed({}));
+  RunControl control;
+  control.keep_body = true;
+  const Solution first = run(select_methods("ALM:AUTO").front(), system, control);
+  for (const auto& [name, scene] : load_cases()) {
+    set_load_case(system, posed(scene));
+    const Solution again = run(first.solve_again, system, {});
+    const Solution exact = run(select_methods("HYBRID").front(), system, {});
+    ASSERT_EQ(again.status, Status::ok) << name << ": " << again.message;
+    EXPECT_LT((again.F_C - exact.F_C).norm(), 1e-6 * exact.F_C.norm()) << name;
+    EXPECT_FALSE(again.times[Stage::factor]) << name;
+  }
+}
+
 TEST(KeptBodies, AreNotThoseOfIterations) {
   const DualSystem system = assemble(posed({}));
   RunControl control;

@@ -38,9 +38,9 @@ std::vector<Method> kinds_of_methods() {
   std::vector<Method> kinds;
   for (const Method& method : methods())  // displacements: quadratic_displacements_test.cpp
     if (!method.is_iterative() && !method.in_displacements) kinds.push_back(method);
-  for (const char* name :
-       {"ALM:r=20,rho=20", "SYMMLQ:DTIC4,lanes=1", "3STEPCG:DTIC4,lanes=1", "SYMMLQ:DTIC3",
-        "SYMMLQ:FLIC2", "SYMMLQ:SKY", "3STEPCG:DTIC3", "3STEPCG:FLIC2", "3STEPCG:SKY"})
+  for (const char* name : {"ALM:r=20,rho=20", "ALM:AUTO", "SYMMLQ:DTIC4,lanes=1",
+                           "3STEPCG:DTIC4,lanes=1", "SYMMLQ:DTIC3", "SYMMLQ:FLIC2", "SYMMLQ:SKY",
+                           "3STEPCG:DTIC3", "3STEPCG:FLIC2", "3STEPCG:SKY"})
     kinds.push_back(select_methods(name).front());
 #ifndef AIRYBENCH_SANITIZED  // thousands of iterations; preconditioners_test has these, too
   for (const char* name : {"SYMMLQ:SKY,schur=sparse", "SYMMLQ:SSOR1.0", "SYMMLQ:NONE",

@@ -19,7 +19,7 @@
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
-#include "solvers/uzawa/augmented_lagrangian.hpp"
+#include "solvers/uzawa/accelerated_lagrangian.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -231,6 +231,24 @@ TEST(Allocations, NoneInsideAnUzawaIteration) {
   EXPECT_EQ(allocations(3), allocations(30));
 }
 
+TEST(Allocations, NoneOfTheSystemsSizeInAnAcceleratedIteration) {
+  PenalisedFactor penalised;
+  penalised.R = row_penalties(tooth(), 10, 3);
+  const SparseColumns lower = penalised_matrix(tooth(), penalised.R);
+  penalised.factor.analyse(lower);
+  penalised.factor.factor(lower);
+  const auto allocated = [&](int iterations) {
+    UzawaOptions options;
+    options.tolerance = 0;
+    options.most_iterations = iterations;
+    const std::int64_t before = heap::allocated_bytes();
+    EXPECT_EQ(iterate_accelerated(tooth(), penalised, options).iterations, iterations);
+    return heap::allocated_bytes() - before;
+  };
+  allocated(2);  // CHOLMOD keeps its workspace
+  EXPECT_LT(allocated(30) - allocated(3), 8 * std::int64_t{tooth().n()});
+}
+
 TEST(Allocations, NoneInASkylineSolve) {
   const SkylineFactor factor = factor_ldlt(analyse_skyline(tooth().S), tooth().S);
   const auto allocations = [&](Eigen::Index columns) {
@@ -259,7 +277,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
                          ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "3STEPD:LEAN", "BLIND",
                                            "BLIND:SCHUR", "BLIND:SKY", "HYBRID", "3STEPCG:DTIC3",
                                            "3STEPCG:FLIC2", "SYMMLQ:SKY",
-                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20"),
+                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20",
+                                           "ALM:AUTO"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {

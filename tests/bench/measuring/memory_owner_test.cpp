@@ -216,7 +216,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, CountedMemory,
                                            "3STEPD:CHOLMOD", "BLIND", "BLIND:SCHUR", "BLIND:SKY",
                                            "HYBRID", "P2", "3STEPCG:DTIC3", "3STEPCG:FLIC2",
                                            "3STEPCG:SKY", "SYMMLQ:DTIC3", "SYMMLQ:SKY",
-                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20"),
+                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20",
+                                           "ALM:AUTO"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(CountedMemory, IsWhatIsMeasured) {

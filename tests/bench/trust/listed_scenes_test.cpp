@@ -36,7 +36,8 @@ Record examined(const std::shared_ptr<const Problem>& problem, const Method& met
 
 std::vector<Method> of_each_kind() {
   return select_methods(
-      "3STEPD,3STEPD:CHOLMOD,BLIND,BLIND:SKY,HYBRID,P2,ALM:r=20,rho=20,3STEPCG6,SDTIC6,SSKY");
+      "3STEPD,3STEPD:CHOLMOD,BLIND,BLIND:SKY,HYBRID,P2,ALM:r=20,rho=20,ALM:AUTO,3STEPCG6,SDTIC6,"
+      "SSKY");
 }
 
 // A tooth that slides on a flat wall: the forces are those of a slide of 1 mm, however far it goes.

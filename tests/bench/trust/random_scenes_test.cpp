@@ -53,7 +53,7 @@ std::vector<Method> methods(int number) {
       select_methods("3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,BLIND:SKY,HYBRID,P2");
   static const std::vector<Method> iterative = select_methods(
       "SSKY,ALM:r=20,rho=20,3STEPCG:DTIC6,SYMMLQ:DTIC6,3STEPCG:DTIC3,SDTIC3,3STEPCG:FLIC2,"
-      "SYMMLQ:FLIC5,3STEPD:REFINED");
+      "SYMMLQ:FLIC5,3STEPD:REFINED,ALM:AUTO");
   std::vector<Method> all = direct;
   all.push_back(iterative[static_cast<std::size_t>(number) % iterative.size()]);
   return all;
