@@ -25,6 +25,7 @@ ControlPoints control_points(const Problem& problem) {
   const Mesh& mesh = problem.mesh;
   std::vector<double> gap;              // g0
   std::vector<Eigen::Vector2d> motion;  // ρ
+  std::vector<double> slid;             // what slip is measured from
   std::optional<PrescribedDisplacement> prescribed;
   std::map<int, int> point_of_node;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -51,6 +52,7 @@ ControlPoints control_points(const Problem& problem) {
             prescribed->u.col(nodes[k]) + problem.motion.at(a + k * (b - a) / 2);
         gap.push_back((gaps[k] - frame.normal.dot(held)) / std::abs(cosine));
         motion.emplace_back(0, 0);
+        slid.push_back(0);
         continue;
       }
       const auto [found, is_new] =
@@ -62,6 +64,8 @@ ControlPoints control_points(const Problem& problem) {
         points.law.boundary.push_back(row);
         gap.push_back(gaps[k]);
         motion.push_back(problem.motion.at(a + k * (b - a) / 2));  // ρ is linear: its coefficients
+        const auto& slid_mm = problem.loads.slid_mm;
+        slid.push_back(slid_mm.empty() ? 0 : slid_mm[static_cast<std::size_t>(row)][k]);
       } else {
         const int p = found->second;
         points.normal[p] = (points.normal[p] + frame.normal).normalized();
@@ -75,7 +79,8 @@ ControlPoints control_points(const Problem& problem) {
     points.law.gap.resize(points.law.size());
     for (int p = 0; p < points.law.count; ++p) {
       const Eigen::Vector2d rho = points.frame(p).transpose() * motion[p];
-      points.law.gap.segment(m * p, m) = Eigen::Vector2d(gap[p] - rho.x(), -rho.y()).head(m);
+      points.law.gap.segment(m * p, m) =
+          Eigen::Vector2d(gap[p] - rho.x(), slid[p] - rho.y()).head(m);
     }
   }
   return points;

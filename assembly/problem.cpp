@@ -39,7 +39,14 @@ Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_ro
                                        const EdgeFrame& frame) const {
   const Eigen::Vector2d rho = motion.at(x);
   const double gap = loads.gap_mm ? loads.gap_mm(x, boundary_row) : 0;
-  return {gap - frame.normal.dot(rho), -frame.tangent.dot(rho)};
+  double slid = 0;
+  if (!loads.slid_mm.empty()) {
+    const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
+    const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
+    const double s = (x - start).dot(frame.tangent) / frame.length_mm;
+    slid = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
+  }
+  return {gap - frame.normal.dot(rho), slid - frame.tangent.dot(rho)};
 }
 
 EdgeCondition Problem::condition(int boundary_row) const {
@@ -87,7 +94,8 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
                      double friction) {
   assert(compliance.size() == mesh.body_names.size());
   assert(loads.rollers.empty() || loads.rollers.size() == mesh.boundary.size());
-  Problem problem{std::move(mesh), {}, std::move(compliance), std::move(loads), {}, friction, 0};
+  Problem problem{
+      std::move(mesh), {}, std::move(compliance), std::move(loads), {}, friction, {}, 0};
   problem.edges = number_edges(problem.mesh);
   take_out_rigid_motion(problem);
 
@@ -107,6 +115,19 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
     }
   }
   return problem;
+}
+
+Problem with_loads(const Problem& problem, Loads loads) {
+  Problem result{problem.mesh,
+                 problem.edges,
+                 problem.compliance,
+                 std::move(loads),
+                 {},
+                 problem.friction,
+                 {},
+                 problem.central_vertex};
+  take_out_rigid_motion(result);
+  return result;
 }
 
 }  // namespace airybench

@@ -39,6 +39,9 @@ struct Loads {
   std::function<double(const Eigen::Vector2d& x, int boundary_row)>
       gap_mm;                 // g0 on Γ_C; quadratic on every edge
   std::vector<bool> rollers;  // per row of Mesh::boundary: an edge of Γ_D that rolls; empty: none
+  // Per row of Mesh::boundary: u_t on Γ_C that slip is measured from, that of the load step before,
+  // as Bernstein coefficients at start, middle and end of the edge's walk; empty: zero.
+  std::vector<std::array<double, 3>> slid_mm;
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
@@ -61,6 +64,9 @@ struct Problem {
   Loads loads;                              // without the rigid motion
   RigidMotion motion;                       // ρ
   double friction = 0;                      // μ ≥ 0
+  // Load steps after this one, each with all of u0. Slip is measured from the step before: they are
+  // posed one by one (load_steps.hpp).
+  std::vector<Loads> later_steps;
   int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
@@ -74,9 +80,9 @@ struct Problem {
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
 
-  bool has_gap() const { return loads.gap_mm || !motion.is_zero(); }
-  // How far w may go at x on an edge of Γ_C, along its outward normal and tangent: (g0 − ρ_n,
-  // −ρ_t).
+  bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
+  // How far w may go at x on an edge of Γ_C, along its outward normal and, without slipping, its
+  // tangent: (g0 − ρ_n, s0 − ρ_t), s0 the tangential displacement that slip is measured from.
   Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,
                                 const EdgeFrame& frame) const;
 
@@ -106,6 +112,8 @@ bool same_body(const Problem& a, const Problem& b);
 // Takes a valid mesh (see validate()), one compliance per body, and the loads with all of u0.
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
+// The same body under other loads, with all of u0; without later steps.
+Problem with_loads(const Problem& problem, Loads loads);
 
 // Traction σn of a stress (xx, yy, xy).
 template <typename Scalar = double>

@@ -35,6 +35,7 @@ struct Solution {
   // Contact forces, N; per point normal, tangential (μ = 0: normal). At the contact points; a
   // displacement method's are at its control points (control_points.hpp).
   Eigen::VectorXd F_C;
+  Eigen::VectorXd contact_displacement;  // ū_C that belongs to them, mm; in the rows of F_C
   Eigen::VectorXd phi;  // Airy function as airy_function() gives it; empty: the method has none
   StressField stress;   // MPa
   // Displacement methods only: Bernstein coefficients of w, without the problem's rigid motion, mm;

@@ -165,6 +165,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
   const OwnerScope scope_of_answer(MemoryOwner::answer);
   solution.phi = airy_function(system, best.x.cast<double>());
   solution.stress = airy_stress(system, best.x);
+  solution.contact_displacement = -best.lambda_C.cast<double>();
   judge_by_own_estimate(estimate, control, solution);
 }
 

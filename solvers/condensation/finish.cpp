@@ -71,6 +71,7 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
       [&] {
         answer = recover(solution.F_C);
         store_airy_answer(system, answer.x, solution);
+        solution.contact_displacement = -answer.lambda_C;
       },
       [&] {
         if (refine == Refine::yes)
@@ -98,6 +99,7 @@ void finish_in_displacements(const Problem& problem, const ContactPoints& contac
       [&] {
         if (contact.size() > 0) u_C = condensed.D * solution.F_C - condensed.G;
         Eigen::VectorXd u = all_displacements(factor, u_C);
+        solution.contact_displacement = u_C;
         const OwnerScope scope(MemoryOwner::answer);
         recover(std::move(u));
       },

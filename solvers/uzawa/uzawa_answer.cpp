@@ -47,6 +47,7 @@ void store_uzawa_answer(const DualSystem& system, const RunControl& control,
   solution.F_C = std::move(result.F_C);
   run_stage(solution.times, Stage::recover, MemoryOwner::answer,
             [&] { store_airy_answer(system, result.x, solution); });
+  solution.contact_displacement = -result.lambda_c;
   if (control.histories)
     solution.histories.push_back({control.stop == Stop::paper
                                       ? "i_C of the Uzawa iteration, N"

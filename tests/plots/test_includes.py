@@ -50,6 +50,7 @@ FOLDERS_OF_SOLVERS = {
     "condensation": ["direct", "preconditioners", "krylov", "contact"],
     "uzawa": ["direct", "contact", "condensation"],
     "displacement": [],
+    "loading": ["contact"],
     "names": ["preconditioners", "condensation"],
     "methods": [*PIECES, "names"],
     "table": ["preconditioners", "names"],

@@ -3,12 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::kept_body_test {
+
+void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
 namespace {
 
 std::shared_ptr<const Problem> posed(const Scene& scene, int nx = 6) {

@@ -1,0 +1,75 @@
+#include "solvers/loading/load_steps.hpp"
+
+#include <map>
+
+#include "assembly/control_points.hpp"
+#include "solvers/base/kept_body.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+using Slid = std::vector<std::array<double, 3>>;
+
+// Two points per edge, its start and its end: the linear slip that has these moments.
+void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& slip, Slid& slid) {
+  for (int p = 0; p < contact.count; p += 2) {
+    const double start = slip(2 * p + 1), end = slip(2 * p + 3);
+    const double a = 2 * start - end, b = 2 * end - start;
+    auto& edge = slid[static_cast<std::size_t>(contact.boundary[p])];
+    edge = {edge[0] + a, edge[1] + (a + b) / 2, edge[2] + b};
+  }
+}
+
+// Coefficients of nodes; where a node has no law, it does not slip.
+void add_of_control_points(const Problem& problem, const ControlPoints& points,
+                           const Eigen::VectorXd& slip, Slid& slid) {
+  std::map<int, double> of_node;
+  for (int p = 0; p < points.law.count; ++p) of_node[points.node[p]] = slip(2 * p + 1);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (const auto found = of_node.find(nodes[k]); found != of_node.end())
+        slid[static_cast<std::size_t>(row)][k] += found->second;
+  }
+}
+
+}  // namespace
+
+std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer) {
+  const Problem& problem = *system.problem;
+  if (problem.friction == 0 || system.contact.count == 0) return {};
+  Slid slid = problem.loads.slid_mm;
+  slid.resize(problem.mesh.boundary.size(), {0, 0, 0});
+  if (answer.displacement.cols() > 0) {
+    const ControlPoints points = control_points(problem);
+    add_of_control_points(problem, points, relative_to_gap(points.law, answer.contact_displacement),
+                          slid);
+  } else {
+    add_of_contact_points(system.contact,
+                          relative_to_gap(system.contact, answer.contact_displacement), slid);
+  }
+  return slid;
+}
+
+Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
+                          const RunControl& control, const VisitStep& visit) {
+  RunControl keeping = control;
+  keeping.keep_body = !first->later_steps.empty();
+  DualSystem system = assemble(first, method.blocks);
+  Solution answer = run(method, system, keeping);
+  const Solve again = answer.solve_again ? answer.solve_again : method.solve;
+  answer.solve_again = nullptr;  // `again` has the body
+  if (visit) visit(0, system, answer);
+  for (std::size_t k = 0; k < first->later_steps.size() && has_answer(answer.status); ++k) {
+    Loads loads = first->later_steps[k];
+    loads.slid_mm = slid_after(system, answer);
+    set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
+    answer = run(again, system, control);
+    if (visit) visit(static_cast<int>(k) + 1, system, answer);
+  }
+  return answer;
+}
+
+}  // namespace airybench

@@ -1,0 +1,31 @@
+// Load steps: a path of loads, with Coulomb's law in increments of slip.
+//
+// Friction remembers. At every step
+//
+//   |F_t| ≤ −μ F_n,   F_t Δr_t ≤ 0,   Δr_t ≠ 0 only if |F_t| = −μ F_n,   Δr_t = u_t − s
+//
+// where s is u_t of the step before, 0 at first. That is the law of a single load case with s in
+// the tangential gap (Loads::slid_mm); from step to step s grows by Δr_t, where the body has lifted
+// off, too. Signorini's law has no memory. (Implicit Euler for the quasi-static problem.)
+//
+// The body is condensed or factorised once where the method can (kept_body.hpp), and what a step
+// costs is a load case. A path is not its last step: unloading leaves tangential forces behind. But
+// where everything grows in proportion, without gap, one step and many are the same.
+#pragma once
+
+#include "solvers/base/method.hpp"
+
+namespace airybench {
+
+// s of the next step: Bernstein coefficients on Γ_C, as in Loads. Empty without friction.
+std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer);
+
+// step: from 0. The system is that of the step, its slip measured from this path's own past.
+using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
+
+// Solves a problem and its later steps, and shows each. Ends early at a step that has no answer;
+// returns the last one solved.
+Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
+                          const RunControl& control, const VisitStep& visit = {});
+
+}  // namespace airybench

@@ -1,0 +1,180 @@
+// Paths of loads whose answers are known.
+#include "solvers/loading/load_steps.hpp"
+
+#include <gtest/gtest.h>
+
+#include <ostream>
+
+#include "assembly/scene.hpp"
+#include "solvers/base/kept_body.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/method_names.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::load_steps_test {
+
+void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+namespace {
+
+// The tooth moved to these places one after another; μ = 0.2 if nothing else is said.
+std::shared_ptr<const Problem> path(const std::vector<Eigen::Vector2d>& places, Scene scene = {}) {
+  const auto at = [&](const Eigen::Vector2d& place) {
+    scene.displacement_mm = place;
+    return pose(scene, testing::small_tooth(6, 5));
+  };
+  auto problem = std::make_shared<Problem>(at(places.front()));
+  const auto all_of_u0 = [&](const Eigen::Vector2d& place) {
+    Loads loads = at(place).loads;
+    loads.displacement_mm = [place](const Eigen::Vector2d&, int) { return place; };
+    return loads;
+  };
+  for (std::size_t k = 1; k < places.size(); ++k)
+    problem->later_steps.push_back(all_of_u0(places[k]));
+  return problem;
+}
+
+double tangential_resultant(const Solution& solution) {
+  double sum = 0;
+  for (Eigen::Index p = 1; p < solution.F_C.size(); p += 2) sum += solution.F_C(p);
+  return sum;
+}
+double normal_resultant(const Solution& solution) {
+  double sum = 0;
+  for (Eigen::Index p = 0; p < solution.F_C.size(); p += 2) sum += solution.F_C(p);
+  return sum;
+}
+
+class LoadSteps : public ::testing::TestWithParam<Method> {
+ protected:
+  static RunControl control() {
+    RunControl tight;
+    tight.tolerance = 1e-11;
+    return tight;
+  }
+  static Solution at_the_end(const std::vector<Eigen::Vector2d>& places, const Scene& scene = {}) {
+    Solution last = solve_load_steps(GetParam(), path(places, scene), control());
+    EXPECT_EQ(last.status, Status::ok) << last.message;
+    return last;
+  }
+  static double apart(const Solution& a, const Solution& b) {
+    return (a.F_C - b.F_C).norm() / b.F_C.norm();
+  }
+};
+INSTANTIATE_TEST_SUITE_P(
+    Methods, LoadSteps,
+    ::testing::ValuesIn(select_methods("HYBRID,P2,3STEPD:CHOLMOD,3STEPD:REFINED,"
+                                       "BLIND:SCHUR,ALM:AUTO,SSKY")),
+    testing::readable);
+
+TEST_P(LoadSteps, TheFirstIsTheSingleSolve) {
+  const auto problem = path({{0.02, 0.006}, {0.02, 0}});
+  const Solution alone = run(GetParam(), assemble(problem, GetParam().blocks), control());
+  int steps = 0;
+  solve_load_steps(GetParam(), problem, control(),
+                   [&](int step, const DualSystem&, const Solution& answer) {
+                     EXPECT_EQ(step, steps++);
+                     if (step > 0) return;
+                     EXPECT_EQ(answer.F_C, alone.F_C);
+                     EXPECT_EQ(answer.stress, alone.stress);
+                   });
+  EXPECT_EQ(steps, 2);
+}
+
+TEST_P(LoadSteps, StayingChangesNothing) {
+  const Solution there = at_the_end({{0.02, 0.006}}),
+                 stayed = at_the_end({{0.02, 0.006}, {0.02, 0.006}});
+  EXPECT_LT(apart(stayed, there), 1e-7);
+}
+
+// Without a gap all grows in proportion, and slip never turns.
+TEST_P(LoadSteps, InProportionOneStepAndManyAreTheSame) {
+  Scene flat;
+  flat.crown_radius_mm.reset();
+  std::vector<Eigen::Vector2d> places;
+  for (const double part : {0.1, 0.25, 0.5, 0.8, 1.})
+    places.emplace_back(part * 0.02, part * 0.006);
+  EXPECT_LT(apart(at_the_end(places, flat), at_the_end({places.back()}, flat)), 1e-7);
+}
+
+// Pressed, sheared and brought back: tangential forces stay behind, towards where it was.
+TEST_P(LoadSteps, UnloadingLeavesTangentialForcesBehind) {
+  const Solution never = at_the_end({{0.02, 0}}), sheared = at_the_end({{0.02, 0}, {0.02, 0.006}}),
+                 back = at_the_end({{0.02, 0}, {0.02, 0.006}, {0.02, 0}});
+  EXPECT_LT(tangential_resultant(sheared), 0);
+  EXPECT_GT(tangential_resultant(back) - tangential_resultant(never),
+            0.01 * std::abs(tangential_resultant(sheared)));
+  EXPECT_NEAR(normal_resultant(back), normal_resultant(never),
+              0.05 * std::abs(normal_resultant(never)));
+}
+
+// Dragged far, all of it slips: ΣF_t = ∓μ ΣF_n. Back by a hair, and it sticks with the forces that
+// it has, which no single solve knows; back far, and it slips the other way.
+TEST_P(LoadSteps, DraggedToAndFroItGoesThroughTheHysteresisLoop) {
+  constexpr double mu = 0.2, pressed = 0.02, far = 1;
+  const std::vector<Eigen::Vector2d> places = {
+      {pressed, far}, {pressed, far - 1e-9}, {pressed, -far}, {pressed, far}};
+  std::vector<Solution> at;
+  solve_load_steps(GetParam(), path(places), control(),
+                   [&](int, const DualSystem&, const Solution& answer) { at.push_back(answer); });
+  ASSERT_EQ(at.size(), places.size());
+  const auto ratio = [](const Solution& s) {
+    return tangential_resultant(s) / normal_resultant(s);
+  };
+  EXPECT_NEAR(ratio(at[0]), mu, 1e-9);
+  EXPECT_NEAR(ratio(at[1]), mu, 1e-5);
+  EXPECT_LT(ratio(at[1]), mu);
+  EXPECT_NEAR(ratio(at[2]), -mu, 1e-9);
+  EXPECT_NEAR(ratio(at[3]), mu, 1e-9);
+  EXPECT_LT(apart(at[3], at[0]), 1e-7);  // the loop is closed
+}
+
+// Slip is what the body has done, not what it was told: lifted off and put down, it forgets.
+TEST_P(LoadSteps, LiftedOffItForgets) {
+  const Solution anew = at_the_end({{0.02, 0.006}}),
+                 again = at_the_end({{0.02, -0.01}, {-0.02, 0}, {0.02, 0.006}});
+  // From where it hung freely, at (-0.02, 0), as from rest.
+  EXPECT_LT(apart(again, anew), 1e-7);
+}
+
+// Tractions, body force and gap may go along the path, too.
+TEST_P(LoadSteps, AnyLoadMayChange) {
+  Scene scene;
+  const auto problem = std::make_shared<Problem>(pose(scene, testing::small_tooth(6, 5)));
+  scene.body_force_N_per_mm3 = {3, -1};
+  scene.clearance_mm = 0.002;
+  Loads next = pose(scene, testing::small_tooth(6, 5)).loads;
+  next.displacement_mm = [](const Eigen::Vector2d&, int) { return Eigen::Vector2d(0.02, 0.006); };
+  problem->later_steps = {next};
+  const Solution answer = solve_load_steps(GetParam(), problem, control());
+  ASSERT_EQ(answer.status, Status::ok) << answer.message;
+  const Solution other = solve_load_steps(select_methods("HYBRID").front(), problem, {});
+  EXPECT_NEAR(normal_resultant(answer), normal_resultant(other),
+              0.05 * std::abs(normal_resultant(other)));
+  if (!GetParam().in_displacements) {
+    EXPECT_LT(apart(answer, other), 1e-6);
+  }
+}
+
+TEST(LoadStepsOf, AMethodThatFailsEndsThePath) {
+  int steps = 0;
+  RunControl control;
+  control.uzawa_iterations = 2;
+  const Solution last =
+      solve_load_steps(select_methods("ALM:r=20,rho=44").front(), path({{0.02, 0}, {0.02, 0.006}}),
+                       control, [&](int, const DualSystem&, const Solution&) { ++steps; });
+  EXPECT_EQ(last.status, Status::not_converged);
+  EXPECT_GE(steps, 1);
+}
+
+TEST(LoadStepsOf, WithoutFrictionThereIsNoMemory) {
+  Scene scene;
+  scene.friction = 0;
+  const Method hybrid = select_methods("HYBRID").front();
+  const Solution there = solve_load_steps(hybrid, path({{0.02, 0.006}, {0.02, 0}}, scene), {}),
+                 alone = solve_load_steps(hybrid, path({{0.02, 0}}, scene), {});
+  EXPECT_LT((there.F_C - alone.F_C).norm(), 1e-9 * alone.F_C.norm());
+}
+
+}  // namespace
+}  // namespace airybench::load_steps_test
