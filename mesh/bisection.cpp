@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <tuple>
 
 namespace airybench {
@@ -11,9 +12,12 @@ namespace {
 // A mesh that is being bisected, with the neighbours of its triangles.
 class Bisection {
  public:
-  // cuts: per triangle.
-  Bisection(const Mesh& mesh, std::vector<int> cuts)
-      : mesh_(mesh), across_(mesh.triangles.size()), due_(std::move(cuts)) {
+  explicit Bisection(const Mesh& mesh)
+      : mesh_(mesh),
+        across_(mesh.triangles.size()),
+        origin_(mesh.triangles.size()),
+        cuts_(mesh.triangles.size(), 0) {
+    std::iota(origin_.begin(), origin_.end(), 0);
     const MeshEdges edges = number_edges(mesh_);
     std::vector<int> first(static_cast<std::size_t>(edges.count()), none);
     for (int row = 0; row < static_cast<int>(mesh_.boundary.size()); ++row)
@@ -30,7 +34,10 @@ class Bisection {
   const Mesh& mesh() const { return mesh_; }
   Mesh take() { return std::move(mesh_); }
   std::int64_t visits() const { return visits_; }
-  bool is_due(int t) const { return due_[t] > 0; }
+  TrianglePart part(int t) const {
+    const auto& [a, b, c] = mesh_.triangles[t];
+    return {origin_[t], cuts_[t], {mesh_.vertices[a], mesh_.vertices[b], mesh_.vertices[c]}};
+  }
   int triangles() const { return static_cast<int>(mesh_.triangles.size()); }
   double longest_edge(int t) const { return std::sqrt(length_squared(t, longest_side(t))); }
 
@@ -124,7 +131,8 @@ class Bisection {
     across_[t] = {none, born, beyond_ca};
     mesh_.triangles.push_back({middle, b, c});
     mesh_.triangle_body.push_back(mesh_.triangle_body[t]);
-    due_.push_back(--due_[t]);
+    cuts_.push_back(++cuts_[t]);
+    origin_.push_back(origin_[t]);
     across_.push_back({none, beyond_bc, t});
     if (beyond_bc >= 0) across_[beyond_bc][side_towards(beyond_bc, b)] = born;
     return born;
@@ -132,7 +140,7 @@ class Bisection {
 
   Mesh mesh_;
   std::vector<std::array<int, 3>> across_;  // per triangle and side: the neighbour, or beyond(row)
-  std::vector<int> due_;                    // per triangle: cuts still to make
+  std::vector<int> origin_, cuts_;          // per triangle: of its TrianglePart
   std::vector<int> path_;
   std::int64_t visits_ = 0;
 };
@@ -146,21 +154,29 @@ double shortest_divisible_edge(const Mesh& mesh) {
   return 64 * std::numeric_limits<double>::epsilon() * largest;
 }
 
-BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts) {
+BisectedMesh bisected(const Mesh& mesh, const std::function<bool(const TrianglePart&)>& is_due) {
   const double least_mm = shortest_divisible_edge(mesh);
-  Bisection bisection(mesh, cuts);
+  Bisection bisection(mesh);
   BisectedMesh result;
   for (int t = 0; t < bisection.triangles(); ++t) {  // and those that are born on the way
-    while (bisection.is_due(t) && bisection.longest_edge(t) > least_mm) bisection.cut(t);
-    result.too_small += bisection.is_due(t);
+    bool due = is_due(bisection.part(t));
+    while (due && bisection.longest_edge(t) > least_mm) {
+      bisection.cut(t);
+      due = is_due(bisection.part(t));
+    }
+    result.too_small += due;
   }
   result.visits = bisection.visits();
   result.mesh = bisection.take();
   return result;
 }
 
+BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts) {
+  return bisected(mesh, [&](const TrianglePart& part) { return part.cuts < cuts[part.triangle]; });
+}
+
 Mesh bisected_at_vertex(const Mesh& mesh, int v, double length_mm) {
-  Bisection bisection(mesh, std::vector<int>(mesh.triangles.size(), 0));
+  Bisection bisection(mesh);
   const auto too_long = [&](int t) {
     const auto& triangle = bisection.mesh().triangles[t];
     const auto& x = bisection.mesh().vertices;

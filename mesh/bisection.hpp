@@ -11,7 +11,9 @@
 // bodies are inherited. Time and memory are linear in the triangles of the result.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <functional>
 
 #include "mesh/mesh.hpp"
 
@@ -25,8 +27,17 @@ struct BisectedMesh {
   std::int64_t visits = 0;  // triangles looked at on the way, each once per look
 };
 
-// Cuts every triangle, and then every part of it, until each part comes from at least so many cuts.
-// cuts: per triangle, 0 where it is not marked. Takes a valid mesh; returns one.
+// A triangle of the mesh, or a part that it has been cut into.
+struct TrianglePart {
+  int triangle = 0;  // of the mesh before
+  int cuts = 0;      // that have made the part; 0: it is the whole triangle
+  std::array<Eigen::Vector2d, 3> corners;
+};
+
+// Cuts every triangle and then every part that is due. Takes a valid mesh; returns one.
+BisectedMesh bisected(const Mesh& mesh, const std::function<bool(const TrianglePart&)>& is_due);
+
+// Until each part comes from at least so many cuts. cuts: per triangle, 0 where it is not marked.
 BisectedMesh bisected(const Mesh& mesh, const std::vector<int>& cuts);
 
 // Bisects triangles at vertex v until no edge there is longer than length_mm.

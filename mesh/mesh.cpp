@@ -18,18 +18,24 @@ struct Side {
   bool forward;         // walked from low to high
 };
 
+// In time linear in the triangles: a bucket per low vertex, each of a few sides.
 std::vector<Side> sorted_sides(const Mesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+  const auto corner = [&](int t, int k) { return mesh.triangles[t][k % 3]; };
+  std::vector<int> end(mesh.vertices.size() + 1, 0);  // of each bucket, once it is filled
+  const int triangles = static_cast<int>(mesh.triangles.size());
+  for (int t = 0; t < triangles; ++t)
+    for (int k = 0; k < 3; ++k) ++end[std::min(corner(t, k), corner(t, k + 1)) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<Side> sides(3 * mesh.triangles.size());
+  for (int t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k) {
-      const int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), t, k, a < b});
+      const int a = corner(t, k), b = corner(t, k + 1);
+      sides[end[std::min(a, b)]++] = {std::min(a, b), std::max(a, b), t, k, a < b};
     }
-  }
-  std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
-    return std::pair(x.low, x.high) < std::pair(y.low, y.high);
-  });
+  int start = 0;
+  for (std::size_t v = 0; v < mesh.vertices.size(); start = end[v++])
+    std::sort(sides.begin() + start, sides.begin() + end[v],
+              [](const Side& x, const Side& y) { return x.high < y.high; });
   return sides;
 }
 
