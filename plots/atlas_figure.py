@@ -35,8 +35,7 @@ MARKS = {
     "machine_fault": ("f", "#DADADA", "black"),
     "skipped": ("–", "#FFFFFF", "0.4"),
 }
-WORDS = {"ok": "ok, with the digits of its largest error",
-         "other_solution": "another solution than the reference's",
+WORDS = {"other_solution": "another solution than the reference's",
          "unstressed": "no stress, so no relative error",
          "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
@@ -155,8 +154,9 @@ def draw_groups(axes: Axes, groups: list[tuple[str, int]]) -> None:
         start = end
 
 
-def draw_key(figure: Figure, rows: list[Row], left: float, top: float, width: float) -> None:
-    """The outcomes, with counts, in a line or two."""
+def draw_key(figure: Figure, rows: list[Row], left: float, top: float, width: float,
+             of_ok: tuple[str, str] = ("12", "ok, with the digits of its largest error")) -> None:
+    """The outcomes, with counts, in a line or two. of_ok: in its field, and beside it."""
     height = figure.get_size_inches()[1]
     count = Counter(row.outcome for row in rows)
     x = left
@@ -164,14 +164,15 @@ def draw_key(figure: Figure, rows: list[Row], left: float, top: float, width: fl
         if not count[outcome] and outcome != "wrong_success":
             continue
         letter, fill, ink = MARKS[outcome]
-        words = f"{WORDS.get(outcome, outcome.replace('_', ' '))}: {count[outcome]}"
+        words = of_ok[1] if outcome == "ok" else WORDS.get(outcome, outcome.replace("_", " "))
+        words += f": {count[outcome]}"
         needed = 0.36 + 0.066 * len(words) + 0.22
         if x + needed > width:
             x, top = left, top + 0.25
         figure.add_artist(Rectangle((x / width, 1 - (top + 0.19) / height), 0.28 / width,
                                     0.19 / height, facecolor=fill, edgecolor="0.5",
                                     linewidth=0.5))
-        figure.text((x + 0.14) / width, 1 - (top + 0.1) / height, letter or "12", color=ink,
+        figure.text((x + 0.14) / width, 1 - (top + 0.1) / height, letter or of_ok[0], color=ink,
                     ha="center", va="center", fontsize=SIZE, weight="bold" if letter else "normal")
         figure.text((x + 0.36) / width, 1 - (top + 0.1) / height, words, va="center", fontsize=8,
                     weight="bold" if outcome == "wrong_success" else "normal")

@@ -27,12 +27,15 @@ class Drawing:
     draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
     vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
+    table: Callable[[list[Row]], str] | None = None  # CSV, for a file beside the figure
 
     @property
     def suffixes(self) -> tuple[str, ...]:
-        return (".svg", ".png") if self.vector else (".png",)
+        return ((".svg", ".png") if self.vector else (".png",)) + ((".csv",) if self.table else ())
 
-    def writer(self, figure: Figure) -> Callable[[Path], object]:
+    def writer(self, figure: Figure, suffix: str) -> Callable[[Path], object]:
+        if suffix == ".csv":
+            return partial(Path.write_text, data=self.table(self.rows), encoding="utf-8")
         return partial(write, figure) if self.vector else \
             partial(write_small_png, figure, DPI, colours=COLOURS)
 

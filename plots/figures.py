@@ -65,7 +65,8 @@ def draw_all(rows: list[Row], out: Path) -> None:
             report.append(f"{drawing.name}: left out: {result}{stays}")
             continue
         drawn += drawing.rows
-        writers |= {drawing.name + suffix: drawing.writer(result) for suffix in drawing.suffixes}
+        writers |= {drawing.name + suffix: drawing.writer(result, suffix)
+                    for suffix in drawing.suffixes}
         report.append(f"{out / drawing.name}{', '.join(drawing.suffixes)}: "
                       f"{len(drawing.rows)} cases")
     sizes = table1([row for row in rows if not row.study])

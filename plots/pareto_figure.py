@@ -16,7 +16,7 @@ from record_keys import Row
 from selection import by_body, given, grouped, is_paper_stop, of_scene
 from work_precision_figure import AXES, curves_of, value_of
 
-WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP = 11.5, 0.72, 0.55, (6.0, 4.3), 4.3, 0.3
+WIDTH, LEFT, TOP, HEIGHT, GAP, BETWEEN = 11.5, 0.72, 0.55, 4.4, 0.3, 0.5
 BELOW, TABLE_LINE = 0.62, 0.19  # inches; under the axes, and a line of the table
 HIGHEST = 1.0  # total errors above are not drawn: nothing of such an answer is right
 GAIN = 0.01  # of the error: less is not worth a point of the front
@@ -24,13 +24,24 @@ STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
 TABLE = ("total error at most", "cheapest method", "mesh", "time", "peak heap",
          "displacements: mesh", "time", "peak heap")
-TABLE_AT = (0.0, 0.13, 0.39, 0.47, 0.55, 0.65, 0.83, 0.91)  # of the sheet's width
+TABLE_AT = (0.0, 0.13, 0.39, 0.5, 0.58, 0.67, 0.84, 0.92)  # of the sheet's width
+# Kinds of meshes: colour and width of their fronts.
+KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
+         "adapted": ("#B00020", 2.6)}
+
+
+def kind_of(row: Row) -> str:
+    """Of its mesh."""
+    return "adapted" if "+adapt" in row.mesh else \
+        "refined everywhere" if "+refined" in row.mesh else "as they are"
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
     if study:
-        yield Drawing("pareto", study, draw)
+        levels_of = [row for row in rows if row.study == "" and row.adapt_level is not None
+                     and row.scene == study[0].scene]
+        yield Drawing("pareto", study + levels_of, draw)
 
 
 def front(rows: list[Row], column: str) -> list[Row]:
@@ -91,53 +102,53 @@ def draw(rows: list[Row]) -> Figure | str:
         return "no row has time_s and an error_total up to 1"
     bodies = by_body(sorted(known, key=lambda row: row.n_phi))
     tables = {body: table_of(of_body) for body, of_body in bodies.items()}
-    heights = {body: TOP + HEIGHT + BELOW + TABLE_LINE * (len(table) + 1.5)
-               for body, table in tables.items()}
+    kinds = [kind for kind in KINDS if kind in map(kind_of, known)]
+    columns = [column for column in AXES if any(value_of(row, column) for row in known)]
+    over = TOP + len(columns) * (HEIGHT + BETWEEN)
+    heights = {body: 0.2 + TABLE_LINE * (len(table) + 1.5) for body, table in tables.items()}
     names = displacements_of(known)
     others = (f"The displacement method {' and '.join(names)} has its own curve; by definition it "
               "has the mesh's error. ") if names else ""
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
     tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
-    figure = parts.sheet(WIDTH, sum(heights.values()) + 0.3,
+    figure = parts.sheet(WIDTH, over + sum(heights.values()) + 0.3,
                          "What a total error costs: method and mesh together", [
         f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
-        "relation error of the mesh plus the method's own error of the stresses. Dotted: the "
-        "mesh's discretisation error, the lowest that a method can reach on it; a method's curve "
-        "ends there however many more digits it computes. Thick line: the Pareto front of the "
-        "stress methods: nothing cheaper has its error, give or take 1 %. "
-        f"{others}Small points: all solves of the study{tuned}."])
-    top = 0.3
-    for body, of_body in bodies.items():
-        draw_body(figure, top, body, of_body)
-        draw_table(figure, top + TOP + HEIGHT + BELOW, displacements_of(of_body), tables[body])
+        "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
+        "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
+        "give or take 1 %. Dotted: the discretisation error of meshes as they are, the lowest that "
+        "a method can reach there; a method's curve ends there however many more digits it "
+        f"computes. {others}Small points: all solves{tuned}. The time of adapting a mesh is not in "
+        "these times."])
+    panel = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
+    errors = [row.error_total for row in known]
+    for k, (body, of_body) in enumerate(bodies.items()):
+        left = LEFT + k * (panel + GAP)
+        figure.text(left / WIDTH, 1 - (TOP - 0.18) / figure.get_size_inches()[1], plain(body),
+                    fontsize=10, weight="bold")
+        for j, column in enumerate(columns):
+            axes = axes_at(figure, left, TOP + j * (HEIGHT + BETWEEN), panel, HEIGHT)
+            own = [row for row in of_body if value_of(row, column)]
+            log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.25),
+                    xlim=log_limits([value_of(row, column) for row in own], 1.6))
+            axes.spines[["top", "right"]].set_visible(False)
+            if k == 0:
+                axes.set_ylabel("total relative error of the stresses, 1")
+            else:
+                axes.tick_params(labelleft=False)
+            draw_panel(axes, own, column, kinds)
+    top = over + 0.1
+    for body, table in tables.items():
+        figure.text(LEFT / WIDTH, 1 - (top + 0.1) / figure.get_size_inches()[1], plain(body),
+                    fontsize=8, style="italic")
+        draw_table(figure, top + 0.2, displacements_of(bodies[body]), table)
         top += heights[body]
     return figure
 
 
-def draw_body(figure: Figure, top: float, body: str, rows: list[Row]) -> None:
-    left, height = LEFT, figure.get_size_inches()[1]
-    figure.text(LEFT / WIDTH, 1 - (top + 0.25) / height, plain(body), fontsize=10, weight="bold")
-    errors = [row.error_total for row in rows]
-    for column, width in zip(AXES, PANELS):
-        if not any(value_of(row, column) for row in rows):
-            continue
-        axes = axes_at(figure, left, top + TOP, width, HEIGHT)
-        known = [row for row in rows if value_of(row, column)]
-        log_log(axes, xlabel=AXES[column],
-                ylim=(min(errors) / 1.25, max(errors) * 1.25),
-                xlim=log_limits([value_of(row, column) for row in known], 1.6))
-        axes.spines[["top", "right"]].set_visible(False)
-        if column == "time_s":
-            axes.set_ylabel("total relative error of the stresses, 1")
-        else:
-            axes.tick_params(labelleft=False)
-        draw_panel(axes, known, column)
-        left += width + GAP
-
-
-def draw_panel(axes: Axes, rows: list[Row], column: str) -> None:
+def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> None:
     labels = Labels(axes)
-    draw_floors(axes, rows, labels)
+    draw_floors(axes, [row for row in rows if kind_of(row) == "as they are"], labels)
     stress = [row for row in rows if not row.in_displacements]
     for mesh in dict.fromkeys(row.mesh for row in stress):
         for curve in curves_of([row for row in stress if row.mesh == mesh]).values():
@@ -145,24 +156,40 @@ def draw_panel(axes: Axes, rows: list[Row], column: str) -> None:
             axes.plot([value_of(row, column) for row in curve], [row.error_total for row in curve],
                       color=look.colour, marker=look.marker, markersize=3, linewidth=0.7, alpha=0.3,
                       linestyle=look.dashes, zorder=2)
-    best = front(stress, column)
+    fronts = {kind: front([row for row in stress if kind_of(row) == kind], column)
+              for kind in kinds}
+    for kind, best in fronts.items():
+        draw_front(axes, labels, best, column, kind if len(kinds) > 1 else "")
+    for method in displacements_of(rows):
+        for kind in kinds:
+            own = [row for row in rows if row.method == method and kind_of(row) == kind]
+            if own:
+                draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column,
+                                   kind if len(kinds) > 1 else "")
+    draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
+    named: set[tuple[str, str]] = set()
+    for row in reversed(fronts.get("as they are", [])):  # the lowest of a method on a mesh
+        if (row.method, row.mesh) not in named:
+            labels.add(f"{row.method}, {row.mesh}", value_of(row, column), row.error_total,
+                       weight="bold", color=row.look.colour)
+        named.add((row.method, row.mesh))
+
+
+def draw_front(axes: Axes, labels: Labels, best: list[Row], column: str, name: str) -> None:
+    if not best:
+        return
+    colour, width = KINDS[name or "as they are"]
     line = [value_of(row, column) for row in best], [row.error_total for row in best]
-    axes.step(*line, where="post", color="black", linewidth=2.2, alpha=0.85, zorder=4)
+    axes.step(*line, where="post", color=colour, linewidth=width, alpha=0.85, zorder=4)
     labels.avoid(*line)
     for row in best:
         axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
                   marker=row.look.marker, markersize=8, markeredgecolor="white",
                   markeredgewidth=0.7, zorder=6)
-    for method in displacements_of(rows):
-        own = [row for row in rows if row.method == method]
-        draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column)
-    draw_stops(axes, labels, stress, column)
-    named: set[tuple[str, str]] = set()
-    for row in reversed(best):  # the lowest point of a method on a mesh has its name
-        if (row.method, row.mesh) not in named:
-            labels.add(f"{row.method}, {row.mesh}", value_of(row, column), row.error_total,
-                       weight="bold", color=row.look.colour)
-        named.add((row.method, row.mesh))
+    if name and name != "as they are":
+        methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
+        labels.add(f"meshes {name}: {methods}", line[0][::-1], line[1][::-1], color=colour,
+                   weight="bold", fontsize=8.5)
 
 
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
@@ -177,13 +204,15 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
         labels.reserve(f"{mesh}: {parts.percent(floor)}", axes.get_xlim()[1], floor, 7.5)
 
 
-def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
+def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str,
+                       kind: str) -> None:
     colour, marker, *_ = rows[0].look
     line = [value_of(row, column) for row in rows], [row.error_total for row in rows]
     axes.plot(*line, color=colour, marker=marker, markersize=8, linewidth=1.5, zorder=5,
               linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
     labels.avoid(*line)
-    labels.add(f"{rows[0].method} displacements", *line, color=colour, weight="bold",
+    words = f"{rows[0].method} displacements" + (f", {kind}" if kind else "")
+    labels.add(words, *line, color=colour, weight="bold",
                fontsize=8.5)
 
 

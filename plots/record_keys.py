@@ -145,9 +145,10 @@ class Row:
     error_total: float | None = key(NOT_NEGATIVE)
     adapt_level: int | None = key(COUNT)          # of an adaptive loop; None: the mesh as it is
     adapt_time_s: float | None = key(POSITIVE)    # of the loop up to this level
+    condition_estimate: float | None = key(NOT_NEGATIVE)  # of what the method factorises
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability", "contact"), may_be_empty=True))
+    study: str = key(words(("error", "stability", "contact", "adapted"), may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)

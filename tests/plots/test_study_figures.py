@@ -206,6 +206,42 @@ class ParetoTest(StudiesTest):
         self.assertIn("rack of four teeth", words)
 
 
+    def test_each_kind_of_meshes_has_a_front(self) -> None:
+        study = made_up.error_study(["Mesh1"], sweep=False)
+        levels = [made_up.case(f"Mesh0+{kind}{k}", "HYBRID", n_phi=800 * 3**k, adapt_level=k,
+                               time_s=0.01 * 2**k, error_total=0.1 * rate**k)
+                  for kind, rate in (("adapt", 0.3), ("refined", 0.7)) for k in range(4)]
+        rows = self.read(study + levels)
+        plan = [d for d in figures.drawings_of(rows) if d.name == "pareto"]
+        self.assertEqual([len(study) + len(levels)], [len(d.rows) for d in plan])
+        words = words_of(plan[0].draw(plan[0].rows))
+        self.assertIn("meshes adapted: HYBRID", words)
+        self.assertIn("meshes refined everywhere: HYBRID", words)
+        self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
+
+
+class AdaptedMethodsTest(StudiesTest):
+    CASES = [made_up.case(mesh, method, study="adapted", n_phi=n_phi, time_s=time_s,
+                          error_discretisation=0.005, error_total=0.005, condition_estimate=3e9)
+             for mesh, n_phi in (("Mesh0+adapt2", 1500), ("Mesh4+adapt1", 15000))
+             for method, time_s in (("HYBRID", 0.01), ("3STEPD", 0.2))]
+
+    def test_a_cell_per_case_and_a_table_beside_it(self) -> None:
+        self.CASES[3] |= dict(status="timeout", outcome="timeout", time_s="", error_force="",
+                              error_stress="")
+        rows = self.read(self.CASES)
+        plan = [d for d in figures.drawings_of(rows) if d.name == "adapted_methods"]
+        self.assertEqual((".png", ".csv"), plan[0].suffixes)
+        figure = plan[0].draw(plan[0].rows)
+        self.assertEqual(4, len(figure.axes[0].patches))
+        words = words_of(figure)
+        for expected in ("HYBRID", "10 ms", "κ 3e9", "timeout", "0.5 %"):
+            self.assertIn(expected, words)
+        lines = plan[0].table(plan[0].rows).splitlines()
+        self.assertEqual(5, len(lines))
+        self.assertEqual(1, sum("timeout" in line for line in lines))
+
+
 class ConvergenceTest(StudiesTest):
     def test_rate(self) -> None:
         rows = self.read(made_up.error_study(list(SIZES), sweep=False))

@@ -1,0 +1,96 @@
+"""Methods on adapted meshes: a cell per case with its outcome, time, error and condition number."""
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Rectangle
+
+import study_parts as parts
+from atlas_figure import LETTER, MARKS, SIZE, draw_key
+from figure_files import Drawing
+from figure_words import plain, short
+from record_keys import Row
+from selection import by_mesh, of_scene
+
+CELL, ROW, ABOVE, KEY = (1.12, 0.36, 0.75, 0.62)  # inches
+COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s",
+           "peak_heap_bytes", "error_stress", "error_force", "condition_estimate")
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "adapted"])
+    if study:
+        yield Drawing("adapted_methods", study, draw, table=table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """CSV."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS)
+    for own in by_mesh(rows).values():
+        for row in sorted(own, key=parts.order):
+            values = [getattr(row, column) for column in COLUMNS]
+            writer.writerow(["" if value is None else value for value in values])
+    return text.getvalue()
+
+
+def words_of(row: Row) -> tuple[str, str]:
+    """The two lines of a cell."""
+    if not row.completed or not row.time_s:
+        return row.status_words(), ""
+    second = [short(max(row.error_stress or 0, row.error_force or 0))] \
+        if row.error_stress is not None else []
+    second += [f"κ {short(row.condition_estimate)}"] if row.condition_estimate else []
+    return parts.seconds(row.time_s), ", ".join(second)
+
+
+def head_of(rows: list[Row]) -> str:
+    """Of a mesh, in three lines; its error is that of any method whose own is far below."""
+    errors = [row.error_discretisation for row in rows
+              if row.error_discretisation and not row.in_displacements]
+    percent = parts.percent(min(errors)) if errors else "?"
+    return f"{rows[0].body}\n{percent}\n$n_\\varphi$ = {rows[0].n_phi}"
+
+
+def draw(rows: list[Row]) -> Figure:
+    """rows: of an adapted study's scene."""
+    meshes = by_mesh(rows)
+    methods = list(dict.fromkeys(row.method for row in sorted(rows, key=parts.order)))
+    left = 0.25 + LETTER * max(map(len, methods))
+    width = max(left + CELL * len(meshes) + 0.15, 7.5)
+    body = 0.3 + ABOVE + ROW * len(methods) + KEY
+    figure = parts.sheet(width, body, "Methods on adapted meshes", [
+        f"Scene {rows[0].scene}, {parts.threads(rows)}. A column is a mesh, with its total error. A "
+        "cell: time of one solve; below it the larger of the relative errors of stresses and contact "
+        "forces, and κ, the 1-norm condition number, estimated, of what the method factorises."])
+    height = figure.get_size_inches()[1]
+    axes = figure.add_axes([left / width, (height - 0.3 - ABOVE - ROW * len(methods)) / height,
+                            CELL * len(meshes) / width, ROW * len(methods) / height],
+                           xlim=(0, len(meshes)), ylim=(len(methods), 0))
+    draw_cells(axes, list(meshes.values()), methods)
+    axes.set_yticks([k + 0.5 for k in range(len(methods))], map(plain, methods), fontsize=8)
+    axes.set_xticks([])
+    axes.tick_params(length=0, pad=3)
+    axes.spines[:].set_visible(False)
+    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.12, width, of_ok=("", "ok"))
+    return figure
+
+
+def draw_cells(axes: Axes, meshes: list[list[Row]], methods: list[str]) -> None:
+    for x, own in enumerate(meshes):
+        axes.annotate(head_of(own), (x + 0.5, 0), xytext=(0, 3), textcoords="offset points",
+                      ha="center", va="bottom", fontsize=8)
+        for row in own:
+            y = methods.index(row.method)
+            _, fill, ink = MARKS[row.outcome or row.status]
+            axes.add_patch(Rectangle((x, y), 1, 1, facecolor=fill, edgecolor="white",
+                                     linewidth=0.8))
+            first, second = words_of(row)
+            axes.text(x + 0.5, y + (0.33 if second else 0.5), first, color=ink, ha="center",
+                      va="center", fontsize=SIZE, weight="bold")
+            axes.text(x + 0.5, y + 0.72, second, color=ink, ha="center", va="center", fontsize=6.5)
