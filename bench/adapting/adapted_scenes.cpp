@@ -72,6 +72,7 @@ Json said_of(const std::optional<AdaptiveLevel>& level, const AdaptiveLoop& loop
   json["number"] = level->number;
   json["unknowns"] = level->unknowns;
   if (level->error) json["error"] = *level->error;
+  json["reaches"] = level->reaches_goal;
   json["angle"] = level->smallest_angle_deg;
   json["time_s"] = level->time_s;
   json["estimate_s"] = level->estimate_s;
@@ -84,7 +85,7 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
   set_threads(options.threads);
   const heap::Backstop backstop(options.memory_limit_bytes);
   AdaptiveLoop loop(scene, mesh, adapting_method(options.adapt_by),
-                    {*options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
+                    {options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
                      options.threads});
   while (channel.receive()) {
     Json answer;
@@ -92,7 +93,8 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
       std::optional<AdaptiveLevel> level = loop.next();
       std::filesystem::path file;
       if (level) {
-        level->mesh.name = fmt::format("{}+adapt{}", mesh.name, level->number);
+        level->mesh.name = fmt::format("{}+{}{}", mesh.name,
+                                       options.marking == 1. ? "refined" : "adapt", level->number);
         file = folder / (level->mesh.name + ".msh");
         write_file_atomically(file, text_of(level->mesh));
       }
@@ -142,7 +144,7 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   PosedScene refined = level_0;
   refined.adapted.reset();
   Mesh mesh = uniformly_refined(level_0.problem->mesh);
-  mesh.name = mesh.name.substr(0, mesh.name.rfind("+adapt")) + "+refined1";
+  mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refined1";
   const std::filesystem::path file =
       options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
   write_file_atomically(file, text_of(mesh));
@@ -183,12 +185,15 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     result.why_not_reached = said.value("ended", "");
     goes_on = !said.value("reached", false) && result.why_not_reached.empty();
   }
-  if (options.last_level_only && levels.size() > 1) levels.erase(levels.begin(), levels.end() - 1);
+  if (options.goals_only && !levels.empty()) {
+    levels.back()["reaches"] = true;  // or is as far as it came
+    std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
+  }
   for (const Json& said : levels)
     result.levels.push_back(posed_level(said, scene, definition, start, options));
   if (!result.why_not_reached.empty())
     result.why_not_reached = fmt::format("--adapt={}: not reached for {}: {}",
-                                         text_of(*options.adapt), name, result.why_not_reached);
+                                         text_of(options.adapt), name, result.why_not_reached);
   return result;
 }
 

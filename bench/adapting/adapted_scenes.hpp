@@ -2,7 +2,7 @@
 //
 // The loop runs in a process of its own, so that a crash, a hang or a lack of memory ends the loop
 // and not the run: the levels before are there. Each level's mesh is a file
-//   OUT/meshes/SCENE/MESH+adaptK.msh
+//   OUT/meshes/SCENE/MESH+adaptK.msh      (refined everywhere: MESH+refinedK.msh)
 // from which it is read back, and the scene on it is OUT/meshes/SCENE/SCENE.json: the scene's file
 // without what it did to the mesh, which is in the mesh now. With these two a level is a mesh as
 // any other.

@@ -11,11 +11,17 @@
 #include "bench/judging/marking.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/quality.hpp"
+#include "mesh/refinement.hpp"
+#include "mesh/transform.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
+
+// By which factor the last level may correct what is expected of the next.
+constexpr double most_correction = 3;
+constexpr int most_cuts = 24;  // of a triangle in a level
 
 // How often each triangle is to be cut (adaptive_loop.hpp).
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
@@ -47,10 +53,10 @@ AdaptiveLoop::AdaptiveLoop(Scene scene, Mesh mesh, Method method, AdaptiveSettin
     : scene_(std::move(scene)),
       mesh_(std::move(mesh)),
       method_(std::move(method)),
-      settings_(settings) {}
+      settings_(std::move(settings)) {}
 
 std::optional<AdaptiveLevel> AdaptiveLoop::next() {
-  if (reached_ || !ended_.empty()) return {};
+  if (reached() || !ended_.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   if (!history_.empty() && !refine()) return {};
   const DualSystem system =
@@ -90,38 +96,96 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
     level.error = error.relative;
   else
     ended_ = "nothing can be said of the error: " + error.flaw;
+  squared_Nmm_ = error.squared_Nmm();
   parts_Nmm_ = std::move(error.of_triangle_Nmm);
+  edges_ = system.problem->edges;
+  if (expected_.squared > 0)
+    more_squared_ = std::sqrt(  // most of what was missed was seen on the way
+        std::clamp(squared_Nmm_ / expected_.squared, 1 / most_correction, most_correction));
   judge_progress(level);
   return level;
 }
 
-// Sets whether the goal is reached, and ends what gets nowhere.
-void AdaptiveLoop::judge_progress(const AdaptiveLevel& level) {
+// Sets which goals are reached, and ends what gets nowhere.
+void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   constexpr int growth = 8;
   constexpr double least_gain = 0.9;
   if (!level.error) return;
-  reached_ = (settings_.goal.error && *level.error <= *settings_.goal.error) ||
-             (settings_.goal.unknowns && level.unknowns >= *settings_.goal.unknowns);
+  const auto is_met = [&](const AdaptGoal& goal) {
+    return goal.error ? *level.error <= *goal.error : level.unknowns >= *goal.unknowns;
+  };
+  for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.reaches_goal = true;
   history_.emplace_back(level.unknowns, *level.error);
   for (const auto& [unknowns, before] : history_)
-    if (!reached_ && level.unknowns >= growth * unknowns && *level.error > least_gain * before)
+    if (!reached() && level.unknowns >= growth * unknowns && *level.error > least_gain * before)
       ended_ = fmt::format("{} times the unknowns have not lowered the error of {:.2g} %", growth,
                            100 * before);
 }
 
-bool AdaptiveLoop::refine() {
+BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   constexpr double margin = 1.1, step = 0.85, least_marking = 0.1;
+  const AdaptGoal& goal = settings_.goals[goal_];
   const auto& [unknowns, error] = history_.back();
-  const double needed = settings_.goal.error
-                            ? margin * unknowns * error / *settings_.goal.error  // e ~ 1/N
-                            : *settings_.goal.unknowns;
-  double marking = settings_.marking;
+  const double needed = goal.error ? margin * unknowns * error / *goal.error  // e ~ 1/N
+                                   : *goal.unknowns;
+  double marking = *settings_.marking;
   BisectedMesh finer = refined(mesh_, parts_Nmm_, marking);
   while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
     BisectedMesh smaller = refined(mesh_, parts_Nmm_, marking *= step);
     if (mesh_sizes(smaller.mesh).n_phi < needed) break;
     finer = std::move(smaller);
   }
+  return finer;
+}
+
+BisectedMesh AdaptiveLoop::bisected_as_expected() {
+  // Of a level, in triangles; the first one learns where singular vertices are.
+  constexpr double most_growth = 4, first_growth = 2, least_growth = 1.2;
+  constexpr double aim = 0.96;  // of the goal: to miss it by little costs a level more
+  using Finer = ExpectedParts::Finer;
+  const AdaptGoal& goal = settings_.goals[goal_];
+  const ExpectedParts expected(mesh_, edges_, parts_Nmm_);
+  const auto triangles = static_cast<double>(mesh_.triangles.size());
+  const auto& [unknowns, error] = history_.back();
+  const auto with_neighbours = [&](const Finer& finer) {
+    return triangles + more_triangles_ * (finer.triangles - triangles);
+  };
+  const auto is_enough = [&](const Finer& finer, double count) {
+    return with_neighbours(finer) >= count || finer.triangles > most_triangles;
+  };
+  const auto until = [&](double count) {
+    return expected.cut_until([&](const Finer& finer) { return is_enough(finer, count); });
+  };
+  if (goal.error) {
+    const double left = std::pow(aim * *goal.error / error, 2) * squared_Nmm_;
+    expected_ = expected.cut_until([&](const Finer& finer) {
+      return is_enough(finer, least_growth * triangles) &&
+             (more_squared_ * finer.squared <= left || finer.triangles > most_triangles);
+    });
+  } else {
+    expected_ = until(triangles * *goal.unknowns / unknowns / aim);
+  }
+  const double growth = with_neighbours(expected_) / triangles,
+               steps = std::ceil(std::log(growth) / std::log(most_growth));
+  const double first = history_.size() == 1 ? first_growth : most_growth;
+  if (steps > 1 || growth > first)
+    expected_ = until(triangles * std::min(first, std::pow(growth, 1 / steps)));
+  BisectedMesh finer = bisected(mesh_, [&](const TrianglePart& part) {
+    return part.cuts < most_cuts && expected.of(part) > expected_.largest;
+  });
+  const double born = static_cast<double>(finer.mesh.triangles.size()) - triangles;
+  more_triangles_ = std::clamp(born / (expected_.triangles - triangles), 1., most_correction);
+  return finer;
+}
+
+bool AdaptiveLoop::refine() {
+  BisectedMesh finer;
+  if (!settings_.marking)
+    finer = bisected_as_expected();
+  else if (*settings_.marking < 1)
+    finer = marked_and_bisected();
+  else
+    finer.mesh = uniformly_refined(mesh_);
   if (finer.mesh.triangles.size() > most_triangles)
     ended_ = fmt::format("the next mesh would have more than {} triangles", most_triangles);
   else if (finer.mesh.triangles.size() == mesh_.triangles.size())

@@ -1,27 +1,38 @@
 // Solve, estimate, mark, bisect: a mesh made fine where the error is.
 //
 //   σ by an equilibrium method, with it an admissible displacement by local work
-//   (displacement_recovery.hpp) and the constitutive relation error e; the triangles that hold the
-//   marking fraction of e²; their longest-edge bisection (bisection.hpp); and again.
+//   (displacement_recovery.hpp) and the constitutive relation error e; longest-edge bisection
+//   (bisection.hpp) where the triangles' parts of e² are large; and again.
 //
-// A marked triangle is cut 1 + ⌊log₄(its part / the least marked part)⌋ times: a cut divides the
-// part by eight where the solution is smooth and by two to four at corners, and what sticks out far
-// need not wait for as many levels. Where few triangles are marked, at corners, all of them are cut
-// more often, as long as that adds less than about a tenth of the triangles: a level costs a solve.
-// The last levels mark less when e ~ 1/N says that the goal would be passed.
+// A level costs a solve, and most of the time goes into the last: so there are few, each several
+// times as fine as the one before. Triangles are cut until none of their parts is expected above a
+// threshold (expected_parts.hpp), which is as high as the goal allows; where that is far off, at so
+// many triangles that equal steps of at most a factor of four lead there, the first one of at most
+// two. What was expected
+// of the last level and what became of it, in triangles and in e², corrects what is expected of the
+// next.
+//
+// With a marking share, bulk marking instead: the triangles that hold this share of e². A marked
+// triangle is cut 1 + ⌊log₄(its part / the least marked part)⌋ times: a cut divides the part by
+// eight where the solution is smooth and by two to four at corners, and what sticks out far need
+// not wait for as many levels. Where few triangles are marked, at corners, all of them are cut more
+// often, as long as that adds less than about a tenth of the triangles: a level costs a solve. The
+// last levels mark less when e ~ 1/N says that the goal would be passed.
 #pragma once
 
 #include <functional>
 
 #include "assembly/scene.hpp"
 #include "bench/cases/adapt_goal.hpp"
+#include "bench/judging/expected_parts.hpp"
 #include "solvers/methods.hpp"
 
 namespace airybench {
 
 struct AdaptiveSettings {
-  AdaptGoal goal;
-  double marking = default_marking;                // 0 < marking ≤ 1
+  std::vector<AdaptGoal> goals;  // one after the other
+  // 0 < marking ≤ 1; 1: every triangle into four alike, once a level; empty: by expectation.
+  std::optional<double> marking;
   double timeout_s = 900;                          // of one solve
   std::optional<std::int64_t> memory_limit_bytes;  // of one solve
   int threads = 1;
@@ -32,6 +43,7 @@ struct AdaptiveLevel {
   int number = 0;               // 0: the mesh it began with
   int unknowns = 0;             // n_φ
   std::optional<double> error;  // e / ‖σ‖; empty: the fields say nothing, see why_ended()
+  bool reaches_goal = false;    // one that no level before did
   double smallest_angle_deg = 0;
   double time_s = 0, estimate_s = 0;  // of all levels up to this one, and what the estimates took
 };
@@ -44,21 +56,28 @@ class AdaptiveLoop {
 
   // The next level, solved and judged; empty when the loop has ended.
   std::optional<AdaptiveLevel> next();
-  bool reached() const { return reached_; }                // the goal, by the last level
-  const std::string& why_ended() const { return ended_; }  // before it; else empty
+  bool reached() const { return goal_ == settings_.goals.size(); }  // all goals
+  const std::string& why_ended() const { return ended_; }           // before it; else empty
 
  private:
   bool refine();
-  void judge_progress(const AdaptiveLevel& level);
+  BisectedMesh marked_and_bisected() const;
+  BisectedMesh bisected_as_expected();
+  void judge_progress(AdaptiveLevel& level);
 
   Scene scene_;
   Mesh mesh_;
   Method method_;
   AdaptiveSettings settings_;
-  std::vector<double> parts_Nmm_;                // of e², per triangle of the mesh
+  std::vector<double> parts_Nmm_;  // of e², per triangle of the mesh
+  MeshEdges edges_;                // of the mesh
+  double squared_Nmm_ = 0;         // e²
+  // Of the last refinement: what was expected, without corrections, and actual over expected.
+  ExpectedParts::Finer expected_;
+  double more_triangles_ = 1.2, more_squared_ = 1;
   std::vector<std::pair<int, double>> history_;  // per level: unknowns, error
   double time_s_ = 0, estimate_s_ = 0;
-  bool reached_ = false;
+  std::size_t goal_ = 0;  // the first that is not reached
   std::string ended_;
 };
 

@@ -18,8 +18,12 @@ std::optional<AdaptGoal> adapt_goal_of(const std::string& text) {
   return AdaptGoal{{}, static_cast<int>(*unknowns)};
 }
 
-std::string text_of(const AdaptGoal& goal) {
-  return goal.error ? fmt::format("{:g}%", 100 * *goal.error) : std::to_string(*goal.unknowns);
+std::string text_of(const std::vector<AdaptGoal>& goals) {
+  std::string text;
+  for (const AdaptGoal& goal : goals)
+    text += (text.empty() ? "" : ",") +
+            (goal.error ? fmt::format("{:g}%", 100 * *goal.error) : std::to_string(*goal.unknowns));
+  return text;
 }
 
 }  // namespace airybench

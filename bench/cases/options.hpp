@@ -34,13 +34,14 @@ struct Options {
   double timeout_s = 900;                          // per solve
   double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
-  std::optional<AdaptGoal> adapt;    // refine the meshes where the error is, until …
-  double marking = default_marking;  // of the squared error, per level
-  std::string adapt_by = "HYBRID";   // method that solves the levels
-  bool last_level_only = false;      // of which the cases are
-  std::string then;                  // a command for the shell, after the run
-  bool fields = false;               // write stresses and contact points
-  bool histories = false;            // keep iteration histories in records.jsonl
+  std::vector<AdaptGoal> adapt;     // refine the meshes where the error is, until each of these …
+  std::optional<double> marking;    // bulk marking of this share of the squared error, per level
+  std::string adapt_by = "HYBRID";  // method that solves the levels
+  bool goals_only = false;          // the cases are of the levels that reach one
+  std::string then;                 // a command for the shell, after the run
+  bool fields = false;              // write stresses and contact points …
+  bool mean_fields = false;         // … and the mean with the stresses of displacements
+  bool histories = false;           // keep iteration histories in records.jsonl
   bool list = false, dry_run = false, explain = false;
   // What came after "--" for Google Benchmark:
   std::string filter;                              // --benchmark_filter=, selects cases

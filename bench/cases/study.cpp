@@ -60,6 +60,8 @@ std::string name_of(Study study) {
       return "stability";
     case Study::contact:
       return "contact";
+    case Study::adapted:
+      return "adapted";
     default:
       return "";
   }
@@ -117,6 +119,10 @@ std::string default_methods(Study study) {
     return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"
            "ALM:r=100,rho=100,ALM:r=300,rho=300,BLIND,BLIND:SCHUR,HYBRID,P2";
   if (study == Study::contact) return "HYBRID";
+  if (study == Study::adapted)
+    return "SDTIC3,SDTIC6,SSKY,SYMMLQ:FLIC3,SYMMLQ:SSOR1.0,3STEPCG3,3STEPCG6,3STEPCG:FLIC3,"
+           "3STEPCG:SSOR1.0,3STEPD,3STEPD:REFINED,ALM:r=20,rho=20,BLIND,BLIND:SCHUR,"
+           "BLIND:SCHUR:REFINED,HYBRID,P2";
   if (study == Study::none) {
     std::string names;
     for (const Method& method : methods())

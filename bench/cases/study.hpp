@@ -8,6 +8,9 @@
 //              without saying
 //   contact    HYBRID with every solver of the condensed contact problem, under the frictions of
 //              bench/scenes/contact: the same D, to the bit, for all of them
+//   adapted    methods of every kind on meshes that are adapted to three total errors: which of
+//   them
+//              stand edges of a ten-thousandth of the body's size
 #pragma once
 
 #include <array>
@@ -20,9 +23,13 @@
 
 namespace airybench {
 
-enum class Study { none, error, stability, contact };
-inline constexpr std::array<Study, 3> all_studies = {Study::error, Study::stability,
-                                                     Study::contact};
+enum class Study { none, error, stability, contact, adapted };
+inline constexpr std::array<Study, 4> all_studies = {Study::error, Study::stability, Study::contact,
+                                                     Study::adapted};
+// Its records have the condition number of what the method factorises.
+constexpr bool asks_for_condition(Study study) {
+  return study == Study::stability || study == Study::adapted;
+}
 std::string name_of(Study study);       // empty: none
 Study study_of(std::string_view name);  // none: no such study
 

@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <limits>
+#include <numeric>
 
 #include "bench/adapting/adapted_scenes.hpp"
+#include "bench/cases/blank_record.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/exports/csv.hpp"
+#include "bench/forecast/prediction.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/environment.hpp"
@@ -23,9 +27,10 @@ namespace airybench {
 namespace {
 
 constexpr const char* advise_footer = R"(
-The mesh is adapted until the error is met; on what it becomes, methods are measured. Beside it is what refining
-everywhere would take: measured on the mesh as it is and refined once, forecast beyond by power laws. The fastest
-row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes, fields.
+The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
+Beside it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond by
+power laws. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes,
+fields.
 
 Exit status  0  a measured row meets the error
              1  none does
@@ -39,7 +44,7 @@ Examples
 constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,BLIND:SCHUR:REFINED,3STEPD";
 constexpr const char* uniform_candidate = "HYBRID";
 
-Options parse_advise(int argc, const char* const* argv) {
+Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   Options options;
   options.meshes.clear();
   options.out = "results/advice";
@@ -56,6 +61,8 @@ Options parse_advise(int argc, const char* const* argv) {
       ->default_str(candidates);
   add_number(app, "--timeout", Least::above_zero, 1e9, options.timeout_s,
              "seconds that one solve may take");
+  add_number(app, "--budget", Least::above_zero, 1e9, budget_s,
+             "seconds for measuring methods: what earlier records say does not fit in is left out");
   add_whole(
       app, "--memory-limit", 1, std::int64_t{1} << 40, 0,
       [&](std::int64_t MiB) { options.memory_limit_bytes = MiB * 1024 * 1024; },
@@ -63,10 +70,11 @@ Options parse_advise(int argc, const char* const* argv) {
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   app.add_option("--then", options.then, "as for a run");
   parse_command_line(app, argc, argv);
-  options.adapt = adapt_goal_of(error);
-  if (!options.adapt || !options.adapt->error)
+  const std::optional<AdaptGoal> goal = adapt_goal_of(error);
+  if (!goal || !goal->error)
     throw UsageError(
         fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%)", shortened(error)));
+  options.adapt = {*goal};
   if (options.methods.empty()) options.methods = candidates;
   if (!scene.empty()) options.scenes = {scene};
   return options;
@@ -98,7 +106,7 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
     text += shell_word(file.string()) +
             " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
   }
-  if (is_adapted) text += fmt::format(" --adapt={} --levels=last", text_of(*options.adapt));
+  if (is_adapted) text += fmt::format(" --adapt={} --levels=last", text_of(options.adapt));
   return text + " --method=" + shell_word(r.method);
 }
 
@@ -117,32 +125,66 @@ Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
 
 // What refining everywhere takes, from the coarse mesh and the one refined once.
 std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error) {
-  constexpr int most_steps = 12;
+  constexpr double most_unknowns = 1e9;
   if (!coarse.error_total || !fine.error_total || !coarse.time_s || !fine.time_s ||
       !coarse.peak_heap_bytes || !fine.peak_heap_bytes || *fine.error_total >= *coarse.error_total)
     return {};
-  const double per_step = *fine.error_total / *coarse.error_total;
-  const int steps =
-      static_cast<int>(std::ceil(std::log(error / *fine.error_total) / std::log(per_step)));
-  if (steps < 1 || steps > most_steps) return {};
-  const double growth = std::pow(static_cast<double>(*fine.n_phi) / *coarse.n_phi, steps);
+  const double per_step = static_cast<double>(*fine.n_phi) / static_cast<double>(*coarse.n_phi);
+  const double gain = *fine.error_total / *coarse.error_total;
+  const double steps = std::ceil(std::log(error / *fine.error_total) / std::log(gain));
+  const double n_phi = static_cast<double>(*fine.n_phi) * std::pow(per_step, steps);
+  if (steps < 1 || n_phi > most_unknowns) return {};
+  const int n = static_cast<int>(n_phi);
+  const auto at_n = [&](double of_coarse, double of_fine, double least_exponent) {
+    const SizedValue first{static_cast<int>(*coarse.n_phi), of_coarse},
+        second{static_cast<int>(*fine.n_phi), of_fine};
+    const double exponent = std::max(*pooled_exponent({{first, second}}, n), least_exponent);
+    return extrapolate({second}, n, exponent, 0).value;
+  };
   // Small meshes are dear for their size: what grows less than in proportion there will not further
   // on.
-  const auto at = [&](double of_coarse, double of_fine) {
-    const double exponent =
-        std::log(of_fine / of_coarse) / std::log(static_cast<double>(*fine.n_phi) / *coarse.n_phi);
-    return of_fine * std::pow(growth, std::max(exponent, 1.0));
-  };
+  const double proportional = 1, any = -std::numeric_limits<double>::infinity();
   Advice advice;
-  advice.mesh = fmt::format("refined {} times", steps + 1);
+  advice.mesh = fmt::format("refined {:g} times", steps + 1);
   advice.method = fine.method;
   advice.basis = "forecast";
-  advice.n_phi = std::llround(static_cast<double>(*fine.n_phi) * growth);
-  advice.error_total = *fine.error_total * std::pow(per_step, steps);
-  advice.time_s = at(*coarse.time_s, *fine.time_s);
-  advice.peak_heap_bytes = std::llround(
-      at(static_cast<double>(*coarse.peak_heap_bytes), static_cast<double>(*fine.peak_heap_bytes)));
+  advice.n_phi = n;
+  advice.error_total = at_n(*coarse.error_total, *fine.error_total, any);
+  advice.time_s = at_n(*coarse.time_s, *fine.time_s, proportional);
+  advice.peak_heap_bytes =
+      std::llround(at_n(static_cast<double>(*coarse.peak_heap_bytes),
+                        static_cast<double>(*fine.peak_heap_bytes), proportional));
   return advice;
+}
+
+// Takes cases out of a plan that by earlier records do not fit into the budget, the longest first;
+// what nothing is known of stays. Returns a row for each.
+std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s) {
+  std::vector<Record> planned;
+  for (const Case& c : plan) planned.push_back(blank_record(c, options));
+  const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
+                            options.memory_limit_bytes};
+  const std::vector<Prediction> expected =
+      forecast(planned, read_committed_records(options.out).records, limits).cases;
+  std::vector<std::size_t> order(plan.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });
+  std::vector<Advice> rows;
+  std::vector<bool> stays(plan.size(), true);
+  double spent_s = 0;
+  for (const std::size_t k : order) {
+    spent_s += expected[k].run_s.value_or(0);
+    stays[k] = spent_s <= budget_s || k == order.front();
+    if (stays[k]) continue;
+    Advice& row = rows.emplace_back(advice_of(planned[k], options, false));
+    row.command.clear();
+    row.basis = "forecast: over --budget";
+    row.time_s = expected[k].time_s->value;
+    row.status = Status::skipped;
+  }
+  std::size_t k = 0;
+  std::erase_if(plan, [&](const Case&) { return !stays[k++]; });
+  return rows;
 }
 
 std::string table_of(const std::vector<Advice>& rows) {
@@ -152,7 +194,9 @@ std::string table_of(const std::vector<Advice>& rows) {
     cells.push_back({row.mesh, row.method, std::to_string(row.n_phi), show_error(row.error_total),
                      show_seconds(row.time_s), show_seconds(row.adapt_time_s),
                      show_bytes(row.peak_heap_bytes),
-                     row.status == Status::ok ? row.basis : std::string(name_of(row.status))});
+                     row.status == Status::ok || row.status == Status::skipped
+                         ? row.basis
+                         : std::string(name_of(row.status))});
   return aligned_table(cells, 2);
 }
 
@@ -173,7 +217,8 @@ std::string csv_of(const std::vector<Advice>& rows) {
 }  // namespace
 
 int advise_command(int argc, const char* const* argv) {
-  const Options options = parse_advise(argc, argv);
+  double budget_s = 60;
+  const Options options = parse_advise(argc, argv, budget_s);
   require_threads(options.threads);
   catch_interrupts();
   const std::vector<PosedScene> start = pose_all(options);
@@ -190,15 +235,17 @@ int advise_command(int argc, const char* const* argv) {
     plan = plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
                       select_methods(uniform_candidate));
   const std::size_t uniform = plan.size();
-  for (Case& c : plan_cases({adapted.levels.back()}, chosen)) {
-    c.number += static_cast<int>(uniform);
+  std::vector<Case> candidates_plan = plan_cases({adapted.levels.back()}, chosen);
+  const std::vector<Advice> left_out = leave_out(candidates_plan, options, budget_s);
+  for (Case& c : candidates_plan) {
+    c.number = static_cast<int>(plan.size()) + 1;
     plan.push_back(std::move(c));
   }
   set_threads(options.threads);
   const Context context = context_of_run(options);
   const std::vector<Record> records = run_cases(plan, options, context).records;
 
-  const double goal = *options.adapt->error;
+  const double goal = *options.adapt.front().error;
   std::vector<Advice> rows;
   for (std::size_t k = uniform; k < records.size(); ++k)
     rows.push_back(advice_of(records[k], options, is_refined));
@@ -209,10 +256,11 @@ int advise_command(int argc, const char* const* argv) {
   if (is_refined)
     if (const auto forecast = forecast_uniform(records[0], records[1], goal))
       rows.push_back(*forecast);
+  rows.insert(rows.end(), left_out.begin(), left_out.end());
   fmt::print("\n{}\n", table_of(rows));
   write_file_atomically(options.out / "advice.csv", csv_of(rows));
   if (!met) {
-    fmt::print("no measured method meets {}\n", text_of(*options.adapt));
+    fmt::print("no measured method meets {}\n", text_of(options.adapt));
     return some_case_failed;
   }
   fmt::print("best: {}, {}:\n  {}\nalso in {}\n", rows.front().mesh, rows.front().method,

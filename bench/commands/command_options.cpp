@@ -38,6 +38,7 @@ Examples
   bench --figure=3 --out=results/figure3
   bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
   bench --study=stability --out=results/stability
+  bench --study=adapted --out=results/adapted
   bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
   bench --mesh=Mesh0..Mesh7 --out=results/night --resume
   bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
@@ -109,8 +110,10 @@ Options parse_options(int argc, const char* const* argv) {
   std::string study;
   app.add_option("--study", study,
                  "error (every method over its accuracy knob: what each digit costs), stability "
-                 "(every method on the extreme scenes of bench/scenes/stability) or contact (every "
-                 "contact solver on the same condensed problems, bench/scenes/contact)")
+                 "(every method on the extreme scenes of bench/scenes/stability), contact (every "
+                 "contact solver on the same condensed problems, bench/scenes/contact) or adapted "
+                 "(the methods on adapted meshes of tooth and rack: --adapt=1.5%,0.5%,0.15% "
+                 "--levels=last)")
       ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
@@ -150,15 +153,23 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::Option* adapts = app.add_option(
       "--adapt", adapt,
       "refine each mesh where the error is, until this total error (1%) or number of unknowns "
-      "(50000); the methods are measured on the meshes on the way, which are kept in OUT/meshes");
+      "(50000), or one after the other (1.5%,0.5%); the methods are measured on the meshes on the "
+      "way, which are kept in OUT/meshes");
   app.add_option("--adapt-by", options.adapt_by, "the method that solves for the error")
       ->capture_default_str()
       ->needs(adapts);
-  add_number(app, "--marking", Least::above_zero, 1, options.marking,
-             "part of the squared error that the triangles hold which a level refines")
+  double marking = 0.75;
+  add_number(
+      app, "--marking", Least::above_zero, 1, marking,
+      "bulk marking: each level refines the triangles that hold this part of the squared "
+      "error (1: all, each into four); default: fewer levels, each as fine as its errors are "
+      "expected to need")
+      ->default_str("")
       ->needs(adapts);
   std::string levels = "all";
-  app.add_option("--levels", levels, "on which of these meshes methods are measured: all, last")
+  app.add_option("--levels", levels,
+                 "on which of these meshes methods are measured: all, last (those that "
+                 "reach a total error or number that --adapt names)")
       ->check(CLI::IsMember({"all", "last"}))
       ->capture_default_str()
       ->needs(adapts);
@@ -178,7 +189,12 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_flag("--interleave", options.interleave,
                "the repetitions of a scene's cases in random turn, so that the machine's moods "
                "fall on all alike; their records are written when all have theirs");
-  app.add_flag("--fields", options.fields, "also write stresses and contact points (fields/*.csv)");
+  std::string fields;
+  app.add_flag(
+      "--fields", fields,
+      "also write stresses and contact points (fields/*.csv); --fields=mean: and the mean of "
+      "the stresses with those of admissible displacements, which has half of the bound "
+      "of the error");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");
   app.add_flag("--list", options.list, "print meshes and methods, and end");
   app.add_flag("--dry-run", options.dry_run,
@@ -202,19 +218,31 @@ Options parse_options(int argc, const char* const* argv) {
           fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(shard)));
     options.shard = *part;
   }
+  options.study = study_of(study);
+  if (options.study == Study::adapted && adapt.empty()) {
+    adapt = "1.5%,0.5%,0.15%";
+    levels = "last";
+  }
   if (!adapt.empty()) {
-    options.adapt = adapt_goal_of(adapt);
-    if (!options.adapt)
-      throw UsageError(
-          fmt::format("--adapt: {} (allowed: a total error above 0% and below 100%, as "
-                      "1%, or a number of unknowns from 1 to 5000000)",
-                      shortened(adapt)));
+    for (const std::string& goal : split_list(adapt)) {
+      const std::optional<AdaptGoal> one = adapt_goal_of(goal);
+      if (!one)
+        throw UsageError(
+            fmt::format("--adapt: {} (allowed: a total error above 0% and below 100%, as "
+                        "1%, or a number of unknowns from 1 to 5000000)",
+                        shortened(goal)));
+      options.adapt.push_back(*one);
+    }
     if (options.dry_run || options.explain)
       throw UsageError("--adapt: not with --dry-run or --explain: the meshes are not there yet");
   }
-  options.last_level_only = levels == "last";
+  if (app.get_option("--marking")->count() > 0) options.marking = marking;
+  options.goals_only = levels == "last";
+  options.fields = app.get_option("--fields")->count() > 0;
+  options.mean_fields = fields == "mean";
+  if (options.fields && fields != "true" && !options.mean_fields)
+    throw UsageError(fmt::format("--fields: {} (allowed: mean, or no value)", shortened(fields)));
   if (stop == "paper") options.stop = Stop::paper;
-  options.study = study_of(study);
   options.contact = *contact_solver_of(contact);
   if (app.get_option("--contact")->count() > 0) {
     if (options.stop == Stop::paper)
@@ -228,6 +256,10 @@ Options parse_options(int argc, const char* const* argv) {
     if (options.stop == Stop::paper)
       throw UsageError("--stop=paper: not with --study=contact, whose solvers are not the paper's");
     if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0..Mesh7";
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
+  }
+  if (options.study == Study::adapted) {
+    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0,Mesh4";
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
   }
   if (options.study == Study::stability) {

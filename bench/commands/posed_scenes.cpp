@@ -44,7 +44,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
 
 std::vector<PosedScene> pose_and_adapt(const Options& options, std::vector<std::string>& short_of) {
   std::vector<PosedScene> posed = pose_all(options);
-  if (!options.adapt) return posed;
+  if (options.adapt.empty()) return posed;
   std::vector<PosedScene> levels;
   for (const PosedScene& start : posed) {
     AdaptedScenes adapted = adapted_scenes(start, options);

@@ -25,7 +25,6 @@
 #include "bench/running/runner.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
-#include "support/data_folder.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -74,9 +73,7 @@ void print_left_out(const std::vector<Case>& plan, const Options& options) {
 void print_prediction(const std::vector<Case>& plan, const Options& options) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const std::filesystem::path committed = data_folder("results");
-  const PastRecords past = read_past_records(
-      {committed / "paper", committed / "direct", committed / "stability", options.out});
+  const PastRecords past = read_committed_records(options.out);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
   const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes, options.study == Study::stability};
@@ -129,10 +126,10 @@ int run_command(int argc, const char* const* argv) {
     print_list();
     return all_ok;
   }
-  if (options.adapt) {  // which runs solves; other planning the signal itself ends
-    require_threads(options.threads);
-    catch_interrupts();
-  }
+  const bool only_plans = options.explain || options.dry_run;
+  if (!only_plans) require_threads(options.threads);
+  if (!options.adapt.empty())
+    catch_interrupts();               // it runs solves; other planning the signal itself ends
   std::vector<std::string> short_of;  // goals of --adapt that were not reached
   const std::vector<Case> whole = plan_of(options, short_of);
   for (const std::string& why : short_of) std::cerr << fmt::format("note: {}\n", why);
@@ -143,8 +140,7 @@ int run_command(int argc, const char* const* argv) {
         fmt::format("--shard: {} (there are {} cases)", name_of(options.shard), whole.size()));
   if (options.explain) print_stages(plan);
   if (options.dry_run) print_prediction(plan, options);
-  if (options.explain || options.dry_run) return all_ok;
-  require_threads(options.threads);
+  if (only_plans) return all_ok;
   set_threads(options.threads);
   catch_interrupts();
   Context context = context_of_run(options);

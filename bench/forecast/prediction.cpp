@@ -8,6 +8,8 @@
 #include <set>
 #include <tuple>
 
+#include "support/data_folder.hpp"
+
 namespace airybench {
 namespace {
 
@@ -226,6 +228,12 @@ PastRecords read_past_records(const std::vector<std::filesystem::path>& folders)
     return context_word(a, "date") < context_word(b, "date");
   });
   return past;
+}
+
+PastRecords read_committed_records(const std::filesystem::path& besides) {
+  const std::filesystem::path committed = data_folder("results");
+  return read_past_records(
+      {committed / "paper", committed / "direct", committed / "stability", besides});
 }
 
 double run_seconds(double time_s, double tuning_s, const RunLimits& limits) {

@@ -164,9 +164,20 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
   }
   judge_admissibility(F_C, u, highest_gap, highest_force, error);
   note_bounds(system, fields, highest_gap, error);
-  error.relative = relative_error(std::sqrt(std::max(0.0, error.squared_Nmm())),
-                                  std::sqrt(2 * fields.energy), load_scale(problem).energy_norm);
+  const auto relative = [&](double squared) {
+    return relative_error(std::sqrt(std::max(0.0, squared)), std::sqrt(2 * fields.energy),
+                          load_scale(problem).energy_norm);
+  };
+  error.relative = relative(error.squared_Nmm());
+  error.relative_of_mean = relative(error.squared_of_mean_Nmm());
   return error;
+}
+
+StressField mean_stress(const Problem& problem, const StressField& stress,
+                        const DisplacementField& u) {
+  StressField mean = stress_of_displacement(problem, u);
+  for (std::size_t t = 0; t < mean.size(); ++t) mean[t] = (mean[t] + stress[t]) / 2;
+  return mean;
 }
 
 }  // namespace airybench

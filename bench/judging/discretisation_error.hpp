@@ -14,6 +14,14 @@
 //
 // where each bound is guaranteed, and ‖σ − σ_exact‖, ‖A ε(u) − σ_exact‖ ≤ e. With Coulomb's law it
 // is an estimator only.
+//
+// Without friction also ‖σ − σ_exact‖² + ‖Aε(u) − σ_exact‖² ≤ e², so that the mean of both is
+// nearer to σ_exact than either is known to be (the hypercircle; Synge 1957):
+//
+//   ‖½(σ + Aε(u)) − σ_exact‖² ≤ ½ e² − ¼ ‖σ − Aε(u)‖² = ¼ body + ½ contact
+//
+// where body and contact are the terms of e²: half of e where the contact terms are small. The mean
+// does not balance the loads.
 #pragma once
 
 #include <string>
@@ -28,6 +36,7 @@ struct ConstitutiveError {
   double body_Nmm = 0, normal_contact_Nmm = 0, tangential_contact_Nmm = 0;
   std::vector<double> of_triangle_Nmm;  // they sum to e²; contact terms are with their triangles
   double relative = 0;                  // e / ‖σ‖, or to the loads where there is no stress
+  double relative_of_mean = 0;          // the same of ½(σ + Aε(u))
   double lower_bound_Nmm = 0;           // −Π*(σ), less an allowance for rounding
   double upper_bound_Nmm = 0;           // Π(u), and more by it
   // e and the two are bounds: no friction, and no flaw.
@@ -37,7 +46,12 @@ struct ConstitutiveError {
   std::string flaw;
 
   double squared_Nmm() const { return body_Nmm + normal_contact_Nmm + tangential_contact_Nmm; }
+  double squared_of_mean_Nmm() const { return squared_Nmm() / 2 - body_Nmm / 4; }
 };
+
+// ½(σ + Aε(u)).
+StressField mean_stress(const Problem& problem, const StressField& stress,
+                        const DisplacementField& u);
 
 // stress and F_C at the contact points of `system`, as from an equilibrium method; u as from P2.
 ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,

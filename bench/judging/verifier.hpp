@@ -11,6 +11,7 @@
 //   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
 #pragma once
 
+#include <array>
 #include <limits>
 #include <optional>
 
@@ -74,6 +75,10 @@ struct WorstMeasure {
 WorstMeasure worst_measure(const Verification& verification);
 
 enum class ContactState { open, stick, slip };
+constexpr const char* name_of(ContactState state) {
+  constexpr std::array<const char*, 3> names = {"open", "stick", "slip"};
+  return names[static_cast<std::size_t>(state)];
+}
 // Open: |F_n| ≤ 1e-9 of the largest normal force; slip: |F_t| ≥ (1 − 1e-9) μ|F_n|. Without friction
 // a closed point slips.
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C);

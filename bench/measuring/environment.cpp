@@ -111,9 +111,9 @@ Context context_of_run(const Options& options) {
        options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
   };
   context.insert(settings.begin(), settings.end());
-  if (options.adapt) {
-    context["adapt"] = text_of(*options.adapt);
-    context["marking"] = fmt::format("{}", options.marking);
+  if (!options.adapt.empty()) {
+    context["adapt"] = text_of(options.adapt);
+    if (options.marking) context["marking"] = fmt::format("{}", *options.marking);
     context["adapt_by"] = options.adapt_by;
   }
   if (options.shard.count > 1) context["shard"] = name_of(options.shard);

@@ -75,7 +75,6 @@ ContactPicture contact_picture_of_displacements(const DualSystem& system,
 }
 
 std::string contact_csv(const DualSystem& system, const Solution& solution) {
-  constexpr std::array<const char*, 3> names = {"open", "stick", "slip"};
   const Mesh& mesh = system.problem->mesh;
   const ContactPoints& contact = system.contact;
   const ContactPicture picture = solution.displacement.cols() > 0
@@ -88,7 +87,7 @@ std::string contact_csv(const DualSystem& system, const Solution& solution) {
     const Eigen::Vector2d x = mesh.vertices[p % 2 == 0 ? a : b];
     text += fmt::format("{},{},{},{},{},{},{},{}\n", x.x(), x.y(), frame.normal.x(),
                         frame.normal.y(), frame.length_mm, picture.force[p](0), picture.force[p](1),
-                        names[static_cast<std::size_t>(picture.state[p])]);
+                        name_of(picture.state[p]));
   }
   return text;
 }
@@ -122,6 +121,12 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
                         stress_csv(*system.problem, solution.stress));
   write_file_atomically(folder / (name + ".contact.csv"), contact_csv(system, solution));
   write_file_atomically(folder / (name + ".boundary.csv"), boundary_csv(system.problem->mesh));
+}
+
+void write_mean_field(const std::filesystem::path& folder, const std::string& name,
+                      const Problem& problem, const StressField& mean) {
+  make_folder(folder);
+  write_file_atomically(folder / (name + ".mean.csv"), stress_csv(problem, mean));
 }
 
 void write_error_field(const std::filesystem::path& folder, const std::string& name,

@@ -10,6 +10,7 @@
 //   NAME.error.csv    triangle, error_share
 //                     a row per triangle, in the order of NAME.stress.csv: its share, 0 to 1, of
 //                     the squared constitutive relation error, contact terms included
+//   NAME.mean.csv     as NAME.stress.csv: the mean of the stresses and those of the displacements
 #pragma once
 
 #include <filesystem>
@@ -23,7 +24,9 @@ namespace airybench {
 // Writes the first three files folder/NAME.*.csv; throws FileError.
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const DualSystem& system, const Solution& solution);
-// Writes folder/NAME.error.csv; throws FileError.
+// Each writes the file folder/NAME.*.csv of its kind; throws FileError.
+void write_mean_field(const std::filesystem::path& folder, const std::string& name,
+                      const Problem& problem, const StressField& mean);
 void write_error_field(const std::filesystem::path& folder, const std::string& name,
                        const ConstitutiveError& error);
 

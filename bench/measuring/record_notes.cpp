@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "bench/judging/answer_hash.hpp"
+#include "bench/records/summary.hpp"
 
 namespace airybench {
 
@@ -61,6 +62,8 @@ void note(const ConstitutiveError& error, const char* by, Record& record) {
   if (error.flaw.empty()) {
     record.error_discretisation = error.relative;
     record.discretisation_by = by;
+    if (is_verified(record))
+      record.error_mean = error.relative_of_mean + record.error_stress.value_or(0) / 2;
   } else {
     record.no_discretisation_error = error.flaw;
   }
@@ -68,6 +71,30 @@ void note(const ConstitutiveError& error, const char* by, Record& record) {
     record.lower_bound_Nmm = error.lower_bound_Nmm;
     record.upper_bound_Nmm = error.upper_bound_Nmm;
   }
+}
+
+void note(const ContactIntervals& intervals, Record& record) {
+  record.intervals = intervals.guaranteed ? "guaranteed" : "estimated";
+  if (const auto& normal = intervals.normal_resultant_N) {
+    record.normal_resultant_low_N = normal->low;
+    record.normal_resultant_high_N = normal->high;
+  }
+  if (const auto& tangential = intervals.tangential_resultant_N) {
+    record.tangential_resultant_low_N = tangential->low;
+    record.tangential_resultant_high_N = tangential->high;
+  }
+  record.largest_pressure_MPa = intervals.largest_pressure_MPa;
+  record.largest_pressure_low_MPa = intervals.largest_pressure_within_MPa.low;
+  record.largest_pressure_high_MPa = intervals.largest_pressure_within_MPa.high;
+  record.contact_ends = Json::array();
+  for (const ContactEnd& end : intervals.ends)
+    record.contact_ends.push_back({{"face", end.face},
+                                   {"from", name_of(end.before)},
+                                   {"to", name_of(end.after)},
+                                   {"x_mm", end.at_mm.x()},
+                                   {"y_mm", end.at_mm.y()},
+                                   {"low_mm", end.along_face_mm.low},
+                                   {"high_mm", end.along_face_mm.high}});
 }
 
 void note(const MemorySplit& memory, Record& record) {

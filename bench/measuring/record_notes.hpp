@@ -1,6 +1,7 @@
 // What a record takes over from a solution, a verification and what else was found of a case.
 #pragma once
 
+#include "bench/judging/contact_intervals.hpp"
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/verifier.hpp"
 #include "bench/measuring/memory_split.hpp"
@@ -14,8 +15,9 @@ void note(const Solution& solution, Record& record);
 void note(const std::vector<IterationHistory>& histories, Record& record);  // none: nothing
 void note(const std::vector<GridPoint>& grid, Record& record);              // none: nothing
 void note(const Verification& verification, Record& record);
-// by: whose displacements it was made with, Record::discretisation_by.
+// by: whose displacements it was made with, Record::discretisation_by. After the verification.
 void note(const ConstitutiveError& error, const char* by, Record& record);
+void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 
 }  // namespace airybench

@@ -30,7 +30,8 @@ std::optional<std::int64_t> if_probed(std::int64_t bytes) {
 // Whose displacements the discretisation error of the method's record is made with.
 std::optional<Workbench::Bound> bound_for(const Method& method, const Options& options) {
   if (options.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
-  if (options.adapt) return Workbench::Bound::recovery;
+  if (!options.adapt.empty() || options.mean_fields || options.study == Study::adapted)
+    return Workbench::Bound::recovery;
   return {};
 }
 
@@ -115,22 +116,30 @@ const Reference* Workbench::reference() {
   return reference_ ? &*reference_ : nullptr;
 }
 
-const ConstitutiveError* Workbench::discretisation(Bound bound) {
+const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
   const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && reference() != nullptr && left_out_.discretisation.empty()) {
-    const ActivityScope scope(board_, Activity::discretisation);
-    const DualSystem system = assemble(problem_, Blocks::contact_points);
-    const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
-    const Solution own = run(select_methods(method).front(), system, {});
-    if (own.status == Status::ok && bound == Bound::p2)
-      found->second =
-          constitutive_error(system, reference_->stress, reference_->F_C, own.displacement);
-    else if (own.status == Status::ok)
-      found->second =
-          constitutive_error(system, own.stress, own.F_C,
-                             recovered_displacement(system, own.stress, own.F_C, own.edge_moments));
-  }
+  if (is_new && reference() != nullptr && left_out_.discretisation.empty())
+    found->second = compute_discretisation(bound);
   return found->second ? &*found->second : nullptr;
+}
+
+std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
+  const ActivityScope scope(board_, Activity::discretisation);
+  const DualSystem system = assemble(problem_, Blocks::contact_points);
+  const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
+  const Solution own = run(select_methods(method).front(), system, {});
+  if (own.status != Status::ok) return {};
+  Discretisation result;
+  if (bound == Bound::p2) {
+    result.u = own.displacement;
+    result.error = constitutive_error(system, reference_->stress, reference_->F_C, result.u);
+    return result;
+  }
+  result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
+  result.error = constitutive_error(system, own.stress, own.F_C, result.u);
+  if (result.error.flaw.empty())
+    result.intervals = contact_intervals(system, own.stress, own.F_C, result.u, result.error);
+  return result;
 }
 
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
@@ -144,7 +153,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.stop = options_.stop;
   control.contact = options_.contact;
   control.target_error = options_.target_error;
-  control.condition = histories && options_.study == Study::stability;
+  control.condition = histories && asks_for_condition(options_.study);
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
@@ -313,6 +322,24 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
   }
 }
 
+void Workbench::note_discretisation(const Method& method, const Solution& solution,
+                                    const std::filesystem::path& fields, Record& record) {
+  const std::optional<Bound> bound = bound_for(method, options_);
+  const Discretisation* known = bound ? discretisation(*bound) : nullptr;
+  if (known == nullptr) return;
+  if (record.other_solution) {
+    record.no_discretisation_error = "it is known for the reference's solution only";
+  } else {
+    note(known->error, name_of(*bound), record);
+    if (known->intervals) note(*known->intervals, record);
+  }
+  if (fields.empty() || !known->error.flaw.empty()) return;
+  write_error_field(fields.parent_path(), fields.filename(), known->error);
+  if (options_.mean_fields)
+    write_mean_field(fields.parent_path(), fields.filename(), *problem_,
+                     mean_stress(*problem_, solution.stress, known->u));
+}
+
 Workbench::Examination Workbench::examine(const Method& method,
                                           const std::filesystem::path& fields) {
   Examination examination;
@@ -350,17 +377,9 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    const std::optional<Bound> bound = bound_for(method, options_);
-    const ConstitutiveError* error = bound ? discretisation(*bound) : nullptr;
-    if (error != nullptr && record.other_solution)
-      record.no_discretisation_error = "it is known for the reference's solution only";
-    else if (error != nullptr)
-      note(*error, name_of(*bound), record);
-    if (!fields.empty()) {
+    if (!fields.empty())
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
-      if (error != nullptr && error->flaw.empty())
-        write_error_field(fields.parent_path(), fields.filename(), *error);
-    }
+    note_discretisation(method, solution, fields, record);
   }
   const bool once = run.time_s > options_.long_case_s || options_.study == Study::stability;
   if (once && is_measured(record)) {

@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "bench/cases/options.hpp"
+#include "bench/judging/contact_intervals.hpp"
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
@@ -75,8 +76,14 @@ class Workbench {
   const AssembledBlocks& blocks(Blocks which);
   double reference_error_at_most() const;
   const Reference* reference();  // null when there is none; no_reference_ says why
+  struct Discretisation {
+    ConstitutiveError error;
+    DisplacementField u;
+    std::optional<ContactIntervals> intervals;  // of recovery, where the error is one
+  };
   // Null when the stresses or the displacements are missing.
-  const ConstitutiveError* discretisation(Bound bound);
+  const Discretisation* discretisation(Bound bound);
+  std::optional<Discretisation> compute_discretisation(Bound bound);
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
@@ -87,6 +94,9 @@ class Workbench {
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
   void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
+  // What is known of the discretisation error, and the fields where they are asked for.
+  void note_discretisation(const Method& method, const Solution& solution,
+                           const std::filesystem::path& fields, Record& record);
   // Against the solution that is nearest to it, where that is none of the reference's.
   std::optional<Verification> verify_as_other_solution(const AssembledBlocks& blocks,
                                                        const Run& run);
@@ -98,7 +108,7 @@ class Workbench {
   std::map<Blocks, AssembledBlocks> blocks_;
   std::optional<Reference> reference_;
   std::string no_reference_;
-  std::map<Bound, std::optional<ConstitutiveError>> discretisation_;
+  std::map<Bound, std::optional<Discretisation>> discretisation_;
 };
 
 }  // namespace airybench

@@ -83,6 +83,9 @@ struct numbers_by_word {  // lists; null for what is not finite
 struct grid {  // list of {r, rho, iterations, outcome}
   using Type = Json;
 };
+struct contact_ends {  // list of {face, from, to, x_mm, y_mm, low_mm, high_mm}
+  using Type = Json;
+};
 struct attempts {  // list of {tolerance, claimed_status[, error_estimate][, error]}
   using Type = Json;
 };

@@ -189,6 +189,11 @@ bool is_attempt(const Json& attempt) {
   return has(attempt, "tolerance", is_number_or_null) && has(attempt, "claimed_status", is_text) &&
          may_have("error_estimate") && may_have("error");
 }
+bool is_contact_end(const Json& end) {
+  return has(end, "face", is_count) && has(end, "from", is_text) && has(end, "to", is_text) &&
+         has(end, "x_mm", is_number_or_null) && has(end, "y_mm", is_number_or_null) &&
+         has(end, "low_mm", is_number_or_null) && has(end, "high_mm", is_number_or_null);
+}
 
 void read_shaped(const Json& value, const Place& at, Shape shape, const char* allowed, Json& json) {
   if (!value.is_null() && !shape(value)) at.fail(value, allowed);
@@ -215,6 +220,10 @@ void read(field_kind::numbers_by_word, const Json& value, const Place& at, Json&
 void read(field_kind::grid, const Json& value, const Place& at, Json& json) {
   read_shaped(value, at, is_list_of<is_grid_point>, "a list of {r, rho, iterations, outcome}, null",
               json);
+}
+void read(field_kind::contact_ends, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_list_of<is_contact_end>,
+              "a list of {face, from, to, x_mm, y_mm, low_mm, high_mm}, null", json);
 }
 void read(field_kind::attempts, const Json& value, const Place& at, Json& json) {
   read_shaped(value, at, is_list_of<is_attempt>,

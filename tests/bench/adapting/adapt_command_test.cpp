@@ -57,6 +57,19 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
   EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
 }
 
+TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=2500 --marking=1 --repetitions=1 --out=o"),
+            0)
+      << complaint();
+  const auto records = bench_.records();
+  ASSERT_EQ(records.size(), 2u);
+  const auto triangles = [&](const Json& r) {
+    return read_msh(bench_.path("o") / r["mesh_file"].get<std::string>()).triangles.size();
+  };
+  EXPECT_EQ(records[1]["mesh"], "Mesh0+refined1");
+  EXPECT_EQ(triangles(records[1]), 4 * triangles(records[0]));
+}
+
 TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   write("layered.json", R"({"mesh": {"scale": 2}, "layers": {"count": 2,
         "materials": [{"young_MPa": 1000}, {"young_MPa": 3000, "poisson": 0.4}]}})");
@@ -73,6 +86,32 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   EXPECT_FALSE(definition.contains("mesh") || definition.contains("layers"));
   EXPECT_EQ(definition["materials"]["layer 2"]["young_MPa"], 3000);
   EXPECT_EQ(definition["materials"]["layer 1"]["poisson"], 0.3);
+}
+
+TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStressesHalfOfTheError) {
+  write("smooth.json", R"({"friction": 0})");
+  ASSERT_EQ(bench("--mesh=Mesh0 --scene=smooth.json --method=HYBRID --adapt=3%,1.5% --levels=last "
+                  "--repetitions=1 --fields=mean --out=o"),
+            0)
+      << complaint();
+  const auto records = bench_.records();
+  ASSERT_EQ(records.size(), 2u);
+  for (const Json& r : records) {
+    EXPECT_EQ(r["intervals"], "guaranteed");
+    EXPECT_LE(r["normal_resultant_low_N"], r["normal_resultant_N"]);
+    EXPECT_GE(r["normal_resultant_high_N"], r["normal_resultant_N"]);
+    EXPECT_TRUE(r["tangential_resultant_low_N"].is_null());
+    EXPECT_LE(r["largest_pressure_low_MPa"], r["largest_pressure_MPa"]);
+    EXPECT_GE(r["largest_pressure_high_MPa"], r["largest_pressure_MPa"]);
+    EXPECT_FALSE(r["contact_ends"].empty());
+    EXPECT_NEAR(r["error_mean"].get<double>() / r["error_total"].get<double>(), 0.52, 0.03);
+  }
+  const auto is_of_mean = [](const auto& entry) {
+    return entry.path().string().ends_with(".mean.csv");
+  };
+  EXPECT_EQ(std::ranges::count_if(std::filesystem::directory_iterator(bench_.path("o/fields")),
+                                  is_of_mean),
+            2);
 }
 
 #ifndef AIRYBENCH_SANITIZED  // no limit on the heap there
@@ -95,6 +134,8 @@ TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
            {"--adapt=-5", "--adapt: -5 (allowed"},
            {"--adapt=1% --marking=0", "--marking: 0 (allowed"},
            {"--adapt=1% --marking=2", "--marking: 2 (allowed"},
+           {"--adapt=1%,foo", "--adapt: foo (allowed: a total error"},
+           {"--fields=all", "--fields: all (allowed: mean"},
            {"--marking=0.5", "--marking requires --adapt"},
            {"--levels=last", "--levels requires --adapt"},
            {"--adapt=1% --levels=first", "--levels"},

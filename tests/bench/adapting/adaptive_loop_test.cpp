@@ -19,7 +19,7 @@ Method hybrid() { return select_methods("HYBRID").front(); }
 
 AdaptiveSettings until(std::optional<double> error, std::optional<int> unknowns = {}) {
   AdaptiveSettings settings;
-  settings.goal = {error, unknowns};
+  settings.goals = {{error, unknowns}};
   return settings;
 }
 
@@ -59,6 +59,46 @@ TEST(AdaptiveLoop, EndsAtTheFirstLevelWithSoManyUnknowns) {
   EXPECT_TRUE(loop.reached());
   for (std::size_t k = 0; k < levels.size(); ++k)
     EXPECT_EQ(levels[k].unknowns >= 1000, k + 1 == levels.size());
+}
+
+TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
+  AdaptiveSettings settings = until(0.03);
+  settings.goals.push_back({0.01, {}});
+  settings.goals.push_back({{}, 5000});
+  AdaptiveLoop loop({}, testing::small_tooth(6, 5), hybrid(), settings);
+  const std::vector<AdaptiveLevel> levels = levels_of(loop);
+  EXPECT_TRUE(loop.reached());
+  std::vector<AdaptiveLevel> reaching;
+  for (const AdaptiveLevel& level : levels)
+    if (level.reaches_goal) reaching.push_back(level);
+  ASSERT_EQ(reaching.size(), 3u);
+  EXPECT_LE(*reaching[0].error, 0.03);
+  EXPECT_GT(*reaching[0].error, 0.01);
+  EXPECT_LE(*reaching[1].error, 0.01);
+  EXPECT_LT(reaching[1].unknowns, 5000);
+  EXPECT_GE(reaching[2].unknowns, 5000);
+  EXPECT_EQ(reaching[2].number, levels.back().number);
+}
+
+// By expectation there are fewer levels than with bulk marking, and the meshes are as good.
+TEST(AdaptiveLoop, WhatIsExpectedOfTheErrorSavesLevels) {
+  const Mesh mesh = testing::catalogue_mesh("Mesh0");
+  constexpr double goal = 0.002;
+  AdaptiveLoop expected({}, mesh, hybrid(), until(goal));
+  AdaptiveSettings settings = until(goal);
+  settings.marking = 0.75;
+  AdaptiveLoop marked({}, mesh, hybrid(), settings);
+  const std::vector<AdaptiveLevel> few = levels_of(expected), many = levels_of(marked);
+  EXPECT_TRUE(expected.reached() && marked.reached());
+  EXPECT_LT(few.size(), many.size());
+  EXPECT_LT(*few.back().error * few.back().unknowns,
+            1.15 * *many.back().error * many.back().unknowns);
+  const auto sum = [](const std::vector<AdaptiveLevel>& levels) {
+    std::int64_t unknowns = 0;
+    for (const AdaptiveLevel& level : levels) unknowns += level.unknowns;
+    return unknowns;
+  };
+  EXPECT_LT(sum(few), 0.8 * static_cast<double>(sum(many)));
 }
 
 // An L of two materials that presses its foot against the wall.

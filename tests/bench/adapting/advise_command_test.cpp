@@ -35,12 +35,22 @@ TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
   EXPECT_FALSE(std::filesystem::is_empty(bench_.path("o/fields")));
 }
 
+TEST_F(AdviseCommand, WhatDoesNotFitIntoTheBudgetIsLeftOutAndSaid) {
+  ASSERT_EQ(bench("--mesh=Mesh0 --error=2% --method=HYBRID,SDTIC3 --budget=0.01 --out=o"), 0)
+      << complaint();
+  EXPECT_NE(bench_.content("o/advice.csv").find(",forecast: over --budget,skipped,"),
+            std::string::npos)
+      << bench_.content("o/advice.csv");
+  for (const Json& record : bench_.records()) EXPECT_EQ(record["method"], "HYBRID");
+}
+
 TEST_F(AdviseCommand, RefusesWhatItCannotAdviseOn) {
   for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
            {"--mesh=Mesh0", "--error"},
            {"--error=1%", "--mesh"},
            {"--mesh=Mesh0 --error=5000", "--error: 5000 (allowed"},
            {"--mesh=Mesh0 --error=0%", "--error: 0% (allowed"},
+           {"--mesh=Mesh0 --error=1% --budget=0", "--budget: 0 (allowed"},
            {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3 (allowed: one mesh)"}}) {
     EXPECT_EQ(bench(arguments + " --out=o"), 2) << arguments;
     EXPECT_NE(complaint().find(said), std::string::npos) << complaint();

@@ -65,6 +65,22 @@ TEST_F(StudyCommand, ErrorHasAPointForEveryValueOfTheKnob) {
   EXPECT_EQ(tolerances.size() + 1, records().size());
 }
 
+TEST_F(StudyCommand, AdaptedIsTheMethodsOnMeshesThatReachAnError) {
+  ASSERT_EQ(
+      bench("--study=adapted --mesh=Mesh0 --adapt=3%,1.5% --method=HYBRID,3STEPD --levels=last "
+            "--repetitions=1 --out=o"),
+      0)
+      << content("err.txt");
+  const auto all = records();
+  ASSERT_EQ(all.size(), 4u);
+  for (const Json& record : all) {
+    EXPECT_EQ(record["study"], "adapted");
+    EXPECT_GT(record["condition_estimate"], 1);
+    EXPECT_GT(record["adapt_level"], 0);
+    EXPECT_LE(record["error_total"], 0.03);
+  }
+}
+
 TEST_F(StudyCommand, RefusesWhatItCannotStudy) {
   for (const char* arguments :
        {"--study=foo", "--study=error --stop=paper", "--study=error --figure=3"}) {

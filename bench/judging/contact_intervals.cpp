@@ -1,0 +1,193 @@
+#include "bench/judging/contact_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/edge_forces.hpp"
+#include "bench/judging/displacement_recovery.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+EdgeFrame frame_of(const Mesh& mesh, int row) {
+  const auto [a, b] = mesh.boundary[row].vertices;
+  return edge_frame(mesh.vertices[a], mesh.vertices[b]);
+}
+
+// Γ_C has one normal and no vertex on Γ_D.
+bool can_be_moved_as_one(const Mesh& mesh) {
+  std::optional<Eigen::Vector2d> normal;
+  std::vector<bool> is_held(mesh.vertices.size(), false);
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::displacement)
+      for (const int v : edge.vertices) is_held[v] = true;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const Eigen::Vector2d own = frame_of(mesh, row).normal;
+    if (!normal) normal = own;
+    if ((own - *normal).norm() > straight_roller) return false;
+    for (const int v : mesh.boundary[row].vertices)
+      if (is_held[v]) return false;
+  }
+  return normal.has_value();
+}
+
+// v: 0 on Γ_D, n or t on Γ_C (without friction n·v = 1 alone). Empty where nothing comes of it.
+std::optional<DisplacementField> lifted(const Problem& problem, bool tangential) {
+  Mesh mesh = problem.mesh;
+  Loads loads;
+  loads.rollers.assign(mesh.boundary.size(), false);
+  std::vector<Eigen::Vector2d> on_edge(mesh.boundary.size(), Eigen::Vector2d::Zero());
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role == BoundaryRole::contact) {
+      const EdgeFrame frame = frame_of(mesh, row);
+      on_edge[row] = tangential ? frame.tangent : frame.normal;
+      loads.rollers[row] = problem.friction == 0;
+      mesh.boundary[row].role = BoundaryRole::displacement;
+    } else {
+      loads.rollers[row] = problem.is_roller(row);
+    }
+  }
+  loads.displacement_mm = [on_edge](const Eigen::Vector2d&, int row) { return on_edge[row]; };
+  const DualSystem system =
+      assemble(std::make_shared<const Problem>(
+                   make_problem(std::move(mesh), problem.compliance, std::move(loads), 0)),
+               Blocks::contact_points);
+  const Solution solution = run(select_methods("HYBRID").front(), system, {});
+  if (solution.status != Status::ok) return {};
+  return with_rigid_motion(
+      *system.problem,
+      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+}
+
+std::optional<Bracket> resultant(const Problem& problem, const StressField& mean, double error,
+                                  bool tangential) {
+  const std::optional<DisplacementField> v = lifted(problem, tangential);
+  if (!v) return {};
+  const StressField strained = stress_of_displacement(problem, *v);
+  double work = -work_of_loads(problem, *v);
+  for (std::size_t t = 0; t < mean.size(); ++t) {
+    const int triangle = static_cast<int>(t);
+    work += mean[t]
+                .cwiseProduct(stress_dual(strained[t], problem.area_mm2(triangle),
+                                          problem.compliance_of(triangle)))
+                .sum();
+  }
+  const double half = error * std::sqrt(stress_norm_squared(problem, strained));
+  return Bracket{work - half, work + half};
+}
+
+// Where the pressure at the ends of contact edges is largest.
+struct Peak {
+  double pressure_MPa = -std::numeric_limits<double>::infinity();
+  int triangle = 0;
+  Eigen::Vector2d normal = {0, 0};
+};
+
+Peak largest_pressure(const Problem& problem, const StressField& stress) {
+  std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), -1);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
+      contact_row[problem.edges.of_boundary[row]] = row;
+  Peak peak;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int row = contact_row[problem.edges.of_triangle[t][k]];
+      if (row < 0) continue;
+      const EdgeFrame frame = frame_of(problem.mesh, row);
+      const Eigen::RowVector2d pressure =
+          -2 / frame.length_mm * frame.normal.transpose() *
+          element_edge_forces(problem.vertices_of(t), stress[t], k);
+      if (pressure.maxCoeff() > peak.pressure_MPa) peak = {pressure.maxCoeff(), t, frame.normal};
+    }
+  return peak;
+}
+
+void set_largest_pressure(const Problem& problem, const StressField& stress,
+                          const DisplacementField& u, const ConstitutiveError& error,
+                          ContactIntervals& result) {
+  const Peak of_stress = largest_pressure(problem, stress),
+             of_u = largest_pressure(problem, stress_of_displacement(problem, u));
+  const int t = of_stress.triangle;
+  const Eigen::Vector2d& n = of_stress.normal;
+  const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // as a strain
+  const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
+               delta = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
+                                 problem.area_mm2(t));
+  const auto [low, high] = std::minmax(of_stress.pressure_MPa, of_u.pressure_MPa);
+  result.largest_pressure_MPa = of_stress.pressure_MPa;
+  result.largest_pressure_within_MPa = {std::max(0.0, low - delta), high + delta};
+}
+
+// The ends on one face; rows of Mesh::boundary as it is walked.
+void add_ends(const Mesh& mesh, const std::vector<int>& rows,
+              const std::vector<std::array<ContactState, 2>>& of_row, int face,
+              std::vector<ContactEnd>& ends) {
+  std::vector<double> along = {0};  // where edges begin and end
+  for (const int row : rows) along.push_back(along.back() + frame_of(mesh, row).length_mm);
+  const int count = static_cast<int>(rows.size());
+  const auto state = [&](int point) { return of_row[rows[point / 2]][point % 2]; };
+  const std::size_t first = ends.size();
+  for (int point = 1; point < 2 * count; ++point) {
+    if (state(point) == state(point - 1)) continue;
+    ContactEnd end{face, state(point - 1), state(point), {0, 0}, {}};
+    end.along_face_mm = {along[std::max(0, (point - 1) / 2 - 1)],
+                         along[std::min(count, point / 2 + 2)]};
+    if (ends.size() > first && ends.back().along_face_mm.high > end.along_face_mm.low) {
+      ends.back().along_face_mm.high = end.along_face_mm.high;  // one end, not told more closely
+      ends.back().after = end.after;
+    } else {
+      ends.push_back(end);
+    }
+  }
+  std::erase_if(ends, [](const ContactEnd& end) { return end.before == end.after; });
+  for (std::size_t k = first; k < ends.size(); ++k) {
+    const auto [low, high] = ends[k].along_face_mm;
+    const double middle = (low + high) / 2;
+    const auto beyond = std::ranges::upper_bound(along, middle);
+    const auto edge = static_cast<std::size_t>(beyond - along.begin()) - 1;
+    const int row = rows[edge];
+    ends[k].at_mm = mesh.vertices[mesh.boundary[row].vertices[0]] +
+                    (middle - along[edge]) * frame_of(mesh, row).tangent;
+  }
+}
+
+std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const Mesh& mesh = system.problem->mesh;
+  const std::vector<ContactState> states = contact_states(system.contact, F_C);
+  std::vector<std::array<ContactState, 2>> of_row(mesh.boundary.size());
+  for (int p = 0; p < system.contact.count; ++p)
+    of_row[system.contact.boundary[p]][p % 2] = states[p];
+  std::vector<ContactEnd> ends;
+  int face = 0;
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
+    add_ends(mesh, rows, of_row, face++, ends);
+  return ends;
+}
+
+}  // namespace
+
+std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
+                                                  const StressField& stress,
+                                                  const Eigen::VectorXd& F_C,
+                                                  const DisplacementField& u,
+                                                  const ConstitutiveError& error) {
+  if (system.contact.count == 0) return {};
+  const Problem& problem = *system.problem;
+  ContactIntervals result;
+  result.guaranteed = error.guaranteed;
+  if (can_be_moved_as_one(problem.mesh)) {
+    const StressField mean = mean_stress(problem, stress, u);
+    const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm()));
+    result.normal_resultant_N = resultant(problem, mean, of_mean, false);
+    if (system.contact.components == 2)
+      result.tangential_resultant_N = resultant(problem, mean, of_mean, true);
+  }
+  set_largest_pressure(problem, stress, u, error, result);
+  result.ends = contact_ends(system, F_C);
+  return result;
+}
+
+}  // namespace airybench

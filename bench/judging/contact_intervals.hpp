@@ -1,0 +1,54 @@
+// What one asks of a contact problem, each with an interval: resultants of the contact forces, the
+// largest pressure, where points of one state end and those of another begin.
+//
+// *Resultants.* Let v be a displacement that is 0 on Γ_D and n on Γ_C (or t, with friction). By
+// virtual work Σ F_n of the exact stress is ∫ σ:ε(v) − ∫ b·v − ∫_{Γ_F} f·v; with the mean m of both
+// stresses (discretisation_error.hpp) in its place it is off by at most
+//
+//   ‖m − σ_exact‖ ‖Aε(v)‖
+//
+// which is guaranteed where the bound of the mean is: without friction. Any v will do; the one with
+// little energy is recovered from HYBRID's answer to the problem that prescribes it. There is none
+// where Γ_C has several normals or meets Γ_D.
+//
+// The others are estimates. *Pressure:* its largest value at contact points by σ and by Aε(u), and
+// beyond both δ with δ² = A_nnnn e_T² / |T|, what e_T² of the triangle there allows for on average.
+// *Ends:* between two contact points of different states, an edge more on each side.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "bench/judging/discretisation_error.hpp"
+#include "bench/judging/verifier.hpp"
+
+namespace airybench {
+
+struct Bracket {
+  double low, high;
+};
+
+// Along a contact face as its boundary is walked, from its start.
+struct ContactEnd {
+  int face = 0;  // from 0, in the order of boundary_chains()
+  ContactState before, after;
+  Eigen::Vector2d at_mm;    // in the middle of the interval
+  Bracket along_face_mm{};
+};
+
+struct ContactIntervals {
+  bool guaranteed = false;  // the resultants'
+  std::optional<Bracket> normal_resultant_N, tangential_resultant_N;
+  double largest_pressure_MPa = 0;  // of σ
+  Bracket largest_pressure_within_MPa{};
+  std::vector<ContactEnd> ends;
+};
+
+// Empty without contact. stress, F_C, u: what `error` has been made of.
+std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
+                                                  const StressField& stress,
+                                                  const Eigen::VectorXd& F_C,
+                                                  const DisplacementField& u,
+                                                  const ConstitutiveError& error);
+
+}  // namespace airybench
