@@ -16,7 +16,7 @@ from figure_words import plain, short
 from record_keys import Row
 from selection import by_mesh, of_scene
 
-CELL, ROW, ABOVE, KEY = (1.12, 0.36, 0.75, 0.62)  # inches
+CELL, ROW, ABOVE, KEY = 1.12, 0.36, 0.6, 0.62  # inches
 COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s",
            "peak_heap_bytes", "error_stress", "error_force", "condition_estimate")
 
@@ -42,7 +42,8 @@ def table_of(rows: list[Row]) -> str:
 def words_of(row: Row) -> tuple[str, str]:
     """The two lines of a cell."""
     if not row.completed or not row.time_s:
-        return row.status_words(), ""
+        status, _, done = row.status_words().partition(", ")
+        return status, done
     second = [short(max(row.error_stress or 0, row.error_force or 0))] \
         if row.error_stress is not None else []
     second += [f"κ {short(row.condition_estimate)}"] if row.condition_estimate else []

@@ -13,11 +13,13 @@ from figure_files import Drawing
 from figure_parts import WIDTH, axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
-from selection import by_body, grouped, is_paper_stop, of_scene
+from selection import by_body, grouped, is_paper_stop, kind_of, of_scene
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.62, 0.45, 0.42, 2.5, 0.15, 0.5  # inches
 BODIES = 2  # that there is room for
 ALL_LEVELS = "#B00020"
+COLOURS = {"as they are": "0.35", "refined everywhere": "#4B6BC8", "adapted": ALL_LEVELS}  # of kinds
+DASHES = {"as they are": (0, (4, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}
 HIGHEST = 1.0  # total errors above are not drawn
 
 
@@ -25,7 +27,7 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     known = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
                       and not is_paper_stop(row) and row.completed and row.error_total])
     bodies = {body for body, own in by_body(known).items()
-              if len({row.n_phi for row in own if row.adapt_level is not None}) > 1}
+              if len({row.n_phi for row in own if kind_of(row) == "adapted"}) > 1}
     shown = [row for row in known if row.body in sorted(bodies)[:BODIES]]
     if shown:
         yield Drawing("adaptive", shown, draw, vector=True)
@@ -50,8 +52,9 @@ def draw(rows: list[Row]) -> Figure:
     panel = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     figure = parts.sheet(WIDTH, TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes", [
         f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
-        "they are (open, dashed) and adapted ones (filled, solid). Below: the time of one solve on "
-        "the mesh; red: of the whole adaptive loop, all levels and estimates of the error. "
+        "they are (open, dashed), refined everywhere (open, dotted) and adapted (filled, solid). Below: "
+        "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
+        "estimates of the error. "
         "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
         f"one's unknowns on. {parts.threads(rows)}."])
     every = [row for own in bodies.values() for row in own]
@@ -76,47 +79,47 @@ def draw(rows: list[Row]) -> Figure:
     return figure
 
 
-def style(row: Row) -> dict[str, object]:
-    adapted = row.adapt_level is not None
-    return dict(color=row.look.colour, marker=row.look.marker, markersize=4.5, linewidth=1.1,
-                linestyle="-" if adapted else (0, (4, 2)),
-                markerfacecolor=row.look.colour if adapted else "white")
+def style(row: Row, colour: str, marker: str) -> dict[str, object]:
+    kind = kind_of(row)
+    return dict(color=colour, marker=marker, markersize=4.5, linewidth=1.1, linestyle=DASHES[kind],
+                markerfacecolor=colour if kind == "adapted" else "white")
 
 
 def draw_unknowns(axes: Axes, rows: list[Row]) -> None:
-    labels = Labels(axes)
-    for adapted, words in ((False, "as they are"), (True, "adapted")):
-        own = [row for row in rows if (row.adapt_level is not None) == adapted]
+    labels, words_of = Labels(axes), {}
+    for kind, colour in COLOURS.items():
+        own = [row for row in rows if kind_of(row) == kind]
         if not own:
             continue
         sizes, errors, _ = zip(*meshes_of(own))
-        colour = ALL_LEVELS if adapted else "0.35"
-        axes.plot(sizes, errors, **style(own[0]) | {
-            "color": colour, "marker": "o", "markerfacecolor": colour if adapted else "white"})
+        axes.plot(sizes, errors, **style(own[0], colour, "o"))
         labels.avoid(sizes, errors)
-        late = [k for k, size in enumerate(sizes) if not adapted or size >= 1.5 * sizes[0]]
+        late = [k for k, size in enumerate(sizes) if kind != "adapted" or size >= 1.5 * sizes[0]]
+        words = kind
         if len({sizes[k] for k in late}) > 1:
             power = slope([sizes[k] for k in late], [errors[k] for k in late])
             words += f": $N^{{{power:.2f}}}$"
-        labels.add(words, sizes[::-1], errors[::-1], formula=True, color=colour,
-                   weight="bold")
+        words_of[words] = sizes[::-1], errors[::-1], colour
+    for words, (sizes, errors, colour) in words_of.items():
+        labels.add(words, sizes, errors, formula=True, color=colour, weight="bold")
 
 
 def draw_times(axes: Axes, rows: list[Row]) -> None:
     labels = Labels(axes)
     named: set[str] = set()
     curves = grouped([row for row in rows if row.time_s],
-                     lambda row: (row.method, row.adapt_level is not None))
-    for (method, adapted), own in sorted(curves.items(), key=lambda item: not item[0][1]):
+                     lambda row: (row.method, kind_of(row)))
+    for (method, _), own in sorted(curves.items(), key=lambda item: item[0][1] != "adapted"):
         own.sort(key=lambda row: row.n_phi)
         line = [row.time_s for row in own], [row.error_total for row in own]
-        axes.plot(*line, **style(own[0]))
+        axes.plot(*line, **style(own[0], own[0].look.colour, own[0].look.marker))
         labels.avoid(*line)
         if method not in named:
             named.add(method)
             labels.add(method, line[0][::-1], line[1][::-1], color=own[0].look.colour,
                        weight="bold")
-    loop = [(time, error) for _, error, time in meshes_of(rows) if time]
+    adapted = [row for row in rows if kind_of(row) == "adapted"]
+    loop = [(time, error) for _, error, time in meshes_of(adapted) if time]
     if loop:
         axes.plot(*zip(*loop), color=ALL_LEVELS, linewidth=2, zorder=6)
         labels.add("whole loop", *map(list, zip(*loop[::-1])), color=ALL_LEVELS, weight="bold")

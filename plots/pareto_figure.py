@@ -13,11 +13,11 @@ from figure_files import Drawing
 from figure_parts import axes_at, log_limits, log_log
 from figure_words import plain
 from record_keys import Row
-from selection import by_body, given, grouped, is_paper_stop, of_scene
+from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene
 from work_precision_figure import AXES, curves_of, value_of
 
-WIDTH, LEFT, TOP, HEIGHT, GAP, BETWEEN = 11.5, 0.72, 0.55, 4.4, 0.3, 0.5
-BELOW, TABLE_LINE = 0.62, 0.19  # inches; under the axes, and a line of the table
+WIDTH, LEFT, TOP, HEIGHT, GAP, BETWEEN = 11.5, 0.72, 0.65, 4.4, 0.3, 0.5
+TABLE_LINE = 0.19  # inches: a line of the table
 HIGHEST = 1.0  # total errors above are not drawn: nothing of such an answer is right
 GAIN = 0.01  # of the error: less is not worth a point of the front
 STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
@@ -25,15 +25,10 @@ LEVELS = 7  # lines of a table at most
 TABLE = ("total error at most", "cheapest method", "mesh", "time", "peak heap",
          "displacements: mesh", "time", "peak heap")
 TABLE_AT = (0.0, 0.13, 0.39, 0.5, 0.58, 0.67, 0.84, 0.92)  # of the sheet's width
+FLOOR_WORDS = 11  # points, between words of two floors
 # Kinds of meshes: colour and width of their fronts.
 KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
-         "adapted": ("#B00020", 2.6)}
-
-
-def kind_of(row: Row) -> str:
-    """Of its mesh."""
-    return "adapted" if "+adapt" in row.mesh else \
-        "refined everywhere" if "+refined" in row.mesh else "as they are"
+         "adapted": ("#B00020", 2.6)}  # as kind_of() says
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -188,20 +183,30 @@ def draw_front(axes: Axes, labels: Labels, best: list[Row], column: str, name: s
                   markeredgewidth=0.7, zorder=6)
     if name and name != "as they are":
         methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
-        labels.add(f"meshes {name}: {methods}", line[0][::-1], line[1][::-1], color=colour,
+        labels.add(f"{name}: {methods}", line[0][::-1], line[1][::-1], color=colour,
                    weight="bold", fontsize=8.5)
 
 
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
-    """The meshes' discretisation errors."""
+    """The meshes' discretisation errors; those that are too near to each other share their words."""
     floors = {row.mesh: row.error_discretisation for row in rows if row.error_discretisation}
-    for mesh, floor in floors.items():
-        axes.axhline(floor, color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-        axes.annotate(f"{mesh}: {parts.percent(floor)}", (1, floor), xytext=(-2, 1.5), ha="right",
+    groups: list[list[str]] = []
+    for mesh in sorted(floors, key=floors.get, reverse=True):
+        axes.axhline(floors[mesh], color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+        high = labels.points(axes.get_xlim()[1], floors[groups[-1][0]])[0, 1] if groups else math.inf
+        if high - labels.points(axes.get_xlim()[1], floors[mesh])[0, 1] < FLOOR_WORDS:
+            groups[-1].append(mesh)
+        else:
+            groups.append([mesh])
+    for group in groups:
+        ends = [group[0], group[-1]] if len(group) > 1 else group
+        words = f"{'..'.join(ends)}: {' to '.join(parts.percent(floors[mesh]) for mesh in ends)}"
+        at = floors[group[0]]
+        axes.annotate(plain(words), (1, at), xytext=(-2, 1.5), ha="right",
                       xycoords=axes.get_yaxis_transform(), textcoords="offset points",
                       fontsize=7.5, color="0.35", zorder=9,
                       bbox=dict(facecolor="white", edgecolor="none", alpha=0.75, pad=0.3))
-        labels.reserve(f"{mesh}: {parts.percent(floor)}", axes.get_xlim()[1], floor, 7.5)
+        labels.reserve(words, axes.get_xlim()[1], at, 7.5)
 
 
 def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str,
@@ -211,7 +216,7 @@ def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str,
     axes.plot(*line, color=colour, marker=marker, markersize=8, linewidth=1.5, zorder=5,
               linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
     labels.avoid(*line)
-    words = f"{rows[0].method} displacements" + (f", {kind}" if kind else "")
+    words = f"{rows[0].method}, {kind}" if kind else f"{rows[0].method} displacements"
     labels.add(words, *line, color=colour, weight="bold",
                fontsize=8.5)
 

@@ -28,6 +28,12 @@ def by_body(rows: list[Row]) -> dict[str, list[Row]]:
     return grouped(rows, lambda row: row.body)
 
 
+def kind_of(row: Row) -> str:
+    """Of its mesh: a level of a loop, or as it was given."""
+    return "adapted" if "+adapt" in row.mesh else \
+        "refined everywhere" if "+refined" in row.mesh else "as they are"
+
+
 def scene_of(rows: list[Row]) -> str:
     """The scene to draw where there is room for one."""
     scenes = sorted({row.scene for row in rows})

@@ -215,8 +215,8 @@ class ParetoTest(StudiesTest):
         plan = [d for d in figures.drawings_of(rows) if d.name == "pareto"]
         self.assertEqual([len(study) + len(levels)], [len(d.rows) for d in plan])
         words = words_of(plan[0].draw(plan[0].rows))
-        self.assertIn("meshes adapted: HYBRID", words)
-        self.assertIn("meshes refined everywhere: HYBRID", words)
+        self.assertIn("adapted: HYBRID", words)
+        self.assertIn("refined everywhere: HYBRID", words)
         self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
 
 
