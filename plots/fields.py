@@ -104,13 +104,23 @@ def read_table(path: Path, header: str,
     return numbers, last
 
 
-def cases_of(results: Path) -> dict[str, tuple[str, int]]:
-    """Name of a case's files -> mesh, n_phi."""
+def recorded(results: Path) -> dict[str, dict]:
+    """Name of a case's files -> its record; of none where there are no records."""
     if not any((results / file).is_file() for file in ("records.jsonl", "results.csv")):
         return {}
     table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))
-    return {file_of(case_name(case)): (case["mesh"], case["n_phi"])
-            for case in table.to_dict("records")}
+    return {file_of(case_name(case)): case for case in table.to_dict("records")}
+
+
+def cases_of(results: Path) -> dict[str, tuple[str, int]]:
+    """Name of a case's files -> mesh, n_phi."""
+    return {name: (case["mesh"], case["n_phi"]) for name, case in recorded(results).items()}
+
+
+def errors_of(results: Path) -> dict[str, float]:
+    """Name of a case's files -> its total error, where that is known."""
+    return {name: case["error_total"] for name, case in recorded(results).items()
+            if pd.notna(case.get("error_total"))}
 
 
 def error_names_in(results: Path) -> list[str]:

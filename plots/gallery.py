@@ -5,7 +5,8 @@
 
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
-element map of its discretisation error (NAME.error.csv). Exit 2: wrong input; one line says
+element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
+an adaptive loop have one. Exit 2: wrong input; one line says
 which, and nothing is written.
 """
 from __future__ import annotations
@@ -17,11 +18,12 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
+import adapted_meshes
 import command
 import error_map
 from field_drawing import Scales
 from field_panel import draw_legend, draw_panel, height_of, width_of
-from fields import (Fields, cases_of, error_names_in, names_in, read_error_share,
+from fields import (Fields, cases_of, error_names_in, errors_of, names_in, read_error_share,
                     read_fields)
 from figure_files import write_small_png
 
@@ -104,6 +106,13 @@ def draw(args: argparse.Namespace) -> None:
     if args.each or not chosen:
         for name, s in solutions.items():
             save(compose([[s]]), [out / f"fields_{name}.png"])
+    levels = adapted_meshes.chosen(list(maps))
+    if levels and all(maps[name][1].any() for name in levels):
+        figure = adapted_meshes.draw([(*maps[name], errors_of(args.results).get(name))
+                                      for name in levels])
+        command.replace_all(out, {"adapted_meshes.png": partial(
+            write_small_png, figure, adapted_meshes.DPI)})
+        print(out / "adapted_meshes.png")
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")

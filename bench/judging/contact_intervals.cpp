@@ -51,10 +51,9 @@ std::optional<DisplacementField> lifted(const Problem& problem, bool tangential)
     }
   }
   loads.displacement_mm = [on_edge](const Eigen::Vector2d&, int row) { return on_edge[row]; };
-  const DualSystem system =
-      assemble(std::make_shared<const Problem>(
-                   make_problem(std::move(mesh), problem.compliance, std::move(loads), 0)),
-               Blocks::contact_points);
+  const DualSystem system = assemble(std::make_shared<const Problem>(make_problem(
+                                         std::move(mesh), problem.compliance, std::move(loads), 0)),
+                                     Blocks::contact_points);
   const Solution solution = run(select_methods("HYBRID").front(), system, {});
   if (solution.status != Status::ok) return {};
   return with_rigid_motion(
@@ -63,7 +62,7 @@ std::optional<DisplacementField> lifted(const Problem& problem, bool tangential)
 }
 
 std::optional<Bracket> resultant(const Problem& problem, const StressField& mean, double error,
-                                  bool tangential) {
+                                 bool tangential) {
   const std::optional<DisplacementField> v = lifted(problem, tangential);
   if (!v) return {};
   const StressField strained = stress_of_displacement(problem, *v);
@@ -97,9 +96,8 @@ Peak largest_pressure(const Problem& problem, const StressField& stress) {
       const int row = contact_row[problem.edges.of_triangle[t][k]];
       if (row < 0) continue;
       const EdgeFrame frame = frame_of(problem.mesh, row);
-      const Eigen::RowVector2d pressure =
-          -2 / frame.length_mm * frame.normal.transpose() *
-          element_edge_forces(problem.vertices_of(t), stress[t], k);
+      const Eigen::RowVector2d pressure = -2 / frame.length_mm * frame.normal.transpose() *
+                                          element_edge_forces(problem.vertices_of(t), stress[t], k);
       if (pressure.maxCoeff() > peak.pressure_MPa) peak = {pressure.maxCoeff(), t, frame.normal};
     }
   return peak;

@@ -32,7 +32,7 @@ struct Bracket {
 struct ContactEnd {
   int face = 0;  // from 0, in the order of boundary_chains()
   ContactState before, after;
-  Eigen::Vector2d at_mm;    // in the middle of the interval
+  Eigen::Vector2d at_mm;  // in the middle of the interval
   Bracket along_face_mm{};
 };
 

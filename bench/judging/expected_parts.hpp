@@ -1,18 +1,19 @@
-// How an error would be spread over a finer mesh, told from one solution: so that a mesh can be made
-// several times as fine at once, with no solve for each bisection.
+// How an error would be spread over a finer mesh, told from one solution: so that a mesh can be
+// made several times as fine at once, with no solve for each bisection.
 //
 // Stresses are linear on thirds of a triangle T; of e² it has a part of e_T² ~ |∇²σ|² A³, A its
 // area. So κ = e_T² / A³ is a property of the solution and not of the mesh where the stress is
 // smooth: a half of T has an eighth of its part. Near a vertex v where the stress is singular like
-// r^(λ−1), κ ~ r^−s with s = 6 − 2λ: a part of T, of area A' and with its centroid at x, is expected
-// to have
+// r^(λ−1), κ ~ r^−s with s = 6 − 2λ: a part of T, of area A' and with its centroid at x, is
+// expected to have
 //
 //   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T T's centroid
 //
 // which at v gives a half of T 2^−λ of its part, as it must be. Which vertices are singular is told
 // by how κ falls from the triangles at a vertex to those behind them; how strongly cannot be told
 // from so few, and λ = 0.7 is taken for all (corners have 0.5 … 0.8; a cut too many at a vertex
-// costs a few triangles). Inside Γ_C, where contact ends, λ = 3/2, and the ends move: left to the next mesh.
+// costs a few triangles). Inside Γ_C, where contact ends, λ = 3/2, and the ends move: left to the
+// next mesh.
 //
 // Of all meshes with so many triangles the one whose triangles have equal parts has the least error
 // (e² ~ Σ κ A³ for given Σ 1; it is what bulk marking leads to, too): so triangles are to be cut

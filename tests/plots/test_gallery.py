@@ -12,6 +12,7 @@ import numpy as np
 PLOTS = Path(__file__).resolve().parents[2] / "plots"
 sys.path.insert(0, str(PLOTS))
 
+import adapted_meshes  # noqa: E402
 import error_map  # noqa: E402
 import field_drawing  # noqa: E402
 import fields  # noqa: E402
@@ -140,6 +141,20 @@ class GalleryTest(unittest.TestCase):
             status, out, err = run(gallery, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", out)
+
+    def test_three_levels_of_an_adaptive_loop_are_side_by_side(self) -> None:
+        names = [f"Mesh0%2Badapt{level}--default--HYBRID" for level in (0, 2, 10, 11)]
+        for name in names:
+            write_solution(self.fields, name)
+            write_shares(self.fields, name, [0.25, 0.75])
+        self.assertEqual([names[0], names[2], names[3]],
+                         adapted_meshes.chosen([*sorted(names), NAMES[0]]))
+        self.assertEqual([], adapted_meshes.chosen(names[:2]))
+        with SMALL:
+            status, out, err = run(gallery, self.results)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("adapted_meshes.png", out)
+        self.assert_png(self.results / "figures" / "adapted_meshes.png", 1100)
 
     def test_element_map_that_cannot_be(self) -> None:
         write_solution(self.fields, NAMES[1])

@@ -106,10 +106,8 @@ double distance(const Problem& coarse, const StressField& stress, const Judged& 
     Eigen::Matrix3d barycentric;
     barycentric << p, Eigen::RowVector3d::Ones();
     for (int k = 0; k < 3; ++k) {
-      const Eigen::Vector2d x =
-          (v.col(k) + v.col((k + 1) % 3) + v.rowwise().mean()) / 3;
-      const Eigen::Vector3d lambda =
-          barycentric.inverse() * Eigen::Vector3d(x.x(), x.y(), 1);
+      const Eigen::Vector2d x = (v.col(k) + v.col((k + 1) % 3) + v.rowwise().mean()) / 3;
+      const Eigen::Vector3d lambda = barycentric.inverse() * Eigen::Vector3d(x.x(), x.y(), 1);
       const Eigen::Vector3d d = stress_at(stress[parent], lambda) -
                                 fine.hybrid.stress[t].middleCols<3>(3 * k).rowwise().mean();
       squared += problem.area_mm2(triangle) / 3 * d.dot(problem.compliance_of(triangle) * d);

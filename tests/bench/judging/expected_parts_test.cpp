@@ -81,8 +81,8 @@ TEST(ExpectedParts, CuttingEndsWhereItIsFineEnoughAndLeavesEqualParts) {
     EXPECT_LE(finer.squared, sum(parts) / 1000);
     EXPECT_GT(finer.squared, sum(parts) / 4000);
     // The mesh that is cut below the threshold is as expected, and more for its neighbours.
-    const BisectedMesh fine = bisected(
-        mesh, [&](const TrianglePart& part) { return expected.of(part) > finer.largest; });
+    const BisectedMesh fine =
+        bisected(mesh, [&](const TrianglePart& part) { return expected.of(part) > finer.largest; });
     const auto triangles = static_cast<double>(fine.mesh.triangles.size());
     EXPECT_GE(triangles, 0.9 * finer.triangles) << s;
     EXPECT_LE(triangles, 1.8 * finer.triangles) << s;
