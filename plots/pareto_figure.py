@@ -106,6 +106,7 @@ def draw(rows: list[Row]) -> Figure | str:
               "has the mesh's error. ") if names else ""
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
     tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
+    adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
     figure = parts.sheet(WIDTH, over + sum(heights.values()) + 0.3,
                          "What a total error costs: method and mesh together", [
         f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
@@ -113,8 +114,7 @@ def draw(rows: list[Row]) -> Figure | str:
         "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
         "give or take 1 %. Dotted: the discretisation error of meshes as they are, the lowest that "
         "a method can reach there; a method's curve ends there however many more digits it "
-        f"computes. {others}Small points: all solves{tuned}. The time of adapting a mesh is not in "
-        "these times."])
+        f"computes. {others}Small points: all solves{tuned}.{adapting}"])
     panel = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     errors = [row.error_total for row in known]
     for k, (body, of_body) in enumerate(bodies.items()):
