@@ -17,6 +17,7 @@ from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene
 from work_precision_figure import AXES, curves_of, value_of
 
 WIDTH, LEFT, TOP, HEIGHT, GAP, BETWEEN = 11.5, 0.72, 0.65, 4.4, 0.3, 0.5
+SIDE_BY_SIDE = 2  # bodies
 TABLE_LINE = 0.19  # inches: a line of the table
 HIGHEST = 1.0  # total errors above are not drawn: nothing of such an answer is right
 GAIN = 0.01  # of the error: less is not worth a point of the front
@@ -99,7 +100,8 @@ def draw(rows: list[Row]) -> Figure | str:
     tables = {body: table_of(of_body) for body, of_body in bodies.items()}
     kinds = [kind for kind in KINDS if kind in map(kind_of, known)]
     columns = [column for column in AXES if any(value_of(row, column) for row in known)]
-    over = TOP + len(columns) * (HEIGHT + BETWEEN)
+    block = TOP + len(columns) * (HEIGHT + BETWEEN)  # of as many bodies as stand side by side
+    over = block * math.ceil(len(bodies) / SIDE_BY_SIDE)
     heights = {body: 0.2 + TABLE_LINE * (len(table) + 1.5) for body, table in tables.items()}
     names = displacements_of(known)
     others = (f"The displacement method {' and '.join(names)} has its own curve; by definition it "
@@ -115,19 +117,21 @@ def draw(rows: list[Row]) -> Figure | str:
         "give or take 1 %. Dotted: the discretisation error of meshes as they are, the lowest that "
         "a method can reach there; a method's curve ends there however many more digits it "
         f"computes. {others}Small points: all solves{tuned}.{adapting}"])
-    panel = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
+    beside = min(len(bodies), SIDE_BY_SIDE)
+    panel = (WIDTH - LEFT - 0.1 - (beside - 1) * GAP) / beside
     errors = [row.error_total for row in known]
     for k, (body, of_body) in enumerate(bodies.items()):
-        left = LEFT + k * (panel + GAP)
-        figure.text(left / WIDTH, 1 - (TOP - 0.18) / figure.get_size_inches()[1], plain(body),
+        place, above = k % beside, block * (k // beside) + TOP
+        left = LEFT + place * (panel + GAP)
+        figure.text(left / WIDTH, 1 - (above - 0.18) / figure.get_size_inches()[1], plain(body),
                     fontsize=10, weight="bold")
         for j, column in enumerate(columns):
-            axes = axes_at(figure, left, TOP + j * (HEIGHT + BETWEEN), panel, HEIGHT)
+            axes = axes_at(figure, left, above + j * (HEIGHT + BETWEEN), panel, HEIGHT)
             own = [row for row in of_body if value_of(row, column)]
             log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.25),
                     xlim=log_limits([value_of(row, column) for row in own], 1.6))
             axes.spines[["top", "right"]].set_visible(False)
-            if k == 0:
+            if place == 0:
                 axes.set_ylabel("total relative error of the stresses, 1")
             else:
                 axes.tick_params(labelleft=False)
