@@ -116,6 +116,7 @@ void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   };
   for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.reaches_goal = true;
   history_.emplace_back(level.unknowns, *level.error);
+  if (!reached() && *level.error == 0) ended_ = "the error is zero: there is nothing to refine";
   for (const auto& [unknowns, before] : history_)
     if (!reached() && level.unknowns >= growth * unknowns && *level.error > least_gain * before)
       ended_ = fmt::format("{} times the unknowns have not lowered the error of {:.2g} %", growth,

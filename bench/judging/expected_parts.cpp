@@ -93,8 +93,9 @@ ExpectedParts::ExpectedParts(const Mesh& mesh, const MeshEdges& edges,
     const Corners x = corners_of(mesh, t);
     const int v = *std::ranges::max_element(mesh.triangles[t], {},
                                             [&](int corner) { return seen[corner].kappa; });
-    triangles_.push_back({std::max(0.0, parts[t]) / std::pow(area_of(x), 3), seen[v].exponent,
-                          mesh.vertices[v], (centroid_of(x) - mesh.vertices[v]).norm()});
+    triangles_.push_back({std::max(0.0, parts[t]) / std::pow(area_of(x), 3), area_of(x),
+                          seen[v].exponent, mesh.vertices[v],
+                          (centroid_of(x) - mesh.vertices[v]).norm()});
   }
 }
 
@@ -102,7 +103,8 @@ double ExpectedParts::of(const Triangle& triangle, const Corners& corners) const
   const double area = area_of(corners), smooth = triangle.kappa * area * area * area;
   if (triangle.exponent == 0) return smooth;
   const double nearer = (centroid_of(corners) - triangle.vertex).norm() / triangle.distance_mm;
-  return smooth * std::pow(nearer, -triangle.exponent);
+  return smooth *
+         std::pow(std::max(nearer, std::sqrt(area / triangle.area_mm2)), -triangle.exponent);
 }
 
 double ExpectedParts::of(const TrianglePart& part) const {

@@ -9,7 +9,8 @@
 //
 //   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T T's centroid
 //
-// which at v gives a half of T 2^−λ of its part, as it must be. Which vertices are singular is told
+// which at v gives a half of T 2^−λ of its part, as it must be (in slivers, too: the first bracket
+// counts as √(A'/A) at least). Which vertices are singular is told
 // by how κ falls from the triangles at a vertex to those behind them; how strongly cannot be told
 // from so few, and λ = 0.7 is taken for all (corners have 0.5 … 0.8; a cut too many at a vertex
 // costs a few triangles). Inside Γ_C, where contact ends, λ = 3/2, and the ends move: left to the
@@ -46,6 +47,7 @@ class ExpectedParts {
  private:
   struct Triangle {
     double kappa = 0;        // e_T² / A³
+    double area_mm2 = 0;     // A
     double exponent = 0;     // s; 0: the stress is smooth
     Eigen::Vector2d vertex;  // v
     double distance_mm = 1;  // |x_T − v|

@@ -204,6 +204,13 @@ TEST(AdaptiveLoop, SaysWhyItEndsBefore) {
   EXPECT_NE(starved.why_ended().find("out_of_memory"), std::string::npos) << starved.why_ended();
 #endif
 
+  Scene at_rest;
+  at_rest.displacement_mm = {-1, 0};  // away from the wall
+  AdaptiveLoop done(at_rest, mesh, hybrid(), until({}, 5000));
+  EXPECT_TRUE(done.next());
+  EXPECT_FALSE(done.next());
+  EXPECT_NE(done.why_ended().find("the error is zero"), std::string::npos) << done.why_ended();
+
   // Γ_D is pushed through the wall where it ends on Γ_C.
   Scene through;
   through.mesh.keep_force_edges = 0;

@@ -71,6 +71,21 @@ TEST(ExpectedParts, AtASingularVertexTheLawOfTheStressIsFound) {
   }
 }
 
+// However flat the triangle is, its parts have less and less: so cutting ends.
+TEST(ExpectedParts, PartsOfSliversHaveLessAndLess) {
+  Mesh mesh = testing::small_block(8, 8, 0);
+  for (Eigen::Vector2d& x : mesh.vertices) x.y() *= 100;
+  const std::vector<double> parts = parts_of(mesh, 4.6, mesh.vertices[mesh.triangles[40][0]]);
+  const ExpectedParts expected(mesh, number_edges(mesh), parts);
+  for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t) {
+    auto x = corners_of(mesh, t);
+    for (int cut = 1; cut < 20; ++cut) {
+      x = halves(x)[static_cast<std::size_t>(cut % 2)];
+      EXPECT_LE(expected.of({t, cut, x}), 1.001 * std::pow(2, -0.7 * cut) * parts[t]) << cut;
+    }
+  }
+}
+
 TEST(ExpectedParts, CuttingEndsWhereItIsFineEnoughAndLeavesEqualParts) {
   const Mesh mesh = testing::small_block(6, 6, 3);
   for (const double s : {0., 4.8}) {
