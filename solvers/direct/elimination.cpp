@@ -155,7 +155,7 @@ class Analysis {
 std::vector<int> stages(const ElementMatrices& K, const IndexLists& own, const Blocks& blocks) {
   std::vector<int> stage(static_cast<std::size_t>(blocks.count()), 0);
   if (K.count() > many_elements) stage = dissect(blocks.count(), own, K.centre);
-  if (blocks.inner < blocks.count()) {
+  if (blocks.inner > 0 && blocks.inner < blocks.count()) {
     const int last = *std::ranges::max_element(stage) + 1;
     std::fill(stage.begin() + blocks.inner, stage.end(), last);
   }

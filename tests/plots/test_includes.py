@@ -36,6 +36,8 @@ ROOMS = {
     "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring", "bench/cases",
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
+    # A benchmark by itself.
+    "bench/kernels": ["solvers", "assembly", "mesh", "support"],
     "bench": ["bench/commands", "bench/isolation", "support"],
 }
 
