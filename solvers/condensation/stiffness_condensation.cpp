@@ -1,5 +1,7 @@
 #include "solvers/condensation/stiffness_condensation.hpp"
 
+#include <utility>
+
 #include "solvers/direct/dense_cholesky.hpp"
 #include "solvers/direct/factor_counts.hpp"
 
@@ -7,10 +9,10 @@ namespace airybench {
 
 CondensedSystem condense(const StiffnessFactor& factor) {
   CondensedSystem condensed;
-  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
+  Eigen::MatrixXd L = factor.cholesky.trailing_factor();
   if (L.rows() == 0) return condensed;
   condensed.G = -L.triangularView<Eigen::Lower>().transpose().solve(factor.y.tail(L.rows()));
-  condensed.D = inverse_from_factor(L);
+  condensed.D = inverse_from_factor(std::move(L));
   return condensed;
 }
 

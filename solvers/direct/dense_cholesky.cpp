@@ -21,7 +21,8 @@ Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {
   if (n > 0) dpotri_("L", &n, L.data(), &n, &info, 1);
   if (info != 0)
     throw Breakdown("dense Cholesky factor: zero at " + std::to_string(info) + " on its diagonal");
-  return L.selfadjointView<Eigen::Lower>();
+  for (int j = 0; j < n; ++j) L.row(j).tail(n - j - 1) = L.col(j).tail(n - j - 1).transpose();
+  return L;
 }
 
 }  // namespace airybench
