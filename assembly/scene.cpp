@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <sstream>
 
@@ -110,40 +111,77 @@ void check_material(const Scene& scene, const std::string& prefix, const Materia
          "(allowed: between -1 and 0.5, both excluded)");
 }
 
-}  // namespace
-
-void check_values(const Scene& scene) {
-  check_material(scene, "", scene.material);
-  for (const auto& [body, material] : scene.materials)
-    check_material(scene, "materials: " + body + ": ", material);
-  for (const Material& material : scene.layer_materials)
-    check_material(scene, "layers: materials: ", material);
-  of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
-  of_scene(scene, "layers", [&] { check_values(scene.layers); });
-  of_scene(scene, "boundary", [&] { check_values(scene.boundary); });
-  if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
-    fail(scene, "friction", scene.friction, "(allowed: >= 0)");
-  if (scene.crown_radius_mm &&
-      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
-    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
-         "(allowed: > 0, or null for a flat wall)");
-  if (!(scene.clearance_mm >= 0) || !std::isfinite(scene.clearance_mm))
-    fail(scene, "clearance_mm", scene.clearance_mm, "(allowed: >= 0)");
-  if (!scene.displacement_mm.allFinite())
-    fail(scene, "displacement_mm", shown(scene.displacement_mm), "(allowed: finite numbers)");
-  if (!scene.body_force_N_per_mm3.allFinite())
-    fail(scene, "body_force_N_per_mm3", shown(scene.body_force_N_per_mm3),
+void check_loads(const Scene& scene, const std::string& prefix, const BoundaryConditions& boundary,
+                 double clearance_mm, const Eigen::Vector2d& displacement_mm,
+                 const Eigen::Vector2d& body_force_N_per_mm3) {
+  of_scene(scene, prefix + "boundary", [&] { check_values(boundary); });
+  if (!(clearance_mm >= 0) || !std::isfinite(clearance_mm))
+    fail(scene, prefix + "clearance_mm", clearance_mm, "(allowed: >= 0)");
+  if (!displacement_mm.allFinite())
+    fail(scene, prefix + "displacement_mm", shown(displacement_mm), "(allowed: finite numbers)");
+  if (!body_force_N_per_mm3.allFinite())
+    fail(scene, prefix + "body_force_N_per_mm3", shown(body_force_N_per_mm3),
          "(allowed: finite numbers)");
 }
 
-Problem pose(const Scene& scene, Mesh given_mesh) {
-  check_values(scene);
-  Mesh mesh = mesh_of(scene, std::move(given_mesh));
-  const std::vector<Face> faces = contact_faces(mesh);
-  check_geometry(scene, mesh, faces);
+// Counted from 1, as the scene file lists them.
+std::string step_prefix(std::size_t k) { return "load_steps: " + std::to_string(k + 1) + ": "; }
 
+void check_steps(const Scene& scene) {
+  if (scene.equal_steps < 1 || scene.equal_steps > most_load_steps)
+    fail(scene, "load_steps", scene.equal_steps,
+         "(allowed: from 1 to " + std::to_string(most_load_steps) + ")");
+  if (scene.equal_steps > 1 && !scene.later_steps.empty())
+    fail(scene, "load_steps", scene.equal_steps, "and a list (allowed: one of them)");
+  for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
+    const LoadStep& step = scene.later_steps[k];
+    check_loads(scene, step_prefix(k), step.boundary, step.clearance_mm.value_or(0),
+                step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
+                step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
+    for (const auto& [label, values] : step.boundary)
+      if (values.support)
+        fail(scene, step_prefix(k) + "boundary: " + label, "support",
+             "(allowed: traction_MPa, pressure_MPa, displacement_mm)");
+  }
+}
+
+void change(Scene& scene, const LoadStep& step) {
+  if (step.displacement_mm) scene.displacement_mm = *step.displacement_mm;
+  if (step.body_force_N_per_mm3) scene.body_force_N_per_mm3 = *step.body_force_N_per_mm3;
+  if (step.clearance_mm) scene.clearance_mm = *step.clearance_mm;
+  for (const auto& [label, values] : step.boundary) {
+    BoundaryValues& own = scene.boundary[label];
+    if (values.traction_MPa || values.pressure_MPa) {
+      own.traction_MPa = values.traction_MPa;
+      own.pressure_MPa = values.pressure_MPa;
+    }
+    if (values.displacement_mm) own.displacement_mm = values.displacement_mm;
+  }
+}
+
+template <typename Value>
+void scale(std::optional<LinearValue<Value>>& value, double part) {
+  if (value)
+    for (Value& at : value->values) at *= part;
+}
+
+// All but the gap.
+Scene part_of(Scene scene, double part) {
+  scene.displacement_mm *= part;
+  scene.body_force_N_per_mm3 *= part;
+  for (auto& [label, values] : scene.boundary) {
+    scale(values.traction_MPa, part);
+    scale(values.pressure_MPa, part);
+    scale(values.displacement_mm, part);
+  }
+  return scene;
+}
+
+Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
+               const std::vector<Face>& faces) {
   Loads loads;
-  of_scene(scene, "boundary", [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
+  of_scene(scene, prefix + "boundary",
+           [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
   if (scene.crown_radius_mm || scene.clearance_mm > 0) {
     const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;
@@ -155,8 +193,59 @@ Problem pose(const Scene& scene, Mesh given_mesh) {
       return clearance + (x - axis[static_cast<std::size_t>(row)]).squaredNorm() * curvature / 2;
     };
   }
+  return loads;
+}
+
+// Of every step, the first included.
+std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh,
+                                  const std::vector<Face>& faces) {
+  std::vector<Loads> steps;
+  for (int k = 1; k < scene.equal_steps; ++k)
+    steps.push_back(
+        loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh, faces));
+  steps.push_back(loads_of(scene, "", mesh, faces));
+  Scene at = scene;
+  for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
+    change(at, scene.later_steps[k]);
+    steps.push_back(loads_of(at, step_prefix(k), mesh, faces));
+  }
+  return steps;
+}
+
+}  // namespace
+
+void check_values(const Scene& scene) {
+  check_material(scene, "", scene.material);
+  for (const auto& [body, material] : scene.materials)
+    check_material(scene, "materials: " + body + ": ", material);
+  for (const Material& material : scene.layer_materials)
+    check_material(scene, "layers: materials: ", material);
+  of_scene(scene, "mesh", [&] { check_values(scene.mesh); });
+  of_scene(scene, "layers", [&] { check_values(scene.layers); });
+  if (!(scene.friction >= 0) || !std::isfinite(scene.friction))
+    fail(scene, "friction", scene.friction, "(allowed: >= 0)");
+  if (scene.crown_radius_mm &&
+      (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
+    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
+         "(allowed: > 0, or null for a flat wall)");
+  check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
+              scene.body_force_N_per_mm3);
+  check_steps(scene);
+}
+
+Problem pose(const Scene& scene, Mesh given_mesh) {
+  check_values(scene);
+  Mesh mesh = mesh_of(scene, std::move(given_mesh));
+  const std::vector<Face> faces = contact_faces(mesh);
+  check_geometry(scene, mesh, faces);
+
+  std::vector<Loads> steps = loads_of_steps(scene, mesh, faces);
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
-  return make_problem(std::move(mesh), std::move(by_body), std::move(loads), scene.friction);
+  Problem problem =
+      make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), scene.friction);
+  problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
+                             std::make_move_iterator(steps.end()));
+  return problem;
 }
 
 }  // namespace airybench

@@ -15,6 +15,13 @@
 
 namespace airybench {
 
+// What a load step changes of the one before; the rest stays.
+struct LoadStep {
+  std::optional<Eigen::Vector2d> displacement_mm, body_force_N_per_mm3;
+  std::optional<double> clearance_mm;
+  BoundaryConditions boundary;  // of these groups; supports stay
+};
+
 struct Scene {
   std::string name = "default";
   std::string source = "default scene";  // where it comes from; for messages
@@ -40,7 +47,13 @@ struct Scene {
   BoundaryConditions boundary;                      // … but groups with a value of their own
   double clearance_mm = 0;                          // added to the gap everywhere, ≥ 0
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
+
+  // A path: displacements, tractions and body force in so many equal parts (the gap stays), or from
+  // the loads above through further steps. Not both.
+  int equal_steps = 1;
+  std::vector<LoadStep> later_steps;
 };
+inline constexpr int most_load_steps = 1000;
 
 // A scene that cannot be posed on a mesh. what(): one line with scene, key, value, what is allowed.
 struct SceneError : InputError {
@@ -52,7 +65,8 @@ void check_values(const Scene& scene);
 
 // Transforms the mesh and poses the scene on it. g0 = clearance + d²/(2R) on the contact boundary,
 // where d is the distance from the middle of the contact face that the edge belongs to (the
-// midpoint of the face's two ends: the tooth's axis). Throws SceneError.
+// midpoint of the face's two ends: the tooth's axis). Throws SceneError. Load steps after the first
+// are Problem::later_steps.
 Problem pose(const Scene& scene, Mesh mesh);
 
 }  // namespace airybench

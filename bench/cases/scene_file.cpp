@@ -102,6 +102,38 @@ void read_layers(const SceneReader& reader, const std::string& key, const Json& 
     reader.fail(key, json, "either count or interfaces_mm");
 }
 
+LoadStep read_load_step(const SceneReader& reader, const std::string& prefix, const Json& json) {
+  LoadStep step;
+  const auto vector = [&](std::optional<Eigen::Vector2d>& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.vector(k, v); };
+  };
+  reader.object(prefix, json,
+                {{"displacement_mm", vector(step.displacement_mm)},
+                 {"body_force_N_per_mm3", vector(step.body_force_N_per_mm3)},
+                 {"clearance_mm",
+                  [&](const auto& k, const Json& v) { step.clearance_mm = reader.number(k, v); }},
+                 {"boundary", [&](const auto& k, const Json& v) {
+                    step.boundary = read_boundary(reader, k, v);
+                  }}});
+  return step;
+}
+
+void read_load_steps(const SceneReader& reader, const std::string& key, const Json& json,
+                     Scene& scene) {
+  if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
+    scene.equal_steps = json.get<int>();
+    return;
+  }
+  if (!json.is_array() || json.empty() || json.size() >= most_load_steps)
+    reader.fail(key, json,
+                fmt::format("a whole number from 1 to {}, or a list of 1 to {} steps",
+                            most_load_steps, most_load_steps - 1)
+                    .c_str());
+  for (const Json& step : json)
+    scene.later_steps.push_back(
+        read_load_step(reader, fmt::format("{}: {}: ", key, scene.later_steps.size() + 1), step));
+}
+
 Scene from_json(const Json& json, const std::string& file) {
   const SceneReader reader(file);
   Scene scene;
@@ -143,6 +175,7 @@ Scene from_json(const Json& json, const std::string& file) {
        {"clearance_mm", number(scene.clearance_mm)},
        {"displacement_mm", vector(scene.displacement_mm)},
        {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
+       {"load_steps", [&](const auto& k, const Json& v) { read_load_steps(reader, k, v, scene); }},
        {"materials", [&](const auto&, const Json& v) { materials = v; }},
        {"boundary",
         [&](const auto& k, const Json& v) { scene.boundary = read_boundary(reader, k, v); }},

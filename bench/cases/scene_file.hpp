@@ -5,6 +5,7 @@
 //     "crown_radius_mm": 400, "clearance_mm": 0, "displacement_mm": [0.02, 0.006],
 //     "body_force_N_per_mm3": [0, 0],
 //     "boundary": { "force": { "pressure_MPa": 3 } },  (scene_boundary.hpp)
+//     "load_steps": [ { "displacement_mm": [0.02, 0] }, { "clearance_mm": 0.001 } ],  or a number
 //     "materials": { "a body's name": { "young_MPa": 70000, "poisson": 0.33 } },
 //     "mesh": { "refine": 1, "grade": { "at_mm": [10, 0], "ratio": 100 },
 //               "slivers": { "aspect": 1000, "count": 5 }, "scale": 1, "stretch": [1, 1],

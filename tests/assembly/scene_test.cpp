@@ -35,6 +35,53 @@ TEST(Scene, CrownIsCentredOnEachToothsAxis) {
   }
 }
 
+TEST(Scene, EachLoadStepKeepsWhatItDoesNotSay) {
+  Scene scene;
+  scene.displacement_mm = {0.02, 0};
+  scene.boundary["force"].traction_MPa = LinearValue<Eigen::Vector2d>{{{{1, 2}, {1, 2}}}};
+  scene.later_steps.resize(3);
+  scene.later_steps[0].displacement_mm = Eigen::Vector2d(0.03, 0.01);
+  scene.later_steps[1].boundary["force"].pressure_MPa = LinearValue<double>{{3, 3}};
+  scene.later_steps[1].clearance_mm = 0.5;
+  scene.later_steps[2].body_force_N_per_mm3 = Eigen::Vector2d(4, 5);
+  const Problem problem = pose(scene, small_tooth(4, 4));
+  ASSERT_EQ(problem.later_steps.size(), 3u);
+  const auto row_of = [&](BoundaryRole role) {
+    int row = 0;
+    while (problem.mesh.boundary[row].role != role) ++row;
+    return row;
+  };
+  const int moved = row_of(BoundaryRole::displacement), pulled = row_of(BoundaryRole::force),
+            touching = row_of(BoundaryRole::contact);
+  const Eigen::Vector2d x(10, 0), n(0, 1), traction(1, 2), pressure(0, -3), there(0.03, 0.01);
+  for (const Loads& step : problem.later_steps) EXPECT_EQ(step.displacement_mm(x, moved), there);
+  EXPECT_EQ(problem.later_steps[0].traction_MPa(x, n, pulled), traction);
+  EXPECT_EQ(problem.later_steps[1].traction_MPa(x, n, pulled), pressure);
+  EXPECT_EQ(problem.later_steps[2].traction_MPa(x, n, pulled), pressure);
+  EXPECT_EQ(problem.later_steps[0].gap_mm(x, touching), problem.loads.gap_mm(x, touching));
+  EXPECT_EQ(problem.later_steps[2].gap_mm(x, touching), problem.loads.gap_mm(x, touching) + 0.5);
+  EXPECT_FALSE(problem.later_steps[1].has_body_force());
+  EXPECT_EQ(problem.later_steps[2].body_force_N_per_mm3, Eigen::Vector2d(4, 5));
+}
+
+TEST(Scene, EqualStepsEndWhereTheSceneIs) {
+  Scene scene;
+  scene.body_force_N_per_mm3 = {3, 0};
+  scene.boundary["force"].pressure_MPa = LinearValue<double>{{6, 6}};
+  scene.equal_steps = 3;
+  const Problem problem = pose(scene, small_tooth(4, 4));
+  ASSERT_EQ(problem.later_steps.size(), 2u);
+  EXPECT_EQ(problem.loads.body_force_N_per_mm3, Eigen::Vector2d(1, 0));
+  EXPECT_EQ(problem.later_steps[0].body_force_N_per_mm3, Eigen::Vector2d(2, 0));
+  EXPECT_EQ(problem.later_steps[1].body_force_N_per_mm3, Eigen::Vector2d(3, 0));
+  int row = 0;
+  while (problem.mesh.boundary[row].role != BoundaryRole::force) ++row;
+  EXPECT_NEAR(problem.later_steps[0].traction_MPa({0, 0}, {0, 1}, row).y(), -4, 1e-15);
+  row = 0;
+  while (problem.mesh.boundary[row].role != BoundaryRole::contact) ++row;
+  EXPECT_EQ(problem.loads.gap_mm({10, 2}, row), problem.later_steps[1].gap_mm({10, 2}, row));
+}
+
 TEST(Scene, GeometryThatTheMeshHasIsAccepted) {
   Scene scene;
   scene.root_half_height_mm = 5;

@@ -127,6 +127,43 @@ TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
             "boundary: contact:tip: pressure_MPa (allowed: on a force boundary)");
 }
 
+TEST_F(SceneFile, LoadStepsAreRead) {
+  EXPECT_EQ(read("{}").equal_steps, 1);
+  EXPECT_EQ(read(R"({"load_steps": 20})").equal_steps, 20);
+  const Scene scene = read(R"({ "load_steps": [
+    { "displacement_mm": [0.02, 0], "body_force_N_per_mm3": [1, 2] },
+    { "clearance_mm": 0.001, "boundary": { "force": { "pressure_MPa": 3 } } } ] })");
+  ASSERT_EQ(scene.later_steps.size(), 2u);
+  EXPECT_EQ(scene.later_steps[0].displacement_mm, Eigen::Vector2d(0.02, 0));
+  EXPECT_EQ(scene.later_steps[0].body_force_N_per_mm3, Eigen::Vector2d(1, 2));
+  EXPECT_FALSE(scene.later_steps[0].clearance_mm);
+  EXPECT_EQ(scene.later_steps[1].clearance_mm, 0.001);
+  EXPECT_FALSE(scene.later_steps[1].displacement_mm);
+  EXPECT_EQ(scene.later_steps[1].boundary.at("force").pressure_MPa.value().at({0, 0}), 3);
+}
+
+TEST_F(SceneFile, ComplaintsOfLoadSteps) {
+  const std::string allowed =
+      " (allowed: a whole number from 1 to 1000, or a list of 1 to 999 steps)";
+  for (const char* wrong : {"0", "1001", "1.5", "[]", "{}", "true", "null"})
+    EXPECT_EQ(complaint(std::string("{\"load_steps\": ") + wrong + "}"),
+              std::string("load_steps: ") + wrong + allowed);
+  EXPECT_EQ(complaint(R"({"load_steps": [3]})"), "load_steps: 1: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"friction": 1}]})"),
+            "load_steps: 2: friction: unknown key (allowed: displacement_mm, "
+            "body_force_N_per_mm3, clearance_mm, boundary)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"clearance_mm": -1}]})"),
+            "load_steps: 2: clearance_mm: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"displacement_mm": 3}]})"),
+            "load_steps: 1: displacement_mm: 3 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})"),
+            "load_steps: 1: boundary: displacement: support (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm)");
+  EXPECT_EQ(
+      complaint(R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})"),
+      "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)");
+}
+
 TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
   EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
   EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
