@@ -1,5 +1,7 @@
 #include "bench/cases/blank_record.hpp"
 
+#include <iterator>
+
 #include "bench/cases/stages.hpp"
 
 namespace airybench {
@@ -40,6 +42,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   record.n_phi = sizes.n_phi;
   record.n_f = sizes.n_f;
   record.n_c = sizes.n_c;
+  record.load_steps = 1 + std::ssize(problem.later_steps);
   record.stages_left_out = Json::object();
   for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {
     if (decision.run)

@@ -23,37 +23,12 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
-std::optional<std::int64_t> if_probed(std::int64_t bytes) {
-  return heap::is_active() ? std::optional(bytes) : std::nullopt;
-}
-
 // Whose displacements the discretisation error of the method's record is made with.
 std::optional<Workbench::Bound> bound_for(const Method& method, const Options& options) {
   if (options.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
   if (!options.adapt.empty() || options.mean_fields || options.study == Study::adapted)
     return Workbench::Bound::recovery;
   return {};
-}
-
-const char* name_of(Workbench::Bound bound) {
-  return bound == Workbench::Bound::p2 ? "P2" : "recovery";
-}
-
-AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
-                                     int repetitions) {
-  AssembledBlocks blocks;
-  for (int i = 0; i < repetitions; ++i) {
-    blocks.system.reset();
-    heap::reset_peak();
-    const std::int64_t before = heap::live_bytes();
-    const auto start = std::chrono::steady_clock::now();
-    const OwnerScope scope(MemoryOwner::blocks);
-    blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
-    blocks.samples_s.push_back(seconds_since(start));
-    blocks.heap_bytes = if_probed(heap::live_bytes() - before);
-    blocks.peak_heap_bytes = if_probed(heap::peak_bytes() - before);
-  }
-  return blocks;
 }
 
 }  // namespace
@@ -89,36 +64,24 @@ const AssembledBlocks& Workbench::blocks(Blocks which) {
 
 double Workbench::reference_error_at_most() const { return options_.target_error / 10; }
 
-const Reference* Workbench::reference() {
-  if (!reference_ && no_reference_.empty()) {
+const Reference* Workbench::reference(int step) {
+  if (references_.empty() && no_reference_.empty()) {
     const ActivityScope scope(board_, Activity::reference);
     try {
-      const DualSystem system = assemble(problem_, Blocks::contact_points);
-      reference_ = compute_reference(system);
-      Solution as_solution;
-      as_solution.F_C = reference_->F_C;
-      as_solution.stress = reference_->stress;
-      const double residual = verify(system, as_solution, nullptr).equilibrium_residual;
-      const double at_most = reference_error_at_most();
-      if (!(residual <= at_most && reference_->error_estimate <= at_most)) {
-        no_reference_ = fmt::format(
-            "no reference: by its own estimate its error is {:.1e}, its equilibrium residual "
-            "{:.1e}",
-            reference_->error_estimate, residual);
-        reference_.reset();
-      }
-    } catch (const Breakdown& breakdown) {
-      no_reference_ = breakdown.what();
+      ReferencePath path = references_along(problem_, reference_error_at_most());
+      references_ = std::move(path.steps);
+      no_reference_ = std::move(path.missing);
     } catch (const std::bad_alloc&) {
       no_reference_ = "no reference: out of memory";
     }
   }
-  return reference_ ? &*reference_ : nullptr;
+  return references_.empty() ? nullptr : &references_[static_cast<std::size_t>(step)];
 }
 
 const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
   const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && reference() != nullptr && left_out_.discretisation.empty())
+  if (is_new && problem_->later_steps.empty() && reference() != nullptr &&
+      left_out_.discretisation.empty())
     found->second = compute_discretisation(bound);
   return found->second ? &*found->second : nullptr;
 }
@@ -132,7 +95,7 @@ std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound
   Discretisation result;
   if (bound == Bound::p2) {
     result.u = own.displacement;
-    result.error = constitutive_error(system, reference_->stress, reference_->F_C, result.u);
+    result.error = constitutive_error(system, reference()->stress, reference()->F_C, result.u);
     return result;
   }
   result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
@@ -145,6 +108,7 @@ std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 Activity what) {
   const bool histories = what == Activity::detail_run;
+  if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
   RunControl control;
   control.deadline = Deadline::after(options_.timeout_s);
@@ -162,18 +126,26 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   const std::int64_t limit_base = heap::live_bytes() - of_blocks;
   std::optional<InstructionCounter> counter;
   if (what == Activity::memory_run) counter.emplace();
-  const auto start = std::chrono::steady_clock::now();
   Run result;
+  VisitStep visit;
+  if (histories)
+    visit = [&](int step, const DualSystem& posed, const Solution& answer) {
+      if (!answer.stress.empty()) result.judged.push_back(judged(step, posed, answer));
+    };
+  double watched_s = 0;
+  const auto start = std::chrono::steady_clock::now();
   bool refused = false;
   try {
     std::optional<heap::Limit> limit;
     if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
-    result.solution = run(choice.solve, *blocks.system, control);
+    result.solution = what == Activity::tuning
+                          ? run(choice.solve, *blocks.system, control)
+                          : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
     refused = limit && limit->exceeded();
   } catch (const std::bad_alloc&) {  // so little that not even a message could be written
     refused = true;
   }
-  result.time_s = seconds_since(start);
+  result.time_s = seconds_since(start) - watched_s;
   if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
@@ -229,7 +201,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
   if (!run.solution.stress.empty() && reference() != nullptr) {
     verify_run(blocks, run);
-    attempt["error"] = worst_measure(*run.verification).value;
+    attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].verification).value;
   }
   record.attempts.push_back(std::move(attempt));
 }
@@ -264,20 +236,24 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
   }
 }
 
-void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (run.verification) return;
+JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
-  run.verification = run.solution.displacement.cols() > 0
-                         ? verify_displacement(*blocks.system, run.solution)
-                         : verify(*blocks.system, run.solution, reference());
+  return {solution.status, solution.displacement.cols() > 0
+                               ? verify_displacement(system, solution)
+                               : verify(system, solution, reference(step))};
+}
+
+void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
+  if (run.judged.empty()) run.judged.push_back(judged(0, *blocks.system, run.solution));
 }
 
 std::optional<Verification> Workbench::verify_as_other_solution(const AssembledBlocks& blocks,
                                                                 const Run& run) {
-  const Verification& v = *run.verification;
-  // Only where the law is met with the reference's D and G, but by other forces.
-  if (!v.friction_coupling || !(std::max(v.natural_map_residual.value_or(0),
-                                         v.equilibrium_residual) <= options_.target_error))
+  const Verification& v = run.judged.back().verification;
+  // Only where the law is met with the reference's D and G, but by other forces; not of a path.
+  if (run.judged.size() > 1 || !v.friction_coupling ||
+      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual) <=
+        options_.target_error))
     return {};
   try {
     const ActivityScope scope(board_, Activity::verification);
@@ -293,10 +269,11 @@ std::optional<Verification> Workbench::verify_as_other_solution(const AssembledB
 
 void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const Run& run,
                       Record& record) {
-  const Verification& v = *run.verification;
+  const Verification& v = run.judged.back().verification;
   note(v, record);
   if (record.status != Status::ok) return;
-  const WorstMeasure worst = worst_measure(v);
+  const std::size_t at = worst_step(run.judged);
+  const WorstMeasure worst = worst_measure(run.judged[at].verification);
   if (!(worst.value <= options_.target_error)) {
     if (const auto other = verify_as_other_solution(blocks, run)) {
       note(*other, record);
@@ -308,8 +285,9 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
       return;
     }
     record.status = Status::inaccurate;
-    record.status_reason = fmt::format("{} {:.2e} is above the target {:.0e}", worst.name,
-                                       worst.value, options_.target_error);
+    record.status_reason =
+        fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
+                    worst.name, worst.value, options_.target_error);
   } else if (!v.error_stress && !method.in_displacements) {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
@@ -330,7 +308,7 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
   if (record.other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
   } else {
-    note(known->error, name_of(*bound), record);
+    note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
     if (known->intervals) note(*known->intervals, record);
   }
   if (fields.empty() || !known->error.flaw.empty()) return;
@@ -374,6 +352,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     if (solution.done_fraction.value_or(0) > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
+  if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
@@ -381,7 +360,9 @@ Workbench::Examination Workbench::examine(const Method& method,
       write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
     note_discretisation(method, solution, fields, record);
   }
-  const bool once = run.time_s > options_.long_case_s || options_.study == Study::stability;
+  // The detail run of a path judges between its steps, which takes memory.
+  const bool once = problem_->later_steps.empty() &&
+                    (run.time_s > options_.long_case_s || options_.study == Study::stability);
   if (once && is_measured(record)) {
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);

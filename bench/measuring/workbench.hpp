@@ -14,6 +14,8 @@
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
 #include "bench/measuring/activity_board.hpp"
+#include "bench/measuring/assembled_blocks.hpp"
+#include "bench/measuring/load_step_runs.hpp"
 #include "bench/measuring/memory_split.hpp"
 #include "bench/measuring/timed_run.hpp"
 #include "bench/records/record.hpp"
@@ -25,13 +27,6 @@ namespace airybench {
 struct LeftOut {
   std::map<Blocks, std::string> blocks;
   std::string reference, discretisation;
-};
-
-struct AssembledBlocks {
-  std::unique_ptr<const DualSystem> system;
-  std::vector<double> samples_s;
-  std::optional<std::int64_t> heap_bytes;       // live after assembly
-  std::optional<std::int64_t> peak_heap_bytes;  // highest during it
 };
 
 class Workbench {
@@ -71,11 +66,13 @@ class Workbench {
     double time_s = 0;
     std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes, instructions;
     std::optional<MemorySplit> memory;
-    std::optional<Verification> verification;  // where it has been asked for
+    // Where it has been asked for; of a path every step, as far as it went.
+    std::vector<JudgedStep> judged;
   };
   const AssembledBlocks& blocks(Blocks which);
   double reference_error_at_most() const;
-  const Reference* reference();  // null when there is none; no_reference_ says why
+  // Null when there is none; no_reference_ says why.
+  const Reference* reference(int step = 0);
   struct Discretisation {
     ConstitutiveError error;
     DisplacementField u;
@@ -90,6 +87,7 @@ class Workbench {
   Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
               Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
+  JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
@@ -106,7 +104,7 @@ class Workbench {
   LeftOut left_out_;
   ActivityBoard* board_ = nullptr;
   std::map<Blocks, AssembledBlocks> blocks_;
-  std::optional<Reference> reference_;
+  std::vector<Reference> references_;  // of all steps
   std::string no_reference_;
   std::map<Bound, std::optional<Discretisation>> discretisation_;
 };

@@ -86,6 +86,9 @@ struct grid {  // list of {r, rho, iterations, outcome}
 struct contact_ends {  // list of {face, from, to, x_mm, y_mm, low_mm, high_mm}
   using Type = Json;
 };
+struct steps {  // list of {claimed_status, error, resultants, numbers of contact points}
+  using Type = Json;
+};
 struct attempts {  // list of {tolerance, claimed_status[, error_estimate][, error]}
   using Type = Json;
 };

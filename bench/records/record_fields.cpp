@@ -195,6 +195,15 @@ bool is_contact_end(const Json& end) {
          has(end, "low_mm", is_number_or_null) && has(end, "high_mm", is_number_or_null);
 }
 
+bool is_count_or_null(const Json& value) { return value.is_null() || is_count(value); }
+bool is_load_step(const Json& step) {
+  return has(step, "claimed_status", is_text) && has(step, "error", is_number_or_null) &&
+         has(step, "normal_resultant_N", is_number_or_null) &&
+         has(step, "tangential_resultant_N", is_number_or_null) &&
+         has(step, "n_open", is_count_or_null) && has(step, "n_stick", is_count_or_null) &&
+         has(step, "n_slip", is_count_or_null);
+}
+
 void read_shaped(const Json& value, const Place& at, Shape shape, const char* allowed, Json& json) {
   if (!value.is_null() && !shape(value)) at.fail(value, allowed);
   json = value;
@@ -224,6 +233,12 @@ void read(field_kind::grid, const Json& value, const Place& at, Json& json) {
 void read(field_kind::contact_ends, const Json& value, const Place& at, Json& json) {
   read_shaped(value, at, is_list_of<is_contact_end>,
               "a list of {face, from, to, x_mm, y_mm, low_mm, high_mm}, null", json);
+}
+void read(field_kind::steps, const Json& value, const Place& at, Json& json) {
+  read_shaped(value, at, is_list_of<is_load_step>,
+              "a list of {claimed_status, error, normal_resultant_N, tangential_resultant_N, "
+              "n_open, n_stick, n_slip}, null",
+              json);
 }
 void read(field_kind::attempts, const Json& value, const Place& at, Json& json) {
   read_shaped(value, at, is_list_of<is_attempt>,

@@ -55,7 +55,8 @@ void summarise_load_cases(Record& r) {
       if (const auto found = r.stage_samples[run].find(stage); found != r.stage_samples[run].end())
         sum += found->second;
     once.push_back(sum);
-    per_load.push_back(std::max(0.0, r.samples_s[run] - sum));
+    per_load.push_back(std::max(0.0, r.samples_s[run] - sum) /
+                       static_cast<double>(r.load_steps.value_or(1)));
   }
   r.time_once_s = median_of(once);
   r.time_per_load_s = median_of(per_load);

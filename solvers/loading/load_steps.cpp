@@ -53,13 +53,13 @@ std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const So
   return slid;
 }
 
-Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
-                          const RunControl& control, const VisitStep& visit) {
+Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
+                          const VisitStep& visit) {
+  const std::shared_ptr<const Problem> first = system.problem;
   RunControl keeping = control;
   keeping.keep_body = !first->later_steps.empty();
-  DualSystem system = assemble(first, method.blocks);
-  Solution answer = run(method, system, keeping);
-  const Solve again = answer.solve_again ? answer.solve_again : method.solve;
+  Solution answer = run(solve, system, keeping);
+  const Solve again = answer.solve_again ? answer.solve_again : solve;
   answer.solve_again = nullptr;  // `again` has the body
   if (visit) visit(0, system, answer);
   for (std::size_t k = 0; k < first->later_steps.size() && has_answer(answer.status); ++k) {
@@ -70,6 +70,12 @@ Solution solve_load_steps(const Method& method, const std::shared_ptr<const Prob
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }
   return answer;
+}
+
+Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
+                          const RunControl& control, const VisitStep& visit) {
+  DualSystem system = assemble(first, method.blocks);
+  return solve_load_steps(method.solve, system, control, visit);
 }
 
 }  // namespace airybench

@@ -24,7 +24,9 @@ std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const So
 using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
 
 // Solves a problem and its later steps, and shows each. Ends early at a step that has no answer;
-// returns the last one solved.
+// returns the last one solved, whose load case the system then has.
+Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
+                          const VisitStep& visit = {});
 Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
                           const RunControl& control, const VisitStep& visit = {});
 

@@ -1,0 +1,49 @@
+// A case with load steps: its whole path is one solve, and every step is judged as a problem of its
+// own. A case without is a path of one step.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "bench/judging/reference.hpp"
+#include "bench/judging/verifier.hpp"
+#include "bench/records/json.hpp"
+#include "solvers/loading/load_steps.hpp"
+
+namespace airybench {
+
+inline int count_of_steps(const Problem& problem) {
+  return 1 + static_cast<int>(problem.later_steps.size());
+}
+
+// The references of all steps, each with the slip of those before it: errors against them are those
+// of the path up to there.
+struct ReferencePath {
+  std::vector<Reference> steps;  // all of them, or none …
+  std::string missing;           // … and why
+};
+// error_at_most: of every reference, by its own estimate.
+ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most);
+
+struct JudgedStep {
+  Status claimed_status;
+  Verification verification;
+};
+
+// The answer of the last step, with the times and iterations of all, the largest storage and error
+// estimate, and the status of the step that fares worst. watched_s: what visiting took; it is part
+// of no stage's time.
+Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
+                    const VisitStep& visit, double& watched_s);
+
+// "load step 3 of 20: ", or nothing where there is one only.
+std::string step_prefix(std::size_t step, const Problem& first);
+
+// The step whose worst measure is largest, a NaN above all; steps: some.
+std::size_t worst_step(const std::vector<JudgedStep>& steps);
+
+// Record::steps.
+Json steps_of(const std::vector<JudgedStep>& steps);
+
+}  // namespace airybench
