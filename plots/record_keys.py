@@ -123,6 +123,9 @@ class Row:
     repetitions: int = key(COUNT, needed=True)
     time_s: float | None = key(POSITIVE, needed=True)
     time_mad_s: float | None = key(NOT_NEGATIVE)
+    load_steps: int | None = key(COUNT)
+    time_once_s: float | None = key(NOT_NEGATIVE)     # of time_s, for the body …
+    time_per_load_s: float | None = key(NOT_NEGATIVE)  # … and for each load step
     assembly_s: float | None = key(NOT_NEGATIVE)
     stage_contact_s: float | None = key(NOT_NEGATIVE)
     stage_check_s: float | None = key(NOT_NEGATIVE)
@@ -148,7 +151,7 @@ class Row:
     condition_estimate: float | None = key(NOT_NEGATIVE)  # of what the method factorises
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability", "contact", "adapted"), may_be_empty=True))
+    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps"), may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)

@@ -62,6 +62,8 @@ std::string name_of(Study study) {
       return "contact";
     case Study::adapted:
       return "adapted";
+    case Study::load_steps:
+      return "load-steps";
     default:
       return "";
   }
@@ -123,6 +125,8 @@ std::string default_methods(Study study) {
     return "SDTIC3,SDTIC6,SSKY,SYMMLQ:FLIC3,SYMMLQ:SSOR1.0,3STEPCG3,3STEPCG6,3STEPCG:FLIC3,"
            "3STEPCG:SSOR1.0,3STEPD,3STEPD:REFINED,ALM:r=20,rho=20,BLIND,BLIND:SCHUR,"
            "BLIND:SCHUR:REFINED,HYBRID,P2";
+  if (study == Study::load_steps)
+    return "3STEPD:CHOLMOD,ALM:r=20,rho=20,ALM:AUTO,BLIND:SCHUR,HYBRID,P2";
   if (study == Study::none) {
     std::string names;
     for (const Method& method : methods())
@@ -135,7 +139,7 @@ std::string default_methods(Study study) {
 }
 
 std::vector<std::filesystem::path> scenes_of(Study study) {
-  if (study != Study::stability && study != Study::contact) return {};
+  if (study != Study::stability && study != Study::contact && study != Study::load_steps) return {};
   const std::filesystem::path folder = data_folder("scenes/" + name_of(study));
   std::vector<std::filesystem::path> files;
   std::error_code error;

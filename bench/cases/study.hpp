@@ -9,8 +9,9 @@
 //   contact    HYBRID with every solver of the condensed contact problem, under the frictions of
 //              bench/scenes/contact: the same D, to the bit, for all of them
 //   adapted    methods of every kind on meshes that are adapted to three total errors: which of
-//   them
-//              stand edges of a ten-thousandth of the body's size
+//              them stand edges of a ten-thousandth of the body's size
+//   load-steps methods that condense, and that do not, along paths of 1 to 50 equal steps
+//              (bench/scenes/load-steps): what a body costs once, and what every load case
 #pragma once
 
 #include <array>
@@ -23,9 +24,9 @@
 
 namespace airybench {
 
-enum class Study { none, error, stability, contact, adapted };
-inline constexpr std::array<Study, 4> all_studies = {Study::error, Study::stability, Study::contact,
-                                                     Study::adapted};
+enum class Study { none, error, stability, contact, adapted, load_steps };
+inline constexpr std::array<Study, 5> all_studies = {Study::error, Study::stability, Study::contact,
+                                                     Study::adapted, Study::load_steps};
 // Its records have the condition number of what the method factorises.
 constexpr bool asks_for_condition(Study study) {
   return study == Study::stability || study == Study::adapted;

@@ -258,6 +258,10 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0..Mesh7";
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
   }
+  if (options.study == Study::load_steps) {
+    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh3";
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 120;
+  }
   if (options.study == Study::adapted) {
     if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0,Mesh4";
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "assembly/scene.hpp"
+#include "bench/cases/scene_file.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "bench/output/record_files.hpp"
 #include "bench/records/record_reader.hpp"
@@ -15,6 +16,7 @@
 #include "bench/running/runner.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::study_test {
@@ -98,6 +100,14 @@ TEST(Study, NamesOfCasesAreUnique) {
 TEST(Study, DefaultMethodsCanBeSelected) {
   for (const Study study : {Study::none, Study::error, Study::stability})
     EXPECT_GE(select_methods(default_methods(study)).size(), 7u);
+}
+
+TEST(Study, LoadStepsGoByTheScenes) {
+  std::vector<std::size_t> steps;
+  for (const std::filesystem::path& file : scenes_of(Study::load_steps))
+    steps.push_back(1 + pose(read_scene(file), testing::small_tooth(4, 4)).later_steps.size());
+  EXPECT_EQ(steps, (std::vector<std::size_t>{1, 2, 5, 10, 20, 50}));
+  EXPECT_EQ(select_methods(default_methods(Study::load_steps)).size(), 6u);
 }
 
 // All solvers of the contact study find the same forces, and say who they are.

@@ -209,7 +209,9 @@ TEST_P(LeanScenes, SaveAtLeastTheBlocksThatAreNotBuilt) {
     EXPECT_GE(saved(no_contact), numbers(n_c * n_c));
   }
   if (three_step) {
-    EXPECT_GE(saved(no_contact), numbers(n_c * n_c + 2 * n_f * n_c + (keeps_X ? n * n_c : 0)));
+    // Refined, it has its peak without contact in another stage, and D's part does not show.
+    const std::int64_t D = method.name.ends_with(":REFINED") ? 0 : n_c * n_c;
+    EXPECT_GE(saved(no_contact), numbers(D + 2 * n_f * n_c + (keeps_X ? n * n_c : 0)));
     EXPECT_GE(saved(no_force), numbers(n_f * n_f + 2 * n_f * n_c + (keeps_X ? n * n_f : 0)));
   }
   EXPECT_GE(saved(no_body_force), numbers(with.system.F.size() + with.system.F0.size()));
