@@ -130,8 +130,8 @@ Eigen::Matrix<Scalar, 36, dofs> hct_flexibility_root(
     const Eigen::Matrix<Scalar, 27, dofs>& stress, std::type_identity_t<Scalar> area_mm2,
     const Eigen::Matrix3<Data<Scalar>>& compliance) {
   using std::sqrt;
-  // With compliance = RᵀR, M stacks √(a/12) R σ for the sum and the
-  // three corner values of every third.
+  // With compliance = RᵀR, M stacks √(a/12) R σ for the sum and the three corner values of every
+  // third.
   const SmallCholesky<Scalar, 3> cholesky(compliance.template cast<Scalar>());
   const Eigen::Matrix3<Scalar> weight = cholesky.L().transpose() * sqrt(area_mm2 / Scalar(36));
   Eigen::Matrix<Scalar, 36, dofs> m;

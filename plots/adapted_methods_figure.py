@@ -1,8 +1,6 @@
 """Methods on adapted meshes: a cell per case with its outcome, time, error and condition number."""
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
@@ -28,15 +26,8 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """CSV."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for own in by_mesh(rows).values():
-        for row in sorted(own, key=parts.order):
-            values = [getattr(row, column) for column in COLUMNS]
-            writer.writerow(["" if value is None else value for value in values])
-    return text.getvalue()
+    return parts.csv_of([row for own in by_mesh(rows).values()
+                         for row in sorted(own, key=parts.order)], COLUMNS)
 
 
 def words_of(row: Row) -> tuple[str, str]:

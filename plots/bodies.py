@@ -4,15 +4,12 @@ from __future__ import annotations
 import os
 import re
 from itertools import chain
-from typing import TYPE_CHECKING
 
 import pandas as pd
 
 from paper_sizes import BODIES, SIZES, catalogue_mesh
+from record_keys import Row
 from selection import by_body
-
-if TYPE_CHECKING:
-    from records import Row
 
 MEASURES = ["area_mm2", "contact_length_mm", "width_mm", "height_mm"]
 AGREE = 0.02  # relative: a curved boundary is cut by its edges

@@ -1,8 +1,6 @@
 """Time along a path of loads over the number of its steps: what a body costs once and each step."""
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
@@ -29,15 +27,8 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """CSV."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(COLUMNS)
-    for own in by_mesh(rows).values():
-        for row in sorted(own, key=lambda row: (*parts.order(row), row.load_steps)):
-            values = [getattr(row, column) for column in COLUMNS]
-            writer.writerow(["" if value is None else value for value in values])
-    return text.getvalue()
+    return parts.csv_of([row for own in by_mesh(rows).values() for row in
+                         sorted(own, key=lambda row: (*parts.order(row), row.load_steps))], COLUMNS)
 
 
 def draw(rows: list[Row]) -> Figure | str:

@@ -8,9 +8,8 @@
 // times as fine as the one before. Triangles are cut until none of their parts is expected above a
 // threshold (expected_parts.hpp), which is as high as the goal allows; where that is far off, at so
 // many triangles that equal steps of at most a factor of four lead there, the first one of at most
-// two. What was expected
-// of the last level and what became of it, in triangles and in e², corrects what is expected of the
-// next.
+// two. What was expected of the last level and what became of it, in triangles and in e², corrects
+// what is expected of the next.
 //
 // With a marking share, bulk marking instead: the triangles that hold this share of e². A marked
 // triangle is cut 1 + ⌊log₄(its part / the least marked part)⌋ times: a cut divides the part by

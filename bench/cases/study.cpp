@@ -116,6 +116,21 @@ std::vector<TurnedMethod> error_points(const Method& method) {
   }
 }
 
+std::optional<StudyDefaults> defaults_of(Study study) {
+  switch (study) {
+    case Study::stability:
+      return StudyDefaults{"Mesh0", 60};
+    case Study::contact:
+      return StudyDefaults{"Mesh0..Mesh7", 60};
+    case Study::adapted:
+      return StudyDefaults{"Mesh0,Mesh4", 60};
+    case Study::load_steps:
+      return StudyDefaults{"Mesh3", 120};
+    default:
+      return {};
+  }
+}
+
 std::string default_methods(Study study) {
   if (study == Study::error)
     return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"

@@ -16,6 +16,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,12 @@ std::vector<TurnedMethod> error_points(const Method& method);
 // With every contact solver.
 std::vector<TurnedMethod> contact_points(const Method& method);
 
+// What a study measures, and how long it waits, where it is not told.
+struct StudyDefaults {
+  std::string meshes;
+  double timeout_s;
+};
+std::optional<StudyDefaults> defaults_of(Study study);  // empty: those of any run
 // Names of methods, as --method takes them, that a study runs by default.
 std::string default_methods(Study study);
 

@@ -111,9 +111,9 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--study", study,
                  "error (every method over its accuracy knob: what each digit costs), stability "
                  "(every method on the extreme scenes of bench/scenes/stability), contact (every "
-                 "contact solver on the same condensed problems, bench/scenes/contact) or adapted "
+                 "contact solver on the same condensed problems, bench/scenes/contact), adapted "
                  "(the methods on adapted meshes of tooth and rack: --adapt=1.5%,0.5%,0.15% "
-                 "--levels=last)")
+                 "--levels=last) or load-steps (paths of 1 to 50 steps, bench/scenes/load-steps)")
       ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
@@ -252,25 +252,13 @@ Options parse_options(int argc, const char* const* argv) {
   }
   if (options.study == Study::error && options.stop == Stop::paper)
     throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
-  if (options.study == Study::contact) {
-    if (options.stop == Stop::paper)
-      throw UsageError("--stop=paper: not with --study=contact, whose solvers are not the paper's");
-    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0..Mesh7";
-    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
+  if (options.study == Study::contact && options.stop == Stop::paper)
+    throw UsageError("--stop=paper: not with --study=contact, whose solvers are not the paper's");
+  if (const std::optional<StudyDefaults> defaults = defaults_of(options.study)) {
+    if (app.get_option("--mesh")->count() == 0) options.meshes = defaults->meshes;
+    if (app.get_option("--timeout")->count() == 0) options.timeout_s = defaults->timeout_s;
   }
-  if (options.study == Study::load_steps) {
-    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh3";
-    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 120;
-  }
-  if (options.study == Study::adapted) {
-    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0,Mesh4";
-    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
-  }
-  if (options.study == Study::stability) {
-    if (app.get_option("--mesh")->count() == 0) options.meshes = "Mesh0";
-    if (app.get_option("--timeout")->count() == 0) options.timeout_s = 60;
-    options.repetitions = 1;
-  }
+  if (options.study == Study::stability) options.repetitions = 1;
   return options;
 }
 

@@ -48,11 +48,11 @@ struct ElementMatricesIn {
   }
   // K_e: its lower triangle is read.
   void add(const Unknowns& of_element, const Point& at, const Matrix& K_e) {
-    unknown.push_back(of_element);
-    centre.push_back(at);
-    auto* entry = lower.emplace_back().data();
+    std::array<Scalar, size*(size + 1) / 2> of_lower;
+    auto* entry = of_lower.data();
     for (int j = 0; j < size; ++j)
       for (int i = j; i < size; ++i) *entry++ = K_e(i, j);
+    add(of_element, at, of_lower.data());
   }
   // An unknown by itself.
   void add_diagonal(int of, const Point& at, Scalar stiffness) {

@@ -7,10 +7,14 @@
 #include "solvers/base/anderson_acceleration.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/dense_operators.hpp"
+#include "tests/support/named_scenes.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::accelerated_lagrangian_test {
 namespace {
+
+using testing::named_scenes;
+using testing::NamedScenes;
 
 DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6, 5)) {
   return assemble(std::make_shared<const Problem>(pose(scene, std::move(mesh))));
@@ -25,29 +29,34 @@ double force_error(const Solution& solution, const Solution& reference) {
   return (solution.F_C - reference.F_C).norm() / reference.F_C.norm();
 }
 
-std::vector<std::pair<std::string, Scene>> scenes() {
-  std::vector<std::pair<std::string, Scene>> all(8);
-  all[0].first = "default";
-  all[1].first = "frictionless";
-  all[1].second.friction = 0;
-  all[2].first = "friction 1";
-  all[2].second.friction = 1;
-  all[2].second.displacement_mm = {0.015, 0.02};
-  all[2].second.crown_radius_mm = 200;
-  all[3].first = "friction 3";
-  all[3].second.friction = 3;
-  all[3].second.displacement_mm = {0.01, 0.03};
-  all[3].second.crown_radius_mm = 200;
-  all[4].first = "body force";
-  all[4].second.body_force_N_per_mm3 = {3, -1};
-  all[5].first = "clearance";
-  all[5].second.clearance_mm = 0.005;
-  all[6].first = "flat wall";
-  all[6].second.crown_radius_mm.reset();
-  all[7].first = "layers";
-  all[7].second.layers.count = 3;
-  all[7].second.layer_materials = {{210000, 0.3}, {2100, 0.45}};
-  return all;
+NamedScenes scenes() {
+  return named_scenes({
+      {"default", [](Scene&) {}},
+      {"frictionless", [](Scene& s) { s.friction = 0; }},
+      {"friction 1",
+       [](Scene& s) {
+         s.friction = 1;
+         s.displacement_mm = {0.015, 0.02};
+         s.crown_radius_mm = 200;
+       }},
+      {"friction 3",
+       [](Scene& s) {
+         s.friction = 3;
+         s.displacement_mm = {0.01, 0.03};
+         s.crown_radius_mm = 200;
+       }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
+      {"flat wall", [](Scene& s) { s.crown_radius_mm.reset(); }},
+      {"layers",
+       [](Scene& s) {
+         s.layers.count = 3;
+         s.layer_materials = {{210000, 0.3}, {2100, 0.45}};
+       }},
+  });
 }
 
 TEST(AcceleratedLagrangian, FindsTheReferenceOnEverySceneInFewIterations) {

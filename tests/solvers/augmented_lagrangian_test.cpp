@@ -6,10 +6,14 @@
 
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/named_scenes.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::augmented_lagrangian_test {
 namespace {
+
+using testing::named_scenes;
+using testing::NamedScenes;
 
 DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6, 5)) {
   return assemble(std::make_shared<const Problem>(pose(scene, std::move(mesh))));
@@ -45,21 +49,22 @@ void expect_in_cone(const DualSystem& system, const Eigen::VectorXd& F_C) {
   }
 }
 
-std::vector<std::pair<std::string, Scene>> scenes() {
-  std::vector<std::pair<std::string, Scene>> all(6);
-  all[0].first = "default";
-  all[1].first = "frictionless";
-  all[1].second.friction = 0;
-  all[2].first = "body force";
-  all[2].second.body_force_N_per_mm3 = {3, -1};
-  all[3].first = "frictionless, body force";
-  all[3].second.friction = 0;
-  all[3].second.body_force_N_per_mm3 = {3, -1};
-  all[4].first = "clearance";
-  all[4].second.clearance_mm = 0.005;
-  all[5].first = "high friction";
-  all[5].second.friction = 2;
-  return all;
+NamedScenes scenes() {
+  return named_scenes({
+      {"default", [](Scene&) {}},
+      {"frictionless", [](Scene& s) { s.friction = 0; }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"frictionless, body force",
+       [](Scene& s) {
+         s.friction = 0;
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
+      {"high friction", [](Scene& s) { s.friction = 2; }},
+  });
 }
 
 TEST(AugmentedLagrangian, ConvergesToTheReferenceOnEveryScene) {

@@ -8,6 +8,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
+#include "tests/support/named_scenes.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::kept_body_test {
@@ -16,24 +17,28 @@ void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
 namespace {
 
+using testing::named_scenes;
+using testing::NamedScenes;
+
 std::shared_ptr<const Problem> posed(const Scene& scene, int nx = 6) {
   return std::make_shared<const Problem>(pose(scene, testing::small_tooth(nx, 5)));
 }
 
-std::vector<std::pair<std::string, Scene>> load_cases() {
-  std::vector<std::pair<std::string, Scene>> all(6);
-  all[0].first = "another displacement";
-  all[0].second.displacement_mm = {0.03, -0.01};
-  all[1].first = "body force";
-  all[1].second.body_force_N_per_mm3 = {3, -1};
-  all[2].first = "clearance";
-  all[2].second.clearance_mm = 0.005;
-  all[3].first = "flat wall";
-  all[3].second.crown_radius_mm.reset();
-  all[4].first = "more friction";
-  all[4].second.friction = 0.7;
-  all[5].first = "the first again";
-  return all;
+NamedScenes load_cases() {
+  return named_scenes({
+      {"another displacement",
+       [](Scene& s) {
+         s.displacement_mm = {0.03, -0.01};
+       }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
+      {"flat wall", [](Scene& s) { s.crown_radius_mm.reset(); }},
+      {"more friction", [](Scene& s) { s.friction = 0.7; }},
+      {"the first again", [](Scene&) {}},
+  });
 }
 
 class KeptBody : public ::testing::TestWithParam<Method> {
