@@ -43,8 +43,23 @@ void check_role(const std::string& label, BoundaryRole role, const BoundaryValue
   only(BoundaryRole::force, "pressure_MPa", given.pressure_MPa.has_value());
   only(BoundaryRole::displacement, "displacement_mm", given.displacement_mm.has_value());
   only(BoundaryRole::displacement, "support", given.support.has_value());
+  only(BoundaryRole::contact, "friction", given.contact.friction.has_value());
+  only(BoundaryRole::contact, "clearance_mm", given.contact.clearance_mm.has_value());
+  only(BoundaryRole::contact, "wall", given.contact.wall.has_value());
+  only(BoundaryRole::contact, "face", given.contact.face.has_value());
   if (given.traction_MPa && given.pressure_MPa)
     throw TransformError(label + ": traction_MPa and pressure_MPa (allowed: one of them)");
+}
+
+void check(const std::string& label, const ContactValues& given) {
+  const auto not_negative = [&](const char* key, const std::optional<double>& value) {
+    if (value && (!(*value >= 0) || !std::isfinite(*value)))
+      refuse(label + ": " + key, *value, "(allowed: >= 0)");
+  };
+  not_negative("friction", given.friction);
+  not_negative("clearance_mm", given.clearance_mm);
+  check_curve(label + ": wall", given.wall);
+  check_curve(label + ": face", given.face);
 }
 
 void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
@@ -84,6 +99,7 @@ void check_values(const BoundaryConditions& conditions) {
     check(label + ": traction_MPa", given.traction_MPa);
     check(label + ": pressure_MPa", given.pressure_MPa);
     check(label + ": displacement_mm", given.displacement_mm);
+    check(label, given.contact);
     // A label that is none is no group of the mesh; which are, the mesh will say.
     if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);
   }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "assembly/problem.hpp"
+#include "assembly/wall.hpp"
 
 namespace airybench {
 
@@ -23,6 +24,12 @@ struct LinearValue {
   }
 };
 
+// Of a group of contact edges; what is missing is the scene's (contact_conditions.hpp).
+struct ContactValues {
+  std::optional<double> friction, clearance_mm;
+  std::optional<Wall> wall, face;
+};
+
 struct BoundaryValues {
   // On a force boundary at most one of these; a pressure p is the traction −p n.
   std::optional<LinearValue<Eigen::Vector2d>> traction_MPa;
@@ -31,6 +38,7 @@ struct BoundaryValues {
   std::optional<LinearValue<Eigen::Vector2d>> displacement_mm;
   enum class Support { full, normal };  // normal: a roller, u_n = n·displacement, σ_t = 0
   std::optional<Support> support;
+  ContactValues contact;  // on a contact boundary
 };
 using BoundaryConditions = std::map<std::string, BoundaryValues>;
 

@@ -20,10 +20,9 @@ std::array<double, 3> gap_coefficients(const Problem& problem, int boundary_row)
 
 ControlPoints control_points(const Problem& problem) {
   ControlPoints points;
-  points.law.friction = problem.friction;
-  points.law.components = problem.friction > 0 ? 2 : 1;
+  points.law.components = problem.has_friction() ? 2 : 1;
   const Mesh& mesh = problem.mesh;
-  std::vector<double> gap;              // g0
+  std::vector<double> gap, friction;    // g0, μ
   std::vector<Eigen::Vector2d> motion;  // ρ
   std::vector<double> slid;             // what slip is measured from
   std::optional<PrescribedDisplacement> prescribed;
@@ -33,11 +32,11 @@ ControlPoints control_points(const Problem& problem) {
     if (edge.role != BoundaryRole::contact) continue;
     if (!prescribed) prescribed = prescribed_displacement(problem);
     const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
-    const EdgeFrame frame = edge_frame(a, b);
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
     const std::array<double, 3> gaps = gap_coefficients(problem, row);
     for (int k = 0; k < 3; ++k) {
       if (prescribed->at[nodes[k]]) continue;
+      const EdgeFrame frame = problem.frame_at_node(row, k);
       if (const auto roller = prescribed->normal.find(nodes[k]);
           roller != prescribed->normal.end()) {
         const Eigen::Vector2d& m = roller->second;
@@ -52,6 +51,7 @@ ControlPoints control_points(const Problem& problem) {
             prescribed->u.col(nodes[k]) + problem.motion.at(a + k * (b - a) / 2);
         gap.push_back((gaps[k] - frame.normal.dot(held)) / std::abs(cosine));
         motion.emplace_back(0, 0);
+        friction.push_back(problem.friction_at(row));
         slid.push_back(0);
         continue;
       }
@@ -62,6 +62,7 @@ ControlPoints control_points(const Problem& problem) {
         points.normal.push_back(frame.normal);
         points.on_roller.push_back(false);
         points.law.boundary.push_back(row);
+        friction.push_back(problem.friction_at(row));
         gap.push_back(gaps[k]);
         motion.push_back(problem.motion.at(a + k * (b - a) / 2));  // ρ is linear: its coefficients
         const auto& slid_mm = problem.loads.slid_mm;
@@ -70,10 +71,12 @@ ControlPoints control_points(const Problem& problem) {
         const int p = found->second;
         points.normal[p] = (points.normal[p] + frame.normal).normalized();
         gap[p] = std::min(gap[p], gaps[k]);
+        friction[p] = std::min(friction[p], problem.friction_at(row));
       }
     }
   }
   points.law.count = static_cast<int>(points.node.size());
+  if (points.law.components == 2) points.law.friction = std::move(friction);
   if (problem.has_gap() || std::ranges::any_of(gap, [](double g) { return g != 0; })) {
     const int m = points.law.components;
     points.law.gap.resize(points.law.size());

@@ -25,8 +25,8 @@ inline Eigen::Matrix2d normal_frame(const Eigen::Vector2d& n) {
 }
 
 struct ControlPoints {
-  ContactPoints law;                    // gap: coefficients of g0 − ρ_n, −ρ_t; of g0 at
-                                        // a vertex of two edges the smaller one
+  ContactPoints law;                    // gap: coefficients of g0 − ρ_n, −ρ_t; of g0
+                                        // and μ at a vertex of two edges the smaller one
   std::vector<int> node;                // per point
   std::vector<Eigen::Vector2d> normal;  // outward unit vector; tangent: (−n_y, n_x)
   std::vector<bool> on_roller;          // u along the tangent is prescribed

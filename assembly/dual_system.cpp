@@ -68,23 +68,26 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
 
 ContactPoints contact_points(const Problem& problem) {
   ContactPoints contact;
-  contact.friction = problem.friction;
-  contact.components = problem.friction > 0 ? 2 : 1;
+  contact.components = problem.has_friction() ? 2 : 1;
   std::vector<double> gap;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     const BoundaryEdge& edge = problem.mesh.boundary[row];
     if (edge.role != BoundaryRole::contact) continue;
     contact.boundary.insert(contact.boundary.end(), {row, row});
+    if (contact.components == 2)
+      contact.friction.resize(contact.boundary.size(), problem.friction_at(row));
     if (!problem.has_gap()) continue;
     const auto &a = problem.mesh.vertices[edge.vertices[0]],
                &b = problem.mesh.vertices[edge.vertices[1]];
-    const EdgeFrame frame = edge_frame(a, b);
-    const auto distance = [&](const Eigen::Vector2d& x) {
-      return problem.wall_distance(x, row, frame);
-    };
-    const auto [start, end] = edge_moments(distance(a), distance((a + b) / 2), distance(b));
-    for (const Eigen::Vector2d& moment : {start, end})
+    for (const int end : {0, 1}) {
+      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      const auto distance = [&](const Eigen::Vector2d& x) {
+        return problem.wall_distance(x, row, frame);
+      };
+      const auto [first, second] = edge_moments(distance(a), distance((a + b) / 2), distance(b));
+      const Eigen::Vector2d& moment = end == 0 ? first : second;
       gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
+    }
   }
   contact.count = static_cast<int>(contact.boundary.size());
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
@@ -111,8 +114,9 @@ void build_constraints(DualSystem& system) {
     for (int k = 0; k < 2; ++k) {
       const auto rows = edge.forces.middleRows<2>(2 * k);
       const Eigen::Vector2d f = particular_force(problem, edge, k);
+      const EdgeFrame frame = problem.frame_of_moment(edge.row, k);
       for (int i = 0; i < 2; ++i) {
-        const Eigen::Vector2d& axis = i == 0 ? edge.frame.normal : edge.frame.tangent;
+        const Eigen::Vector2d& axis = i == 0 ? frame.normal : frame.tangent;
         if (condition.component[i] == Known::contact_law)
           on_contact.add(axis.transpose() * rows, edge.dofs, axis.dot(f));
         else if (condition.component[i] == Known::force)

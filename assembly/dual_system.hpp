@@ -32,12 +32,15 @@ using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
 struct ContactPoints {
-  int count = 0;        // two per contact edge: its start, its end
-  int components = 2;   // per point: normal and tangential, or with μ = 0 normal only
-  double friction = 0;  // μ
+  int count = 0;                 // two per contact edge: its start, its end
+  int components = 2;            // per point: normal and tangential, or with μ = 0 normal only
+  std::vector<double> friction;  // μ per point; empty with one component
   Eigen::VectorXd gap;  // ḡ, mm: the normal and, where the body is moved along the wall, the
                         // tangential one of every point, in the order of F_C; empty: zero
-  std::vector<int> boundary;                       // per point: row of Mesh::boundary
+  std::vector<int> boundary;  // per point: row of Mesh::boundary
+  double friction_at(int point) const {
+    return friction.empty() ? 0 : friction[static_cast<std::size_t>(point)];
+  }
   int size() const { return count * components; }  // n_c
 };
 

@@ -26,6 +26,9 @@ LoadScale load_scale(const Problem& problem) {
         displacement =
             std::max(displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.norm());
       }
+      // An interference is a displacement.
+      if (edge.role == BoundaryRole::contact && loads.gap_mm)
+        displacement = std::max(displacement, -loads.gap_mm(x, row));
       if (edge.role == BoundaryRole::force && loads.traction_MPa)
         stress = std::max(stress, loads.traction_MPa(x, normal, row).norm());
     }

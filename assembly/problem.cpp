@@ -21,6 +21,14 @@ void take_out_rigid_motion(Problem& problem) {
   problem.loads.displacement_mm = std::move(split.rest_mm);
 }
 
+// Empty where there is none.
+std::vector<double> friction_on_contact(const Mesh& mesh, std::vector<double> friction) {
+  for (std::size_t row = 0; row < friction.size(); ++row)
+    if (mesh.boundary[row].role != BoundaryRole::contact) friction[row] = 0;
+  if (std::ranges::all_of(friction, [](double mu) { return mu == 0; })) friction.clear();
+  return friction;
+}
+
 }  // namespace
 
 TriangleVertices Problem::vertices_of(int triangle) const {
@@ -43,10 +51,18 @@ Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_ro
   if (!loads.slid_mm.empty()) {
     const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
     const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
-    const double s = (x - start).dot(frame.tangent) / frame.length_mm;
+    const double s = (x - start).norm() / frame.length_mm;
     slid = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
   }
   return {gap - frame.normal.dot(rho), slid - frame.tangent.dot(rho)};
+}
+
+bool Problem::contact_turns() const {
+  for (std::size_t row = 0; row < contact_normals.size(); ++row)
+    if (mesh.boundary[row].role == BoundaryRole::contact &&
+        contact_normals[row].at_node[0] != contact_normals[row].at_node[2])
+      return true;
+  return false;
 }
 
 EdgeCondition Problem::condition(int boundary_row) const {
@@ -56,7 +72,7 @@ EdgeCondition Problem::condition(int boundary_row) const {
       return is_roller(boundary_row) ? EdgeCondition{true, {displacement, force}}
                                      : EdgeCondition{false, {displacement, displacement}};
     case BoundaryRole::contact:
-      return {true, {contact_law, friction > 0 ? contact_law : force}};
+      return {true, {contact_law, has_friction() ? contact_law : force}};
     case BoundaryRole::force:
       break;
   }
@@ -79,9 +95,13 @@ bool same_body(const Problem& a, const Problem& b) {
   const auto alike = [](const BoundaryEdge& x, const BoundaryEdge& y) {
     return x.vertices == y.vertices && x.role == y.role;
   };
+  const auto same_normals = [](const ContactNormals& x, const ContactNormals& y) {
+    return x.at_node == y.at_node && x.at_moment == y.at_moment;
+  };
   if (a.mesh.vertices != b.mesh.vertices || a.mesh.triangles != b.mesh.triangles ||
       a.mesh.triangle_body != b.mesh.triangle_body || a.compliance != b.compliance ||
-      !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike))
+      !std::ranges::equal(a.mesh.boundary, b.mesh.boundary, alike) ||
+      !std::ranges::equal(a.contact_normals, b.contact_normals, same_normals))
     return false;
   for (int row = 0; row < static_cast<int>(a.mesh.boundary.size()); ++row)
     if (const EdgeCondition x = a.condition(row), y = b.condition(row);
@@ -92,10 +112,20 @@ bool same_body(const Problem& a, const Problem& b) {
 
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction) {
+  const std::vector<double> everywhere(mesh.boundary.size(), friction);
+  return make_problem(std::move(mesh), std::move(compliance), std::move(loads), everywhere);
+}
+
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     const std::vector<double>& friction) {
   assert(compliance.size() == mesh.body_names.size());
   assert(loads.rollers.empty() || loads.rollers.size() == mesh.boundary.size());
-  Problem problem{
-      std::move(mesh), {}, std::move(compliance), std::move(loads), {}, friction, {}, 0};
+  assert(friction.size() == mesh.boundary.size());
+  std::vector<double> on_contact = friction_on_contact(mesh, friction);
+  Problem problem{.mesh = std::move(mesh),
+                  .compliance = std::move(compliance),
+                  .loads = std::move(loads),
+                  .friction = std::move(on_contact)};
   problem.edges = number_edges(problem.mesh);
   take_out_rigid_motion(problem);
 
@@ -118,14 +148,13 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
 }
 
 Problem with_loads(const Problem& problem, Loads loads) {
-  Problem result{problem.mesh,
-                 problem.edges,
-                 problem.compliance,
-                 std::move(loads),
-                 {},
-                 problem.friction,
-                 {},
-                 problem.central_vertex};
+  Problem result{.mesh = problem.mesh,
+                 .edges = problem.edges,
+                 .compliance = problem.compliance,
+                 .loads = std::move(loads),
+                 .friction = problem.friction,
+                 .contact_normals = problem.contact_normals,
+                 .central_vertex = problem.central_vertex};
   take_out_rigid_motion(result);
   return result;
 }

@@ -54,19 +54,29 @@ struct EdgeCondition {
   std::array<Known, 2> component;
 };
 
+// Outward normals that the contact law of an edge is about: at the nodes of quadratic
+// displacements, start, middle and end, and for the forces and moments of its two ends at the
+// centres of their weights N_a and N_b, the edge's thirds. On a wall of one direction all are one;
+// on a round one a body can turn in it without strain, since ∫ N_a ωJx ds ∥ J x_third.
+struct ContactNormals {
+  std::array<Eigen::Vector2d, 3> at_node;
+  std::array<Eigen::Vector2d, 2> at_moment;
+};
+
 // Rollers are parallel when their directions differ by a smaller sine than this.
 inline constexpr double straight_roller = 1e-6;
 
 struct Problem {
   Mesh mesh;
-  MeshEdges edges;
+  MeshEdges edges = {};
   std::vector<Eigen::Matrix3d> compliance;  // per row of mesh.body_names, 1/MPa
   Loads loads;                              // without the rigid motion
-  RigidMotion motion;                       // ρ
-  double friction = 0;                      // μ ≥ 0
+  RigidMotion motion = {};                  // ρ
+  std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
+  std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
   // Load steps after this one, each with all of u0. Slip is measured from the step before: they are
   // posed one by one (load_steps.hpp).
-  std::vector<Loads> later_steps;
+  std::vector<Loads> later_steps = {};
   int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
@@ -80,11 +90,30 @@ struct Problem {
   }
   EdgeSigns edge_signs(int triangle) const;  // see hct.hpp
 
+  double friction_at(int boundary_row) const {
+    return friction.empty() ? 0 : friction[static_cast<std::size_t>(boundary_row)];
+  }
+  bool has_friction() const { return !friction.empty(); }
   bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
   // How far w may go at x on an edge of Γ_C, along its outward normal and, without slipping, its
   // tangent: (g0 − ρ_n, s0 − ρ_t), s0 the tangential displacement that slip is measured from.
   Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,
                                 const EdgeFrame& frame) const;
+
+  // Whether the law's normal changes along an edge. Stresses and displacements are admissible then
+  // but for the square of that angle.
+  bool contact_turns() const;
+  // Of a row of Mesh::boundary: the edge's own, on Γ_C the contact law's, for the moment of its
+  // start (0) or end (1), or at its start, middle or end (0, 1, 2).
+  template <typename Scalar = double>
+  EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int end) const {
+    return turned(own_frame<Scalar>(boundary_row), boundary_row,
+                  [&](const ContactNormals& n) { return n.at_moment[end]; });
+  }
+  EdgeFrame frame_at_node(int boundary_row, int node) const {
+    return turned(own_frame(boundary_row), boundary_row,
+                  [&](const ContactNormals& n) { return n.at_node[node]; });
+  }
 
   // Without friction the tangential force on Γ_C is known, as on a roller: zero.
   EdgeCondition condition(int boundary_row) const;
@@ -103,13 +132,31 @@ struct Problem {
     const Eigen::Vector2<Scalar> b = loads.body_force_N_per_mm3.cast<Scalar>();
     return {-b.x() * d.x(), -b.y() * d.y(), Scalar(0)};
   }
+
+ private:
+  template <typename Scalar = double>
+  EdgeFrameIn<Scalar> own_frame(int boundary_row) const {
+    const auto [a, b] = mesh.boundary[boundary_row].vertices;
+    return edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
+  }
+  template <typename Scalar, typename Normal>
+  EdgeFrameIn<Scalar> turned(EdgeFrameIn<Scalar> frame, int boundary_row, Normal normal) const {
+    if (contact_normals.empty() || mesh.boundary[boundary_row].role != BoundaryRole::contact)
+      return frame;
+    const Eigen::Vector2<Scalar> n =
+        normal(contact_normals[boundary_row]).template cast<Scalar>().normalized();
+    return {frame.length_mm, {-n.y(), n.x()}, n};
+  }
 };
 
 // Whether two problems differ in loads, gap and friction at most: the same mesh, materials and
 // known components on every boundary edge. (Without friction others are known than with it.)
 bool same_body(const Problem& a, const Problem& b);
 
-// Takes a valid mesh (see validate()), one compliance per body, and the loads with all of u0.
+// Takes a valid mesh (see validate()), one compliance per body, the loads with all of u0, and μ on
+// Γ_C, per row of Mesh::boundary or one for all.
+Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
+                     const std::vector<double>& friction);
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
 // The same body under other loads, with all of u0; without later steps.

@@ -6,6 +6,8 @@
 #include <limits>
 #include <sstream>
 
+#include "assembly/contact_conditions.hpp"
+
 namespace airybench {
 namespace {
 
@@ -32,27 +34,33 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
   try {
     return change();
   } catch (const TransformError& error) {
-    throw SceneError(scene.source + ": " + key + ": " + error.what());
+    throw SceneError(scene.source + ": " + (key.empty() ? "" : key + ": ") + error.what());
   }
+}
+
+ContactDefaults contact_defaults(const Scene& scene) {
+  return {scene.friction, scene.clearance_mm, scene.crown_radius_mm, scene.wall, scene.face};
 }
 
 Mesh mesh_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
-  return of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
+  mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
+  return of_scene(scene, "boundary", [&] {
+    return with_reachable_contact(std::move(mesh), scene.boundary, contact_defaults(scene));
+  });
 }
 
 struct Face {
-  std::vector<int> rows;   // of Mesh::boundary
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
 };
 
 std::vector<Face> contact_faces(const Mesh& mesh) {
   std::vector<Face> faces;
-  for (auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
+  for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
     const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
-    faces.push_back({std::move(chain), (start + end) / 2, (end - start).norm() / 2});
+    faces.push_back({(start + end) / 2, (end - start).norm() / 2});
   }
   return faces;
 }
@@ -124,6 +132,18 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
          "(allowed: finite numbers)");
 }
 
+// A face is measured to a wall.
+void check_faces(const Scene& scene) {
+  constexpr const char* why = "without a wall (allowed: beside one)";
+  bool used = scene.wall.has_value();
+  for (const auto& [label, values] : scene.boundary) {
+    used |= values.contact.wall.has_value();
+    if (values.contact.face && !values.contact.wall && !scene.wall)
+      fail(scene, "boundary: " + label, "face", why);
+  }
+  if (scene.face && !used) fail(scene, "face", "given", why);
+}
+
 // Counted from 1, as the scene file lists them.
 std::string step_prefix(std::size_t k) { return "load_steps: " + std::to_string(k + 1) + ": "; }
 
@@ -139,9 +159,13 @@ void check_steps(const Scene& scene) {
                 step.displacement_mm.value_or(Eigen::Vector2d::Zero()),
                 step.body_force_N_per_mm3.value_or(Eigen::Vector2d::Zero()));
     for (const auto& [label, values] : step.boundary)
-      if (values.support)
-        fail(scene, step_prefix(k) + "boundary: " + label, "support",
-             "(allowed: traction_MPa, pressure_MPa, displacement_mm)");
+      for (const auto& [key, is_given] : {std::pair("support", values.support.has_value()),
+                                          {"friction", values.contact.friction.has_value()},
+                                          {"wall", values.contact.wall.has_value()},
+                                          {"face", values.contact.face.has_value()}})
+        if (is_given)
+          fail(scene, step_prefix(k) + "boundary: " + label, key,
+               "(allowed: traction_MPa, pressure_MPa, displacement_mm, clearance_mm)");
   }
 }
 
@@ -156,6 +180,7 @@ void change(Scene& scene, const LoadStep& step) {
       own.pressure_MPa = values.pressure_MPa;
     }
     if (values.displacement_mm) own.displacement_mm = values.displacement_mm;
+    if (values.contact.clearance_mm) own.contact.clearance_mm = values.contact.clearance_mm;
   }
 }
 
@@ -177,37 +202,25 @@ Scene part_of(Scene scene, double part) {
   return scene;
 }
 
-Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
-               const std::vector<Face>& faces) {
+Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh) {
   Loads loads;
   of_scene(scene, prefix + "boundary",
            [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
-  if (scene.crown_radius_mm || scene.clearance_mm > 0) {
-    const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;
-    std::vector<Eigen::Vector2d> axis(mesh.boundary.size(), Eigen::Vector2d::Zero());
-    for (const Face& face : faces)
-      for (const int row : face.rows) axis[static_cast<std::size_t>(row)] = face.middle;
-    loads.gap_mm = [axis = std::move(axis), curvature, clearance = scene.clearance_mm](
-                       const Eigen::Vector2d& x, int row) {
-      return clearance + (x - axis[static_cast<std::size_t>(row)]).squaredNorm() * curvature / 2;
-    };
-  }
+  loads.gap_mm = contact_gap(mesh, scene.boundary, contact_defaults(scene));
   return loads;
 }
 
 // Of every step, the first included.
-std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh,
-                                  const std::vector<Face>& faces) {
+std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh) {
   std::vector<Loads> steps;
   for (int k = 1; k < scene.equal_steps; ++k)
-    steps.push_back(
-        loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh, faces));
-  steps.push_back(loads_of(scene, "", mesh, faces));
+    steps.push_back(loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh));
+  steps.push_back(loads_of(scene, "", mesh));
   Scene at = scene;
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     change(at, scene.later_steps[k]);
-    steps.push_back(loads_of(at, step_prefix(k), mesh, faces));
+    steps.push_back(loads_of(at, step_prefix(k), mesh));
   }
   return steps;
 }
@@ -228,6 +241,9 @@ void check_values(const Scene& scene) {
       (!(*scene.crown_radius_mm > 0) || !std::isfinite(*scene.crown_radius_mm)))
     fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
          "(allowed: > 0, or null for a flat wall)");
+  of_scene(scene, "", [&] { check_curve("wall", scene.wall); });
+  of_scene(scene, "", [&] { check_curve("face", scene.face); });
+  check_faces(scene);
   check_loads(scene, "", scene.boundary, scene.clearance_mm, scene.displacement_mm,
               scene.body_force_N_per_mm3);
   check_steps(scene);
@@ -236,13 +252,17 @@ void check_values(const Scene& scene) {
 Problem pose(const Scene& scene, Mesh given_mesh) {
   check_values(scene);
   Mesh mesh = mesh_of(scene, std::move(given_mesh));
-  const std::vector<Face> faces = contact_faces(mesh);
-  check_geometry(scene, mesh, faces);
+  check_geometry(scene, mesh, contact_faces(mesh));
 
-  std::vector<Loads> steps = loads_of_steps(scene, mesh, faces);
+  std::vector<Loads> steps = loads_of_steps(scene, mesh);
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
+  const std::vector<double> friction =
+      contact_friction(mesh, scene.boundary, contact_defaults(scene));
+  std::vector<ContactNormals> normals =
+      contact_normals(mesh, scene.boundary, contact_defaults(scene));
   Problem problem =
-      make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), scene.friction);
+      make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
+  problem.contact_normals = std::move(normals);
   problem.later_steps.assign(std::make_move_iterator(steps.begin() + 1),
                              std::make_move_iterator(steps.end()));
   return problem;

@@ -41,11 +41,13 @@ struct Scene {
   std::map<std::string, Material> materials;  // … and bodies named here
   Plane plane = Plane::strain;
 
+  // On Γ_C, but for groups with values of their own (contact_conditions.hpp).
   double friction = 0.2;                            // μ ≥ 0
-  std::optional<double> crown_radius_mm = 400;      // of the wall; none: flat
+  std::optional<double> crown_radius_mm = 400;      // of a wall at the faces; none: flat
+  std::optional<Wall> wall, face;                   // instead of a crown
+  double clearance_mm = 0;                          // added to the gap, ≥ 0
   Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D …
   BoundaryConditions boundary;                      // … but groups with a value of their own
-  double clearance_mm = 0;                          // added to the gap everywhere, ≥ 0
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
 
   // A path: displacements, tractions and body force in so many equal parts (the gap stays), or from
@@ -63,10 +65,8 @@ struct SceneError : InputError {
 // Throws SceneError when a value is impossible in itself: ν ≥ 0.5, μ < 0, E ≤ 0, …
 void check_values(const Scene& scene);
 
-// Transforms the mesh and poses the scene on it. g0 = clearance + d²/(2R) on the contact boundary,
-// where d is the distance from the middle of the contact face that the edge belongs to (the
-// midpoint of the face's two ends: the tooth's axis). Throws SceneError. Load steps after the first
-// are Problem::later_steps.
+// Transforms the mesh and poses the scene on it; of contact edges those that can reach their wall.
+// Throws SceneError. Load steps after the first are Problem::later_steps.
 Problem pose(const Scene& scene, Mesh mesh);
 
 }  // namespace airybench

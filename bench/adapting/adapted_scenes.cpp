@@ -52,6 +52,7 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
     if (!scene.materials.contains(body))
       json["materials"][body] = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
   }
+  if (!json.contains("wall")) json.emplace("crown_radius_mm", *Scene().crown_radius_mm);
   json.erase("mesh");
   json.erase("layers");
   return json_text(json);

@@ -42,13 +42,16 @@ std::vector<MeshFile> read_meshes(const std::string& selection) {
   return files;
 }
 
+bool is_of_catalogue(const std::filesystem::path& file) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored);
+}
+
 std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
   const auto whole = [](const std::filesystem::path& path) {
     return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
   };
-  std::error_code ignored;
-  if (std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored))
-    return file.filename().string();
+  if (is_of_catalogue(file)) return file.filename().string();
   const std::filesystem::path from_folder = whole(file).lexically_relative(whole(folder));
   return from_folder.has_parent_path() ? from_folder.string() : "./" + from_folder.string();
 }

@@ -25,6 +25,8 @@ MeshFile read_mesh_file(const std::filesystem::path& path);
 // std::invalid_argument; two files of the same name are refused.
 std::vector<MeshFile> read_meshes(const std::string& selection);
 
+bool is_of_catalogue(const std::filesystem::path& file);
+
 // How a record in `folder` names a mesh's file: one of the catalogue's by its name alone, another
 // by its path from the folder, "./part.msh".
 std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder);

@@ -1,5 +1,7 @@
 #include "bench/cases/scene_boundary.hpp"
 
+#include "bench/cases/scene_wall.hpp"
+
 namespace airybench {
 namespace {
 
@@ -39,8 +41,19 @@ BoundaryValues read_values(const SceneReader& reader, const std::string& key, co
           reader, k, v, [&](const auto& name, const Json& x) { return reader.vector(name, x); });
     };
   };
+  const auto number = [&](std::optional<double>& target) {
+    return [&](const std::string& k, const Json& v) { target = reader.number(k, v); };
+  };
+  const auto wall = [&](std::optional<Wall>& target, Curve kind) {
+    return
+        [&, kind](const std::string& k, const Json& v) { target = read_wall(reader, k, v, kind); };
+  };
   reader.object(key + ": ", json,
-                {{"traction_MPa", vector(values.traction_MPa)},
+                {{"friction", number(values.contact.friction)},
+                 {"clearance_mm", number(values.contact.clearance_mm)},
+                 {"wall", wall(values.contact.wall, Curve::wall)},
+                 {"face", wall(values.contact.face, Curve::face)},
+                 {"traction_MPa", vector(values.traction_MPa)},
                  {"pressure_MPa",
                   [&](const std::string& k, const Json& v) {
                     values.pressure_MPa = read_linear<double>(

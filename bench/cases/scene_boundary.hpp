@@ -3,7 +3,8 @@
 //   { "force:top":          { "pressure_MPa": 50 },
 //     "force:left":         { "traction_MPa": { "at_mm": [[0, 0], [0, 40]],
 //                                               "values": [[150, 0], [100, 0]] } },
-//     "displacement:right": { "support": "normal", "displacement_mm": [0.01, 0] } }
+//     "displacement:right": { "support": "normal", "displacement_mm": [0.01, 0] },
+//     "contact:flank":      { "friction": 0.1, "wall": { … } } }  (scene_wall.hpp)
 #pragma once
 
 #include "bench/cases/scene_reader.hpp"

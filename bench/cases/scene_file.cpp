@@ -5,6 +5,7 @@
 
 #include "bench/cases/scene_boundary.hpp"
 #include "bench/cases/scene_reader.hpp"
+#include "bench/cases/scene_wall.hpp"
 #include "bench/records/case_name.hpp"
 #include "support/file_text.hpp"
 
@@ -148,6 +149,10 @@ Scene from_json(const Json& json, const std::string& file) {
   const auto vector = [&](Eigen::Vector2d& target) {
     return [&](const std::string& k, const Json& v) { target = reader.vector(k, v); };
   };
+  const auto wall = [&](std::optional<Wall>& target, Curve kind) {
+    return
+        [&, kind](const std::string& k, const Json& v) { target = read_wall(reader, k, v, kind); };
+  };
   const auto text = [&](std::string& target) {
     return [&](const std::string& k, const Json& v) { target = reader.text(k, v); };
   };
@@ -172,6 +177,8 @@ Scene from_json(const Json& json, const std::string& file) {
           else
             scene.crown_radius_mm = reader.number(k, v);
         }},
+       {"wall", wall(scene.wall, Curve::wall)},
+       {"face", wall(scene.face, Curve::face)},
        {"clearance_mm", number(scene.clearance_mm)},
        {"displacement_mm", vector(scene.displacement_mm)},
        {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},
@@ -189,9 +196,7 @@ Scene from_json(const Json& json, const std::string& file) {
   return scene;
 }
 
-}  // namespace
-
-Scene scene_of(const std::string& text, const std::string& place) {
+Json json_of(const std::string& text, const std::string& place) {
   constexpr std::size_t most_keys = 1000;
   // JSON allows a key to be repeated; a scene does not.
   std::vector<std::set<std::string>> keys;
@@ -207,18 +212,28 @@ Scene scene_of(const std::string& text, const std::string& place) {
   };
   if (text.find('\0') != text.npos)  // which would end the text for the parser
     throw SceneError(place + ": not JSON: a zero byte");
-  Json json;
   try {
-    json = Json::parse(text, watch);
+    return Json::parse(text, watch);
   } catch (const Json::exception& wrong) {
     throw SceneError(place + ": not JSON: " + without_prefix(wrong));
   }
+}
+
+Scene checked_scene(const Json& json, const std::string& place) {
   Scene scene = from_json(json, place);
+  if (json.contains("wall") && json.contains("crown_radius_mm"))
+    throw SceneError(place + ": wall and crown_radius_mm (allowed: one of them)");
   check_values(scene);
   return scene;
 }
 
-Scene read_scene(const std::filesystem::path& file) {
+}  // namespace
+
+Scene scene_of(const std::string& text, const std::string& place) {
+  return checked_scene(json_of(text, place), place);
+}
+
+SceneFile read_scene_file(const std::filesystem::path& file) {
   const std::string name = file.stem().string();
   if (!is_name(name))
     throw SceneError(shortened(file.string()) +
@@ -230,9 +245,22 @@ Scene read_scene(const std::filesystem::path& file) {
   } catch (const FileError& error) {
     throw SceneError(error.what());
   }
-  Scene scene = scene_of(text, file.string());
+  Json json = json_of(text, file.string());
+  inline_polylines(json, file.parent_path());
+  Scene scene = checked_scene(json, file.string());
   scene.name = name;
-  return scene;
+  return {std::move(scene), json_text(json)};
+}
+
+Scene read_scene(const std::filesystem::path& file) { return read_scene_file(file).scene; }
+
+SceneFile on_other_bodies(SceneFile file) {
+  Json json = parse_json(file.definition);
+  if (json.contains("crown_radius_mm") || json.contains("wall")) return file;
+  file.scene.crown_radius_mm.reset();
+  json["crown_radius_mm"] = nullptr;
+  file.definition = json_text(json);
+  return file;
 }
 
 }  // namespace airybench

@@ -6,7 +6,7 @@ namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
   MeshSizes sizes = mesh_sizes(problem.mesh);
-  if (problem.friction == 0) {
+  if (!problem.has_friction()) {
     sizes.n_f += sizes.n_c / 2;
     sizes.n_c -= sizes.n_c / 2;
   }
@@ -19,7 +19,7 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   const bool airy = method.blocks == Blocks::airy;
   const bool contact = sizes.contact_edges > 0;
-  const bool friction = problem.friction > 0;
+  const bool friction = problem.has_friction();
   const Loads& loads = problem.loads;
   const bool constrained = solved_sizes(problem).n_f > 0;
   const bool loaded = loads.displacement_mm || loads.has_body_force();

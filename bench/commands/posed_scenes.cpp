@@ -8,37 +8,27 @@
 #include "bench/adapting/adapted_scenes.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/scene_file.hpp"
-#include "bench/records/json.hpp"
 #include "support/errors.hpp"
-#include "support/file_text.hpp"
 
 namespace airybench {
-namespace {
-
-// The scene file as it is, on a line.
-std::string definition_of(const Scene& scene) {
-  if (scene.source == Scene().source) return "{}";
-  return json_text(parse_json(file_text(scene.source)));
-}
-
-}  // namespace
-
 std::vector<PosedScene> pose_all(const Options& options) {
-  std::vector<Scene> scenes;
+  std::vector<SceneFile> scenes;
   for (const auto& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
-    scenes.push_back(read_scene(file));
+    scenes.push_back(read_scene_file(file));
+    const Scene& last = scenes.back().scene;
     for (std::size_t i = 0; i + 1 < scenes.size(); ++i)
-      if (scenes[i].name == scenes.back().name)
-        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scenes[i].name,
-                                     scenes[i].source, scenes.back().source));
+      if (const Scene& other = scenes[i].scene; other.name == last.name)
+        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", last.name,
+                                     other.source, last.source));
   }
   if (scenes.empty()) scenes.emplace_back();
   std::vector<PosedScene> posed;
   for (const MeshFile& file : read_meshes(options.meshes))
-    for (const Scene& scene : scenes)
+    for (const SceneFile& given : scenes) {
+      const auto& [scene, definition] = is_of_catalogue(file.path) ? given : on_other_bodies(given);
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
-                       definition_of(scene),
-                       std::make_shared<const Problem>(pose(scene, file.mesh))});
+                       definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
+    }
   return posed;
 }
 

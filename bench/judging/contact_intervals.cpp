@@ -44,7 +44,7 @@ std::optional<DisplacementField> lifted(const Problem& problem, bool tangential)
     if (mesh.boundary[row].role == BoundaryRole::contact) {
       const EdgeFrame frame = frame_of(mesh, row);
       on_edge[row] = tangential ? frame.tangent : frame.normal;
-      loads.rollers[row] = problem.friction == 0;
+      loads.rollers[row] = !problem.has_friction();
       mesh.boundary[row].role = BoundaryRole::displacement;
     } else {
       loads.rollers[row] = problem.is_roller(row);
@@ -176,7 +176,7 @@ std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
   const Problem& problem = *system.problem;
   ContactIntervals result;
   result.guaranteed = error.guaranteed;
-  if (can_be_moved_as_one(problem.mesh)) {
+  if (problem.contact_normals.empty() && can_be_moved_as_one(problem.mesh)) {
     const StressField mean = mean_stress(problem, stress, u);
     const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm()));
     result.normal_resultant_N = resultant(problem, mean, of_mean, false);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -155,9 +156,10 @@ struct Wall {
   double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
 };
 struct ContactNode {
-  std::vector<Wall> walls;         // one or two
-  Eigen::Vector2d motion;          // ρ
-  Eigen::Vector2d force = {0, 0};  // ∫ σn B over Γ_C, N
+  std::vector<Wall> walls;                                    // one or two
+  Eigen::Vector2d motion;                                     // ρ
+  Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
+  double friction = std::numeric_limits<double>::infinity();  // the smaller μ of its edges
 };
 
 std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
@@ -169,18 +171,21 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
     const int row = system.contact.boundary[point];
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
     const auto &a = problem.mesh.vertices[nodes[0]], &b = problem.mesh.vertices[nodes[2]];
-    const EdgeFrame frame = edge_frame(a, b);
+    const EdgeFrame at_start = problem.frame_of_moment(row, 0),
+                    at_end = problem.frame_of_moment(row, 1);
+    const auto force_at = [&](int end, const EdgeFrame& frame) -> Eigen::Vector2d {
+      const int p = m * (point + end);
+      return F_C(p) * frame.normal + (m == 2 ? F_C(p + 1) : 0) * frame.tangent;
+    };
+    const Eigen::Vector2d start = force_at(0, at_start), end = force_at(1, at_end);
     const std::array<double, 3> gap = gap_coefficients(problem, row);
     for (int k = 0; k < 3; ++k) {
       ContactNode& node = contact[nodes[k]];
       node.motion = problem.motion.at(a + k * (b - a) / 2);
-      node.walls.push_back({frame.normal, gap[k] - frame.normal.dot(node.motion)});
-      const auto force = [&](int component) {
-        return of_start[k] * F_C(m * point + component) +
-               of_start[2 - k] * F_C(m * (point + 1) + component);
-      };
-      node.force += force(0) * frame.normal;
-      if (m == 2) node.force += force(1) * frame.tangent;
+      const Eigen::Vector2d normal = problem.frame_at_node(row, k).normal;
+      node.walls.push_back({normal, gap[k] - normal.dot(node.motion)});
+      node.friction = std::min(node.friction, system.contact.friction_at(point));
+      node.force += of_start[k] * start + of_start[2 - k] * end;
     }
   }
   return contact;
@@ -207,13 +212,12 @@ Eigen::Vector2d behind(const std::vector<Wall>& walls, Eigen::Vector2d w) {
 // The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||w_t + ρ_t| + F_t (w_t + ρ_t) behind the
 // walls: the two contact terms of e² and what moving w costs in the first one. A closed node goes
 // to the wall, a sticking one back to where it was.
-Eigen::Vector2d in_contact(const ContactNode& node, double mu, double k,
-                           const Eigen::Vector2d& w_0) {
+Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vector2d& w_0) {
   Eigen::Vector2d n = node.walls.front().normal;
   if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
   const Eigen::Vector2d t(-n.y(), n.x());
-  const double slope = mu * std::abs(n.dot(node.force)) / k, at_rest = -t.dot(node.motion),
-               slid = t.dot(w_0 - node.force / k) - at_rest;
+  const double slope = node.friction * std::abs(n.dot(node.force)) / k,
+               at_rest = -t.dot(node.motion), slid = t.dot(w_0 - node.force / k) - at_rest;
   const double w_n = n.dot(w_0 - node.force / k),
                w_t = at_rest + std::copysign(std::max(0.0, std::abs(slid) - slope), slid);
   return behind(node.walls, w_n * n + w_t * t);
@@ -223,9 +227,7 @@ Eigen::Vector2d in_contact(const ContactNode& node, double mu, double k,
 class Constraints {
  public:
   Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)
-      : given_(prescribed_displacement(*system.problem)),
-        contact_(contact_nodes(system, F_C)),
-        friction_(system.contact.friction) {}
+      : given_(prescribed_displacement(*system.problem)), contact_(contact_nodes(system, F_C)) {}
 
   // stiffness: per node, k of in_contact().
   void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const {
@@ -238,7 +240,7 @@ class Constraints {
       if (const auto roller = given_.normal.find(number); roller != given_.normal.end())
         move_along_roller(roller->second, node.walls, w.col(number));
       else
-        w.col(number) = in_contact(node, friction_, stiffness(number), w.col(number));
+        w.col(number) = in_contact(node, stiffness(number), w.col(number));
     }
   }
 
@@ -253,7 +255,6 @@ class Constraints {
 
   PrescribedDisplacement given_;
   std::map<int, ContactNode> contact_;
-  double friction_;
 };
 
 }  // namespace

@@ -80,8 +80,9 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
       for (int end = 0; end < 2; ++end, ++point) {
-        expected.col(end) = solution.F_C(m * point) * frame.normal;
-        if (m == 2) expected.col(end) += solution.F_C(m * point + 1) * frame.tangent;
+        const EdgeFrame of_law = problem.frame_of_moment(row, end);
+        expected.col(end) = solution.F_C(m * point) * of_law.normal;
+        if (m == 2) expected.col(end) += solution.F_C(m * point + 1) * of_law.tangent;
       }
     }
     Eigen::Matrix2d off = walked(problem, balance, row) - expected;
@@ -121,7 +122,7 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   if (contact.components == 1) return;
   double coupling = 0;
   for (int p = 0; p < contact.count; ++p)
-    coupling = std::max(coupling, contact.friction * std::abs(condensed.D(2 * p, 2 * p + 1)) /
+    coupling = std::max(coupling, contact.friction_at(p) * std::abs(condensed.D(2 * p, 2 * p + 1)) /
                                       condensed.D(2 * p, 2 * p));
   result.friction_coupling = coupling;
 }
@@ -184,7 +185,8 @@ std::vector<ContactState> contact_states(const ContactPoints& contact, const Eig
     const double normal = std::abs(F_C(m * p));
     if (normal <= tolerance * largest)
       states[p] = ContactState::open;
-    else if (m == 1 || std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction * normal)
+    else if (m == 1 ||
+             std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction_at(p) * normal)
       states[p] = ContactState::slip;
     else
       states[p] = ContactState::stick;

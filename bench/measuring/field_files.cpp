@@ -67,8 +67,7 @@ ContactPicture contact_picture_of_displacements(const DualSystem& system,
     const auto [t, k] = side_of_edge.at(problem.edges.of_boundary[row]);
     const Eigen::Vector2d force =
         element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(end);
-    const EdgeFrame frame =
-        edge_frame(problem.mesh.vertices[nodes[0]], problem.mesh.vertices[nodes[2]]);
+    const EdgeFrame frame = problem.frame_of_moment(row, end);
     picture.force.emplace_back(frame.normal.dot(force), frame.tangent.dot(force));
   }
   return picture;
@@ -83,7 +82,7 @@ std::string contact_csv(const DualSystem& system, const Solution& solution) {
   std::string text = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state\n";
   for (int p = 0; p < contact.count; ++p) {
     const auto [a, b] = mesh.boundary[contact.boundary[p]].vertices;
-    const EdgeFrame frame = edge_frame(mesh.vertices[a], mesh.vertices[b]);
+    const EdgeFrame frame = system.problem->frame_of_moment(contact.boundary[p], p % 2);
     const Eigen::Vector2d x = mesh.vertices[p % 2 == 0 ? a : b];
     text += fmt::format("{},{},{},{},{},{},{},{}\n", x.x(), x.y(), frame.normal.x(),
                         frame.normal.y(), frame.length_mm, picture.force[p](0), picture.force[p](1),

@@ -1,5 +1,7 @@
 #include "bench/measuring/record_notes.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "bench/judging/answer_hash.hpp"
@@ -56,6 +58,19 @@ void note(const Verification& v, Record& record) {
   record.n_stick = v.n_stick;
   record.n_slip = v.n_slip;
   record.answer_hash = answer_hash(v);
+}
+
+void note_what_is_idle(const Problem& problem, Record& record) {
+  const MeshSizes sizes = mesh_sizes(problem.mesh);
+  if (sizes.contact_edges + sizes.force_edges == 0) {
+    record.status_reason = "the whole boundary is prescribed";
+  } else if (sizes.contact_edges == 0) {
+    record.status_reason = "there is no contact boundary";
+  } else if (const std::int64_t points = record.n_open.value_or(0);
+             points > 0 && record.n_stick.value_or(0) + record.n_slip.value_or(0) == 0) {
+    record.status_reason =
+        fmt::format("nothing touches the wall: all {} contact points are open", points);
+  }
 }
 
 void note(const ConstitutiveError& error, const char* by, Record& record) {

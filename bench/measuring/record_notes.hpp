@@ -19,5 +19,7 @@ void note(const Verification& verification, Record& record);
 void note(const ConstitutiveError& error, const char* by, Record& record);
 void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
+// Of an ok case, after the verification: nothing touches, nothing can touch, nothing is free.
+void note_what_is_idle(const Problem& problem, Record& record);
 
 }  // namespace airybench

@@ -297,6 +297,8 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
                                ? "its displacements have no stress: nothing touches or loads what "
                                  "is free of them"
                                : "the body has no stress: nothing touches or loads it";
+  } else {
+    note_what_is_idle(*problem_, record);
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "support/seconds_since.hpp"
 #include "support/text_table.hpp"
@@ -26,9 +27,13 @@ std::string results_table(const std::vector<Record>& records) {
       row.insert(row.end() - 1, {show_error(r.error_total), show_seconds(r.adapt_time_s)});
   }
   std::string table = aligned_table(rows, 1);
+  std::set<std::string> said;  // the same of every method on a mesh
   for (const Record& r : records)
     if (r.status != Status::ok)
       table += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
+    else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
+             !r.status_reason.empty() && !r.other_solution && said.insert(line).second)
+      table += line;
   return table;
 }
 

@@ -64,7 +64,6 @@ TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, in
 // The rows of one boundary edge: forces at its ends as functionals of φ.
 struct EdgeRows {
   EdgeForcesIn<Long> forces;
-  EdgeFrameIn<Long> frame;
   std::array<int, 7> dofs;
 };
 
@@ -72,7 +71,7 @@ EdgeRows edge_rows(const DualSystem& system, int row) {
   const Problem& problem = *system.problem;
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const auto &xa = problem.mesh.vertices[a], &xb = problem.mesh.vertices[b];
-  return {edge_forces<Long>(xa, xb, a < b ? 1 : -1), edge_frame<Long>(xa, xb),
+  return {edge_forces<Long>(xa, xb, a < b ? 1 : -1),
           system.dofs.of_edge_walk(a, b, problem.edges.of_boundary[row])};
 }
 
@@ -105,11 +104,12 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
     const EdgeRows edge = edge_rows(system, row);
     const LongColumn<4> forces = edge.forces * gather(system, answer.x, edge.dofs);
     LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
-    for (int end = 0; end < 2; ++end)
+    for (int end = 0; end < 2; ++end) {
+      const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, end);
       for (int k = 0; k < 2; ++k) {
         if (condition.component[k] == Known::displacement) continue;
         const Eigen::Vector2<Long> axis = condition.in_frame
-                                              ? (k == 0 ? edge.frame.normal : edge.frame.tangent)
+                                              ? (k == 0 ? frame.normal : frame.tangent)
                                               : Eigen::Vector2<Long>(k == 0, k == 1);
         const Long force = axis.dot(forces.segment<2>(2 * end));
         const bool condensed = condition.component[k] == Known::contact_law;
@@ -124,6 +124,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
           ++row_F;
         }
       }
+    }
     add_displacements(system, edge, u, residual.x);
   };
   using enum BoundaryRole;

@@ -6,11 +6,11 @@
 
 namespace airybench {
 
-std::vector<bool> edges_in_frame(const Problem& problem) {
-  std::vector<bool> in_frame(static_cast<std::size_t>(problem.edges.count()), false);
+std::vector<int> rows_in_frame(const Problem& problem) {
+  std::vector<int> row_of_edge(static_cast<std::size_t>(problem.edges.count()), no_frame);
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-    in_frame[problem.edges.of_boundary[row]] = problem.condition(row).in_frame;
-  return in_frame;
+    if (problem.condition(row).in_frame) row_of_edge[problem.edges.of_boundary[row]] = row;
+  return row_of_edge;
 }
 
 int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUnknowns& unknown) {
@@ -72,10 +72,11 @@ Eigen::Matrix4Xd edge_moments(const Problem& problem, const EdgeUnknowns& unknow
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (!problem.condition(row).in_frame) continue;
     const auto [a, b] = problem.mesh.boundary[row].vertices;
-    const EdgeFrame frame = edge_frame(problem.mesh.vertices[a], problem.mesh.vertices[b]);
+    const EdgeFrame at_start = problem.frame_of_moment(row, 0),
+                    at_end = problem.frame_of_moment(row, 1);
     auto own = moments.col(problem.edges.of_boundary[row]);
-    const Eigen::Vector2d start = own(0) * frame.normal + own(1) * frame.tangent,
-                          end = own(2) * frame.normal + own(3) * frame.tangent;
+    const Eigen::Vector2d start = own(0) * at_start.normal + own(1) * at_start.tangent,
+                          end = own(2) * at_end.normal + own(3) * at_end.tangent;
     own << (a < b ? start : end), (a < b ? end : start);
   }
   return moments;

@@ -23,8 +23,9 @@ int number_unknowns(const Problem& problem, const ContactPoints& contact, EdgeUn
 std::array<int, 12> element_unknowns(const Problem& problem, const EdgeUnknowns& unknown,
                                      int triangle);
 
-// Per edge: are its unknowns normal and tangential?
-std::vector<bool> edges_in_frame(const Problem& problem);
+// Per edge whose unknowns are normal and tangential its row of Mesh::boundary, else no_frame.
+constexpr int no_frame = -1;
+std::vector<int> rows_in_frame(const Problem& problem);
 
 // ū of every edge, in x and y, from the unknowns and prescribed_displacements(); rows: at its low
 // vertex, at its high one. mm

@@ -66,9 +66,9 @@ template <typename Scalar>
 HybridStress<Scalar> hybrid_stress(const HybridInput<Scalar>& input, bool loaded,
                                    const Eigen::Matrix<Scalar, 12, 1>& displacement);
 
-// in_frame: per edge (edges_in_frame).
+// rows: per edge (rows_in_frame).
 template <typename Scalar>
-HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<bool>& in_frame,
+HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<int>& rows,
                                  int triangle);
 
 }  // namespace airybench

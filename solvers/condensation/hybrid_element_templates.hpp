@@ -6,21 +6,24 @@
 #include "assembly/edge_forces_templates.hpp"
 #include "assembly/hct_templates.hpp"
 #include "assembly/stress_field_templates.hpp"
+#include "solvers/condensation/edge_unknowns.hpp"
 #include "solvers/condensation/hybrid_element.hpp"
 
 namespace airybench {
 
 // How the components of EdgeUnknowns make an element's edge components: x, y at the start and at
-// the end of its walk along edge k.
+// the end of its walk along edge k, which is the boundary's. row: rows_in_frame.
 template <typename Scalar>
-Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bool in_frame) {
-  const auto& v = mesh.triangles[triangle];
+Eigen::Matrix4<Scalar> edge_components(const Problem& problem, int triangle, int k, int row) {
+  const auto& v = problem.mesh.triangles[triangle];
   const int a = v[k], b = v[(k + 1) % 3];
   Eigen::Matrix4<Scalar> q = Eigen::Matrix4<Scalar>::Zero();
-  if (in_frame) {
-    const EdgeFrameIn<Scalar> frame = edge_frame<Scalar>(mesh.vertices[a], mesh.vertices[b]);
-    q.template block<2, 1>(0, 0) = q.template block<2, 1>(2, 2) = frame.normal;
-    q.template block<2, 1>(0, 1) = q.template block<2, 1>(2, 3) = frame.tangent;
+  if (row != no_frame) {
+    for (int end = 0; end < 2; ++end) {
+      const EdgeFrameIn<Scalar> frame = problem.frame_of_moment<Scalar>(row, end);
+      q.template block<2, 1>(2 * end, 2 * end) = frame.normal;
+      q.template block<2, 1>(2 * end, 2 * end + 1) = frame.tangent;
+    }
   } else if (a < b) {
     q.setIdentity();
   } else {
@@ -31,7 +34,7 @@ Eigen::Matrix4<Scalar> edge_components(const Mesh& mesh, int triangle, int k, bo
 }
 
 template <typename Scalar>
-HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<bool>& in_frame, int t) {
+HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<int>& rows, int t) {
   HybridInput<Scalar> input;
   const TriangleVertices v = problem.vertices_of(t);
   const Eigen::Matrix3d& compliance = problem.compliance_of(t);
@@ -41,7 +44,7 @@ HybridInput<Scalar> hybrid_input(const Problem& problem, const std::vector<bool>
   input.area = problem.area_mm2<Scalar>(t);
   for (int k = 0; k < 3; ++k) {
     const int edge = problem.edges.of_triangle[t][k];
-    const auto q = edge_components<Scalar>(problem.mesh, t, k, in_frame[edge]);
+    const auto q = edge_components<Scalar>(problem, t, k, rows[edge]);
     std::copy_n(q.data(), 16, input.components[k]);
   }
   if (problem.loads.has_body_force())

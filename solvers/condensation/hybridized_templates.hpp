@@ -83,13 +83,13 @@ HybridKernels<Scalar> hybrid_kernels() {
 // as many as the kernels take, the last repeated where there are no more.
 template <typename Scalar, typename Work>
 void in_batches(const Problem& problem, const HybridKernels<Scalar>& kernels, Work work) {
-  const std::vector<bool> in_frame = edges_in_frame(problem);
+  const std::vector<int> rows = rows_in_frame(problem);
   const int triangles = static_cast<int>(problem.mesh.triangles.size());
   std::vector<HybridInput<Scalar>> input(static_cast<std::size_t>(kernels.width));
   for (int first = 0; first < triangles; first += kernels.width) {
     const int count = std::min(kernels.width, triangles - first);
     for (int l = 0; l < kernels.width; ++l)
-      input[l] = l < count ? hybrid_input<Scalar>(problem, in_frame, first + l) : input[count - 1];
+      input[l] = l < count ? hybrid_input<Scalar>(problem, rows, first + l) : input[count - 1];
     work(first, count, input.data());
   }
 }

@@ -27,13 +27,13 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
     ratio.push_back(0);
     next(n) = F(n);
     if (m == 1) continue;
-    const double bound = -contact.friction * predicted(n);
+    const double mu = contact.friction_at(p), bound = -mu * predicted(n);
     if (std::abs(predicted(t)) <= bound) {
       row.push_back(t);
       ratio.push_back(0);
       next(t) = F(t);
     } else {
-      ratio.back() = predicted(t) > 0 ? -contact.friction : contact.friction;
+      ratio.back() = predicted(t) > 0 ? -mu : mu;
       next(t) = ratio.back() * F(n);
     }
   }

@@ -28,7 +28,7 @@ void project_in_place(const ContactPoints& contact, Eigen::Ref<Eigen::VectorXd> 
   for (int p = 0; p < contact.count; ++p) {
     if (contact.components == 2)
       F.segment<2>(2 * p) =
-          project_on_coulomb(Eigen::Vector2d(F.segment<2>(2 * p)), contact.friction);
+          project_on_coulomb(Eigen::Vector2d(F.segment<2>(2 * p)), contact.friction_at(p));
     else
       F(p) = std::min(F(p), 0.0);
   }

@@ -9,12 +9,13 @@ namespace {
 
 // One sweep; returns the squared norm of the change of F.
 template <int components>
-double sweep(const CondensedSystem& condensed, const Eigen::VectorXd& offset, double mu,
-             Eigen::VectorXd& F) {
+double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
+             const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
   using Local = Eigen::Matrix<double, components, 1>;
   const Eigen::MatrixXd& D = condensed.D;
   double change = 0;
-  for (Eigen::Index i = 0; i < F.size(); i += components) {
+  for (int p = 0; p < contact.count; ++p) {
+    const Eigen::Index i = components * p;
     const Eigen::Matrix<double, components, components> D_pp =
         D.template block<components, components>(i, i);
     const Local old = F.template segment<components>(i);
@@ -23,7 +24,7 @@ double sweep(const CondensedSystem& condensed, const Eigen::VectorXd& offset, do
     b -= D_pp * old;
     Local solved;
     if constexpr (components == 2)
-      solved = solve_coulomb_law(D_pp, b, mu);
+      solved = solve_coulomb_law(D_pp, b, contact.friction_at(p));
     else
       solved(0) = solve_signorini_law(D_pp(0), b(0));
     F.template segment<components>(i) = solved;
@@ -36,8 +37,8 @@ double sweep(const CondensedSystem& condensed, const Eigen::VectorXd& offset, do
 
 double gauss_seidel_sweep(const CondensedSystem& condensed, const ContactPoints& contact,
                           const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
-  return std::sqrt(contact.components == 2 ? sweep<2>(condensed, offset, contact.friction, F)
-                                           : sweep<1>(condensed, offset, contact.friction, F));
+  return std::sqrt(contact.components == 2 ? sweep<2>(condensed, contact, offset, F)
+                                           : sweep<1>(condensed, contact, offset, F));
 }
 
 ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,

@@ -39,7 +39,7 @@ void add_of_control_points(const Problem& problem, const ControlPoints& points,
 
 std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
-  if (problem.friction == 0 || system.contact.count == 0) return {};
+  if (!problem.has_friction() || system.contact.count == 0) return {};
   Slid slid = problem.loads.slid_mm;
   slid.resize(problem.mesh.boundary.size(), {0, 0, 0});
   if (answer.displacement.cols() > 0) {

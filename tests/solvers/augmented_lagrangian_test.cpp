@@ -44,7 +44,7 @@ void expect_in_cone(const DualSystem& system, const Eigen::VectorXd& F_C) {
     const double normal = F_C(contact.components * p);
     EXPECT_LE(normal, 0);
     if (contact.components == 2) {
-      EXPECT_LE(std::abs(F_C(2 * p + 1)), -contact.friction * normal * (1 + 1e-15));
+      EXPECT_LE(std::abs(F_C(2 * p + 1)), -contact.friction_at(p) * normal * (1 + 1e-15));
     }
   }
 }

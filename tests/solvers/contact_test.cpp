@@ -66,7 +66,7 @@ ContactPoints points(int count, int components, double mu) {
   ContactPoints contact;
   contact.count = count;
   contact.components = components;
-  contact.friction = mu;
+  contact.friction.assign(static_cast<std::size_t>(count), mu);
   contact.gap = Eigen::VectorXd::Zero(contact.size());
   for (int p = 0; p < count; ++p) {
     contact.gap(components * p) = 0.01;

@@ -18,10 +18,10 @@ namespace {
 using testing::small_tooth;
 
 std::vector<HybridInput<double>> inputs_of(const Problem& problem) {
-  const std::vector<bool> in_frame = edges_in_frame(problem);
+  const std::vector<int> rows = rows_in_frame(problem);
   std::vector<HybridInput<double>> inputs;
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
-    inputs.push_back(hybrid_input<double>(problem, in_frame, t));
+    inputs.push_back(hybrid_input<double>(problem, rows, t));
   return inputs;
 }
 

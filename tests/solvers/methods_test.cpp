@@ -203,11 +203,11 @@ TEST_P(EveryKindOfMethod, ScenesWithNoForceHaveNoStress) {
 TEST_P(EveryKindOfMethod, StressIsStrictlyAdmissibleOnWholeContactEdges) {
   const auto problem = posed({});
   const Solution solution = solve(problem);
-  const double mu = problem->friction;
   const double largest = solution.F_C.cwiseAbs().maxCoeff();
   for (std::size_t row = 0; row < problem->mesh.boundary.size(); ++row) {
     if (problem->mesh.boundary[row].role != BoundaryRole::contact) continue;
     const int edge = problem->edges.of_boundary[row];
+    const double mu = problem->friction_at(static_cast<int>(row));
     for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
       for (int k = 0; k < 3; ++k) {
         if (problem->edges.of_triangle[t][k] != edge) continue;

@@ -88,8 +88,8 @@ double friction_work(const Solved& s) {
       const Eigen::Vector2d u = (1 - x) * (1 - x) * field.col(nodes[0]) +
                                 2 * x * (1 - x) * field.col(nodes[1]) + x * x * field.col(nodes[2]);
       const double force = (1 - x) * s.stresses.F_C(2 * p) + x * s.stresses.F_C(2 * p + 2);
-      sum +=
-          2. / steps * s.system.contact.friction * std::abs(force) * std::abs(frame.tangent.dot(u));
+      sum += 2. / steps * s.system.contact.friction_at(0) * std::abs(force) *
+             std::abs(frame.tangent.dot(u));
     }
   }
   return sum;

@@ -32,7 +32,6 @@ struct QuadSolution {
 QuadVector solve_law(const QuadMatrix& D, const QuadVector& offset, const ContactPoints& contact,
                      const std::vector<ContactState>& states, const Eigen::VectorXd& like) {
   const int m = contact.components;
-  const Quad mu = contact.friction;
   QuadMatrix A = D;
   QuadVector b = offset;
   const auto replace = [&](int row) {
@@ -45,7 +44,8 @@ QuadVector solve_law(const QuadMatrix& D, const QuadVector& offset, const Contac
     if (states[p] == ContactState::open) replace(normal);
     if (m == 1 || states[p] == ContactState::stick) continue;
     replace(tangential);
-    if (states[p] == ContactState::slip) A(tangential, normal) = like(tangential) > 0 ? mu : -mu;
+    if (states[p] == ContactState::slip)
+      A(tangential, normal) = (like(tangential) > 0 ? 1 : -1) * Quad(contact.friction_at(p));
   }
   const QuadVector F = A.partialPivLu().solve(b), r = D * F - offset;
   const Quad small = 1e-28, force = F.cwiseAbs().maxCoeff(), gap = offset.cwiseAbs().maxCoeff();
@@ -55,10 +55,10 @@ QuadVector solve_law(const QuadMatrix& D, const QuadVector& offset, const Contac
     EXPECT_LE(r(normal), small * gap) << p;
     EXPECT_LE(abs(F(normal) * r(normal)), small * force * gap) << p;
     if (m == 1) continue;
-    EXPECT_LE(abs(F(tangential)), -mu * F(normal) + small * force) << p;
+    EXPECT_LE(abs(F(tangential)), -Quad(contact.friction_at(p)) * F(normal) + small * force) << p;
     EXPECT_LE(F(tangential) * r(tangential), small * force * gap) << p;
     if (abs(r(tangential)) > small * gap) {
-      EXPECT_GE(abs(F(tangential)), -mu * F(normal) - small * force) << p;
+      EXPECT_GE(abs(F(tangential)), -Quad(contact.friction_at(p)) * F(normal) - small * force) << p;
     }
   }
   return F;

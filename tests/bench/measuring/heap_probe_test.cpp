@@ -123,7 +123,7 @@ TEST(Allocations, NoneInsideAContactSweep) {
     ContactPoints contact;
     contact.components = components;
     contact.count = 40 / components;
-    contact.friction = components == 2 ? 0.3 : 0;
+    if (components == 2) contact.friction.assign(static_cast<std::size_t>(contact.count), 0.3);
     const CondensedSystem system = condensed(40);
     const auto allocations = [&](int sweeps) {
       RunControl control;

@@ -1,0 +1,205 @@
+#include "assembly/contact_conditions.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/edge_forces.hpp"
+#include "mesh/transform_error.hpp"
+
+namespace airybench {
+namespace {
+
+using ThreePoints = std::array<double, 3>;  // of an edge: start, middle, end
+
+// An edge's own values, those of the scene where its group has none.
+struct EdgeValues {
+  double friction, clearance_mm;
+  const std::optional<Wall>&wall, &face;
+};
+
+EdgeValues values_of(const Mesh& mesh, int row, const BoundaryConditions& conditions,
+                     const ContactDefaults& defaults) {
+  static const ContactValues none;
+  const auto given = conditions.find(boundary_label(mesh, mesh.boundary[row]));
+  const ContactValues& own = given == conditions.end() ? none : given->second.contact;
+  return {own.friction.value_or(defaults.friction),
+          own.clearance_mm.value_or(defaults.clearance_mm), own.wall ? own.wall : defaults.wall,
+          own.face ? own.face : defaults.face};
+}
+
+std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
+  const auto [start, end] = mesh.boundary[row].vertices;
+  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+  return {a, (a + b) / 2, b};
+}
+
+double diameter_of(const Mesh& mesh) {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
+  return box.diagonal().norm();
+}
+
+// The direction in which an edge of outward normal m meets its wall at x; m where there is none.
+Eigen::Vector2d law_normal(const EdgeValues& values, const Eigen::Vector2d& x,
+                           const Eigen::Vector2d& m) {
+  if (!values.wall) return m;
+  return direction_towards(*values.wall, x).value_or(m);
+}
+
+// From the face to the wall, without clearance; none: out of reach.
+std::optional<ThreePoints> wall_distances(const Mesh& mesh, int row, const EdgeValues& values,
+                                          double reach_mm) {
+  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
+  const Eigen::Vector2d m = edge_frame(x[0], x[2]).normal;
+  std::array<std::optional<double>, 3> met;
+  std::optional<double> largest;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Eigen::Vector2d n = law_normal(values, x[k], m);
+    if (!(n.dot(m) > 0)) continue;  // it faces away
+    met[k] = distance_along(*values.wall, x[k], n);
+    if (met[k] && std::abs(*met[k]) > reach_mm) met[k].reset();
+    if (!met[k]) continue;
+    if (values.face) *met[k] -= distance_to_either_side(*values.face, x[k], n).value_or(0);
+    largest = std::max(largest.value_or(*met[k]), *met[k]);
+  }
+  if (!largest) return {};
+  return ThreePoints{met[0].value_or(*largest), met[1].value_or(*largest),
+                     met[2].value_or(*largest)};
+}
+
+void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
+                double allowed_mm) {
+  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
+  const Eigen::Vector2d normal = edge_frame(x[0], x[2]).normal;
+  for (const Eigen::Vector2d& point : x) {
+    const std::optional<double> t = distance_to_either_side(face, point, normal);
+    if (t && std::abs(*t) <= allowed_mm) continue;
+    refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
+           "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
+               " mm, 2 % of the group's length)");
+  }
+}
+
+void check_interference(const std::string& label, const Eigen::Vector2d& at, double gap_mm,
+                        double diameter_mm) {
+  constexpr double most = 0.1;
+  if (gap_mm >= -most * diameter_mm) return;
+  refuse(label + ": wall", "lies " + shown(-gap_mm) + " mm inside the body",
+         "at " + shown(at) + " (allowed: up to a tenth of its size, " + shown(most * diameter_mm) +
+             " mm)");
+}
+
+// g0 on an edge.
+struct EdgeGap {
+  double clearance_mm = 0;
+  Eigen::Vector2d middle = {0, 0};  // of the crown
+  double curvature = 0;
+  std::optional<ThreePoints> wall;
+  Eigen::Vector2d start = {0, 0}, along = {0, 0};  // s = (x − start)·along
+
+  double at(const Eigen::Vector2d& x) const {
+    if (!wall) return clearance_mm + (x - middle).squaredNorm() * curvature / 2;
+    const double s = (x - start).dot(along);
+    const auto& [a, m, b] = *wall;
+    return clearance_mm + a * (1 - s) * (1 - 2 * s) + 4 * m * s * (1 - s) + b * s * (2 * s - 1);
+  }
+  bool is_zero() const {
+    return clearance_mm == 0 && curvature == 0 && (!wall || *wall == ThreePoints{0, 0, 0});
+  }
+};
+
+}  // namespace
+
+Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
+                            const ContactDefaults& defaults) {
+  constexpr double farthest = 100, face_share = 0.02;
+  const double diameter = diameter_of(mesh);
+  std::map<std::string, double> length_mm;
+  const auto for_each_contact_edge = [&](const auto& visit) {
+    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+      if (mesh.boundary[row].role == BoundaryRole::contact)
+        visit(row, boundary_label(mesh, mesh.boundary[row]));
+  };
+  for_each_contact_edge([&](int row, const std::string& label) {
+    const auto x = points_of(mesh, row);
+    length_mm[label] += (x[2] - x[0]).norm();
+  });
+  std::vector<int> free;
+  std::map<std::string, int> met;  // edges of groups with a wall
+  for_each_contact_edge([&](int row, const std::string& label) {
+    const EdgeValues values = values_of(mesh, row, conditions, defaults);
+    if (!values.wall) return;
+    if (values.face) check_face(mesh, row, label, *values.face, face_share * length_mm[label]);
+    const auto distances = wall_distances(mesh, row, values, farthest * diameter);
+    met[label] += distances ? 1 : 0;
+    if (!distances) free.push_back(row);
+    for (std::size_t k = 0; distances && k < 3; ++k)
+      check_interference(label, points_of(mesh, row)[k], (*distances)[k] + values.clearance_mm,
+                         diameter);
+  });
+  for (const auto& [label, count] : met)
+    if (count == 0)
+      throw TransformError(label +
+                           ": wall: no edge meets it (allowed: a wall that lies in the direction "
+                           "of the edges' outward normals, its free side towards them)");
+  for (const int row : free) mesh.boundary[row].role = BoundaryRole::force;
+  return mesh;
+}
+
+std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
+    const Mesh& mesh, const BoundaryConditions& conditions, const ContactDefaults& defaults) {
+  std::vector<EdgeGap> gaps(mesh.boundary.size());
+  const double curvature = defaults.crown_radius_mm ? 1 / *defaults.crown_radius_mm : 0;
+  for (const std::vector<int>& chain : boundary_chains(mesh, BoundaryRole::contact)) {
+    const Eigen::Vector2d middle =
+        (points_of(mesh, chain.front())[0] + points_of(mesh, chain.back())[2]) / 2;
+    for (const int row : chain) {
+      const EdgeValues values = values_of(mesh, row, conditions, defaults);
+      EdgeGap& gap = gaps[static_cast<std::size_t>(row)];
+      gap.clearance_mm = values.clearance_mm;
+      gap.middle = middle;
+      gap.curvature = curvature;
+      if (!values.wall) continue;
+      const auto [a, m, b] = points_of(mesh, row);
+      gap.wall = wall_distances(mesh, row, values, std::numeric_limits<double>::infinity());
+      gap.start = a;
+      gap.along = (b - a) / (b - a).squaredNorm();
+    }
+  }
+  if (std::ranges::all_of(gaps, &EdgeGap::is_zero)) return {};
+  return [gaps = std::move(gaps)](const Eigen::Vector2d& x, int row) {
+    return gaps[static_cast<std::size_t>(row)].at(x);
+  };
+}
+
+std::vector<ContactNormals> contact_normals(const Mesh& mesh,
+                                            const BoundaryConditions& conditions,
+                                            const ContactDefaults& defaults) {
+  std::vector<ContactNormals> normals(mesh.boundary.size());
+  bool own = true;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const EdgeValues values = values_of(mesh, row, conditions, defaults);
+    const auto [a, middle, b] = points_of(mesh, row);
+    const Eigen::Vector2d m = edge_frame(a, b).normal;
+    const auto at = [&](const Eigen::Vector2d& x) { return law_normal(values, x, m); };
+    normals[static_cast<std::size_t>(row)] = {{at(a), at(middle), at(b)},
+                                              {at((2 * a + b) / 3), at((a + 2 * b) / 3)}};
+    own &= !values.wall || std::holds_alternative<PolylineWall>(*values.wall);
+  }
+  if (own) normals.clear();
+  return normals;
+}
+
+std::vector<double> contact_friction(const Mesh& mesh, const BoundaryConditions& conditions,
+                                     const ContactDefaults& defaults) {
+  std::vector<double> friction(mesh.boundary.size(), 0);
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
+    if (mesh.boundary[row].role == BoundaryRole::contact)
+      friction[static_cast<std::size_t>(row)] = values_of(mesh, row, conditions, defaults).friction;
+  return friction;
+}
+
+}  // namespace airybench

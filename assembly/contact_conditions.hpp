@@ -1,0 +1,41 @@
+// Gap and friction on Γ_C: what a scene says of it all, and of groups of its edges.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "assembly/boundary_values.hpp"
+
+namespace airybench {
+
+// Of contact edges whose group has no value of its own.
+struct ContactDefaults {
+  double friction = 0, clearance_mm = 0;
+  // Without a wall: clearance + d²/(2R), where d is the distance from the middle of the contact face
+  // that the edge belongs to, the midpoint of the face's two ends. None: flat.
+  std::optional<double> crown_radius_mm;
+  std::optional<Wall> wall, face;
+};
+
+// Edges from which no wall is met, nearer than a hundred sizes of the body, cannot touch: they
+// become force edges and keep their group. An edge that is met at its ends or middle only has the
+// largest gap of these. Throws TransformError: a wall that no edge of a group meets, or that lies
+// more than a tenth of the body's size inside it; a face that is not where the edges are.
+Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
+                            const ContactDefaults& defaults);
+
+// g0 of such a mesh, quadratic on every edge: through its values at both ends and the middle.
+// Empty: zero.
+std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
+    const Mesh& mesh, const BoundaryConditions& conditions, const ContactDefaults& defaults);
+
+// Per row of Mesh::boundary; empty: the edges' own.
+std::vector<ContactNormals> contact_normals(const Mesh& mesh,
+                                            const BoundaryConditions& conditions,
+                                            const ContactDefaults& defaults);
+
+// μ per row of Mesh::boundary.
+std::vector<double> contact_friction(const Mesh& mesh, const BoundaryConditions& conditions,
+                                     const ContactDefaults& defaults);
+
+}  // namespace airybench

@@ -1,0 +1,190 @@
+// Walls: the gap along an edge's normal, what is out of reach, groups of their own, what is refused.
+#include "assembly/wall.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "assembly/dual_system.hpp"
+#include "assembly/edge_forces.hpp"
+#include "assembly/scene.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::wall_test {
+namespace {
+
+using Eigen::Vector2d;
+using enum CircularWall::Bodies;
+
+TEST(Wall, DistanceAlongARay) {
+  const Vector2d down(0, -1), slant = Vector2d(3, -4) / 5;
+  const Wall floor = FlatWall{{5, 1}, {0, 2}};
+  EXPECT_NEAR(distance_along(floor, {0, 3}, down).value(), 2, 1e-15);
+  EXPECT_NEAR(distance_along(floor, {0, 3}, slant).value(), 2.5, 1e-15);
+  EXPECT_NEAR(distance_along(floor, {0, 0.5}, down).value(), -0.5, 1e-15);  // behind it
+  EXPECT_FALSE(distance_along(floor, {0, 3}, Vector2d(0, 1)));              // away from it
+  EXPECT_FALSE(distance_along(floor, {0, 3}, Vector2d(1, 0)));
+
+  const Wall socket = CircularWall{{0, 0}, 5, inside}, disc = CircularWall{{0, 0}, 5, outside};
+  EXPECT_NEAR(distance_along(socket, {3, 0}, down).value(), 4, 1e-15);
+  EXPECT_NEAR(distance_along(socket, {0, -5.5}, down).value(), -0.5, 1e-15);
+  EXPECT_NEAR(distance_along(disc, {3, 10}, down).value(), 6, 1e-14);
+  EXPECT_NEAR(distance_along(disc, {3, 3.9}, down).value(), -0.1, 1e-14);
+  EXPECT_FALSE(distance_along(disc, {5.1, -10}, down));
+  EXPECT_FALSE(distance_along(disc, {5.1, 10}, down));
+  EXPECT_NEAR(distance_to_either_side(disc, {3, -4.2}, down).value(), -0.2, 1e-14);
+
+  // The free side is on the left of the walk; the ray meets the nearer piece.
+  const Wall steps = PolylineWall{{{0, 0}, {2, 0}, {2, 1}, {4, 1}}};
+  EXPECT_NEAR(distance_along(steps, {1, 3}, down).value(), 3, 1e-15);
+  EXPECT_NEAR(distance_along(steps, {3, 3}, down).value(), 2, 1e-15);
+  EXPECT_NEAR(distance_along(steps, {1, 0.5}, Vector2d(1, 0)).value(), 1, 1e-15);
+  EXPECT_TRUE(distance_along(steps, {2, 3}, down));  // nothing passes between two pieces
+  EXPECT_FALSE(distance_along(steps, {5, 3}, down));
+  EXPECT_FALSE(distance_along(PolylineWall{{{4, 1}, {0, 0}}}, {1, 3}, down));
+}
+
+// A block whose face x = 10 is contact, in its own place or turned.
+struct Turned {
+  double degrees;
+  Eigen::Matrix2d turn;
+  Mesh mesh;
+  explicit Turned(double angle) : degrees(angle), mesh(testing::small_block(4, 4, angle)) {
+    const double a = angle / 180 * std::acos(-1);
+    turn << std::cos(a), -std::sin(a), std::sin(a), std::cos(a);
+  }
+};
+
+Scene scene_with(const Wall& wall) {
+  Scene scene;
+  scene.wall = wall;
+  return scene;
+}
+
+TEST(Wall, GapsOfAFlatAndACircularWallHoweverTheBodyIsTurned) {
+  for (const double angle : {0., 33., 211.}) {
+    const Turned block(angle);
+    const auto at = [&](double x, double y) -> Vector2d { return block.turn * Vector2d(x, y); };
+    const Problem flat = pose(scene_with(FlatWall{at(10.5, 0), at(-1, 0.1)}), block.mesh);
+    const Problem disc =
+        pose(scene_with(CircularWall{at(10 + 20.25, 5), 20, outside}), block.mesh);
+    const Problem socket = pose(scene_with(CircularWall{at(0, 5), 15, inside}), block.mesh);
+    int edges = 0;
+    for (int row = 0; row < static_cast<int>(block.mesh.boundary.size()); ++row) {
+      if (block.mesh.boundary[row].role != BoundaryRole::contact) continue;
+      ++edges;
+      const auto [a, b] = block.mesh.boundary[row].vertices;
+      for (const double s : {0., 0.5, 1.}) {
+        const Vector2d x = (1 - s) * block.mesh.vertices[a] + s * block.mesh.vertices[b];
+        const double y = (block.turn.transpose() * x).y() - 5;
+        // The distances to the walls' nearest points.
+        EXPECT_NEAR(flat.loads.gap_mm(x, row), (0.5 + 0.1 * (y + 5)) / std::hypot(1, 0.1), 1e-13);
+        EXPECT_NEAR(disc.loads.gap_mm(x, row), std::hypot(20.25, y) - 20, 1e-13);
+        EXPECT_NEAR(socket.loads.gap_mm(x, row), 15 - std::hypot(10, y), 1e-13);
+      }
+    }
+    EXPECT_EQ(edges, 4);
+  }
+}
+
+TEST(Wall, AFaceIsWhereItsEdgesAreChords) {
+  // The chord of an arc of radius 100 about (-90, 5), which the contact side is declared to be.
+  const Mesh block = testing::small_block(1, 4, 0);
+  Scene scene = scene_with(FlatWall{{10.5, 0}, {-1, 0}});
+  scene.face = CircularWall{{-90, 5}, 100, inside};
+  const Problem problem = pose(scene, block);
+  for (int row = 0; row < static_cast<int>(block.boundary.size()); ++row)
+    if (block.boundary[row].role == BoundaryRole::contact) {
+      const Vector2d x = block.vertices[block.boundary[row].vertices[0]];
+      const double sagitta = 100 - std::sqrt(1e4 - std::pow(x.y() - 5, 2));
+      EXPECT_NEAR(problem.loads.gap_mm(x, row), 0.5 + sagitta, 1e-12);
+    }
+}
+
+TEST(Wall, EdgesOutOfReachBecomeForceEdges) {
+  const Mesh block = testing::small_block(4, 4, 0);
+  // A short wall in front of the lower part of the side: edges of 2.5 mm, met up to y = 5.
+  const Problem problem = pose(scene_with(PolylineWall{{{11, -1}, {11, 5.5}}}), block);
+  EXPECT_EQ(mesh_sizes(block).contact_edges, 4);
+  EXPECT_EQ(mesh_sizes(problem.mesh).contact_edges, 3);  // the third at its start only
+  for (int row = 0; row < static_cast<int>(block.boundary.size()); ++row)
+    if (problem.mesh.boundary[row].role == BoundaryRole::contact) {
+      EXPECT_NEAR(problem.loads.gap_mm({10, 6}, row), 1, 1e-14);
+    }
+}
+
+TEST(Wall, ContactGroupsHaveTheirOwnWallFrictionAndClearance) {
+  Mesh block = testing::small_block(4, 4, 0);
+  const int upper = boundary_group(block, "upper");
+  for (BoundaryEdge& edge : block.boundary)
+    if (edge.role == BoundaryRole::contact && block.vertices[edge.vertices[0]].y() > 4.9)
+      edge.group = upper;
+  Scene scene = scene_with(FlatWall{{10, 0}, {-1, 0}});
+  scene.friction = 0.3;
+  ContactValues& own = scene.boundary["contact:upper"].contact;
+  own.friction = 0;
+  own.clearance_mm = 0.25;
+  own.wall = FlatWall{{10.5, 0}, {-1, 0}};
+  const DualSystem system = assemble(std::make_shared<const Problem>(pose(scene, block)));
+  EXPECT_EQ(system.contact.components, 2);
+  int of_upper = 0;
+  for (int p = 0; p < system.contact.count; ++p) {
+    const int row = system.contact.boundary[p];
+    const bool up = boundary_label(block, block.boundary[row]) == "contact:upper";
+    of_upper += up ? 1 : 0;
+    EXPECT_EQ(system.contact.friction_at(p), up ? 0 : 0.3);
+    EXPECT_EQ(system.problem->loads.gap_mm({10, 6}, row), up ? 0.75 : 0);
+  }
+  EXPECT_EQ(of_upper, 4);
+  scene.friction = 0;
+  EXPECT_FALSE(pose(scene, block).has_friction());
+}
+
+std::string complaint(const Scene& scene) {
+  try {
+    pose(scene, testing::small_block(4, 4, 0));
+  } catch (const SceneError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Wall, WhatCannotBeAWall) {
+  const std::string in = "default scene: ";
+  EXPECT_EQ(complaint(scene_with(FlatWall{{10, 0}, {1, 0}})),
+            in + "boundary: contact: wall: no edge meets it (allowed: a wall that lies in the "
+                 "direction of the edges' outward normals, its free side towards them)");
+  EXPECT_EQ(complaint(scene_with(FlatWall{{5, 0}, {-1, 0}})),
+            in + "boundary: contact: wall: lies 5 mm inside the body at [10, 0] (allowed: up to a "
+                 "tenth of its size, 1.41421 mm)");
+  EXPECT_EQ(complaint(scene_with(FlatWall{{10, 0}, {0, 0}})),
+            in + "wall: flat: normal: [0, 0] (allowed: not zero)");
+  EXPECT_EQ(complaint(scene_with(CircularWall{{20, 5}, -1, outside})),
+            in + "wall: circle: radius_mm: -1 (allowed: > 0)");
+  EXPECT_EQ(complaint(scene_with(CircularWall{{20, std::nan("")}, 1, outside})),
+            in + "wall: circle: centre_mm: [20, nan] (allowed: finite numbers)");
+  EXPECT_EQ(complaint(scene_with(PolylineWall{{{1, 2}}})),
+            in + "wall: polyline: 1 point(s) (allowed: at least 2)");
+  EXPECT_EQ(complaint(scene_with(PolylineWall{{{1, 2}, {1, 2}}})),
+            in + "wall: polyline: point 2: [1, 2] again (allowed: different points)");
+  Scene scene = scene_with(FlatWall{{10, 0}, {-1, 0}});
+  scene.face = CircularWall{{0, 5}, 12, inside};
+  EXPECT_EQ(complaint(scene),
+            in + "boundary: contact: face: is 0.908712 mm from the edge at [10, 0] (allowed: up to "
+                 "0.2 mm, 2 % of the group's length)");
+  scene.wall.reset();
+  EXPECT_EQ(complaint(scene), in + "face: given without a wall (allowed: beside one)");
+  scene = {};
+  scene.boundary["contact"].contact.face = CircularWall{{0, 5}, 12, inside};
+  EXPECT_EQ(complaint(scene), in + "boundary: contact: face without a wall (allowed: beside one)");
+  scene = {};
+  scene.boundary["force:top"].contact.friction = 0.1;
+  EXPECT_EQ(complaint(scene),
+            in + "boundary: force:top: friction (allowed: on a contact boundary)");
+  scene = {};
+  scene.boundary["contact"].contact.friction = -0.1;
+  EXPECT_EQ(complaint(scene), in + "boundary: contact: friction: -0.1 (allowed: >= 0)");
+}
+
+}  // namespace
+}  // namespace airybench::wall_test
