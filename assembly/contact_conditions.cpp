@@ -174,8 +174,7 @@ std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
   };
 }
 
-std::vector<ContactNormals> contact_normals(const Mesh& mesh,
-                                            const BoundaryConditions& conditions,
+std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryConditions& conditions,
                                             const ContactDefaults& defaults) {
   std::vector<ContactNormals> normals(mesh.boundary.size());
   bool own = true;

@@ -11,8 +11,8 @@ namespace airybench {
 // Of contact edges whose group has no value of its own.
 struct ContactDefaults {
   double friction = 0, clearance_mm = 0;
-  // Without a wall: clearance + d²/(2R), where d is the distance from the middle of the contact face
-  // that the edge belongs to, the midpoint of the face's two ends. None: flat.
+  // Without a wall: clearance + d²/(2R), where d is the distance from the middle of the contact
+  // face that the edge belongs to, the midpoint of the face's two ends. None: flat.
   std::optional<double> crown_radius_mm;
   std::optional<Wall> wall, face;
 };
@@ -30,8 +30,7 @@ std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
     const Mesh& mesh, const BoundaryConditions& conditions, const ContactDefaults& defaults);
 
 // Per row of Mesh::boundary; empty: the edges' own.
-std::vector<ContactNormals> contact_normals(const Mesh& mesh,
-                                            const BoundaryConditions& conditions,
+std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryConditions& conditions,
                                             const ContactDefaults& defaults);
 
 // μ per row of Mesh::boundary.

@@ -1,9 +1,11 @@
-// Curves that a contact face may meet, its walls, and what a face made of straight edges stands for.
+// Curves that a contact face may meet, its walls, and what a face made of straight edges stands
+// for.
 //
 // The contact law is about the direction n towards the wall: against the normal of a flat one,
 // radial to a round one, along the edge's own normal to a polyline. On a face of many edges the
 // edges' own normals would hold each vertex between two of them also along the wall.
-//   g0(x) = t_wall(x) − t_face(x) + clearance,   x + t n on the curve;  t_face = 0: the edge itself.
+//   g0(x) = t_wall(x) − t_face(x) + clearance,   x + t n on the curve;  t_face = 0: the edge
+//   itself.
 // A negative gap is an interference: the body is drawn into the wall and is pressed back.
 #pragma once
 

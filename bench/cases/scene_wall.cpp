@@ -13,8 +13,7 @@ FlatWall read_flat(const SceneReader& reader, const std::string& key, const Json
   FlatWall wall{{0, 0}, {0, 0}};
   reader.object(
       key + ": ", json,
-      {{"point_mm",
-        [&](const auto& k, const Json& v) { wall.point_mm = reader.vector(k, v); }},
+      {{"point_mm", [&](const auto& k, const Json& v) { wall.point_mm = reader.vector(k, v); }},
        {"normal", [&](const auto& k, const Json& v) { wall.normal = reader.vector(k, v); }}});
   if (!json.contains("point_mm") || !json.contains("normal"))
     reader.fail(key, json, "{\"point_mm\": [x, y], \"normal\": [x, y]}, both given");
@@ -45,7 +44,8 @@ CircularWall read_circle(const SceneReader& reader, const std::string& key, cons
 }
 
 PolylineWall read_polyline(const SceneReader& reader, const std::string& key, const Json& json) {
-  if (!json.is_array()) reader.fail(key, json, "a list of points [x, y], or in a file a file's name");
+  if (!json.is_array())
+    reader.fail(key, json, "a list of points [x, y], or in a file a file's name");
   PolylineWall wall;
   for (const Json& point : json) wall.points_mm.push_back(reader.vector(key, point));
   return wall;

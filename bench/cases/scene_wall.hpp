@@ -2,7 +2,8 @@
 //
 //   { "flat": { "point_mm": [0, 0], "normal": [0, 1] } }
 //   { "circle": { "centre_mm": [0, 8], "radius_mm": 8, "bodies": "inside" } }
-//   { "polyline": [[0, 0], [1, 0.1], [2, 0.4]] }, in a file also the name of one with a point per line
+//   { "polyline": [[0, 0], [1, 0.1], [2, 0.4]] }, in a file also the name of one with a point per
+//   line
 #pragma once
 
 #include <filesystem>

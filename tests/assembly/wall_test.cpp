@@ -1,4 +1,5 @@
-// Walls: the gap along an edge's normal, what is out of reach, groups of their own, what is refused.
+// Walls: the gap along an edge's normal, what is out of reach, groups of their own, what is
+// refused.
 #include "assembly/wall.hpp"
 
 #include <gtest/gtest.h>
@@ -66,8 +67,7 @@ TEST(Wall, GapsOfAFlatAndACircularWallHoweverTheBodyIsTurned) {
     const Turned block(angle);
     const auto at = [&](double x, double y) -> Vector2d { return block.turn * Vector2d(x, y); };
     const Problem flat = pose(scene_with(FlatWall{at(10.5, 0), at(-1, 0.1)}), block.mesh);
-    const Problem disc =
-        pose(scene_with(CircularWall{at(10 + 20.25, 5), 20, outside}), block.mesh);
+    const Problem disc = pose(scene_with(CircularWall{at(10 + 20.25, 5), 20, outside}), block.mesh);
     const Problem socket = pose(scene_with(CircularWall{at(0, 5), 15, inside}), block.mesh);
     int edges = 0;
     for (int row = 0; row < static_cast<int>(block.mesh.boundary.size()); ++row) {

@@ -1,0 +1,208 @@
+// Bodies and walls of one's own, against closed forms and against each other.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bench/cases/scene_file.hpp"
+#include "bench/judging/discretisation_error.hpp"
+#include "bench/judging/displacement_recovery.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::walls_test {
+namespace {
+
+using Eigen::Vector2d;
+
+struct Solved {
+  DualSystem system;
+  Solution solution;
+
+  Solved(const Scene& scene, const Mesh& mesh, const char* method)
+      : system(assemble(std::make_shared<const Problem>(pose(scene, mesh)))),
+        solution(run(select_methods(method).front(), system, {})) {
+    EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
+  }
+  const Problem& problem() const { return *system.problem; }
+  double energy() const { return stress_norm_squared(problem(), solution.stress) / 2; }
+};
+
+// Mean pressure of contact edges by the x of their middles.
+std::vector<std::pair<double, double>> pressures(const Solved& solved) {
+  std::vector<std::pair<double, double>> all;
+  const ContactPoints& contact = solved.system.contact;
+  for (int p = 0; p < contact.count; p += 2) {
+    const auto [a, b] = solved.problem().mesh.boundary[contact.boundary[p]].vertices;
+    const auto &x = solved.problem().mesh.vertices[a], &y = solved.problem().mesh.vertices[b];
+    const int m = contact.components;
+    all.emplace_back((x.x() + y.x()) / 2,
+                     -(solved.solution.F_C(m * p) + solved.solution.F_C(m * (p + 1))) /
+                         (y - x).norm());
+  }
+  return all;
+}
+
+// The largest difference from Hertz' pressure under the same load, where that is not near its end,
+// relative to its peak; and the half width.
+std::pair<double, double> difference_from_hertz(const Solved& solved) {
+  constexpr double R = 8, E = 210000 / (1 - 0.3 * 0.3);
+  double P = 0;
+  for (int i = 0; i < solved.solution.F_C.size(); i += solved.system.contact.components)
+    P -= solved.solution.F_C(i);
+  const double a = std::sqrt(4 * P * R / (std::numbers::pi * E)),
+               p0 = 2 * P / (std::numbers::pi * a);
+  double worst = 0;
+  for (const auto& [x, p] : pressures(solved))
+    if (std::abs(x) < 0.9 * a)
+      worst = std::max(worst, std::abs(p / p0 - std::sqrt(1 - x * x / (a * a))));
+  return {worst, a};
+}
+
+// docs/bodies: the mesh of cylinder.geo.
+TEST(Walls, ACylinderOfStraightEdgesIsHertzsWhereItsFaceIsSaidToBeRound) {
+  Scene scene = read_scene(testing::source_folder() / "docs/bodies/cylinder.json");
+  const Mesh mesh = read_msh(testing::test_data("validation/cylinder.msh"));
+  const Solved round(scene, mesh, "HYBRID");
+  const auto [off, a] = difference_from_hertz(round);
+  EXPECT_NEAR(a, 0.28, 0.01);
+  EXPECT_LT(off, 0.01);
+  const ConstitutiveError error = constitutive_error(
+      round.system, round.solution.stress, round.solution.F_C,
+      recovered_displacement(round.system, round.solution.stress, round.solution.F_C,
+                             round.solution.edge_moments));
+  EXPECT_TRUE(error.guaranteed) << error.flaw;
+  EXPECT_LT(error.relative, 0.03);
+  scene.face.reset();  // as a polygon it bears on its vertices first
+  EXPECT_GT(difference_from_hertz(Solved(scene, mesh, "HYBRID")).first, 2 * off);
+}
+
+// A ring from 24 to 30 mm over 120°, its outer side contact, its ends held.
+Mesh ring_segment(int radial, int around) {
+  Mesh mesh{.name = "ring", .body_names = {"ring"}};
+  const int right = boundary_group(mesh, "right"), left = boundary_group(mesh, "left");
+  for (int i = 0; i <= around; ++i)
+    for (int k = 0; k <= radial; ++k) {
+      const double angle = std::numbers::pi * (7. / 6 + 2. / 3 * i / around), r = 24 + 6. * k / radial;
+      mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+    }
+  const auto vertex = [&](int i, int k) { return i * (radial + 1) + k; };
+  using enum BoundaryRole;
+  for (int i = 0; i < around; ++i) {
+    for (int k = 0; k < radial; ++k) {
+      mesh.triangles.push_back({vertex(i, k), vertex(i, k + 1), vertex(i + 1, k + 1)});
+      mesh.triangles.push_back({vertex(i, k), vertex(i + 1, k + 1), vertex(i + 1, k)});
+    }
+    mesh.boundary.push_back({{vertex(i, radial), vertex(i + 1, radial)}, contact});
+    mesh.boundary.push_back({{vertex(i + 1, 0), vertex(i, 0)}, force});
+  }
+  for (int k = 0; k < radial; ++k) {
+    mesh.boundary.push_back({{vertex(around, k + 1), vertex(around, k)}, displacement, right});
+    mesh.boundary.push_back({{vertex(0, k), vertex(0, k + 1)}, displacement, left});
+  }
+  mesh.triangle_body.assign(mesh.triangles.size(), 0);
+  validate(mesh);
+  return mesh;
+}
+
+Scene socket(double radius_mm) {
+  Scene scene;
+  scene.wall = CircularWall{{0, 0}, radius_mm, CircularWall::Bodies::inside};
+  scene.face = CircularWall{{0, 0}, 30, CircularWall::Bodies::inside};
+  return scene;
+}
+
+TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
+  const Mesh mesh = ring_segment(2, 16);
+  Scene scene = socket(30);
+  scene.friction = 0;
+  constexpr double angle = 1e-3;
+  const auto turned = [&](const Vector2d& x) { return Vector2d(-angle * x.y(), angle * x.x()); };
+  for (const auto& [label, degrees] : {std::pair("displacement:right", -30.), {"displacement:left", 210.}}) {
+    const double a = degrees / 180 * std::numbers::pi;
+    const Vector2d in = 24 * Vector2d(std::cos(a), std::sin(a)), out = in * 30 / 24;
+    scene.boundary[label].displacement_mm =
+        LinearValue<Vector2d>{{turned(in), turned(out)}, {in, out}};
+  }
+  // Held by friction it is not.
+  Scene sticking = scene;
+  sticking.friction = 10;
+  sticking.wall = CircularWall{{0, 0}, 29.999, CircularWall::Bodies::inside};
+  const double size = Solved(sticking, mesh, "HYBRID").energy();
+  for (const char* method : {"HYBRID", "P2", "BLIND:SCHUR"})
+    EXPECT_LT(Solved(scene, mesh, method).energy(), 1e-20 * size) << method;
+}
+
+TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
+  // Pressed from inside, its ends free to slide: a uniform state, whatever the number of edges.
+  double before = 0;
+  for (const int around : {12, 24}) {
+    Scene scene = socket(30.001);
+    scene.friction = 0;
+    scene.boundary["displacement:left"].support = BoundaryValues::Support::normal;
+    scene.boundary["displacement:right"].support = BoundaryValues::Support::normal;
+    scene.displacement_mm = {0, 0};
+    scene.boundary["force"].pressure_MPa = LinearValue<double>{{40, 40}};
+    const Solved solved(scene, ring_segment(2, around), "HYBRID");
+    double least = 1e9, largest = 0;
+    for (const auto& [x, p] : pressures(solved)) {
+      least = std::min(least, p);
+      largest = std::max(largest, p);
+    }
+    EXPECT_GT(least, 0);
+    const double spread = largest / least - 1;
+    if (before > 0) EXPECT_LT(spread, before / 3) << around;
+    before = spread;
+  }
+  EXPECT_LT(before, 0.01);
+}
+
+TEST(Walls, ATurnedBlockOnAFlatWallIsTheOneOnItsOwnFace) {
+  for (const char* method : {"HYBRID", "P2", "3STEPD"}) {
+    Scene own;
+    own.crown_radius_mm.reset();
+    const Solved expected(own, testing::small_block(4, 4, 0), method);
+    const double a = 33. / 180 * std::numbers::pi;
+    Eigen::Matrix2d turn;
+    turn << std::cos(a), -std::sin(a), std::sin(a), std::cos(a);
+    Scene scene;
+    scene.wall = FlatWall{turn * Vector2d(10, 3), turn * Vector2d(-1, 0)};
+    scene.displacement_mm = turn * own.displacement_mm;
+    const Solved turned(scene, testing::small_block(4, 4, 33), method);
+    EXPECT_NEAR(turned.energy() / expected.energy(), 1, 1e-11) << method;
+    EXPECT_LT((turned.solution.F_C - expected.solution.F_C).norm(),
+              1e-11 * expected.solution.F_C.norm())
+        << method;
+  }
+}
+
+TEST(Walls, EachGroupSlipsByItsOwnFriction) {
+  Mesh block = testing::small_block(6, 6, 0);
+  const int upper = boundary_group(block, "upper");
+  for (BoundaryEdge& edge : block.boundary)
+    if (edge.role == BoundaryRole::contact && block.vertices[edge.vertices[0]].y() > 4.9)
+      edge.group = upper;
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  scene.displacement_mm = {0.01, 0.02};
+  scene.boundary["contact:upper"].contact.friction = 0;
+  for (const char* method : {"HYBRID", "3STEPD", "BLIND:SCHUR", "ALM:AUTO"}) {
+    const Solved solved(scene, block, method);
+    const ContactPoints& contact = solved.system.contact;
+    const Eigen::VectorXd& F = solved.solution.F_C;
+    const double size = F.cwiseAbs().maxCoeff();
+    double largest_ratio = 0;
+    for (int p = 0; p < contact.count; ++p) {
+      const bool free = boundary_label(block, block.boundary[contact.boundary[p]]) == "contact:upper";
+      if (free) EXPECT_EQ(F(2 * p + 1), 0) << method;
+      EXPECT_LE(std::abs(F(2 * p + 1)), -contact.friction_at(p) * F(2 * p) + 1e-7 * size) << method;
+      if (!free && F(2 * p) < -0.01 * size)
+        largest_ratio = std::max(largest_ratio, std::abs(F(2 * p + 1) / F(2 * p)));
+    }
+    EXPECT_NEAR(largest_ratio, 0.2, 1e-6) << method;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::walls_test
