@@ -65,7 +65,8 @@ void check_values(const Scene& scene);
 
 // Transforms the mesh and poses the scene on it. g0 = clearance + d²/(2R) on the contact boundary,
 // where d is the distance from the middle of the contact face that the edge belongs to (the
-// midpoint of the face's two ends: the tooth's axis). Throws SceneError. Load steps after the first
+// midpoint of the face's two ends: the tooth's axis); a closed face has no ends, and no crown.
+// Throws SceneError. Load steps after the first
 // are Problem::later_steps.
 Problem pose(const Scene& scene, Mesh mesh);
 
