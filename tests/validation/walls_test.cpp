@@ -37,9 +37,9 @@ std::vector<std::pair<double, double>> pressures(const Solved& solved) {
     const auto [a, b] = solved.problem().mesh.boundary[contact.boundary[p]].vertices;
     const auto &x = solved.problem().mesh.vertices[a], &y = solved.problem().mesh.vertices[b];
     const int m = contact.components;
-    all.emplace_back((x.x() + y.x()) / 2,
-                     -(solved.solution.F_C(m * p) + solved.solution.F_C(m * (p + 1))) /
-                         (y - x).norm());
+    all.emplace_back(
+        (x.x() + y.x()) / 2,
+        -(solved.solution.F_C(m * p) + solved.solution.F_C(m * (p + 1))) / (y - x).norm());
   }
   return all;
 }
@@ -68,10 +68,10 @@ TEST(Walls, ACylinderOfStraightEdgesIsHertzsWhereItsFaceIsSaidToBeRound) {
   const auto [off, a] = difference_from_hertz(round);
   EXPECT_NEAR(a, 0.28, 0.01);
   EXPECT_LT(off, 0.01);
-  const ConstitutiveError error = constitutive_error(
-      round.system, round.solution.stress, round.solution.F_C,
-      recovered_displacement(round.system, round.solution.stress, round.solution.F_C,
-                             round.solution.edge_moments));
+  const ConstitutiveError error =
+      constitutive_error(round.system, round.solution.stress, round.solution.F_C,
+                         recovered_displacement(round.system, round.solution.stress,
+                                                round.solution.F_C, round.solution.edge_moments));
   EXPECT_TRUE(error.guaranteed) << error.flaw;
   EXPECT_LT(error.relative, 0.03);
   scene.face.reset();  // as a polygon it bears on its vertices first
@@ -84,7 +84,8 @@ Mesh ring_segment(int radial, int around) {
   const int right = boundary_group(mesh, "right"), left = boundary_group(mesh, "left");
   for (int i = 0; i <= around; ++i)
     for (int k = 0; k <= radial; ++k) {
-      const double angle = std::numbers::pi * (7. / 6 + 2. / 3 * i / around), r = 24 + 6. * k / radial;
+      const double angle = std::numbers::pi * (7. / 6 + 2. / 3 * i / around),
+                   r = 24 + 6. * k / radial;
       mesh.vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
     }
   const auto vertex = [&](int i, int k) { return i * (radial + 1) + k; };
@@ -119,7 +120,8 @@ TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
   scene.friction = 0;
   constexpr double angle = 1e-3;
   const auto turned = [&](const Vector2d& x) { return Vector2d(-angle * x.y(), angle * x.x()); };
-  for (const auto& [label, degrees] : {std::pair("displacement:right", -30.), {"displacement:left", 210.}}) {
+  for (const auto& [label, degrees] :
+       {std::pair("displacement:right", -30.), {"displacement:left", 210.}}) {
     const double a = degrees / 180 * std::numbers::pi;
     const Vector2d in = 24 * Vector2d(std::cos(a), std::sin(a)), out = in * 30 / 24;
     scene.boundary[label].displacement_mm =
@@ -194,7 +196,8 @@ TEST(Walls, EachGroupSlipsByItsOwnFriction) {
     const double size = F.cwiseAbs().maxCoeff();
     double largest_ratio = 0;
     for (int p = 0; p < contact.count; ++p) {
-      const bool free = boundary_label(block, block.boundary[contact.boundary[p]]) == "contact:upper";
+      const bool free =
+          boundary_label(block, block.boundary[contact.boundary[p]]) == "contact:upper";
       if (free) EXPECT_EQ(F(2 * p + 1), 0) << method;
       EXPECT_LE(std::abs(F(2 * p + 1)), -contact.friction_at(p) * F(2 * p) + 1e-7 * size) << method;
       if (!free && F(2 * p) < -0.01 * size)
