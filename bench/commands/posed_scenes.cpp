@@ -34,11 +34,14 @@ std::vector<PosedScene> pose_all(const Options& options) {
   }
   if (scenes.empty()) scenes.emplace_back();
   std::vector<PosedScene> posed;
-  for (const MeshFile& file : read_meshes(options.meshes))
+  const std::vector<MeshFile> files =
+      read_meshes({options.meshes, options.model_settings, options.out});
+  for (const MeshFile& file : files)
     for (const Scene& scene : scenes)
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition_of(scene),
                        std::make_shared<const Problem>(pose(scene, file.mesh))});
+  if (!options.dry_run && !options.explain) keep_models(files);
   return posed;
 }
 
