@@ -12,7 +12,8 @@ namespace airybench {
 struct ContactDefaults {
   double friction = 0, clearance_mm = 0;
   // Without a wall: clearance + d²/(2R), where d is the distance from the middle of the contact
-  // face that the edge belongs to, the midpoint of the face's two ends. None: flat.
+  // face that the edge belongs to, the midpoint of the face's two ends. None: flat, as on closed
+  // faces.
   std::optional<double> crown_radius_mm;
   std::optional<Wall> wall, face;
 };

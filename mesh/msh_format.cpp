@@ -62,8 +62,9 @@ class LineReader {
     const std::string_view line = next_line(section);
     if (line != section) fail(std::string(section) + " expected, found '" + shown() + "'");
   }
+  template <typename Error = MeshError>
   [[noreturn]] void fail(const std::string& what) const {
-    throw MeshError(file_ + ":" + std::to_string(number_) + ": " + what);
+    throw Error(file_ + ":" + std::to_string(number_) + ": " + what);
   }
   const std::string& file() const { return file_; }
 
@@ -115,8 +116,9 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
     if (dimension == 1) {
       const std::optional<BoundaryLabel> label = parse_boundary_label(name);
       if (!label)
-        reader.fail("physical curve '" + name + "': unknown boundary role (allowed: " +
-                    std::string(boundary_labels_allowed) + ")");
+        reader.fail<ForeignMeshError>(
+            "physical curve '" + name +
+            "': unknown boundary role (allowed: " + std::string(boundary_labels_allowed) + ")");
       const PhysicalGroups::Curve curve{label->role, boundary_group(mesh, label->name)};
       if (!groups.curves.emplace(tag, curve).second)
         reader.fail("physical curve " + std::to_string(tag) + " is named twice");
@@ -125,8 +127,9 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
         reader.fail("physical surface " + std::to_string(tag) + " is named twice");
       mesh.body_names.push_back(name);
     } else {
-      reader.fail("physical group '" + name + "' of dimension " + std::to_string(dimension) +
-                  " (allowed: 1, boundary roles; 2, bodies)");
+      reader.fail<ForeignMeshError>("physical group '" + name + "' of dimension " +
+                                    std::to_string(dimension) +
+                                    " (allowed: 1, boundary roles; 2, bodies)");
     }
   }
   reader.expect("$EndPhysicalNames");
@@ -169,8 +172,8 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
     const std::string name = "element " + std::to_string(reader.field<long>("an element's number"));
     const int type = reader.field<int>(name + ": a type");
     if (type != gmsh_line && type != gmsh_triangle)
-      reader.fail(name + ": type " + std::to_string(type) +
-                  " (allowed: 1, 2-node line; 2, 3-node triangle)");
+      reader.fail<ForeignMeshError>(name + ": type " + std::to_string(type) +
+                                    " (allowed: 1, 2-node line; 2, 3-node triangle)");
     const int tags = reader.field<int>(name + ": the number of tags");
     if (tags < 1) reader.fail(name + ": needs a first tag, its physical group");
     const int group = reader.field<int>(name + ": a physical group");
@@ -223,7 +226,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   const double version = reader.field<double>("the format's version");
   const int binary = reader.field<int>("the file type");
   if (!(version >= 2 && version < 3) || binary != 0)
-    reader.fail("only MSH 2 in ASCII is read here; convert with `meshgen --convert`");
+    reader.fail<ForeignMeshError>(
+        "only MSH 2 in ASCII is read here; convert with `meshgen --convert`");
   reader.expect("$EndMeshFormat");
   reader.expect("$PhysicalNames");
   const PhysicalGroups groups = read_physical_names(reader, mesh);
@@ -233,7 +237,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   read_elements(reader, groups, vertex_of_node, mesh);
   if (!reader.at_end()) {
     reader.next_line("the end of the file");
-    reader.fail("unexpected section after $EndElements; convert with `meshgen --convert`");
+    reader.fail<ForeignMeshError>(
+        "unexpected section after $EndElements; convert with `meshgen --convert`");
   }
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
   validate(mesh);
@@ -284,6 +289,12 @@ void write_msh(std::ostream& out, const Mesh& mesh) {
     out << "\n";
   }
   out << "$EndElements\n";
+}
+
+std::string msh_text(const Mesh& mesh) {
+  std::ostringstream text;
+  write_msh(text, mesh);
+  return text.str();
 }
 
 }  // namespace airybench

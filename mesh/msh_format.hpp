@@ -17,6 +17,11 @@
 
 namespace airybench {
 
+// A file that is not written as above, but may be a mesh or a model of Gmsh's.
+struct ForeignMeshError : MeshError {
+  using MeshError::MeshError;
+};
+
 // Reads and validates. Throws MeshError with one line "file:line: entity: what is wrong".
 // Mesh::name is the file's name without folder and ".msh".
 Mesh read_msh(const std::filesystem::path& file);
@@ -25,5 +30,6 @@ Mesh read_msh(std::istream& in, const std::string& file_name);
 // Writes the one canonical text of a mesh: numbers from 1 in order, coordinates in the shortest
 // form that reads back as the same double; equal meshes give equal bytes.
 void write_msh(std::ostream& out, const Mesh& mesh);
+std::string msh_text(const Mesh& mesh);
 
 }  // namespace airybench

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "mesh/model_format.hpp"
 #include "support/lists.hpp"
 #include "support/shortened.hpp"
 
@@ -14,7 +15,8 @@ namespace {
 [[noreturn]] void refuse_item(std::string_view item, const std::string& why) {
   throw std::invalid_argument("mesh '" + shortened(item) + "': " + why +
                               " (valid: Mesh0..Mesh7, a list Mesh0,Mesh3, a range Mesh1..Mesh4, "
-                              "a glob Mesh[0-3], or files *.msh)");
+                              "a glob Mesh[0-3], or files *.msh, " +
+                              std::string(model_extensions) + ")");
 }
 
 std::size_t catalogue_row(std::string_view name, std::string_view item) {
@@ -49,7 +51,7 @@ std::vector<std::string> expand_item(std::string_view item) {
 }  // namespace
 
 bool is_mesh_file(std::string_view item) {
-  return item.find('/') != item.npos || item.ends_with(".msh");
+  return item.find('/') != item.npos || format_of(item) != ModelFormat::other;
 }
 
 std::vector<std::string> expand_mesh_selection(std::string_view argument) {

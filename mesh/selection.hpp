@@ -13,7 +13,8 @@ inline constexpr std::array<std::string_view, 8> catalogue_mesh_names = {
 
 // A comma-separated list of
 //   names    Mesh3              ranges  Mesh0..Mesh7 (both ends included)
-//   globs    Mesh[0-3], Mesh*   files   anything with a '/' or ending in ".msh", kept as it is
+//   globs    Mesh[0-3], Mesh*   files   anything with a '/' or ending as one of
+//                                        model_format.hpp, kept as it is
 // Order as written, without duplicates. Throws std::invalid_argument, one line with the bad item
 // and what is valid.
 std::vector<std::string> expand_mesh_selection(std::string_view argument);

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <sstream>
-
 #include "mesh/msh_format.hpp"
 #include "mesh/selection.hpp"
 #include "meshgen/catalogue.hpp"
@@ -11,18 +9,15 @@
 #include "meshgen/checksums.hpp"
 #include "meshgen/convert.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "meshgen/last_words.hpp"
+#include "meshgen/mesh_cache.hpp"
+#include "meshgen/no_programs.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
 namespace {
-
-std::string msh_text(const Mesh& mesh) {
-  std::ostringstream text;
-  write_msh(text, mesh);
-  return text.str();
-}
 
 void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
   const MeshSizes sizes = mesh_sizes(mesh);
@@ -33,6 +28,20 @@ void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
       file.string(), sizes.n_phi, sizes.n_f, sizes.n_c, sizes.displacement_edges, sizes.force_edges,
       sizes.contact_edges, mesh.vertices.size(), mesh.triangles.size(), mesh.body_names.size(),
       quality.smallest_angle_deg, quality.min_mean_ratio, quality.mean_mean_ratio);
+}
+
+// A mesh with notes is made anew each time, so that they are said.
+Mesh converted_or_cached(const std::filesystem::path& model, const ModelOptions& options) {
+  const std::filesystem::path file = cached_file(model, options);
+  if (!file.empty())
+    if (std::optional<Mesh> mesh = cached_mesh(file)) return std::move(*mesh);
+  const LastWords last_words(model.string());
+  ConvertedModel converted = convert_model(model, options);
+  if (!file.empty() && converted.notes.empty())
+    if (const auto why_not = keep_mesh(file, converted.mesh))
+      converted.notes.push_back(fmt::format("the mesh is not kept for next time: {}", *why_not));
+  for (const std::string& note : converted.notes) fmt::print(stderr, "note: {}\n", note);
+  return std::move(converted.mesh);
 }
 
 }  // namespace
@@ -106,8 +115,14 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
   return 0;
 }
 
-int convert_command(const std::filesystem::path& model, const std::filesystem::path& out) {
-  const Mesh mesh = convert_model(model);
+int convert_command(const std::filesystem::path& model, const ModelOptions& options,
+                    const std::filesystem::path& out) {
+  start_no_programs();
+  const Mesh mesh = converted_or_cached(model, options);
+  if (out == "-") {
+    fmt::print("{}", msh_text(mesh));
+    return 0;
+  }
   write_file_atomically(out, msh_text(mesh));
   print_summary(out, mesh);
   return 0;

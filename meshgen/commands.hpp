@@ -9,6 +9,7 @@
 
 #include "mesh/layers.hpp"
 #include "mesh/transform.hpp"
+#include "meshgen/model_options.hpp"
 #include "meshgen/tooth_geometry.hpp"
 
 namespace airybench {
@@ -25,8 +26,11 @@ int check_command(const std::filesystem::path& repository);
 int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
                   std::optional<int> vertices, const std::filesystem::path& out);
 
-// Writes a user's Gmsh model in our format.
-int convert_command(const std::filesystem::path& model, const std::filesystem::path& out);
+// Writes a user's Gmsh model in our format, to standard output where `out` is "-". What has been
+// converted before comes from the cache (mesh_cache.hpp). Notes go to standard error. From then on
+// the process starts no other program, whatever the model says (no_programs.hpp).
+int convert_command(const std::filesystem::path& model, const ModelOptions& options,
+                    const std::filesystem::path& out);
 
 // Writes a changed mesh; `mesh` is a file, or a name in `repository`.
 int modify_command(const std::string& mesh, const std::filesystem::path& repository,

@@ -7,11 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
+#include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
-#include "meshgen/gmsh_mesher.hpp"
-#include "meshgen/quiet_stdout.hpp"
+#include "meshgen/open_model.hpp"
 
 namespace airybench {
 namespace {
@@ -28,13 +29,15 @@ struct GmshModel {
   std::vector<GmshTriangle> triangles;
   std::vector<std::string> body_names;
   std::map<Nodes, std::string> label_of_line;  // "force", "force:top"
+  std::vector<std::string> other_curves;       // physical curves without a role
+  bool is_reduced = false;                     // from elements of higher order
 };
 
 [[noreturn]] void fail(const std::string& what) { throw MeshError(what); }
 
 std::string list_of(const std::vector<std::string>& other_groups) {
   if (other_groups.empty()) return "";
-  return fmt::format(" (others found: {})", fmt::join(other_groups, ", "));
+  return fmt::format(" (others found: {}; --role gives them one)", fmt::join(other_groups, ", "));
 }
 
 std::vector<int> entities_of(int dimension, int group) {
@@ -43,23 +46,29 @@ std::vector<int> entities_of(int dimension, int group) {
   return entities;
 }
 
-// Node numbers of an entity's elements, which must all be of the Gmsh type `wanted`.
-std::vector<std::size_t> elements_of(int dimension, int entity, int wanted,
-                                     std::string_view allowed) {
+// Node numbers of the corners of an entity's elements, which must all have so many.
+std::vector<std::size_t> corners_of(GmshModel& model, int dimension, int entity,
+                                    std::size_t corners, std::string_view allowed) {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> elements, nodes;
   gmsh::model::mesh::getElements(types, elements, nodes, dimension, entity);
-  for (const int type : types) {
-    if (type == wanted) continue;
+  std::vector<std::size_t> kept;
+  for (std::size_t k = 0; k < types.size(); ++k) {
     std::string type_name;
     int type_dimension, order, node_count, primary_nodes;
     std::vector<double> local;
-    gmsh::model::mesh::getElementProperties(type, type_name, type_dimension, order, node_count,
+    gmsh::model::mesh::getElementProperties(types[k], type_name, type_dimension, order, node_count,
                                             local, primary_nodes);
-    fail(fmt::format("{} {} has elements '{}'; only {} are allowed",
-                     dimension == 1 ? "curve" : "surface", entity, type_name, allowed));
+    if (static_cast<std::size_t>(primary_nodes) != corners)
+      fail(fmt::format("{} {} has elements '{}'; only {} are allowed",
+                       dimension == 1 ? "curve" : "surface", entity, type_name, allowed));
+    model.is_reduced = model.is_reduced || order > 1;
+    const auto stride = static_cast<std::size_t>(node_count);
+    for (std::size_t first = 0; first < nodes[k].size(); first += stride)
+      for (std::size_t corner = 0; corner < corners; ++corner)
+        kept.push_back(nodes[k][first + corner]);
   }
-  return nodes.empty() ? std::vector<std::size_t>() : nodes.front();
+  return kept;
 }
 
 void check_name(const std::string& name, std::string_view what, int group) {
@@ -85,8 +94,7 @@ void read_triangles(GmshModel& model) {
       if (!group_of_surface.emplace(surface, group).second)
         fail(fmt::format("surface {} is in the physical surfaces {} and {}; one body is allowed",
                          surface, group_of_surface[surface], group));
-      constexpr int gmsh_triangle = 2;
-      const auto nodes = elements_of(2, surface, gmsh_triangle, "3-node triangles");
+      const auto nodes = corners_of(model, 2, surface, 3, "triangles (without Recombine in Gmsh)");
       for (std::size_t k = 0; k < nodes.size(); k += 3)
         model.triangles.push_back({{nodes[k], nodes[k + 1], nodes[k + 2]}, body});
     }
@@ -98,37 +106,64 @@ void read_triangles(GmshModel& model) {
   }
 }
 
-void read_lines(GmshModel& model, std::vector<std::string>& other_groups) {
+// The labels of physical curves by the options: each name there must be one of the model's.
+class Roles {
+ public:
+  explicit Roles(const ModelOptions& options) : options_(options), unused_(options.roles) {}
+
+  std::string label_of(const std::string& name) {
+    names_.push_back("'" + name + "'");
+    unused_.erase(name);
+    const auto found = options_.roles.find(name);
+    return found == options_.roles.end() ? name : found->second;
+  }
+  void check_all_used() const {
+    if (unused_.empty()) return;
+    fail(fmt::format("--role: it has no physical curve '{}' (its physical curves: {})",
+                     unused_.begin()->first,
+                     names_.empty() ? "none" : fmt::format("{}", fmt::join(names_, ", "))));
+  }
+
+ private:
+  const ModelOptions& options_;
+  std::map<std::string, std::string> unused_;
+  std::vector<std::string> names_;
+};
+
+void read_lines(GmshModel& model, const ModelOptions& options) {
   gmsh::vectorpair groups;
   gmsh::model::getPhysicalGroups(groups, 1);
+  Roles roles(options);
   for (const auto& [dimension, group] : groups) {
     std::string name;
     gmsh::model::getPhysicalName(1, group, name);
-    if (!parse_boundary_label(name)) {
-      other_groups.push_back(name.empty() ? std::to_string(group) : "'" + name + "'");
+    if (name.empty()) name = std::to_string(group);
+    const std::string label = roles.label_of(name);
+    if (!parse_boundary_label(label)) {
+      model.other_curves.push_back("'" + name + "'");
       continue;
     }
-    check_name(name, "physical curve", group);
+    check_name(label, "physical curve", group);
     for (const int curve : entities_of(1, group)) {
-      constexpr int gmsh_line = 1;
-      const auto nodes = elements_of(1, curve, gmsh_line, "2-node lines");
+      const auto nodes = corners_of(model, 1, curve, 2, "lines");
       for (std::size_t k = 0; k < nodes.size(); k += 2) {
         const auto [entry, is_new] = model.label_of_line.emplace(
-            Nodes{std::min(nodes[k], nodes[k + 1]), std::max(nodes[k], nodes[k + 1])}, name);
+            Nodes{std::min(nodes[k], nodes[k + 1]), std::max(nodes[k], nodes[k + 1])}, label);
         if (!is_new)
           fail(fmt::format(
               "curve {}: an edge is in the physical curves {} and {}; one role is allowed", curve,
-              entry->second, name));
+              entry->second, label));
       }
     }
   }
+  roles.check_all_used();
   if (std::none_of(model.label_of_line.begin(), model.label_of_line.end(), [](const auto& line) {
         return parse_boundary_label(line.second)->role == BoundaryRole::displacement;
       }))
     fail(fmt::format(
         "no edges in a physical curve named displacement{}; it is needed, force and contact are "
         "allowed",
-        list_of(other_groups)));
+        list_of(model.other_curves)));
 }
 
 // Positions of the triangles' nodes; refuses a model that is not in a plane z = constant.
@@ -174,7 +209,7 @@ void orient(GmshModel& model) {
   }
 }
 
-Mesh renumbered(const GmshModel& model, const std::vector<std::string>& other_groups) {
+Mesh renumbered(const GmshModel& model) {
   Mesh mesh;
   mesh.body_names = model.body_names;
   std::map<std::size_t, int> vertex;
@@ -199,7 +234,7 @@ Mesh renumbered(const GmshModel& model, const std::vector<std::string>& other_gr
     const auto line = without_side.find({std::min(side[0], side[1]), std::max(side[0], side[1])});
     if (line == without_side.end())
       fail(fmt::format("boundary {} is in no physical curve named displacement, force or contact{}",
-                       place(side), list_of(other_groups)));
+                       place(side), list_of(model.other_curves)));
     const BoundaryLabel label = *parse_boundary_label(line->second);
     mesh.boundary.push_back(
         {{vertex[side[0]], vertex[side[1]]}, label.role, boundary_group(mesh, label.name)});
@@ -214,50 +249,50 @@ Mesh renumbered(const GmshModel& model, const std::vector<std::string>& other_gr
   return mesh;
 }
 
-Mesh convert_open_model() {
-  std::vector<int> types;
-  std::vector<std::vector<std::size_t>> elements, nodes;
-  gmsh::model::mesh::getElements(types, elements, nodes, 2);
-  if (types.empty()) gmsh::model::mesh::generate(2);
-
+Mesh mesh_of_open_model(const ModelOptions& options, std::vector<std::string>& notes) {
   GmshModel model;
-  std::vector<std::string> other_groups;  // physical curves of none of the three roles
   read_triangles(model);
-  read_lines(model, other_groups);
+  read_lines(model, options);
   read_positions(model);
   orient(model);
-  return renumbered(model, other_groups);
+  if (model.is_reduced) notes.emplace_back("elements of higher order are reduced to their corners");
+  return renumbered(model);
+}
+
+// As it is, if it is one of ours.
+std::optional<Mesh> own_mesh(const std::filesystem::path& file, const ModelOptions& options) {
+  if (format_of(file) != ModelFormat::msh || !text_of(options).empty()) return {};
+  try {
+    return read_msh(file);
+  } catch (const MeshError&) {
+    return {};
+  }
 }
 
 }  // namespace
 
-Mesh convert_model(const std::filesystem::path& model) {
+ConvertedModel convert_model(const std::filesystem::path& model, const ModelOptions& options) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(model, error))
     throw MeshError(model.string() + ": no such file");
-  if (model.extension() == ".msh") {
-    try {
-      return read_msh(model);  // it is one of ours already
-    } catch (const MeshError&) {
-    }
-  }
-  Mesh mesh;
+  if (std::optional<Mesh> own = own_mesh(model, options)) return {std::move(*own), {}};
+  ConvertedModel converted;
+  Mesh& mesh = converted.mesh;
   try {
-    const GmshSession session;
-    {
-      const QuietStdout quiet;  // OpenCASCADE, inside Gmsh, complains there whatever Gmsh is told
-      gmsh::open(model.string());
-    }
-    mesh = convert_open_model();
+    const OpenModel open(model, options);
+    mesh = mesh_of_open_model(options, converted.notes);
   } catch (const std::string& message) {
-    throw MeshError(model.string() + ": Gmsh: " + message);
-  } catch (const MeshError& complaint) {
+    const bool starts_program = message.find("aborting system call") != message.npos;
+    throw MeshError(model.string() + ": Gmsh: " + message +
+                    (starts_program ? " (a model may start no programs)" : ""));
+  } catch (const InputError& complaint) {
     throw MeshError(model.string() + ": " + complaint.what());
   }
   mesh.name = model.string();  // for validate() to complain about
   validate(mesh);
   mesh.name = model.stem().string();
-  return mesh;
+  for (std::string& note : converted.notes) note = model.string() + ": " + note;
+  return converted;
 }
 
 }  // namespace airybench

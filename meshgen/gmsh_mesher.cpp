@@ -1,5 +1,6 @@
 #include "meshgen/gmsh_mesher.hpp"
 
+#include <fmt/format.h>
 #include <gmsh.h>
 
 #include <unordered_map>
@@ -65,8 +66,15 @@ Mesh extract_mesh(const BoundaryPolygon& polygon, const std::string& name) {
 
 }  // namespace
 
-GmshSession::GmshSession() {
-  gmsh::initialize(0, nullptr, false);
+GmshSession::GmshSession(const std::map<std::string, double>& constants) {
+  std::vector<std::string> arguments = {"meshgen"};
+  for (const auto& [name, value] : constants)
+    for (std::string& argument :
+         std::array{std::string("-setnumber"), name, fmt::format("{}", value)})
+      arguments.push_back(std::move(argument));
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  gmsh::initialize(static_cast<int>(argv.size()), argv.data(), false);
   for (const auto& [option, value] :
        {std::pair("General.Terminal", 0.0), std::pair("General.NumThreads", 1.0),
         std::pair("Mesh.RandomSeed", 1.0), std::pair("Mesh.RandomFactor", 1e-9)})

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <string>
 
 #include "mesh/mesh.hpp"
@@ -15,7 +16,9 @@ namespace airybench {
 
 class GmshSession {
  public:
-  GmshSession();
+  // constants: numbers in place of those that a .geo defines by DefineConstant under these names;
+  // Gmsh keeps them for later sessions of the process.
+  explicit GmshSession(const std::map<std::string, double>& constants = {});
   ~GmshSession();
   GmshSession(const GmshSession&) = delete;
   GmshSession& operator=(const GmshSession&) = delete;

@@ -26,6 +26,8 @@ struct Arguments {
   int vertices = 0;
   airybench::MeshTransform transform;
   std::vector<double> grade, slivers, stretch, move_mm, layers;
+  std::vector<std::string> roles, parameters;
+  std::string mesh_size;
 };
 
 constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert", "--modify"};
@@ -59,6 +61,30 @@ void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
           "COUNT layers of equal thickness in the direction (NX, NY) as bodies \"layer 1\", ...");
 }
 
+void declare_convert(CLI::App& app, CLI::Option* convert, Arguments& a) {
+  const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* type,
+                            const char* help) {
+    app.add_option(name, values, help)
+        ->allow_extra_args(false)
+        ->type_name(type)
+        ->needs(convert)
+        ->group("With --convert");
+  };
+  repeated(
+      "--role", a.roles, "NAME=ROLE",
+      "The model's physical curve NAME is displacement, force or contact, or one of these with "
+      "a name, force:top; of a CAD file NAME is a curve's number; repeatable");
+  repeated("--parameter", a.parameters, "NAME=NUMBER",
+           "In place of what a .geo's DefineConstant gives NAME; repeatable");
+  app.add_option(
+         "--mesh-size", a.mesh_size,
+         "The longest edge in mm, where the model asks for shorter ones they stay; or a part "
+         "of all of the model's sizes, 50%")
+      ->type_name("MM")
+      ->needs(convert)
+      ->group("With --convert");
+}
+
 void declare(CLI::App& app, Arguments& a) {
   const std::string what = "What to do, exactly one of";
   app.add_option("--mesh", a.selection,
@@ -70,11 +96,12 @@ void declare(CLI::App& app, Arguments& a) {
       ->group(what);
   auto* tooth =
       app.add_flag("--tooth", a.tooth, "Make a tooth or rack of own dimensions")->group(what);
-  app.add_option("--convert", a.model,
-                 "Convert a Gmsh model (.geo, .msh, .step) with physical curves displacement, "
-                 "force, contact and a physical surface per body")
-      ->type_name("MODEL")
-      ->group(what);
+  auto* convert =
+      app.add_option("--convert", a.model,
+                     "Convert a Gmsh model (.geo, .msh, .step) with physical curves displacement, "
+                     "force, contact and a physical surface per body")
+          ->type_name("MODEL")
+          ->group(what);
   auto* modify =
       app.add_option("--modify", a.to_modify, "Change a mesh: a .msh file or one of Mesh0..Mesh7")
           ->type_name("MESH")
@@ -82,7 +109,7 @@ void declare(CLI::App& app, Arguments& a) {
 
   app.add_option("--out", a.out,
                  "Where to write: a folder with --mesh; a .msh file with --tooth, --convert, "
-                 "--modify")
+                 "--modify (--convert: - is standard output)")
       ->type_name("PATH");
   app.add_option("--meshes", a.repository, "Folder of the repository's meshes")
       ->envname("AIRYBENCH_MESH_DIR")
@@ -107,6 +134,7 @@ void declare(CLI::App& app, Arguments& a) {
   length("--tip-half-height", a.dimensions.tip_half_height, "Half height of the tip");
   length("--pitch", a.dimensions.pitch, "Distance between a rack's teeth");
   length("--block-depth", a.dimensions.block_depth, "Depth of a rack's block");
+  declare_convert(app, convert, a);
   declare_modify(app, modify, a);
 }
 
@@ -147,7 +175,8 @@ void check_usage(const CLI::App& app, const Arguments& a) {
   if (writes_a_file && a.out.empty())
     throw std::invalid_argument(
         "--out is missing; --tooth, --convert and --modify write the file it names");
-  if (writes_a_file && !a.out.ends_with(".msh"))
+  const bool to_stdout = a.out == "-" && app.count("--convert") > 0;
+  if (writes_a_file && !to_stdout && !a.out.ends_with(".msh"))
     throw std::invalid_argument(
         fmt::format("--out: '{}'; a file name ending in .msh is needed", a.out));
   if (a.check && app.count("--out") > 0)
@@ -167,7 +196,9 @@ int run(const CLI::App& app, const Arguments& a) {
     return airybench::tooth_command(
         a.dimensions, a.edges,
         app.count("--vertices") > 0 ? std::optional(a.vertices) : std::nullopt, a.out);
-  if (app.count("--convert") > 0) return airybench::convert_command(a.model, a.out);
+  if (app.count("--convert") > 0)
+    return airybench::convert_command(
+        a.model, airybench::model_options_of(a.roles, a.parameters, a.mesh_size), a.out);
   if (app.count("--modify") > 0)
     return airybench::modify_command(a.to_modify, a.repository, transform_of(a), layers_of(a),
                                      a.out);

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <iostream>
-#include <sstream>
 
 #include "bench/adapting/adaptive_loop.hpp"
 #include "bench/cases/mesh_files.hpp"
@@ -58,12 +57,6 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   return json_text(json);
 }
 
-std::string text_of(const Mesh& mesh) {
-  std::ostringstream text;
-  write_msh(text, mesh);
-  return text.str();
-}
-
 // What the loop's process says of a level.
 Json said_of(const std::optional<AdaptiveLevel>& level, const AdaptiveLoop& loop,
              const std::filesystem::path& file) {
@@ -97,7 +90,7 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
         level->mesh.name = fmt::format("{}+{}{}", mesh.name,
                                        options.marking == 1. ? "refined" : "adapt", level->number);
         file = folder / (level->mesh.name + ".msh");
-        write_file_atomically(file, text_of(level->mesh));
+        write_file_atomically(file, msh_text(level->mesh));
       }
       answer = said_of(level, loop, file);
     } catch (const InputError& error) {
@@ -148,7 +141,7 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refined1";
   const std::filesystem::path file =
       options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
-  write_file_atomically(file, text_of(mesh));
+  write_file_atomically(file, msh_text(mesh));
   refined.mesh_file = recorded_path(file, options.out);
   refined.mesh_sha256 = sha256_of_file(file);
   Scene scene = scene_of(level_0.scene_definition, mesh.name);

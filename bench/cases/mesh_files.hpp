@@ -13,6 +13,7 @@ struct MeshFile {
   std::filesystem::path path;
   std::string sha256;
   Mesh mesh;
+  bool is_of_model = false;  // made of a model: the file may not be there yet
 };
 
 // The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one that comes with this program.
@@ -21,9 +22,20 @@ std::filesystem::path mesh_directory();
 // Throws MeshError, std::invalid_argument: the file's name is no name of a mesh.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-// Reads all that mesh_selection.hpp's expand_mesh_selection() names. Throws MeshError,
-// std::invalid_argument; two files of the same name are refused.
-std::vector<MeshFile> read_meshes(const std::string& selection);
+// What the command line says of meshes.
+struct MeshChoice {
+  std::string selection;                    // as mesh/selection.hpp reads it
+  std::vector<std::string> model_settings;  // of models: options of `meshgen --convert`
+  std::filesystem::path out;                // the results folder, for the meshes of models
+};
+
+// Reads all that is selected. Models (model_format.hpp, and MSH files that are not of our form) are
+// converted (model_files.hpp); keep_models() writes what is made of them to
+//   OUT/meshes/NAME.HASH/NAME.msh      HASH: the start of the file's SHA-256
+// a file as any other, which records name and nothing else overwrites. Throws MeshError, FileError,
+// std::invalid_argument; two files of the same name are refused, and settings without a model.
+std::vector<MeshFile> read_meshes(const MeshChoice& choice);
+void keep_models(const std::vector<MeshFile>& files);
 
 bool is_of_catalogue(const std::filesystem::path& file);
 

@@ -17,7 +17,9 @@ namespace airybench {
 
 struct Options {
   std::string meshes = "Mesh0..Mesh3";
-  std::string methods;                        // empty: all the paper's
+  std::vector<std::string>
+      model_settings;   // of --mesh's Gmsh models: "--role=clamped=displacement"
+  std::string methods;  // empty: all the paper's
   std::vector<std::filesystem::path> scenes;  // empty: the default scene
   std::filesystem::path out = "results/latest";
   std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods

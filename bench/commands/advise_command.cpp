@@ -55,6 +55,7 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
                "bench advise");
   app.footer(advise_footer);
   app.add_option("--mesh", options.meshes, "of the catalogue, or a file")->required();
+  add_model_settings(app, options.model_settings);
   app.add_option("--scene", scene, "scene file; default: the documented tooth or rack");
   app.add_option("--error", error, "total error, relative: 1%")->required();
   app.add_option("--method", options.methods, "to compare, by names or globs")
@@ -100,6 +101,7 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
   std::string text = "bench --mesh=";
   if (is_adapted || r.adapt_level == 0) {
     text += shell_word(options.meshes);
+    for (const std::string& setting : options.model_settings) text += " " + shell_word(setting);
     if (!options.scenes.empty()) text += " --scene=" + shell_word(options.scenes.front().string());
   } else {
     const std::filesystem::path file = recorded_file(r.mesh_file, options.out);

@@ -67,6 +67,27 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, dou
       ->default_str(fmt::format("{}", number));
 }
 
+void add_model_settings(CLI::App& app, std::vector<std::string>& settings) {
+  const auto add = [&](const std::string& name, const char* type, const char* description) {
+    const auto keep = [&settings, name](const std::vector<std::string>& values) {
+      for (const std::string& value : values) settings.push_back(name + "=" + value);
+    };
+    app.add_option_function<std::vector<std::string>>(name, keep, description)
+        ->allow_extra_args(false)
+        ->type_name(type);
+  };
+  add("--role", "NAME=ROLE",
+      "a Gmsh model's physical curve NAME is displacement, force or contact, or one of these with "
+      "a "
+      "name, force:top; of a CAD file NAME is a curve's number; repeatable");
+  add("--parameter", "NAME=NUMBER",
+      "in place of what a .geo's DefineConstant gives NAME; repeatable");
+  add("--mesh-size", "MM",
+      "a model's longest edge in mm, where it asks for shorter ones they stay; or a part of all "
+      "its "
+      "sizes, 50%");
+}
+
 std::string shell_word(const std::string& word) {
   const bool is_plain = !word.empty() && std::ranges::all_of(word, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_./+-=%@", c) != nullptr;

@@ -25,6 +25,10 @@ enum class Least { zero, above_zero };
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);
 
+// --role, --parameter and --mesh-size, as `meshgen --convert` has them and judges them; settings
+// gets them in its words.
+void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
+
 // A word as the shell reads it again: in quotation marks where it has more than letters, digits and
 // what is nothing to the shell.
 std::string shell_word(const std::string& word);

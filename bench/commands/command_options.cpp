@@ -42,6 +42,7 @@ Examples
   bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
   bench --mesh=Mesh0..Mesh7 --out=results/night --resume
   bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
+  bench --mesh=part.geo --role=clamped=displacement --mesh-size=50%
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
@@ -86,8 +87,10 @@ Options parse_options(int argc, const char* const* argv) {
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
   app.add_option(
          "--mesh", options.meshes,
-         "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files (in a name a comma is \\,)")
+         "range (Mesh0..Mesh7), list (Mesh0,Mesh3), glob, or files (in a name a comma is \\,): "
+         "meshes, *.msh, and Gmsh models, *.geo, *.step, *.brep, *.iges, which meshgen converts")
       ->capture_default_str();
+  add_model_settings(app, options.model_settings);
   app.add_option("--method", options.methods,
                  "names or globs, separated by commas; default: all the paper's methods");
   app.add_option_function<std::vector<std::string>>(

@@ -23,12 +23,15 @@ std::vector<PosedScene> pose_all(const Options& options) {
   }
   if (scenes.empty()) scenes.emplace_back();
   std::vector<PosedScene> posed;
-  for (const MeshFile& file : read_meshes(options.meshes))
+  const std::vector<MeshFile> files =
+      read_meshes({options.meshes, options.model_settings, options.out});
+  for (const MeshFile& file : files)
     for (const SceneFile& given : scenes) {
       const auto& [scene, definition] = is_of_catalogue(file.path) ? given : on_other_bodies(given);
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
     }
+  if (!options.dry_run && !options.explain) keep_models(files);
   return posed;
 }
 

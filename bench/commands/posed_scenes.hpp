@@ -9,7 +9,8 @@
 
 namespace airybench {
 
-// Every mesh under every scene. Throws UsageError and what reading them throws.
+// Every mesh under every scene; a run keeps the meshes of models. Throws UsageError and what
+// reading them throws.
 std::vector<PosedScene> pose_all(const Options& options);
 
 // With --adapt the levels of each instead. short_of: goals that were not reached, a line each.

@@ -21,6 +21,15 @@ using testing::text_of, testing::write_text;
 
 const std::string tooth = "--tooth --contact-edges=8 --force-edges=20 --displacement-edges=6 ";
 
+const std::string triangle_geo = R"(
+DefineConstant[ h = 1 ];
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 1, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};
+Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
+Physical Curve("displacement") = {1, 2, 3};
+Physical Surface("steel") = {1};
+)";
+
 struct Outcome {
   int exit_code;
   std::string out, err;
@@ -30,9 +39,9 @@ class Command : public ::testing::Test {
  protected:
   // Arguments as in a shell, in the folder of this test.
   Outcome run(const std::string& arguments, const std::string& environment = "") const {
-    const std::string command = "cd '" + folder.path().string() + "' && " + environment + " '" +
-                                testing::meshgen_executable().string() + "' " + arguments +
-                                " >.out 2>.err";
+    const std::string command =
+        "cd '" + folder.path().string() + "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
+        testing::meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".out"),
             text_of(folder / ".err")};
@@ -49,11 +58,11 @@ class Command : public ::testing::Test {
     for (const char* part : parts)
       EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
   }
-  // Names in the test's folder but for the two of run().
+  // Names in the test's folder but for those of run().
   std::vector<std::string> files() const {
     std::vector<std::string> names;
     for (const auto& entry : fs::directory_iterator(folder.path()))
-      if (entry.path().filename() != ".out" && entry.path().filename() != ".err")
+      if (!entry.path().filename().string().starts_with('.'))
         names.push_back(entry.path().filename().string());
     std::sort(names.begin(), names.end());
     return names;
@@ -106,6 +115,10 @@ TEST_F(Command, WrongUsageIsOneLineAndExitCode2) {
   expect_refusal("--check --teeth=2", 2, {"--teeth", "--tooth"});
   expect_refusal("--convert=a.geo", 2, {"--out"});
   expect_refusal("--convert=a.geo --out=b.txt", 2, {"'b.txt'", ".msh"});
+  expect_refusal("--convert=a.geo --out=b.msh --role clamped", 2,
+                 {"--role: clamped (allowed: NAME="});
+  expect_refusal("--check --role a=force", 2, {"--role", "--convert"});
+  expect_refusal("--tooth --out=-", 2, {"'-'", ".msh"});
   expect_refusal("--tooth --out=a.msh --force-edges=9", 2, {"--contact-edges"});
   expect_refusal("--modify=Mesh0", 2, {"--out is missing"});
   expect_refusal("--modify=Mesh0..Mesh2 --out=a.msh", 2, {"'Mesh0..Mesh2' are 3 meshes"});
@@ -138,7 +151,7 @@ TEST_F(Command, BadNumbersAreRefused) {
 TEST_F(Command, MeshThatCannotBeMadeLeavesTheOldFile) {
   write_text(folder / "old.msh", "old");
   expect_refusal(tooth + "--out=old.msh --vertices=34", 1, {"34 vertices", "nearest"});
-  expect_refusal("--convert=no.geo --out=old.msh", 1, {"no.geo: no such file"});
+  expect_refusal("--convert=no.geo --out=old.msh", 1, {"no.geo: cannot be opened"});
   expect_refusal("--modify=no.msh --out=old.msh", 1, {"no.msh: cannot be opened"});
   expect_refusal("--modify=Mesh0 --scale=-1 --out=old.msh", 2, {"scale: -1 (allowed: > 0)"});
   EXPECT_EQ(text_of(folder / "old.msh"), "old");
@@ -181,17 +194,85 @@ TEST_F(Command, RackOfOwnDimensions) {
 }
 
 TEST_F(Command, ConvertsAModel) {
-  write_text(folder / "square.geo", R"(
-Point(1) = {0, 0, 0, 1}; Point(2) = {1, 0, 0, 1}; Point(3) = {1, 1, 0, 1};
-Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};
-Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};
-Physical Curve("displacement") = {1, 2, 3};
-Physical Surface("steel") = {1};
-)");
+  write_text(folder / "square.geo", triangle_geo);
   const Outcome outcome = run("--convert=square.geo --out=square.msh");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(read_msh(folder / "square.msh").body_names, Names{"steel"});
   EXPECT_EQ(files(), (Names{"square.geo", "square.msh"}));
+  const Outcome to_stdout = run("--convert=square.geo --out=-");
+  EXPECT_EQ(to_stdout.exit_code, 0);
+  EXPECT_EQ(to_stdout.out, text_of(folder / "square.msh"));
+}
+
+TEST_F(Command, ConvertedMeshesAreKeptByContent) {
+  const auto cached = [&] {
+    std::vector<fs::path> found;
+    if (fs::exists(folder / ".cache"))
+      for (const auto& entry : fs::directory_iterator(folder / ".cache")) found.push_back(entry);
+    return found;
+  };
+  const auto vertices = [&](const std::string& options) {
+    EXPECT_EQ(run("--convert=a.geo --out=a.msh " + options).exit_code, 0);
+    return read_msh(folder / "a.msh").vertices.size();
+  };
+  write_text(folder / "size.geo", "DefineConstant[ h = 0.5 ];\n");
+  write_text(folder / "a.geo", "Include \"size.geo\";\n" + triangle_geo);
+  const std::size_t coarse = vertices("");
+  ASSERT_EQ(cached().size(), 1u);
+  const fs::path first = cached().front();
+  // What is there is taken, whatever it is, if only it is a mesh.
+  fs::copy_file(testing::mesh_file("Mesh0"), first, fs::copy_options::overwrite_existing);
+  EXPECT_EQ(vertices(""), 134u);
+  write_text(first, text_of(first).substr(0, 999));  // torn
+  EXPECT_EQ(vertices(""), coarse);
+  EXPECT_EQ(text_of(first), text_of(folder / "a.msh"));
+  // Another option, another text, another included text: another mesh.
+  EXPECT_GT(vertices("--parameter h=0.1"), coarse);
+  EXPECT_EQ(cached().size(), 2u);
+  write_text(folder / "size.geo", "DefineConstant[ h = 0.2 ];\n");
+  EXPECT_GT(vertices(""), coarse);
+  EXPECT_EQ(cached().size(), 3u);
+  write_text(folder / "a.geo", "h = 0.2; r = Rand(1);\n" + triangle_geo);  // depends on chance
+  vertices("");
+  EXPECT_EQ(cached().size(), 3u);
+}
+
+TEST_F(Command, AnUnusableCacheStopsNothing) {
+  write_text(folder / "a.geo", triangle_geo);
+  const Outcome outcome = run("--convert=a.geo --out=a.msh",
+                              "AIRYBENCH_CACHE_DIR='" + (folder / "a.geo").string() + "'");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_TRUE(outcome.err.starts_with("note: the mesh is not kept for next time: ")) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  EXPECT_EQ(run("--convert=a.geo --out=b.msh", "AIRYBENCH_CACHE_DIR= XDG_CACHE_HOME= HOME=").err,
+            "");
+  EXPECT_EQ(run("--convert=a.geo --out=b.msh",
+                "AIRYBENCH_CACHE_DIR= XDG_CACHE_HOME='" + (folder / ".xdg").string() + "'")
+                .err,
+            "");
+  EXPECT_TRUE(fs::exists(folder / ".xdg" / "airybench"));
+}
+
+TEST_F(Command, AModelStartsNoPrograms) {
+  write_text(folder / "a.geo", "SystemCall \"touch started\";\n" + triangle_geo);
+  expect_refusal("--convert=a.geo --out=a.msh", 1,
+                 {"a.geo: Gmsh: ", "a model may start no programs"});
+  write_text(folder / "a.geo", triangle_geo + "Field[1] = ExternalProcess;\n");
+  expect_refusal("--convert=a.geo --out=a.msh", 1, {"a.geo: a field ExternalProcess"});
+  EXPECT_EQ(files(), Names{"a.geo"});
+}
+
+TEST_F(Command, WhatEndsGmshIsToldInOneLine) {
+  write_text(folder / "exit.geo", "Exit;\n");
+  expect_refusal("--convert=exit.geo --out=a.msh", 1, {"exit.geo: the model ends Gmsh (Exit)"});
+  write_text(folder / "crossed.geo", R"(
+Point(1) = {0, 0, 0, 1}; Point(2) = {4, 4, 0, 1}; Point(3) = {4, 0, 0, 1}; Point(4) = {0, 4, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Physical Curve("displacement") = {1:4}; Physical Surface("a") = {1};
+)");
+  expect_refusal("--convert=crossed.geo --out=a.msh", 1, {"crossed.geo: Gmsh: Unable to recover"});
+  EXPECT_EQ(files(), (Names{"crossed.geo", "exit.geo"}));
 }
 
 TEST_F(Command, ModifiesAMesh) {

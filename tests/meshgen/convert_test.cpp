@@ -138,7 +138,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 class Convert : public ::testing::Test {
  protected:
   Mesh convert(const std::string& name, const std::string& text) {
-    return convert_model(testing::write_text(folder_ / name, text));
+    return convert_model(testing::write_text(folder_ / name, text), options_).mesh;
   }
   // What is said after the file's name.
   std::string complaint(const std::string& name, const std::string& text) {
@@ -153,8 +153,8 @@ class Convert : public ::testing::Test {
     return "no complaint";
   }
 
- private:
-  testing::TemporaryFolder folder_;
+  const testing::TemporaryFolder folder_;
+  ModelOptions options_;
 };
 
 TEST_F(Convert, GeometryOfTwoBodiesIsMeshed) {
@@ -225,7 +225,7 @@ TEST_F(Convert, ClockwiseTrianglesAndLinesAreTurnedAndUnusedNodesDropped) {
 
 TEST_F(Convert, OwnFileComesBackUnchanged) {
   const std::filesystem::path file = testing::mesh_file("Mesh0");
-  const Mesh ours = read_msh(file), converted = convert_model(file);
+  const Mesh ours = read_msh(file), converted = convert_model(file).mesh;
   EXPECT_EQ(converted.vertices, ours.vertices);
   EXPECT_EQ(converted.triangles, ours.triangles);
   EXPECT_EQ(converted.boundary.size(), ours.boundary.size());
@@ -248,13 +248,132 @@ TEST_F(Convert, UnusedNodeMayLieAnywhere) {
 TEST_F(Convert, RefusesQuadrangles) {
   EXPECT_EQ(
       complaint("quads.geo", two_squares_geometry + roles + bodies + "Recombine Surface {1, 2};\n"),
-      "surface 1 has elements 'Quadrilateral 4'; only 3-node triangles are allowed");
+      "surface 1 has elements 'Quadrilateral 4'; only triangles (without Recombine in Gmsh) are "
+      "allowed");
 }
 
-TEST_F(Convert, RefusesSecondOrder) {
-  EXPECT_EQ(
-      complaint("second.geo", two_squares_geometry + roles + bodies + "Mesh.ElementOrder = 2;\n"),
-      "surface 1 has elements 'Triangle 6'; only 3-node triangles are allowed");
+TEST_F(Convert, HigherOrderIsReducedToCorners) {
+  const std::string first = two_squares_geometry + roles + bodies;
+  const Mesh linear = convert("first.geo", first);
+  for (const char* order : {"2", "3"}) {
+    const auto file =
+        testing::write_text(folder_ / "second.geo", first + "Mesh.ElementOrder = " + order + ";\n");
+    const ConvertedModel converted = convert_model(file);
+    EXPECT_EQ(converted.mesh.vertices.size(), linear.vertices.size());
+    EXPECT_EQ(converted.mesh.triangles, linear.triangles);
+    EXPECT_EQ(converted.notes,
+              std::vector<std::string>{file.string() +
+                                       ": elements of higher order are reduced to their corners"});
+  }
+  EXPECT_TRUE(convert_model(folder_ / "first.geo").notes.empty());
+}
+
+TEST_F(Convert, RolesByTheNamesOfTheModel) {
+  const std::string named = two_squares_geometry + bodies +
+                            replaced(replaced(roles, "\"displacement\"", "\"clamped\""),
+                                     "\"contact\"", "\"force:flank\"");
+  options_ = model_options_of({"clamped=displacement:left", "force:flank=contact"}, {}, "");
+  const Mesh mesh = convert("named.geo", named);
+  std::map<std::string, int> edges;
+  for (const BoundaryEdge& edge : mesh.boundary) ++edges[boundary_label(mesh, edge)];
+  EXPECT_EQ(edges.size(), 3u);
+  for (const char* label : {"displacement:left", "force", "contact"}) EXPECT_GT(edges[label], 0);
+  options_ = model_options_of({"clampd=displacement"}, {}, "");
+  EXPECT_EQ(complaint("named.geo", named),
+            "--role: it has no physical curve 'clampd' (its physical curves: 'clamped', 'force', "
+            "'force:flank')");
+}
+
+TEST_F(Convert, ParametersOfAGeo) {
+  const std::string model = replaced(two_squares_geometry, "h = 0.4;", R"(
+DefineConstant[ h = {0.4, Name "Size/h"}, unused = 1 ];
+top = DefineNumber[ 1, Name "Size/top" ];)");
+  const std::string text =
+      replaced(replaced(model, "{0, 1, 0, h}", "{0, top, 0, h}"), "h};\nPoint(4)", "h}; Point(4)") +
+      roles + bodies;
+  const std::size_t before = convert("a.geo", text).vertices.size();
+  const auto vertices_with = [&](const char* parameter) {
+    options_ = model_options_of({}, {parameter}, "");
+    return convert("a.geo", text).vertices;
+  };
+  // Gmsh keeps what it was told for the rest of the process.
+  EXPECT_EQ(vertices_with("unused=3").size(), before);
+  EXPECT_GT(vertices_with("Size/h=0.2").size(), 2 * before);
+  EXPECT_GT(vertices_with("h=0.05").size(), 20 * before);
+  double top = 0;
+  for (const Eigen::Vector2d& vertex : vertices_with("Size/top=1.5"))
+    top = std::max(top, vertex.y());
+  EXPECT_EQ(top, 1.5);
+  options_ = model_options_of({}, {"top=2"}, "");
+  EXPECT_EQ(complaint("a.geo", text),
+            "--parameter: top is none of its parameters (those of its DefineConstant: Size/h, "
+            "Size/top, h, unused)");
+  EXPECT_EQ(complaint("a.msh", clockwise_plate), "--parameter: only a .geo has parameters");
+}
+
+TEST_F(Convert, MeshSize) {
+  const std::string graded =
+      replaced(two_squares_geometry, "Point(3) = {2, 0, 0, h}", "Point(3) = {2, 0, 0, h/8}") +
+      roles + bodies;
+  const auto edges = [&](const char* size) {
+    options_ = model_options_of({}, {}, size);
+    const Mesh mesh = convert("a.geo", graded);
+    double longest = 0, shortest = 9;
+    for (const BoundaryEdge& edge : mesh.boundary) {
+      const double length =
+          (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+      longest = std::max(longest, length);
+      shortest = std::min(shortest, length);
+    }
+    return std::pair(shortest, longest);
+  };
+  const auto [shortest, longest] = edges("");
+  EXPECT_GT(longest, 0.3);
+  EXPECT_LE(edges("0.1").second, 0.101);
+  EXPECT_NEAR(edges("0.1").first, shortest, 0.2 * shortest);  // what is finer stays
+  EXPECT_EQ(edges("10"), std::pair(shortest, longest));
+  EXPECT_NEAR(edges("50%").first, shortest / 2, 0.1 * shortest);
+  EXPECT_NEAR(edges("50%").second, longest / 2, 0.15 * longest);  // edges are whole
+  EXPECT_EQ(complaint("a.msh", clockwise_plate),
+            "--mesh-size: it has a mesh already (bench --adapt refines one)");
+}
+
+TEST_F(Convert, CurvesOfACadFileGoByTheirNumbers) {
+  complaint("make.geo", R"(SetFactory("OpenCASCADE"); Rectangle(1) = {0, 0, 0, 20, 10};
+Save "plate.brep";
+Box(1) = {0, 0, 0, 1, 1, 1}; Save "box.brep";
+)");
+  const auto message = [&](const char* file) {
+    try {
+      convert_model(folder_ / file, options_);
+    } catch (const MeshError& error) {
+      return std::string(error.what()).substr((folder_ / file).string().size() + 2);
+    }
+    return std::string("no complaint");
+  };
+  EXPECT_EQ(message("plate.brep"),
+            "a CAD file names no curves; each needs a role by its number, --role 1=force (its "
+            "curves: 1 at (10, 0), 2 at (20, 5), 3 at (10, 10), 4 at (0, 5))");
+  EXPECT_EQ(message("box.brep"),
+            "1 volume(s); the body must be plane: one or more faces in a plane z = constant");
+  options_ = model_options_of({"4=displacement", "2=contact", "1=force", "5=force"}, {}, "2");
+  EXPECT_EQ(message("plate.brep"),
+            "--role: it has no physical curve '5' (its physical curves: '1', '2', '3', '4')");
+  options_ = model_options_of({"4=displacement", "2=contact", "1=force", "3=force:top"}, {}, "2");
+  const Mesh mesh = convert_model(folder_ / "plate.brep", options_).mesh;
+  EXPECT_EQ(mesh.name, "plate");
+  EXPECT_EQ(mesh.body_names, std::vector<std::string>{"body"});
+  const MeshSizes sizes = mesh_sizes(mesh);
+  EXPECT_EQ(sizes.displacement_edges, 5);
+  EXPECT_EQ(sizes.contact_edges, 5);
+  EXPECT_EQ(sizes.force_edges, 20);
+}
+
+TEST_F(Convert, RefusesALastLineWithoutEnd) {
+  std::string text = two_squares_geometry + roles + bodies;
+  text.pop_back();
+  EXPECT_EQ(complaint("a.geo", text),
+            "its last line does not end: Gmsh would pass over it (allowed: a new line there)");
 }
 
 TEST_F(Convert, NamesMissingDisplacement) {
@@ -263,8 +382,8 @@ TEST_F(Convert, NamesMissingDisplacement) {
             "allowed");
   EXPECT_EQ(complaint("b.geo", two_squares_geometry + bodies +
                                    replaced(roles, "\"displacement\"", "\"Displacement\"")),
-            "no edges in a physical curve named displacement (others found: 'Displacement'); it is "
-            "needed, force and contact are allowed");
+            "no edges in a physical curve named displacement (others found: 'Displacement'; "
+            "--role gives them one); it is needed, force and contact are allowed");
 }
 
 TEST_F(Convert, NamesMissingSurface) {
@@ -275,7 +394,7 @@ TEST_F(Convert, NamesMissingSurface) {
 TEST_F(Convert, NamesBoundaryWithoutRole) {
   EXPECT_EQ(complaint("a.msh", replaced(clockwise_plate, "\"contact\"", "\"glue\"")),
             "boundary edge from (1, 0) to (1, 1) is in no physical curve named displacement, force "
-            "or contact (others found: 'glue')");
+            "or contact (others found: 'glue'; --role gives them one)");
   EXPECT_EQ(complaint("b.geo", two_squares_geometry + bodies +
                                    replaced(roles, "Physical Curve(\"contact\") = {7};", "")),
             "boundary edge from (2, 0) to (2, 0.333333) is in no physical curve named "

@@ -1,0 +1,119 @@
+#include "meshgen/geo_script.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <optional>
+#include <string_view>
+
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
+
+namespace airybench {
+namespace {
+
+struct Token {
+  enum Kind { word, literal, sign } kind;
+  std::string text;
+  bool is(std::string_view other) const { return kind != literal && text == other; }
+};
+
+bool is_of_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
+
+// Words, literals without their quotes, and single signs; no comments.
+std::vector<Token> tokens_of(std::string_view text) {
+  std::vector<Token> tokens;
+  const auto cut = [&](std::size_t length) {
+    const std::string_view part = text.substr(0, length);
+    text.remove_prefix(part.size());
+    return part;
+  };
+  while (!text.empty()) {
+    if (text.starts_with("//")) {
+      cut(text.find('\n'));
+    } else if (text.starts_with("/*")) {
+      const std::size_t end = text.find("*/", 2);
+      cut(end == text.npos ? end : end + 2);
+    } else if (text.front() == '"') {
+      const std::size_t end = text.find('"', 1);
+      const std::string_view quoted = cut(end == text.npos ? end : end + 1);
+      tokens.push_back({Token::literal, std::string(quoted.substr(1, quoted.size() - 2))});
+    } else if (is_of_word(text.front())) {
+      const auto end = std::find_if_not(text.begin(), text.end(), is_of_word);
+      tokens.push_back(
+          {Token::word, std::string(cut(static_cast<std::size_t>(end - text.begin())))});
+    } else {
+      const std::string_view one = cut(1);
+      if (!std::isspace(static_cast<unsigned char>(one.front())))
+        tokens.push_back({Token::sign, std::string(one)});
+    }
+  }
+  return tokens;
+}
+
+bool is_one_of(const Token& token, const auto& words) {
+  return token.kind == Token::word && std::ranges::find(words, token.text) != words.end();
+}
+
+constexpr std::array<std::string_view, 2> readers = {"Include", "Merge"};  // "file";
+// What else can make the outcome another than that of the files.
+constexpr auto outside = std::to_array<std::string_view>(
+    {"MergeFile", "ShapeFromFile", "FileExists", "FileName", "GetEnv", "GetNumber", "GetString",
+     "OnelabRun", "ExternalProcess", "CommandLine", "Rand", "Cpu", "Memory", "TotalMemory", "Today",
+     "System", "SystemCall", "NonBlockingSystemCall"});
+
+// The names that a definition list [a = …, b = {…}] gives values to; returns the index behind it.
+std::size_t read_definitions(const std::vector<Token>& tokens, std::size_t at, GeoScript& script) {
+  int depth = 0;
+  for (; at < tokens.size(); ++at) {
+    const Token& token = tokens[at];
+    if (token.is("[") || token.is("{") || token.is("(")) ++depth;
+    if (token.is("]") || token.is("}") || token.is(")")) --depth;
+    if (depth == 0) break;
+    const Token& before = tokens[at - 1];
+    if (depth == 1 && token.kind == Token::word && (before.is("[") || before.is(",")))
+      script.constants.insert(token.text);
+  }
+  return at;
+}
+
+void read_into(GeoScript& script, const std::filesystem::path& file, const std::string& text);
+
+// Gmsh may never come to where it is included: that it is not there is for Gmsh to say.
+void read_included(GeoScript& script, const std::filesystem::path& file) {
+  if (std::ranges::find(script.files, file) != script.files.end()) return;
+  try {
+    read_into(script, file, file_text(file));
+  } catch (const FileError&) {
+    script.is_self_contained = false;
+  }
+}
+
+void read_into(GeoScript& script, const std::filesystem::path& file, const std::string& text) {
+  script.files.push_back(file);
+  const std::vector<Token> tokens = tokens_of(text);
+  for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
+    const Token &token = tokens[at], &next = tokens[at + 1];
+    if (is_one_of(token, outside)) script.is_self_contained = false;
+    if (token.is("ExternalProcess")) script.has_external_process = true;
+    if (token.is("Name") && next.kind == Token::literal) script.onelab_names.insert(next.text);
+    if (token.is("DefineConstant") && next.is("[")) read_definitions(tokens, at + 1, script);
+    if (!is_one_of(token, readers)) continue;
+    const bool is_literal =
+        next.kind == Token::literal && at + 2 < tokens.size() && tokens[at + 2].is(";");
+    if (!is_literal)
+      script.is_self_contained = false;
+    else
+      read_included(script, (file.parent_path() / next.text).lexically_normal());
+  }
+}
+
+}  // namespace
+
+GeoScript read_geo_script(const std::filesystem::path& file) {
+  GeoScript script;
+  read_into(script, file.lexically_normal(), file_text(file));
+  return script;
+}
+
+}  // namespace airybench

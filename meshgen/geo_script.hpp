@@ -1,0 +1,25 @@
+// What a .geo says of itself, read without running it.
+#pragma once
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace airybench {
+
+struct GeoScript {
+  // It and all that it includes or merges by a literal name, each once, in the order of reading.
+  std::vector<std::filesystem::path> files;
+  std::set<std::string> constants;     // of DefineConstant: numbers that can be given from outside
+  std::set<std::string> onelab_names;  // of DefineConstant and DefineNumber: Name "Parameters/h"
+  // What it makes depends on these files alone: on no file whose name is computed, nor on time,
+  // environment, chance.
+  bool is_self_contained = true;
+  bool has_external_process = false;  // a size field that a program computes
+};
+
+// Throws FileError: the file cannot be read.
+GeoScript read_geo_script(const std::filesystem::path& file);
+
+}  // namespace airybench

@@ -1,0 +1,71 @@
+#include "meshgen/mesh_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "mesh/model_format.hpp"
+#include "mesh/msh_format.hpp"
+#include "meshgen/geo_script.hpp"
+#include "meshgen/gmsh_mesher.hpp"
+#include "support/atomic_file.hpp"
+#include "support/sha256.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* made_by = "airybench converts models, 1";  // another number: other meshes
+
+std::filesystem::path folder_of_variable(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::string version_of_gmsh() {
+  const GmshSession session;
+  return gmsh_version();
+}
+
+}  // namespace
+
+std::filesystem::path cache_folder() {
+  const std::filesystem::path own = folder_of_variable("AIRYBENCH_CACHE_DIR");
+  if (!own.empty()) return own;
+  const std::filesystem::path caches = folder_of_variable("XDG_CACHE_HOME");
+  if (caches.is_absolute()) return caches / "airybench";
+  const std::filesystem::path home = folder_of_variable("HOME");
+  return home.is_absolute() ? home / ".cache" / "airybench" : "";
+}
+
+std::filesystem::path cached_file(const std::filesystem::path& model, const ModelOptions& options) {
+  GeoScript script;
+  script.files = {model};
+  if (format_of(model) == ModelFormat::other) return "";
+  if (format_of(model) == ModelFormat::geo) script = read_geo_script(model);
+  const std::filesystem::path folder = cache_folder();
+  if (!script.is_self_contained || folder.empty()) return "";
+  std::string inputs = fmt::format("{}\nGmsh {}\n{}", made_by, version_of_gmsh(), text_of(options));
+  for (const std::filesystem::path& file : script.files)
+    inputs += fmt::format("file {}{}\n", sha256_of_file(file), file.extension().string());
+  return folder / (sha256_hex(inputs) + ".msh");
+}
+
+std::optional<Mesh> cached_mesh(const std::filesystem::path& file) {
+  try {
+    return read_msh(file);
+  } catch (const MeshError&) {
+    return {};
+  }
+}
+
+std::optional<std::string> keep_mesh(const std::filesystem::path& file, const Mesh& mesh) {
+  try {
+    make_folder(file.parent_path());
+    write_file_atomically(file, msh_text(mesh));
+    return {};
+  } catch (const FileError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace airybench

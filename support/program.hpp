@@ -1,0 +1,27 @@
+// Other programs.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace airybench {
+
+struct ProgramEnd {
+  int exit_code = -1;  // of one that ended by itself
+  int signal = 0;      // that ended it
+  std::string out, err;
+};
+
+// Runs it to its end, with no standard input; it ends when this process does, however that ends.
+// Throws std::system_error: no process, or no pipe.
+ProgramEnd run_program(const std::filesystem::path& program,
+                       const std::vector<std::string>& arguments);
+
+// A program of this project: beside the running one where both are installed, in a folder of its
+// name beside that of the running one in the build tree. Empty: it is not there.
+std::optional<std::filesystem::path> program_of_ours(const std::string& name);
+
+}  // namespace airybench

@@ -1,0 +1,163 @@
+// Gmsh models as meshes of `bench`.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "mesh/msh_format.hpp"
+#include "support/sha256.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::model_runs_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A square of two bodies held on the left, against a wall on the right.
+const std::string square = R"(
+DefineConstant[ h = 0.5 ];
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {1, 1, 0, h}; Point(4) = {0, 1, 0, h};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
+Physical Curve("clamped") = {4};
+Physical Curve("force") = {1, 3};
+Physical Curve("contact") = {2};
+Physical Surface("steel") = {1};
+)";
+
+class ModelRuns : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(testing::meshgen_executable())) GTEST_SKIP() << "meshgen is not built here";
+    testing::write_text(bench_.path("part.geo"), square);
+  }
+  testing::CommandResult run(const std::string& arguments) const {
+    return bench_.run(arguments, "export AIRYBENCH_CACHE_DIR=cache; ");
+  }
+  // Exit code 2, one line, no results folder.
+  void expect_refusal(const std::string& arguments, const std::string& line) const {
+    const testing::CommandResult result = run(arguments + " --out=refused");
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.err, "bench: " + line + "\n") << arguments;
+    EXPECT_FALSE(fs::exists(bench_.path("refused"))) << arguments;
+  }
+  fs::path kept(const Json& record, const std::string& folder = "o") const {
+    return bench_.path(folder) / record["mesh_file"].get<std::string>();
+  }
+  const testing::BenchCommand bench_;
+};
+
+const std::string part = "--mesh=part.geo --role clamped=displacement ";
+const std::string quick = "--method=HYBRID --repetitions=1 ";
+
+TEST_F(ModelRuns, FromTheModelToTheTable) {
+  const testing::CommandResult result = run(part + quick + "--out=o");
+  ASSERT_EQ(result.code, 0) << result.err;
+  ASSERT_EQ(bench_.records().size(), 1u);
+  const Json record = bench_.records().front();
+  EXPECT_EQ(record["mesh"], "part");
+  EXPECT_EQ(record["status"], "ok");
+  EXPECT_EQ(record["mesh_sha256"], sha256_of_file(kept(record)));
+  EXPECT_EQ(read_msh(kept(record)).name, "part");
+  EXPECT_EQ(fs::relative(kept(record), bench_.path("o")),
+            fs::path("meshes") / ("part." + record["mesh_sha256"].get<std::string>().substr(0, 8)) /
+                "part.msh");
+}
+
+TEST_F(ModelRuns, RecordsKeepTheirMeshes) {
+  ASSERT_EQ(run(part + quick + "--out=o").code, 0);
+  const fs::path coarse = kept(bench_.records().front());
+  const testing::CommandResult resumed = run(part + quick + "--out=o --resume");
+  EXPECT_EQ(resumed.code, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("1 of these 1 records were there already"), std::string::npos);
+  ASSERT_EQ(run(part + "--parameter h=0.2 --method=P2 --repetitions=1 --append --out=o").code, 0);
+  const fs::path fine = kept(bench_.records().back());
+  EXPECT_GT(read_msh(fine).vertices.size(), read_msh(coarse).vertices.size());
+  EXPECT_EQ(run("replay o:part/default/HYBRID --out=again").code, 0);
+  EXPECT_EQ(bench_.records("again").front()["mesh_sha256"], sha256_of_file(coarse));
+}
+
+TEST_F(ModelRuns, SizesOfTheCommandLineReachTheMesh) {
+  const auto n_phi = [&](const std::string& settings) {
+    EXPECT_EQ(run(part + quick + settings + " --out=o").code, 0);
+    return bench_.records().front()["n_phi"].get<int>();
+  };
+  const int coarse = n_phi("");
+  EXPECT_GT(n_phi("--mesh-size=0.1"), 4 * coarse);
+  EXPECT_GT(n_phi("--mesh-size=25%"), 4 * coarse);
+  EXPECT_GT(n_phi("--parameter=h=0.1"), 4 * coarse);
+}
+
+TEST_F(ModelRuns, WhereverAMeshIsTaken) {
+  EXPECT_EQ(run(part + "--dry-run --out=planned").code, 0);
+  EXPECT_FALSE(fs::exists(bench_.path("planned")));
+  const testing::CommandResult adapted =
+      run(part + quick + "--adapt=600 --levels=last --out=adapted");
+  EXPECT_EQ(adapted.code, 0) << adapted.err;
+  EXPECT_NE(bench_.records("adapted").front()["mesh"].get<std::string>().find("part+adapt"),
+            std::string::npos);
+  const testing::CommandResult advice =
+      run("advise " + part + "--error=20% --method=HYBRID,P2 --out=advice");
+  EXPECT_EQ(advice.code, 0) << advice.err;
+  EXPECT_NE(advice.out.find("bench --mesh=part.geo --role=clamped=displacement"), std::string::npos)
+      << advice.out;
+}
+
+TEST_F(ModelRuns, AMeshOfAnotherFormIsAModel) {
+  // MSH 2.2 as Gmsh writes it of a model with a physical point: an element of type 15.
+  ASSERT_EQ(run(part + quick + "--out=o").code, 0);
+  std::string text = testing::text_of(kept(bench_.records().front()));
+  const std::size_t at = text.find("$Elements\n") + 10, end = text.find('\n', at);
+  const int count = std::stoi(text.substr(at, end - at));
+  text.replace(at, end - at, std::to_string(count + 1) + "\n9999 15 2 0 1 1");
+  testing::write_text(bench_.path("points.msh"), text);
+  const testing::CommandResult result = run("--mesh=points.msh " + quick + "--out=points");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(bench_.records("points").front()["mesh"], "points");
+}
+
+TEST_F(ModelRuns, NotesAreToldOnStandardError) {
+  testing::write_text(bench_.path("part.geo"), square + "Mesh.ElementOrder = 2;\n");
+  const testing::CommandResult result = run(part + quick + "--out=o");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_TRUE(result.err.starts_with(
+      "note: part.geo: elements of higher order are reduced to their corners\n"))
+      << result.err;
+}
+
+TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
+  expect_refusal("--mesh=part.geo",
+                 "part.geo: no edges in a physical curve named displacement (others found: "
+                 "'clamped'; --role gives them one); it is needed, force and contact are allowed");
+  expect_refusal("--mesh=nowhere.geo", "nowhere.geo: cannot be opened: No such file or directory");
+  expect_refusal("--mesh=part.geo --role clamped=fixed",
+                 "--role: clamped=fixed (allowed: NAME=ROLE with displacement, force, contact, or "
+                 "one of these with a name: force:top)");
+  expect_refusal(part + "--parameter size=1",
+                 "part.geo: --parameter: size is none of its parameters (those of its "
+                 "DefineConstant: h)");
+  expect_refusal("--mesh=Mesh0 --mesh-size=1",
+                 "--mesh-size=1: no Gmsh model is among the meshes (allowed: with --mesh=*.geo, "
+                 "*.step, *.brep, *.iges)");
+  testing::write_text(bench_.path("part.geo"), "foo bar;\n");
+  expect_refusal("--mesh=part.geo", "part.geo: Gmsh: 'part.geo', line 1: Unknown variable 'bar'");
+  // The second is wrong: nothing is kept of the first.
+  testing::write_text(bench_.path("part.geo"), square);
+  testing::write_text(bench_.path("exit.geo"), "Exit;\n");
+  expect_refusal("--mesh=part.geo,exit.geo --role clamped=displacement",
+                 "exit.geo: the model ends Gmsh (Exit)");
+}
+
+TEST_F(ModelRuns, WithoutMeshgenOneLineSaysWhatToInstall) {
+  fs::create_directory(bench_.path("bin"));
+  fs::copy_file(testing::bench_executable(), bench_.path("bin/bench"));
+  const std::string command = "cd '" + bench_.path("").string() +
+                              "' && bin/bench --mesh=part.geo --out=o >out.txt 2>err.txt";
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
+  EXPECT_EQ(bench_.content("err.txt"),
+            "bench: part.geo: a Gmsh model, but there is no meshgen beside this program (Debian: "
+            "install libgmsh-dev and build again, as ./run bench does)\n");
+  EXPECT_FALSE(fs::exists(bench_.path("o")));
+}
+
+}  // namespace
+}  // namespace airybench::model_runs_test
