@@ -95,7 +95,8 @@ ProgramEnd run_program(const std::filesystem::path& program,
 std::optional<std::filesystem::path> program_of_ours(const std::string& name) {
   const auto folder = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   std::error_code error;
-  for (const std::filesystem::path& file : {folder / name, folder / ".." / name / name})
+  for (const std::filesystem::path& file :
+       {folder / ("airybench-" + name), folder / ".." / name / name})
     if (std::filesystem::is_regular_file(file, error)) return file.lexically_normal();
   return {};
 }

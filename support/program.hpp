@@ -20,8 +20,8 @@ struct ProgramEnd {
 ProgramEnd run_program(const std::filesystem::path& program,
                        const std::vector<std::string>& arguments);
 
-// A program of this project: beside the running one where both are installed, in a folder of its
-// name beside that of the running one in the build tree. Empty: it is not there.
+// A program of this project: "airybench-name" beside the running one where both are installed, in a
+// folder of its name beside that of the running one in the build tree. Empty: it is not there.
 std::optional<std::filesystem::path> program_of_ours(const std::string& name);
 
 }  // namespace airybench

@@ -49,11 +49,7 @@ BoundaryValues read_values(const SceneReader& reader, const std::string& key, co
         [&, kind](const std::string& k, const Json& v) { target = read_wall(reader, k, v, kind); };
   };
   reader.object(key + ": ", json,
-                {{"friction", number(values.contact.friction)},
-                 {"clearance_mm", number(values.contact.clearance_mm)},
-                 {"wall", wall(values.contact.wall, Curve::wall)},
-                 {"face", wall(values.contact.face, Curve::face)},
-                 {"traction_MPa", vector(values.traction_MPa)},
+                {{"traction_MPa", vector(values.traction_MPa)},
                  {"pressure_MPa",
                   [&](const std::string& k, const Json& v) {
                     values.pressure_MPa = read_linear<double>(
@@ -61,11 +57,16 @@ BoundaryValues read_values(const SceneReader& reader, const std::string& key, co
                         [&](const auto& name, const Json& x) { return reader.number(name, x); });
                   }},
                  {"displacement_mm", vector(values.displacement_mm)},
-                 {"support", [&](const std::string& k, const Json& v) {
+                 {"support",
+                  [&](const std::string& k, const Json& v) {
                     if (v != "full" && v != "normal") reader.fail(k, v, "\"full\" or \"normal\"");
                     using enum BoundaryValues::Support;
                     values.support = v == "full" ? full : normal;
-                  }}});
+                  }},
+                 {"friction", number(values.contact.friction)},
+                 {"clearance_mm", number(values.contact.clearance_mm)},
+                 {"wall", wall(values.contact.wall, Curve::wall)},
+                 {"face", wall(values.contact.face, Curve::face)}});
   return values;
 }
 

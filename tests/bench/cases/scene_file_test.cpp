@@ -111,7 +111,7 @@ TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
             "boundary: [] (allowed: an object with a boundary group as each key)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure": 3}}})"),
             "boundary: force: pressure: unknown key (allowed: traction_MPa, pressure_MPa, "
-            "displacement_mm, support)");
+            "displacement_mm, support, friction, clearance_mm, wall, face)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": [1, 2]}}})"),
             "boundary: force: pressure_MPa: [1,2] (allowed: a number)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": 3}}})"),
@@ -158,10 +158,101 @@ TEST_F(SceneFile, ComplaintsOfLoadSteps) {
             "load_steps: 1: displacement_mm: 3 (allowed: two numbers [x, y])");
   EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})"),
             "load_steps: 1: boundary: displacement: support (allowed: traction_MPa, pressure_MPa, "
-            "displacement_mm)");
+            "displacement_mm, clearance_mm)");
   EXPECT_EQ(
       complaint(R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})"),
       "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)");
+}
+
+TEST_F(SceneFile, WallsFacesAndContactGroups) {
+  const Scene scene = read(R"({
+    "wall": {"flat": {"point_mm": [1, 2], "normal": [0, 1]}},
+    "face": {"circle": {"centre_mm": [3, 4], "radius_mm": 5}},
+    "boundary": {"contact:a": {"friction": 0.1, "clearance_mm": 0.2,
+      "wall": {"circle": {"centre_mm": [0, 1], "radius_mm": 2, "bodies": "outside"}},
+      "face": {"polyline": [[0, 0], [1, 1], [2, 1]]}}}})");
+  EXPECT_EQ(std::get<FlatWall>(scene.wall.value()).point_mm, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(std::get<CircularWall>(scene.face.value()).radius_mm, 5);
+  const ContactValues& own = scene.boundary.at("contact:a").contact;
+  EXPECT_EQ(own.friction, 0.1);
+  EXPECT_EQ(own.clearance_mm, 0.2);
+  EXPECT_EQ(std::get<CircularWall>(own.wall.value()).bodies, CircularWall::Bodies::outside);
+  EXPECT_EQ(std::get<PolylineWall>(own.face.value()).points_mm.back(), Eigen::Vector2d(2, 1));
+}
+
+TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
+  const auto folder = file_.parent_path();
+  std::ofstream(folder / "profile.csv") << "x_mm,y_mm\n# lower\n0, 1\r\n\n2 3.5\n";
+  std::ofstream(file_) << R"({"wall": {"polyline": "profile.csv"}})";
+  const airybench::SceneFile given = read_scene_file(file_);
+  EXPECT_EQ(given.definition, R"({"wall":{"polyline":[[0.0,1.0],[2.0,3.5]]}})");
+  const auto& points = std::get<PolylineWall>(given.scene.wall.value()).points_mm;
+  EXPECT_EQ(points, (std::vector<Eigen::Vector2d>{{0, 1}, {2, 3.5}}));
+  std::ofstream(folder / "profile.csv") << "0 1\n2 a\n";
+  const auto said = [&] {
+    try {
+      read_scene_file(file_);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(said(),
+            (folder / "profile.csv").string() + ":2: '2 a' (allowed: two numbers, x and y in mm)");
+  std::filesystem::remove(folder / "profile.csv");
+  EXPECT_EQ(said(),
+            (folder / "profile.csv").string() + ": cannot be opened: No such file or directory");
+}
+
+TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
+  std::ofstream(file_) << R"({"friction": 0.1})";
+  const airybench::SceneFile given = read_scene_file(file_), other = on_other_bodies(given);
+  EXPECT_EQ(given.scene.crown_radius_mm, 400);
+  EXPECT_FALSE(other.scene.crown_radius_mm);
+  EXPECT_EQ(other.definition, R"({"crown_radius_mm":null,"friction":0.1})");
+  std::ofstream(file_) << R"({"crown_radius_mm": 7})";
+  EXPECT_EQ(on_other_bodies(read_scene_file(file_)).scene.crown_radius_mm, 7);
+}
+
+TEST_F(SceneFile, ComplaintsOfWalls) {
+  EXPECT_EQ(complaint(R"({"wall": 3})"), "wall: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"wall": {}})"), "wall: {} (allowed: one of flat, circle, polyline)");
+  EXPECT_EQ(complaint(R"({"wall": {"plane": {}}})"),
+            "wall: plane: unknown key (allowed: flat, circle, polyline)");
+  EXPECT_EQ(complaint(R"({"wall": {"flat": {"normal": [0, 1]}}})"),
+            "wall: flat: {\"normal\":[0,1]} (allowed: {\"point_mm\": [x, y], \"normal\": [x, y]}, "
+            "both given)");
+  EXPECT_EQ(complaint(R"({"wall": {"flat": {"point_mm": [0, 0], "normal": [0, 0]}}})"),
+            "wall: flat: normal: [0, 0] (allowed: not zero)");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
+            "wall: circle: {\"centre_mm\":[0,0],\"radius_mm\":1} (allowed: {\"centre_mm\": [x, y], "
+            "\"radius_mm\": ..., \"bodies\": \"inside\" or \"outside\"}, all given)");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"bodies": "between"}}})"),
+            "wall: circle: bodies: \"between\" (allowed: \"inside\" or \"outside\")");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"radius_mm": 0}}})"),
+            "wall: circle: radius_mm: 0 (allowed: a number > 0)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0]]}})"),
+            "wall: polyline: 1 point(s) (allowed: at least 2)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], [0, 0]]}})"),
+            "wall: polyline: point 2: [0, 0] again (allowed: different points)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], 1]}})"),
+            "wall: polyline: 1 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"face": {"circle": {"bodies": "inside"}}})"),
+            "face: circle: bodies: unknown key (allowed: centre_mm, radius_mm)");
+  EXPECT_EQ(complaint(R"({"face": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
+            "face: given without a wall (allowed: beside one)");
+  const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
+  EXPECT_EQ(complaint("{" + wall + R"(, "crown_radius_mm": 3})"),
+            "wall and crown_radius_mm (allowed: one of them)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {)" + wall + "}}}"),
+            "boundary: force: wall (allowed: on a contact boundary)");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"friction": -1}}})"),
+            "boundary: contact: friction: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"pressure_MPa": 1}}})"),
+            "boundary: contact: pressure_MPa (allowed: on a force boundary)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"contact": {"friction": 1}}}]})"),
+            "load_steps: 1: boundary: contact: friction (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm, clearance_mm)");
 }
 
 TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {

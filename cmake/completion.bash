@@ -1,0 +1,15 @@
+# Completes options, as the program's own --help lists them, and files.
+_airybench() {
+  local word=${COMP_WORDS[COMP_CWORD]} words=("${COMP_WORDS[0]}")
+  [[ ${COMP_CWORD} -gt 1 && ${COMP_WORDS[1]} != -* ]] && words+=("${COMP_WORDS[1]}")
+  if [[ $word == -* ]]; then
+    local options
+    options=$("${words[@]}" --help 2>/dev/null | grep -o '^ *\(-[a-z],\)\?--[a-z-]*' | grep -o -- '--[a-z-]*')
+    mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
+  elif [[ ${COMP_CWORD} -eq 1 && ${COMP_WORDS[0]##*/} == airybench ]]; then
+    mapfile -t COMPREPLY < <(compgen -W "advise claims compare track export merge replay" -- "$word")
+  else
+    mapfile -t COMPREPLY < <(compgen -f -- "$word")
+  fi
+}
+complete -o nospace -F _airybench airybench airybench-meshgen
