@@ -259,6 +259,19 @@ Mesh mesh_of_open_model(const ModelOptions& options, std::vector<std::string>& n
   return renumbered(model);
 }
 
+// Surfaces that are not joined are a common slip.
+void check(const Mesh& mesh) {
+  try {
+    validate(mesh);
+  } catch (const MeshError& error) {
+    const std::string what = error.what();
+    const bool apart = what.find("separate pieces") != what.npos;
+    throw MeshError(what + (apart ? " (in Gmsh, Coherence or BooleanFragments joins surfaces that "
+                                    "touch or overlap)"
+                                  : ""));
+  }
+}
+
 // As it is, if it is one of ours.
 std::optional<Mesh> own_mesh(const std::filesystem::path& file, const ModelOptions& options) {
   if (format_of(file) != ModelFormat::msh || !text_of(options).empty()) return {};
@@ -289,7 +302,7 @@ ConvertedModel convert_model(const std::filesystem::path& model, const ModelOpti
     throw MeshError(model.string() + ": " + complaint.what());
   }
   mesh.name = model.string();  // for validate() to complain about
-  validate(mesh);
+  check(mesh);
   mesh.name = model.stem().string();
   for (std::string& note : converted.notes) note = model.string() + ": " + note;
   return converted;

@@ -16,7 +16,8 @@ from paper_sizes import catalogue_mesh
 from records import RecordsError, cells_of, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
-CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,state"
+CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state"
+MAY_BE_EMPTY = ("gap_mm", "slip_mm")  # not known
 BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,role"
 ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
@@ -88,7 +89,8 @@ def area(starts: np.ndarray, ends: np.ndarray) -> float:
 
 def read_table(path: Path, header: str,
                words: tuple[str, ...] = ()) -> tuple[np.ndarray, np.ndarray]:
-    """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them."""
+    """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them.
+    Numbers that are not known are NaN."""
     lines, columns = cells_of(path), header.split(",")
     if not lines or lines[0] != columns:
         raise RecordsError(f"{path}:1: expected the header {header}")
@@ -98,7 +100,8 @@ def read_table(path: Path, header: str,
                            + ", ".join(words))
     cells, last = cells[:, : len(columns) - bool(words)], cells[:, -1]
     numbers = pd.to_numeric(cells.ravel(), errors="coerce").astype(float).reshape(cells.shape)
-    for at, column in np.argwhere(~np.isfinite(numbers)):
+    empty = (cells == "") & np.isin(columns[: cells.shape[1]], MAY_BE_EMPTY)
+    for at, column in np.argwhere(~np.isfinite(numbers) & ~empty):
         raise RecordsError(f"{path}:{at + 2}: {columns[column]} is '{cells[at, column]}', expected "
                            "a finite number")
     return numbers, last

@@ -41,7 +41,7 @@ struct Options {
   std::string adapt_by = "HYBRID";  // method that solves the levels
   bool goals_only = false;          // the cases are of the levels that reach one
   std::string then;                 // a command for the shell, after the run
-  bool fields = false;              // write stresses and contact points …
+  bool fields = false;              // write stresses, displacements, contact points …
   bool mean_fields = false;         // … and the mean with the stresses of displacements
   bool histories = false;           // keep iteration histories in records.jsonl
   bool list = false, dry_run = false, explain = false;

@@ -12,6 +12,7 @@
 #include "bench/cases/blank_record.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
+#include "bench/commands/own_bodies.hpp"
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/exports/csv.hpp"
 #include "bench/forecast/prediction.hpp"
@@ -274,8 +275,10 @@ int advise_command(int argc, const char* const* argv) {
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;
   with_fields.repetitions = 1;
-  run_cases({*best}, with_fields, context);
+  const std::vector<Record> drawn = run_cases({*best}, with_fields, context).records;
   run_after(options.then, options.out);
+  if (const std::string line = picture_line(drawn, options.out, true); !line.empty())
+    fmt::print("{}\n", line);
   return all_ok;
 }
 

@@ -195,7 +195,8 @@ Options parse_options(int argc, const char* const* argv) {
   std::string fields;
   app.add_flag(
       "--fields", fields,
-      "also write stresses and contact points (fields/*.csv); --fields=mean: and the mean of "
+      "also write stresses, displacements, contact points and shares in the error (fields/*.csv, "
+      "*.vtu for ParaView), and with them the total error; --fields=mean: and the mean of "
       "the stresses with those of admissible displacements, which has half of the bound "
       "of the error");
   app.add_flag("--histories", options.histories, "keep iteration histories in records.jsonl");

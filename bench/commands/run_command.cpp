@@ -13,6 +13,7 @@
 #include "bench/cases/stages.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/command_options.hpp"
+#include "bench/commands/own_bodies.hpp"
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/forecast/prediction.hpp"
 #include "bench/isolation/isolated_scene.hpp"
@@ -156,6 +157,9 @@ int run_command(int argc, const char* const* argv) {
   print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
   run_after(options.then, options.out);
+  if (const std::string line = picture_line(result.records, options.out, options.fields);
+      !line.empty())
+    fmt::print("{}\n", line);
   if (result.records.size() != plan.size())
     throw std::logic_error(fmt::format("{} of {} cases have no record",
                                        plan.size() - result.records.size(), plan.size()));

@@ -10,8 +10,6 @@
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/heap/heap_probe.hpp"
-#include "bench/judging/displacement_recovery.hpp"
-#include "bench/measuring/field_files.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/record_notes.hpp"
@@ -22,14 +20,6 @@ namespace airybench {
 namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
-
-// Whose displacements the discretisation error of the method's record is made with.
-std::optional<Workbench::Bound> bound_for(const Method& method, const Options& options) {
-  if (options.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
-  if (!options.adapt.empty() || options.mean_fields || options.study == Study::adapted)
-    return Workbench::Bound::recovery;
-  return {};
-}
 
 }  // namespace
 
@@ -47,7 +37,7 @@ void Workbench::prepare(const Method& method) {
     return;
   }
   reference();
-  if (const auto bound = bound_for(method, options_)) discretisation(*bound);
+  if (const auto bound = bound_for(method)) discretisation(*bound);
 }
 
 const AssembledBlocks& Workbench::blocks(Blocks which) {
@@ -76,33 +66,6 @@ const Reference* Workbench::reference(int step) {
     }
   }
   return references_.empty() ? nullptr : &references_[static_cast<std::size_t>(step)];
-}
-
-const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
-  const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && problem_->later_steps.empty() && reference() != nullptr &&
-      left_out_.discretisation.empty())
-    found->second = compute_discretisation(bound);
-  return found->second ? &*found->second : nullptr;
-}
-
-std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
-  const ActivityScope scope(board_, Activity::discretisation);
-  const DualSystem system = assemble(problem_, Blocks::contact_points);
-  const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
-  const Solution own = run(select_methods(method).front(), system, {});
-  if (own.status != Status::ok) return {};
-  Discretisation result;
-  if (bound == Bound::p2) {
-    result.u = own.displacement;
-    result.error = constitutive_error(system, reference()->stress, reference()->F_C, result.u);
-    return result;
-  }
-  result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
-  result.error = constitutive_error(system, own.stress, own.F_C, result.u);
-  if (result.error.flaw.empty())
-    result.intervals = contact_intervals(system, own.stress, own.F_C, result.u, result.error);
-  return result;
 }
 
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
@@ -302,24 +265,6 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
   }
 }
 
-void Workbench::note_discretisation(const Method& method, const Solution& solution,
-                                    const std::filesystem::path& fields, Record& record) {
-  const std::optional<Bound> bound = bound_for(method, options_);
-  const Discretisation* known = bound ? discretisation(*bound) : nullptr;
-  if (known == nullptr) return;
-  if (record.other_solution) {
-    record.no_discretisation_error = "it is known for the reference's solution only";
-  } else {
-    note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
-    if (known->intervals) note(*known->intervals, record);
-  }
-  if (fields.empty() || !known->error.flaw.empty()) return;
-  write_error_field(fields.parent_path(), fields.filename(), known->error);
-  if (options_.mean_fields)
-    write_mean_field(fields.parent_path(), fields.filename(), *problem_,
-                     mean_stress(*problem_, solution.stress, known->u));
-}
-
 Workbench::Examination Workbench::examine(const Method& method,
                                           const std::filesystem::path& fields) {
   Examination examination;
@@ -358,9 +303,8 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    if (!fields.empty())
-      write_fields(fields.parent_path(), fields.filename(), *assembled.system, solution);
-    note_discretisation(method, solution, fields, record);
+    note_discretisation(method, record);
+    if (!fields.empty()) write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
   const bool once = problem_->later_steps.empty() &&

@@ -78,6 +78,8 @@ class Workbench {
     DisplacementField u;
     std::optional<ContactIntervals> intervals;  // of recovery, where the error is one
   };
+  // Whose displacements the discretisation error of the method's record is made with.
+  std::optional<Bound> bound_for(const Method& method) const;
   // Null when the stresses or the displacements are missing.
   const Discretisation* discretisation(Bound bound);
   std::optional<Discretisation> compute_discretisation(Bound bound);
@@ -92,9 +94,14 @@ class Workbench {
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
   void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
-  // What is known of the discretisation error, and the fields where they are asked for.
-  void note_discretisation(const Method& method, const Solution& solution,
-                           const std::filesystem::path& fields, Record& record);
+  // What is known of the discretisation error.
+  void note_discretisation(const Method& method, Record& record);
+  // The method's own, recovered from its edge moments, or the one that is known of the solution.
+  static std::optional<DisplacementField> displacement_of(const DualSystem& system,
+                                                          const Solution& solution,
+                                                          const Discretisation* known);
+  void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
+                       const Record& record, const std::filesystem::path& file);
   // Against the solution that is nearest to it, where that is none of the reference's.
   std::optional<Verification> verify_as_other_solution(const AssembledBlocks& blocks,
                                                        const Run& run);

@@ -497,7 +497,8 @@ TEST_F(Convert, RefusesSeparateBodies) {
   EXPECT_EQ(
       complaint("apart.geo", two_loops("9") + "Plane Surface(1) = {1}; Plane Surface(2) = {2};\n" +
                                  "Physical Surface(\"steel\") += {2};\n"),
-      "2 separate pieces; the body must be one");
+      "2 separate pieces; the body must be one (in Gmsh, Coherence or BooleanFragments joins "
+      "surfaces that touch or overlap)");
 }
 
 TEST_F(Convert, KeepsAHole) {

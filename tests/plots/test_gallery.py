@@ -50,8 +50,8 @@ def write_solution(folder: Path, name: str, contact: bool = True,
     roles = ["force", "contact" if contact else "force", "force", "displacement"]
     edges = [(*corners[k], *corners[(k + 1) % 4], role) for k, role in enumerate(roles)]
     (x, y), (_, end) = corners[1:3]
-    points = [f"{x},{y},1,0,{end - y},-30,-6,slip", f"{x},{end},1,0,{end - y},0,0,open"] \
-        if contact else []
+    points = [f"{x},{y},1,0,{end - y},-30,-6,0,0.01,slip",
+              f"{x},{end},1,0,{end - y},0,0,0.02,,open"] if contact else []
     for part, lines in (("stress", rows), ("contact", [fields.CONTACT, *points]),
                         ("boundary", [fields.BOUNDARY, *(",".join(map(str, e)) for e in edges)])):
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -188,8 +188,13 @@ class GalleryTest(unittest.TestCase):
                                                       *lines[4:]])
             self.assert_refused(f"{path}:4: y_mm is '{word}', expected a finite number")
 
+    def test_only_gap_and_slip_may_be_empty(self) -> None:
+        path = self.edit("contact", lambda lines: [lines[0], lines[1].replace("-6", ""), lines[2]])
+        self.assert_refused(f"{path}:2: F_t_N is '', expected a finite number")
+
     def test_unknown_word(self) -> None:
-        path = self.edit("contact", lambda lines: [line.replace("slip", "glue") for line in lines])
+        path = self.edit("contact", lambda lines: [lines[0], *(line.replace("slip", "glue")
+                                                                for line in lines[1:])])
         self.assert_refused(f"{path}:2: state is 'glue'", "open, stick, slip")
 
     def test_wrong_header(self) -> None:

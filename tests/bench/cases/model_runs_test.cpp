@@ -124,6 +124,26 @@ TEST_F(ModelRuns, NotesAreToldOnStandardError) {
       << result.err;
 }
 
+TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
+  const auto last_line = [&](const std::string& arguments) {
+    const std::string out = run(arguments).out;
+    const std::size_t before = out.rfind('\n', out.size() - 2);
+    return out.substr(before + 1);
+  };
+  const std::string name = "part--default--HYBRID", grid = "o/fields/" + name + ".vtu";
+  EXPECT_EQ(last_line(part + quick + "--out=o"), "for a picture of part: --fields\n");
+  EXPECT_EQ(last_line(part + quick + "--fields --out=o"),
+            "ParaView: " + grid + "  (a picture: ./run figures o)\n");
+  const std::string draws =
+      " --then='f() { mkdir -p $1/figures; touch $1/figures/fields_" + name + ".png; }; f'";
+  EXPECT_EQ(last_line(part + quick + "--fields --out=o" + draws),
+            "picture: o/figures/fields_" + name + ".png  (ParaView: " + grid + ")\n");
+  // Neither an older picture nor older fields.
+  EXPECT_EQ(last_line(part + quick + "--fields --out=o").substr(0, 8), "ParaView");
+  EXPECT_EQ(last_line(part + quick + "--out=o"), "for a picture of part: --fields\n");
+  EXPECT_EQ(last_line("--mesh=Mesh0 " + quick + "--out=o").substr(0, 13), "records.jsonl");
+}
+
 TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
   expect_refusal("--mesh=part.geo",
                  "part.geo: no edges in a physical curve named displacement (others found: "

@@ -7,13 +7,11 @@
 #include "assembly/scene.hpp"
 #include "bench/judging/reference.hpp"
 #include "bench/judging/verifier.hpp"
-#include "bench/measuring/field_files.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace airybench::discretisation_error_test {
 namespace {
@@ -188,27 +186,6 @@ TEST(ConstitutiveError, WithNextToNoStressItIsRelativeToTheLoads) {
   scene.clearance_mm = 1;
   const ConstitutiveError error = Solved(pose(scene, testing::small_tooth(6, 5))).error();
   EXPECT_LT(error.relative, 1e-9);
-}
-
-TEST(ConstitutiveError, TheElementMapHasARowPerTriangleAndSharesThatSumToOne) {
-  const testing::TemporaryFolder folder;
-  const Solved s(pose({}, testing::small_tooth(6, 5)));
-  write_error_field(folder.path(), "case", s.error());
-  std::ifstream file(folder / "case.error.csv");
-  std::string line;
-  std::getline(file, line);
-  EXPECT_EQ(line, "triangle,error_share");
-  double sum = 0;
-  int rows = 0;
-  while (std::getline(file, line)) {
-    ++rows;
-    EXPECT_EQ(std::stoi(line), rows);
-    const double share = std::stod(line.substr(line.find(',') + 1));
-    EXPECT_GE(share, 0);
-    sum += share;
-  }
-  EXPECT_EQ(rows, static_cast<int>(s.system.problem->mesh.triangles.size()));
-  EXPECT_NEAR(sum, 1, 1e-12);
 }
 
 // The verifier of displacement methods.

@@ -1,0 +1,81 @@
+// What a Workbench knows of the mesh's own error, and the fields that it writes with it.
+#include "bench/judging/displacement_recovery.hpp"
+#include "bench/measuring/field_files.hpp"
+#include "bench/measuring/record_notes.hpp"
+#include "bench/measuring/workbench.hpp"
+
+namespace airybench {
+
+std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
+  if (options_.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
+  if (!options_.adapt.empty() || options_.fields || options_.study == Study::adapted)
+    return Workbench::Bound::recovery;
+  return {};
+}
+
+const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
+  const auto [found, is_new] = discretisation_.try_emplace(bound);
+  if (is_new && problem_->later_steps.empty() && reference() != nullptr &&
+      left_out_.discretisation.empty())
+    found->second = compute_discretisation(bound);
+  return found->second ? &*found->second : nullptr;
+}
+
+std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
+  const ActivityScope scope(board_, Activity::discretisation);
+  const DualSystem system = assemble(problem_, Blocks::contact_points);
+  const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
+  const Solution own = run(select_methods(method).front(), system, {});
+  if (own.status != Status::ok) return {};
+  Discretisation result;
+  if (bound == Bound::p2) {
+    result.u = own.displacement;
+    result.error = constitutive_error(system, reference()->stress, reference()->F_C, result.u);
+    return result;
+  }
+  result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
+  result.error = constitutive_error(system, own.stress, own.F_C, result.u);
+  if (result.error.flaw.empty())
+    result.intervals = contact_intervals(system, own.stress, own.F_C, result.u, result.error);
+  return result;
+}
+
+void Workbench::note_discretisation(const Method& method, Record& record) {
+  const std::optional<Bound> bound = bound_for(method);
+  const Discretisation* known = bound ? discretisation(*bound) : nullptr;
+  if (known == nullptr) return;
+  if (record.other_solution) {
+    record.no_discretisation_error = "it is known for the reference's solution only";
+    return;
+  }
+  note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
+  if (known->intervals) note(*known->intervals, record);
+}
+
+std::optional<DisplacementField> Workbench::displacement_of(const DualSystem& system,
+                                                            const Solution& solution,
+                                                            const Discretisation* known) {
+  std::optional<DisplacementField> w;
+  if (solution.displacement.cols() > 0)
+    w = solution.displacement;
+  else if (solution.edge_moments.cols() > 0)
+    w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  else if (known != nullptr)
+    w = known->u;
+  return w && w->allFinite() ? w : std::nullopt;
+}
+
+void Workbench::write_fields_of(const Method& method, const DualSystem& system,
+                                const Solution& solution, const Record& record,
+                                const std::filesystem::path& file) {
+  const std::optional<Bound> bound = bound_for(method);
+  const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
+  SolvedFields fields{system, solution, displacement_of(system, solution, known), nullptr, {}};
+  if (known != nullptr && known->error.flaw.empty()) {
+    fields.error = &known->error;
+    if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);
+  }
+  write_fields(file.parent_path(), file.filename(), fields);
+}
+
+}  // namespace airybench
