@@ -192,20 +192,18 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
 }
 
 // The nearest point behind one or two walls.
-Eigen::Vector2d behind(const std::vector<Wall>& walls, Eigen::Vector2d w) {
-  const auto move_behind = [&](const Wall& wall) {
-    w -= std::max(0.0, wall.excess(w)) * wall.normal;
+Eigen::Vector2d behind(const std::vector<Wall>& walls, const Eigen::Vector2d& w) {
+  const auto moved = [](const Wall& wall, const Eigen::Vector2d& x) {
+    return Eigen::Vector2d(x - std::max(0.0, wall.excess(x)) * wall.normal);
   };
-  for (const Wall& wall : walls) move_behind(wall);
-  if (walls.size() < 2 || !(walls[0].excess(w) > 0)) return w;
-  const Eigen::Vector2d &n = walls[0].normal, &m = walls[1].normal;
+  const Wall &one = walls.front(), &other = walls.back();
+  const Eigen::Vector2d &n = one.normal, &m = other.normal;
   const double sine = n.x() * m.y() - n.y() * m.x();
-  if (std::abs(sine) < straight_roller) {
-    move_behind(walls[0]);
-    return w;
-  }
-  return Eigen::Vector2d(walls[0].limit * m.y() - walls[1].limit * n.y(),
-                         walls[1].limit * n.x() - walls[0].limit * m.x()) /
+  if (std::abs(sine) < straight_roller) return moved(one, moved(other, moved(one, w)));
+  if (const Eigen::Vector2d x = moved(one, w); other.excess(x) <= 0) return x;
+  if (const Eigen::Vector2d x = moved(other, w); one.excess(x) <= 0) return x;
+  return Eigen::Vector2d(one.limit * m.y() - other.limit * n.y(),
+                         other.limit * n.x() - one.limit * m.x()) /
          sine;
 }
 
