@@ -171,7 +171,16 @@ std::size_t DualSystem::bytes() const {
          (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
 }
 
+std::string why_no_blocks(const Mesh& mesh, Blocks blocks) {
+  const int holes = hole_count(mesh);
+  if (blocks == Blocks::contact_points || holes == 0) return "";
+  return "a body with " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
+         " needs a multi-valued Airy function";
+}
+
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks) {
+  if (const std::string why = why_no_blocks(problem->mesh, blocks); !why.empty())
+    throw std::invalid_argument(why);
   DualSystem system;
   system.problem = std::move(problem);
   system.contact = contact_points(*system.problem);

@@ -64,6 +64,11 @@ struct DualSystem {
 // Which blocks a method needs: all of them, or, when it does not work with the Airy function, the
 // contact points only (the rest stays empty).
 enum class Blocks { airy, contact_points };
+// Why a body has none of these; empty: it has them. Around a hole on which forces have a resultant
+// or a moment, φ comes back changed by an affine function (Michell 1899): three unknowns per hole
+// that are not here. Without them a hole's rows of C are dependent.
+std::string why_no_blocks(const Mesh& mesh, Blocks blocks);
+// Throws std::invalid_argument with that reason.
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy);
 // Another load case of the same body (same_body): q, F, F0 and the contact points anew, S as it is.
 // Costs the boundary, and with a body force a pass over the triangles.

@@ -137,9 +137,7 @@ std::vector<int> check_boundary(const Mesh& mesh, const std::vector<Side>& sides
   return next;
 }
 
-// Euler's formula: vertices − edges + triangles = pieces − holes.
-void check_one_piece_without_holes(const Mesh& mesh, const std::vector<Side>& sides,
-                                   const std::vector<int>& next) {
+void check_one_piece(const Mesh& mesh, const std::vector<Side>& sides) {
   std::vector<int> parent(mesh.vertices.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int v) {
@@ -150,34 +148,53 @@ void check_one_piece_without_holes(const Mesh& mesh, const std::vector<Side>& si
   int pieces = 0;
   for (std::size_t v = 0; v < parent.size(); ++v) pieces += parent[v] == static_cast<int>(v);
   if (pieces > 1) fail(mesh, std::to_string(pieces) + " separate pieces; the body must be one");
-
-  std::vector<bool> seen(next.size(), false);
-  int loops = 0;
-  for (std::size_t start = 0; start < next.size(); ++start) {
-    if (next[start] == -1 || seen[start]) continue;
-    ++loops;
-    for (int v = static_cast<int>(start); !seen[v]; v = next[v]) seen[v] = true;
-  }
-  if (loops > 1)
-    fail(mesh, std::to_string(loops - 1) +
-                   " hole(s); a single-valued Airy function needs a body without holes");
 }
 
-// Triangles that all run counter-clockwise inside one simple curve cover it once.
-void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
-  const auto start = std::find_if(next.begin(), next.end(), [](int v) { return v != -1; });
-  std::vector<int> loop;
-  std::vector<Eigen::Vector2d> outline;
-  for (int v = static_cast<int>(start - next.begin()); loop.empty() || v != loop.front();
-       v = next[v]) {
-    loop.push_back(v);
-    outline.push_back(mesh.vertices[v]);
+// The vertices of each closed curve of the boundary.
+std::vector<std::vector<int>> boundary_curves(const std::vector<int>& next) {
+  std::vector<std::vector<int>> curves;
+  std::vector<bool> seen(next.size(), false);
+  for (std::size_t start = 0; start < next.size(); ++start) {
+    if (next[start] == -1 || seen[start]) continue;
+    auto& curve = curves.emplace_back();
+    for (int v = static_cast<int>(start); !seen[v]; v = next[v]) {
+      seen[v] = true;
+      curve.push_back(v);
+    }
   }
-  if (const auto edges = where_it_meets_itself(outline)) {
-    const auto text = [&](int i) { return edge_text(loop[i], next[loop[i]]); };
+  return curves;
+}
+
+// Triangles that all run counter-clockwise cover a point as often as their boundary winds around
+// it: at most once where its curves are simple and apart and only one runs counter-clockwise, the
+// outer one.
+void check_overlap(const Mesh& mesh, const std::vector<int>& next) {
+  const std::vector<std::vector<int>> curves = boundary_curves(next);
+  std::vector<std::vector<Eigen::Vector2d>> polygons;
+  int outer = 0;
+  for (const std::vector<int>& curve : curves) {
+    auto& polygon = polygons.emplace_back();
+    for (const int v : curve) polygon.push_back(mesh.vertices[v]);
+    long double twice_area = 0;
+    for (std::size_t i = 2; i < polygon.size(); ++i)
+      twice_area += cross_area<long double>(polygon[0], polygon[i - 1], polygon[i]);
+    outer += twice_area > 0;
+  }
+  if (const auto edges = where_they_meet(polygons)) {
+    const auto text = [&](const PolygonEdge& edge) {
+      const int v = curves[edge.polygon][edge.corner];
+      return edge_text(v, next[v]);
+    };
     fail(mesh, "boundary " + text(edges->front()) + ": crosses or touches boundary " +
                    text(edges->back()) + "; the body must not overlap itself");
   }
+  if (outer > 1)
+    fail(mesh, std::to_string(outer) + " outer boundaries; the body must not overlap itself");
+}
+
+// Three sides per triangle; an inner edge has two.
+int edge_count(const Mesh& mesh) {
+  return static_cast<int>((3 * mesh.triangles.size() + mesh.boundary.size()) / 2);
 }
 
 }  // namespace
@@ -212,7 +229,7 @@ void validate(const Mesh& mesh) {
   check_triangles(mesh);
   const std::vector<Side> sides = sorted_sides(mesh);
   const std::vector<int> next = check_boundary(mesh, sides);
-  check_one_piece_without_holes(mesh, sides, next);
+  check_one_piece(mesh, sides);
   check_overlap(mesh, next);
 }
 
@@ -263,6 +280,11 @@ std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole rol
   return chains;
 }
 
+int hole_count(const Mesh& mesh) {
+  return 1 - static_cast<int>(mesh.vertices.size()) + edge_count(mesh) -
+         static_cast<int>(mesh.triangles.size());
+}
+
 MeshSizes mesh_sizes(const Mesh& mesh) {
   MeshSizes sizes;
   for (const BoundaryEdge& edge : mesh.boundary) {
@@ -270,10 +292,7 @@ MeshSizes mesh_sizes(const Mesh& mesh) {
     sizes.force_edges += edge.role == BoundaryRole::force;
     sizes.contact_edges += edge.role == BoundaryRole::contact;
   }
-  const int vertices = static_cast<int>(mesh.vertices.size());
-  const int triangles = static_cast<int>(mesh.triangles.size());
-  const int edges = vertices + triangles - 1;  // Euler, one piece without holes
-  sizes.n_phi = 3 * vertices + edges;
+  sizes.n_phi = 3 * static_cast<int>(mesh.vertices.size()) + edge_count(mesh);
   sizes.n_f = 4 * sizes.force_edges;
   sizes.n_c = 4 * sizes.contact_edges;
   return sizes;

@@ -1,9 +1,9 @@
 // A triangulated plane body with the role of every boundary edge.
 //
 // The boundary is split into three parts, Γ = Γ_D ∪ Γ_F ∪ Γ_C: prescribed displacement, prescribed
-// traction, contact with the rigid foundation. A valid mesh is one simply connected piece: its
-// boundary is a single closed curve, because a single-valued Airy function cannot carry a resultant
-// around a hole.
+// traction, contact with the rigid foundation. A valid mesh is one piece, with any number of holes:
+// its boundary is one closed curve and another around each hole, which the body has on its left,
+// too.
 #pragma once
 
 #include <Eigen/Core>
@@ -76,9 +76,13 @@ inline constexpr double flat_triangle_tolerance = 1e-13;
 // Throws MeshError on the first of: no triangles; a vertex that is not finite, or in no triangle; a
 // triangle with a vertex out of range, of (numerically) zero area or clockwise; an edge shared by
 // more than two triangles; a boundary edge that is not on the boundary, given twice, walked against
-// its triangle, or of a group that does not exist; a boundary edge without a role; a boundary that
-// touches or crosses itself; more than one piece; a hole; no displacement edge.
+// its triangle, or of a group that does not exist; a boundary edge without a role; no displacement
+// edge; more than one piece; a boundary that touches or crosses itself or, around a hole, another
+// one; triangles that overlap.
 void validate(const Mesh& mesh);
+
+// Of a valid mesh, by Euler's formula: vertices − edges + triangles = 1 − holes.
+int hole_count(const Mesh& mesh);
 
 // The edges of a valid mesh.
 struct MeshEdges {
@@ -90,7 +94,8 @@ struct MeshEdges {
 MeshEdges number_edges(const Mesh& mesh);
 
 // The boundary edges of one role, as chains: each inner vector lists rows of Mesh::boundary that
-// follow one another counter-clockwise. The chains start at the mesh's lowest such row.
+// follow one another, the body on their left. A closed one starts at its lowest row; the chains
+// start at the mesh's lowest such row.
 std::vector<std::vector<int>> boundary_chains(const Mesh& mesh, BoundaryRole role);
 
 // Sizes as the paper's Tab. 1 counts them.

@@ -1,13 +1,14 @@
 #include "mesh/outline.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "mesh/mesh.hpp"
 
 namespace airybench {
 namespace {
 
-using Found = std::optional<std::array<int, 2>>;
+using Found = std::optional<std::array<int, 2>>;  // edges, counted through all polygons
 
 int side_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& x) {
   const auto area = cross_area<long double>(a, b, x);
@@ -16,11 +17,21 @@ int side_of(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vec
 
 class Outline {
  public:
-  explicit Outline(const std::vector<Eigen::Vector2d>& polygon)
-      : polygon_(polygon), boxes_(4 * polygon.size()) {
+  explicit Outline(const std::vector<std::vector<Eigen::Vector2d>>& polygons) {
+    for (const auto& polygon : polygons) {
+      first_.push_back(size());
+      corners_.insert(corners_.end(), polygon.begin(), polygon.end());
+      for (int i = first_.back(); i < size(); ++i)
+        next_.push_back(i + 1 < size() ? i + 1 : first_.back());
+    }
+    boxes_.resize(4 * corners_.size());
     build(whole());
   }
   Found meets_itself() const { return within(whole()); }
+  PolygonEdge edge(int i) const {
+    const auto polygon = std::ranges::upper_bound(first_, i) - first_.begin() - 1;
+    return {static_cast<int>(polygon), i - first_[polygon]};
+  }
 
  private:
   // Edges [begin, end); the box of node k is boxes_[k], those of its halves 2k + 1 and 2k + 2.
@@ -33,14 +44,13 @@ class Outline {
     Node second() const { return {2 * k + 2, middle(), end}; }
   };
 
-  int size() const { return static_cast<int>(polygon_.size()); }
+  int size() const { return static_cast<int>(corners_.size()); }
   Node whole() const { return {0, 0, size()}; }
-  const Eigen::Vector2d& corner(int i) const { return polygon_[i % size()]; }
 
   const Eigen::AlignedBox2d& build(const Node& node) {
     Eigen::AlignedBox2d& box = boxes_[node.k];
     if (node.is_edge())
-      box.extend(corner(node.begin)).extend(corner(node.begin + 1));
+      box.extend(corners_[node.begin]).extend(corners_[next_[node.begin]]);
     else
       box.extend(build(node.first())).extend(build(node.second()));
     return box;
@@ -67,27 +77,34 @@ class Outline {
 
   // i < j; their boxes meet.
   bool meet(int i, int j) const {
-    if (j == i + 1) return fold_back(i, j, j + 1);
-    if (i == 0 && j == size() - 1) return fold_back(j, 0, 1);
-    const Eigen::Vector2d &a = corner(i), &b = corner(i + 1), &c = corner(j), &d = corner(j + 1);
+    if (next_[i] == j) return fold_back(i, j, next_[j]);
+    if (next_[j] == i) return fold_back(j, i, next_[i]);
+    const Eigen::Vector2d &a = corners_[i], &b = corners_[next_[i]], &c = corners_[j],
+                          &d = corners_[next_[j]];
     const int of_c = side_of(a, b, c), of_d = side_of(a, b, d);
     const int of_a = side_of(c, d, a), of_b = side_of(c, d, b);
     const bool in_line = of_a == 0 && of_b == 0 && of_c == 0 && of_d == 0;
     return in_line || (of_a != of_b && of_c != of_d);
   }
   bool fold_back(int before, int at, int after) const {
-    const Eigen::Vector2d &x = corner(at), &p = corner(before), &q = corner(after);
+    const Eigen::Vector2d &x = corners_[at], &p = corners_[before], &q = corners_[after];
     return side_of(x, p, q) == 0 && (p - x).dot(q - x) > 0;
   }
 
-  const std::vector<Eigen::Vector2d>& polygon_;
+  std::vector<Eigen::Vector2d> corners_;
+  std::vector<int> next_;   // corner of the same polygon
+  std::vector<int> first_;  // corner of each polygon
   std::vector<Eigen::AlignedBox2d> boxes_;
 };
 
 }  // namespace
 
-Found where_it_meets_itself(const std::vector<Eigen::Vector2d>& polygon) {
-  return Outline(polygon).meets_itself();
+std::optional<std::array<PolygonEdge, 2>> where_they_meet(
+    const std::vector<std::vector<Eigen::Vector2d>>& polygons) {
+  const Outline outline(polygons);
+  const Found found = outline.meets_itself();
+  if (!found) return {};
+  return std::array{outline.edge(found->front()), outline.edge(found->back())};
 }
 
 }  // namespace airybench

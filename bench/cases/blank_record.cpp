@@ -32,6 +32,10 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   const MeshSizes sizes = solved_sizes(problem);
   Record record;
   record.status_reason = "the case did not run";
+  if (std::string why = why_skipped(problem, method); !why.empty()) {
+    record.status = Status::skipped;
+    record.status_reason = std::move(why);
+  }
   record.mesh = problem.mesh.name;
   note(problem.mesh, record);
   describe(method, record);

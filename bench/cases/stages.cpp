@@ -1,5 +1,8 @@
 #include "bench/cases/stages.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
 namespace airybench {
@@ -14,8 +17,19 @@ MeshSizes solved_sizes(const Problem& problem) {
   return sizes;
 }
 
+std::string why_skipped(const Problem& problem, const Method& method) {
+  const std::string why = why_no_blocks(problem.mesh, method.blocks);
+  if (why.empty()) return why;
+  std::vector<std::string> others;
+  for (const Method& other : methods())
+    if (why_no_blocks(problem.mesh, other.blocks).empty()) others.push_back(other.name);
+  return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
+}
+
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
                                          bool fields_asked) {
+  if (const std::string why = why_skipped(problem, method); !why.empty())
+    return {{"all stages", false, why}};
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   const bool airy = method.blocks == Blocks::airy;
   const bool contact = sizes.contact_edges > 0;

@@ -19,6 +19,9 @@ struct StageDecision {
 // n_f.
 MeshSizes solved_sizes(const Problem& problem);
 
+// Why a method is not run on a problem, with those that are; empty: it is.
+std::string why_skipped(const Problem& problem, const Method& method);
+
 // From the problem alone, before anything is computed.
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
                                          bool fields_asked);

@@ -113,7 +113,7 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
 Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
   return {.mesh = r.mesh,
           .method = r.method,
-          .basis = "measured",
+          .basis = r.status == Status::skipped ? r.status_reason : "measured",
           .command = command_of(options, r, is_adapted),
           .n_phi = r.n_phi.value_or(0),
           .error_total = r.error_total,
@@ -210,7 +210,7 @@ std::string csv_of(const std::vector<Advice>& rows) {
     text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_quoted(row.mesh),
                         csv_quoted(row.method), row.n_phi, number(row.error_total),
                         number(row.time_s), number(row.adapt_time_s), number(row.peak_heap_bytes),
-                        row.basis, name_of(row.status), csv_quoted(row.command));
+                        csv_cell(row.basis), name_of(row.status), csv_quoted(row.command));
   return text;
 }
 

@@ -20,16 +20,19 @@ std::string in_quotes(const std::string& text) {
   return quoted + "\"";
 }
 
-std::string cell(const Json& value) {
-  if (value.is_null()) return "";
-  if (!value.is_string()) return json_text(value);
-  const std::string text = no_formula(value.get<std::string>());
-  return text.find_first_of(",\"\r\n") == text.npos ? text : in_quotes(text);
-}
-
 }  // namespace
 
 std::string csv_quoted(const std::string& text) { return in_quotes(no_formula(text)); }
+
+std::string csv_cell(const std::string& given) {
+  const std::string text = no_formula(given);
+  return text.find_first_of(",\"\r\n") == text.npos ? text : in_quotes(text);
+}
+
+static std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return value.is_string() ? csv_cell(value.get<std::string>()) : json_text(value);
+}
 
 std::string csv_text(const std::vector<Record>& records) {
   const std::vector<const Field*> columns = fields_with(column);

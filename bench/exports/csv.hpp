@@ -12,8 +12,10 @@ namespace airybench {
 // apply.
 std::string csv_text(const std::vector<Record>& records);
 
-// A text as a cell, in quotation marks; a spreadsheet takes it for no formula.
+// A text as a cell, in quotation marks or where it needs them; a spreadsheet takes it for no
+// formula.
 std::string csv_quoted(const std::string& text);
+std::string csv_cell(const std::string& text);
 
 // date,revision,mesh,scene,method,stop,quantity,value: a row per record and number.
 std::string series_csv(const std::vector<Record>& records);

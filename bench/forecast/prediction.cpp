@@ -191,6 +191,11 @@ LimitMark mark_of(const std::optional<Estimate>& estimate, double limit) {
 
 Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
   Prediction result;
+  if (c.status == Status::skipped) {
+    result.run_s = 0;
+    result.basis = "skipped";
+    return result;
+  }
   const auto time = past.estimate(c, time_of, scatter_of_time);
   const auto heap = past.estimate(c, heap_of, scatter_of_heap);
   result.basis = time ? time->basis : heap ? heap->basis : "no record";
@@ -256,7 +261,7 @@ Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& r
   std::set<std::pair<std::string, std::string>> posed;
   for (const Record& c : cases) {
     result.cases.push_back(predict(c, past, limits));
-    if (!posed.insert({c.mesh, c.scene}).second) continue;
+    if (c.status == Status::skipped || !posed.insert({c.mesh, c.scene}).second) continue;
     Record hybrid_case;
     hybrid_case.mesh = c.mesh;
     hybrid_case.scene = c.scene;

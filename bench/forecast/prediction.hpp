@@ -7,7 +7,7 @@
 //   3. with one size only: that, with the exponent common to all methods;
 //   4. else the same from the method's closest relative: the other stop, then the name in the same
 //      family that begins most alike.
-// A record of a timeout counts with its extrapolated time.
+// A record of a timeout counts with its extrapolated time. A case that will be skipped takes none.
 #pragma once
 
 #include <filesystem>

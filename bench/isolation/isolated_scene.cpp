@@ -70,7 +70,8 @@ std::optional<std::string> IsolatedScene::ask(const std::string& line) {
 void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
-  for (std::size_t k = 0; k < cases_.size(); ++k) prepare(k);
+  for (std::size_t k = 0; k < cases_.size(); ++k)
+    if (blank_record(*cases_[k], options_).status != Status::skipped) prepare(k);
   prepared_ = true;
   preparation_s_ += seconds_since(start);
 }
@@ -111,12 +112,13 @@ void IsolatedScene::prepare(std::size_t k) {
 }
 
 Record IsolatedScene::examine(std::size_t k) {
+  Record record = blank_record(*cases_[k], options_);
+  if (record.status == Status::skipped) return record;
   prepare_all();
   examined_in_[k] = generation_;
   const std::optional<std::string> answer = ask(fmt::format("examine {}", k));
   throw_if_interrupted();
   if (answer) return record_of(parse_json(*answer), "the case's process");
-  Record record = blank_record(*cases_[k], options_);
   if (process_ == nullptr) {
     record.status = Status::machine_fault;
     record.status_reason = no_process_;

@@ -195,6 +195,18 @@ TEST(StressField, DistanceIsTheEnergyNormOfTheDifference) {
   EXPECT_NEAR(stress_norm_squared(*problem, one), 80 * problem->compliance[0].sum(), 1e-15);
 }
 
+TEST(DualSystem, HasNoAiryFunctionOnABodyWithAHole) {
+  Scene scene;
+  scene.crown_radius_mm.reset();
+  const auto problem = posed(scene, testing::small_plate(1));
+  EXPECT_EQ(why_no_blocks(problem->mesh, Blocks::airy),
+            "a body with 1 hole needs a multi-valued Airy function");
+  EXPECT_THROW(assemble(problem), std::invalid_argument);
+  EXPECT_EQ(why_no_blocks(problem->mesh, Blocks::contact_points), "");
+  EXPECT_EQ(assemble(problem, Blocks::contact_points).contact.count,
+            2 * mesh_sizes(problem->mesh).contact_edges);
+}
+
 TEST(CuthillMcKee, IsAPermutationThatNarrowsTheSkyline) {
   const auto problem = posed({}, small_tooth(12, 6));
   const NodeGraph graph = airy_node_graph(*problem);

@@ -31,19 +31,19 @@ Mesh two_squares() {
   return mesh;
 }
 
-// A 3 × 3 grid of squares of two triangles each; all of its boundary is displacement.
-Mesh grid_without(std::set<int> missing_squares) {
+// A grid of n × n squares of two triangles each; all of its boundary is displacement.
+Mesh grid_without(std::set<int> missing_squares, int n = 3) {
   Mesh mesh;
   mesh.name = "grid";
   mesh.body_names = {"body"};
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i) mesh.vertices.emplace_back(i, j);
-  for (int j = 0; j < 3; ++j) {
-    for (int i = 0; i < 3; ++i) {
-      if (missing_squares.contains(3 * j + i)) continue;
-      const int a = 4 * j + i;
-      mesh.triangles.push_back({a, a + 1, a + 5});
-      mesh.triangles.push_back({a, a + 5, a + 4});
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i <= n; ++i) mesh.vertices.emplace_back(i, j);
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      if (missing_squares.contains(n * j + i)) continue;
+      const int a = (n + 1) * j + i;
+      mesh.triangles.push_back({a, a + 1, a + n + 2});
+      mesh.triangles.push_back({a, a + n + 2, a + n + 1});
     }
   }
   mesh.triangle_body.assign(mesh.triangles.size(), 0);
@@ -205,13 +205,50 @@ TEST(MeshValidate, TwoPieces) {
   EXPECT_EQ(complaint(mesh), "squares: 2 separate pieces; the body must be one");
 }
 
-TEST(MeshValidate, Hole) {
-  EXPECT_EQ(complaint(grid_without({4})),
-            "grid: 1 hole(s); a single-valued Airy function needs a body without holes");
+TEST(MeshValidate, AcceptsHoles) {
+  EXPECT_EQ(complaint(grid_without({4})), "no complaint");
+  EXPECT_EQ(complaint(grid_without({6, 8, 17}, 5)), "no complaint");
+  EXPECT_EQ(hole_count(grid_without({1})), 0);
+  EXPECT_EQ(hole_count(grid_without({4})), 1);
+  EXPECT_EQ(hole_count(grid_without({6, 8, 17}, 5)), 3);
+  EXPECT_EQ(hole_count(grid_without({6, 7, 12, 17}, 5)), 1);
+}
+
+TEST(MeshValidate, HolesMustNotTouch) {
+  EXPECT_EQ(complaint(grid_without({6, 12}, 5)),
+            "grid: vertex 15: the boundary touches itself there");
+  EXPECT_EQ(complaint(grid_without({6, 2}, 5)),
+            "grid: vertex 9: the boundary touches itself there");
+}
+
+TEST(MeshValidate, AHoleThroughTheOuterBoundary) {
+  Mesh mesh = grid_without({4});
+  mesh.vertices[5].y() = -1;
+  EXPECT_EQ(complaint(mesh),
+            "grid: triangle 1: inverted (its vertices must run counter-clockwise)");
+  mesh.vertices[5].y() = 0;
+  EXPECT_EQ(complaint(mesh), "grid: triangle 1: zero area");
+}
+
+TEST(MeshValidate, AHoleWalkedTheWrongWay) {
+  Mesh mesh = grid_without({4});
+  for (BoundaryEdge& edge : mesh.boundary) {
+    const Eigen::Vector2d middle =
+        (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]) / 2;
+    if ((middle - Eigen::Vector2d(1.5, 1.5)).norm() < 1)
+      std::swap(edge.vertices[0], edge.vertices[1]);
+  }
+  EXPECT_EQ(complaint(mesh),
+            "grid: boundary edge 10-6: walked clockwise; the body must lie on its left");
+}
+
+TEST(MeshValidate, AnIslandInAHole) {
+  EXPECT_EQ(complaint(grid_without({6, 7, 8, 11, 13, 16, 17, 18}, 5)),
+            "grid: 2 separate pieces; the body must be one");
 }
 
 TEST(MeshValidate, EveryComplaintIsOneLine) {
-  for (const auto& missing : {std::set{4}, std::set{3, 7}})
+  for (const auto& missing : {std::set{0, 4}, std::set{3, 7}})
     EXPECT_EQ(complaint(grid_without(missing)).find('\n'), std::string::npos);
 }
 
@@ -269,6 +306,17 @@ TEST(BoundaryChains, ClosedChainStartsAtTheLowestRow) {
   EXPECT_EQ(boundary_chains(mesh, displacement), (Chains{{0, 5, 4, 1, 2, 3}}));
 }
 
+TEST(BoundaryChains, AHoleIsAChainOfItsOwn) {
+  const Mesh mesh = grid_without({4});
+  const Chains chains = boundary_chains(mesh, displacement);
+  ASSERT_EQ(chains.size(), 2u);
+  EXPECT_EQ(chains[0].size(), 12u);
+  ASSERT_EQ(chains[1].size(), 4u);
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(mesh.boundary[chains[1][k]].vertices[1],
+              mesh.boundary[chains[1][(k + 1) % 4]].vertices[0]);
+}
+
 TEST(BoundaryChains, NoneOfARole) {
   EXPECT_TRUE(boundary_chains(grid_without({}), contact).empty());
 }
@@ -283,6 +331,11 @@ TEST(MeshSizes, CountAsThePaperDoes) {
   EXPECT_EQ(sizes.displacement_edges, 1);
   EXPECT_EQ(sizes.force_edges, 4);
   EXPECT_EQ(sizes.contact_edges, 1);
+}
+
+TEST(MeshSizes, OfABodyWithHolesCountItsEdges) {
+  const Mesh mesh = grid_without({6, 8}, 5);
+  EXPECT_EQ(mesh_sizes(mesh).n_phi, 3 * 36 + number_edges(mesh).count());
 }
 
 TEST(CrossArea, IsTwiceTheSignedArea) {

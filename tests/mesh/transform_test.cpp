@@ -96,6 +96,23 @@ TEST(MeshTransform, RefinementCountsByEulerAndKeepsShapes) {
   }
 }
 
+TEST(MeshTransform, AHoleStays) {
+  for (const Mesh& coarse : {testing::small_plate(1), testing::small_ring(12, 3, 2, 6)}) {
+    MeshTransform transform;
+    transform.refine = 1;
+    transform.grade = {{4, 4}, 50};
+    transform.slivers = Slivers{30, 5};
+    const Mesh fine = transformed(coarse, transform);
+    EXPECT_EQ(hole_count(fine), 1);
+    expect_same_body(fine, coarse);
+    EXPECT_EQ(mesh_sizes(fine).n_phi,
+              3 * static_cast<int>(fine.vertices.size()) + number_edges(fine).count());
+    transform.stretch = {3, 0.2};
+    transform.keep_force_edges = 2;
+    EXPECT_EQ(mesh_sizes(transformed(coarse, transform)).force_edges, 2);
+  }
+}
+
 TEST(MeshTransform, GradingReachesItsRatioAndKeepsAngles) {
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(10, 0), Eigen::Vector2d(4, 1)})
     for (const double ratio : {3., 1e4, 1e9}) {

@@ -362,22 +362,41 @@ $EndElements
   EXPECT_EQ(mesh_sizes(mesh).n_f, 8);
 }
 
-TEST_F(Convert, RefusesSeparateBodiesAndHoles) {
-  const std::string points = R"(
+// Two triangles of curves, the second one X further on.
+std::string two_loops(const std::string& x) {
+  return "X = " + x + R"(;
 Point(1) = {0, 0, 0, 1}; Point(2) = {4, 0, 0, 1}; Point(3) = {0, 4, 0, 1};
 Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3};
 Point(4) = {X, 1, 0, 1}; Point(5) = {X + 1, 1, 0, 1}; Point(6) = {X, 2, 0, 1};
 Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 4}; Curve Loop(2) = {4, 5, 6};
-Physical Curve("displacement") = {1:6};
+Physical Curve("displacement") = {1:3}; Physical Curve("force:hole") = {4:6};
+Physical Surface("steel") = {1};
 )";
-  EXPECT_EQ(complaint("apart.geo", "X = 9;" + points +
-                                       "Plane Surface(1) = {1}; Plane Surface(2) = {2};\n"
-                                       "Physical Surface(\"steel\") = {1, 2};\n"),
-            "2 separate pieces; the body must be one");
-  EXPECT_EQ(complaint("hole.geo", "X = 1;" + points +
-                                      "Plane Surface(1) = {1, 2};\n"
-                                      "Physical Surface(\"steel\") = {1};\n"),
-            "1 hole(s); a single-valued Airy function needs a body without holes");
+}
+
+TEST_F(Convert, RefusesSeparateBodies) {
+  EXPECT_EQ(
+      complaint("apart.geo", two_loops("9") + "Plane Surface(1) = {1}; Plane Surface(2) = {2};\n" +
+                                 "Physical Surface(\"steel\") += {2};\n"),
+      "2 separate pieces; the body must be one");
+}
+
+TEST_F(Convert, KeepsAHole) {
+  const Mesh mesh = convert("hole.geo", two_loops("1") + "Plane Surface(1) = {1, 2};\n");
+  EXPECT_EQ(hole_count(mesh), 1);
+  EXPECT_EQ(mesh.boundary_groups, std::vector<std::string>{"hole"});
+  EXPECT_EQ(mesh_sizes(mesh).n_phi,
+            3 * static_cast<int>(mesh.vertices.size()) + number_edges(mesh).count());
+  const MeshSizes& sizes = mesh_sizes(mesh);
+  EXPECT_GE(sizes.force_edges, 3);
+}
+
+TEST_F(Convert, RefusesAHoleThatIsFilledOrWithoutARole) {
+  EXPECT_EQ(
+      complaint("island.geo", two_loops("1") +
+                                  "Plane Surface(1) = {1, 2}; Plane Surface(2) = {2};\n" +
+                                  "Physical Surface(\"plug\") = {2};\n"),
+      "physical curve 'force:hole': edge from (1, 1) to (2, 1) is not on the body's boundary");
 }
 
 TEST_F(Convert, CarriesGmshsOwnMessage) {

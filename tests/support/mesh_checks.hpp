@@ -32,6 +32,7 @@ inline void expect_same_body(const Mesh& fine, const Mesh& coarse) {
   EXPECT_NO_THROW(validate(fine));
   EXPECT_EQ(fine.name, coarse.name);
   EXPECT_EQ(fine.body_names, coarse.body_names);
+  EXPECT_EQ(hole_count(fine), hole_count(coarse));
   const auto expect_same = [](const auto& of_fine, const auto& of_coarse) {
     ASSERT_EQ(of_fine.size(), of_coarse.size());
     for (const auto& [name, value] : of_coarse)

@@ -92,6 +92,49 @@ Mesh small_block(int nx, int ny, double turn_degrees) {
   return mesh;
 }
 
+Mesh small_plate(int n) {
+  const auto is_cell = [&](int i, int j) { return i < n || i >= 2 * n || j < n || j >= 2 * n; };
+  const auto place = [&](int i, int j, double shift) {
+    return Eigen::Vector2d(4 * (i + shift) / n, 4 * (j - shift) / n);
+  };
+  Mesh mesh = mesh_of_cells("small plate", 3 * n, 3 * n, is_cell, place);
+  const auto is_inside = [&](int v) {
+    return (mesh.vertices[v].array() > 0).all() && (mesh.vertices[v].array() < 12).all();
+  };
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (is_inside(edge.vertices[0])) edge.group = boundary_group(mesh, "hole");
+  return mesh;
+}
+
+Mesh small_ring(int around, int across, double inner_mm, double outer_mm) {
+  Mesh mesh;
+  mesh.name = "small ring";
+  mesh.body_names = {"body"};
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j <= across; ++j) {
+      const double shift = j == 0 || j == across ? 0 : 0.15 * std::sin(37.0 * (i + 5 * j));
+      const double at = 2 * std::numbers::pi * (i + shift) / around;
+      mesh.vertices.emplace_back(inner_mm * std::pow(outer_mm / inner_mm, (j - shift) / across) *
+                                 Eigen::Vector2d(std::cos(at), std::sin(at)));
+    }
+  const int rim = boundary_group(mesh, "rim"), hole = boundary_group(mesh, "hole");
+  const auto vertex = [&](int i, int j) { return i % around * (across + 1) + j; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const int a = vertex(i, j), b = vertex(i, j + 1), c = vertex(i + 1, j + 1),
+                d = vertex(i + 1, j);
+      mesh.triangles.push_back({a, b, c});
+      mesh.triangles.push_back({a, c, d});
+    }
+    mesh.boundary.push_back(
+        {{vertex(i, across), vertex(i + 1, across)}, BoundaryRole::displacement, rim});
+    mesh.boundary.push_back({{vertex(i + 1, 0), vertex(i, 0)}, BoundaryRole::force, hole});
+  }
+  mesh.triangle_body.assign(mesh.triangles.size(), 0);
+  validate(mesh);
+  return mesh;
+}
+
 Mesh small_rack(int teeth, int nx, int ny) {
   const int block = 2, pitch = ny + 2;  // in cells: below and above every tooth's ny is a gap
   const auto is_cell = [&](int i, int j) {

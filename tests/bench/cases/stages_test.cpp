@@ -69,5 +69,17 @@ TEST(Stages, AMethodWithoutAiryFunctionGetsNoAirySystem) {
             "the method does not work with the Airy function");
 }
 
+TEST(Stages, OnABodyWithAHoleTheAiryMethodsAreSkipped) {
+  const std::string why =
+      "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, P2)";
+  for (const Method& method : methods()) {
+    const auto gone = left_out({}, method.name.c_str(), testing::small_plate(1));
+    if (method.blocks == Blocks::airy)
+      EXPECT_EQ(gone, (Expected{{"all stages", why}})) << method.name;
+    else
+      EXPECT_FALSE(gone.contains("all stages")) << method.name;
+  }
+}
+
 }  // namespace
 }  // namespace airybench::stages_test
