@@ -53,6 +53,7 @@ Mesh mesh_of(const Scene& scene, Mesh mesh) {
 struct Face {
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
+  bool is_closed;          // around a hole, or all of the boundary: without ends
 };
 
 std::vector<Face> contact_faces(const Mesh& mesh) {
@@ -60,7 +61,8 @@ std::vector<Face> contact_faces(const Mesh& mesh) {
   for (const auto& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     const auto& start = mesh.vertices[mesh.boundary[chain.front()].vertices[0]];
     const auto& end = mesh.vertices[mesh.boundary[chain.back()].vertices[1]];
-    faces.push_back({(start + end) / 2, (end - start).norm() / 2});
+    const bool is_closed = start == end;
+    faces.push_back({(start + end) / 2, (end - start).norm() / 2, is_closed});
   }
   return faces;
 }
@@ -83,6 +85,10 @@ void check_geometry(const Scene& scene, const Mesh& mesh, const std::vector<Face
     fail(scene, "teeth", *scene.teeth,
          "contradicts the mesh " + mesh.name + ", which has " + std::to_string(faces.size()) +
              " contact face(s)");
+  if (scene.crown_radius_mm && std::ranges::any_of(faces, &Face::is_closed))
+    fail(scene, "crown_radius_mm", *scene.crown_radius_mm,
+         "on the mesh " + mesh.name +
+             ", where a contact face is closed and has no middle (allowed: null, for no crown)");
   if (faces.empty()) return;
   const Face& face = faces.front();
   check_length(scene, "tip_half_height_mm", scene.tip_half_height_mm, face.half_height, mesh);

@@ -126,13 +126,22 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
   std::vector<double> along = {0};  // where edges begin and end
   for (const int row : rows) along.push_back(along.back() + frame_of(mesh, row).length_mm);
   const int count = static_cast<int>(rows.size());
-  const auto state = [&](int point) { return of_row[rows[point / 2]][point % 2]; };
+  const bool is_closed =
+      mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
+  const auto at = [&](int k) {  // a closed face goes on before its start and behind its end
+    if (!is_closed) return along[std::clamp(k, 0, count)];
+    const int turns = k < 0 ? -1 : k / count;
+    return turns * along.back() + along[k - turns * count];
+  };
+  const auto state = [&](int point) {
+    const int on_face = (point + 2 * count) % (2 * count);
+    return of_row[rows[on_face / 2]][on_face % 2];
+  };
   const std::size_t first = ends.size();
-  for (int point = 1; point < 2 * count; ++point) {
+  for (int point = is_closed ? 0 : 1; point < 2 * count; ++point) {
     if (state(point) == state(point - 1)) continue;
     ContactEnd end{face, state(point - 1), state(point), {0, 0}, {}};
-    end.along_face_mm = {along[std::max(0, (point - 1) / 2 - 1)],
-                         along[std::min(count, point / 2 + 2)]};
+    end.along_face_mm = {at((point + 1) / 2 - 2), at(point / 2 + 2)};
     if (ends.size() > first && ends.back().along_face_mm.high > end.along_face_mm.low) {
       ends.back().along_face_mm.high = end.along_face_mm.high;  // one end, not told more closely
       ends.back().after = end.after;
@@ -140,10 +149,17 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
       ends.push_back(end);
     }
   }
+  if (is_closed && ends.size() > first + 1 &&
+      ends.back().along_face_mm.high - along.back() > ends[first].along_face_mm.low) {
+    ends[first].along_face_mm.low = ends.back().along_face_mm.low - along.back();
+    ends[first].before = ends.back().before;
+    ends.pop_back();
+  }
   std::erase_if(ends, [](const ContactEnd& end) { return end.before == end.after; });
   for (std::size_t k = first; k < ends.size(); ++k) {
     const auto [low, high] = ends[k].along_face_mm;
-    const double middle = (low + high) / 2;
+    double middle = (low + high) / 2;
+    if (is_closed) middle -= along.back() * std::floor(middle / along.back());
     const auto beyond = std::ranges::upper_bound(along, middle);
     const auto edge = static_cast<std::size_t>(beyond - along.begin()) - 1;
     const int row = rows[edge];

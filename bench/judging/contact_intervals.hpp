@@ -28,7 +28,8 @@ struct Bracket {
   double low, high;
 };
 
-// Along a contact face as its boundary is walked, from its start.
+// Along a contact face as its boundary is walked, from its start; an interval around the start of a
+// closed face begins below zero.
 struct ContactEnd {
   int face = 0;  // from 0, in the order of boundary_chains()
   ContactState before, after;

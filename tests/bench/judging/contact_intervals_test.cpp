@@ -86,6 +86,44 @@ TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
   EXPECT_GT(on_bent_face.intervals->largest_pressure_MPa, 0);
 }
 
+// The hole of a ring in contact, its edges counted from another one.
+Mesh pin(int first) {
+  Mesh mesh = testing::small_ring(24, 4, 2, 6);
+  std::vector<BoundaryEdge> hole;
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact, hole.push_back(edge);
+  std::ranges::rotate(hole, hole.begin() + first);
+  std::size_t next = 0;
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge = hole[next++];
+  return mesh;
+}
+
+TEST(ContactIntervals, AClosedFaceHasTheSameEndsWhereverItStarts) {
+  Scene scene = with_friction(0.3);
+  scene.crown_radius_mm.reset();
+  const auto ends = [&](int first) {
+    const Judged judged(scene, pin(first));
+    std::vector<ContactEnd> found = judged.intervals->ends;
+    std::ranges::sort(found, {},
+                      [](const ContactEnd& end) { return end.at_mm.x() + 2 * end.at_mm.y(); });
+    return found;
+  };
+  const std::vector<ContactEnd> expected = ends(0);
+  ASSERT_GE(expected.size(), 2u);
+  for (const int first : {3, 8, 15, 21}) {
+    const std::vector<ContactEnd> found = ends(first);
+    ASSERT_EQ(found.size(), expected.size()) << first;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_LT((found[k].at_mm - expected[k].at_mm).norm(), 1e-9) << first << " " << k;
+      EXPECT_EQ(found[k].before, expected[k].before);
+      EXPECT_EQ(found[k].after, expected[k].after);
+      EXPECT_NEAR(found[k].along_face_mm.high - found[k].along_face_mm.low,
+                  expected[k].along_face_mm.high - expected[k].along_face_mm.low, 1e-9);
+    }
+  }
+}
+
 // The stress of a coarse element at barycentric coordinates.
 Eigen::Vector3d stress_at(const ElementStress& stress, const Eigen::Vector3d& lambda) {
   int opposite = 0;
