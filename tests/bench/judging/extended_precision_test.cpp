@@ -13,6 +13,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/quad.hpp"
+#include "tests/support/small_meshes.hpp"
 
 namespace airybench::extended_precision_test {
 namespace {
@@ -176,6 +177,24 @@ TEST_P(ExtendedPrecision, HybridStressesAreTheAiryFunctionsElementByElement) {
         std::max(largest, (hybrid.stress[t] - airy.stress[t]).norm() / hybrid.stress[t].norm());
   record("largest relative difference of an element", largest);
   EXPECT_LE(largest, 1e-9);
+}
+
+TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
+  Mesh pin = testing::small_ring(12, 3, 2, 6);
+  for (BoundaryEdge& edge : pin.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact;
+  for (const Mesh& mesh : {testing::small_plate(1), pin}) {
+    SCOPED_TRACE(mesh.name);
+    Scene scene;
+    scene.crown_radius_mm.reset();
+    const DualSystem system =
+        assemble(std::make_shared<const Problem>(pose(scene, mesh)), Blocks::contact_points);
+    const Reference reference = compute_reference(system);
+    const Errors off = errors(*system.problem, solve_in_quad(system, reference.F_C), reference.F_C,
+                              reference.stress);
+    EXPECT_LE(off.force, 1e-15);
+    EXPECT_LE(off.stress, 1e-15);
+  }
 }
 
 #ifdef AIRYBENCH_SANITIZED  // 128 bits are computed in software, slower still then
