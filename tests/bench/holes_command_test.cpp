@@ -84,10 +84,10 @@ TEST_F(HolesCommand, StudiesGoAroundThem) {
 
 TEST_F(HolesCommand, AnAdaptedMeshReachesItsGoalAndKeepsItsHole) {
   for (const auto& [mesh, goal] : {std::pair("plate", 0.05), {"pin", 0.1}}) {
-    ASSERT_EQ(bench(std::string("--mesh=") + mesh + ".msh --scene=flat.json --method=HYBRID,P2 " +
-                    "--levels=last --repetitions=1 --out=o --adapt=" +
-                    std::to_string(100 * goal) + "%"),
-              0)
+    ASSERT_EQ(
+        bench(std::string("--mesh=") + mesh + ".msh --scene=flat.json --method=HYBRID,P2 " +
+              "--levels=last --repetitions=1 --out=o --adapt=" + std::to_string(100 * goal) + "%"),
+        0)
         << complaint();
     const Json r = bench_.records().front();
     EXPECT_EQ(r["method"], "HYBRID");

@@ -66,8 +66,8 @@ ExactField pulled() {
   return {"force on the hole", V2::Zero(),
           [](const V2& x) -> V3 {
             const double r = x.norm(), c = x.x() / r, s = x.y() / r, a = 1 - 2 * poisson;
-            return -k / r * V3(a * c + 2 * c * c * c, -a * c + 2 * c * s * s,
-                               a * s + 2 * c * c * s);
+            return -k / r *
+                   V3(a * c + 2 * c * c * c, -a * c + 2 * c * s * s, a * s + 2 * c * c * s);
           },
           [](const V2& x) -> V2 {
             const double r = x.norm(), c = x.x() / r, s = x.y() / r;
@@ -84,8 +84,8 @@ ExactField stretched() {
             const double cosine = std::cos(2 * at), sine = std::sin(2 * at);
             return tension / 2 *
                    from_polar(1 - q + (1 - 4 * q + 3 * q * q) * cosine,
-                              1 + q - (1 + 3 * q * q) * cosine,
-                              -(1 + 2 * q - 3 * q * q) * sine, at);
+                              1 + q - (1 + 3 * q * q) * cosine, -(1 + 2 * q - 3 * q * q) * sine,
+                              at);
           },
           [](const V2& x) -> V2 {
             constexpr double kappa = 3 - 4 * poisson;
@@ -138,14 +138,13 @@ struct Solved {
 // √∫ (σ − exact):C:(σ − exact): on every third a rule of seven points, exact for degree 5.
 double distance(const Problem& problem, const StressField& stress, const ExactField& exact) {
   constexpr double a = 0.470142064105115, b = 0.101286507323456;
-  constexpr std::array<std::array<double, 4>, 7> points = {
-      {{1. / 3, 1. / 3, 1. / 3, 0.225},
-       {a, a, 1 - 2 * a, 0.132394152788506},
-       {a, 1 - 2 * a, a, 0.132394152788506},
-       {1 - 2 * a, a, a, 0.132394152788506},
-       {b, b, 1 - 2 * b, 0.125939180544827},
-       {b, 1 - 2 * b, b, 0.125939180544827},
-       {1 - 2 * b, b, b, 0.125939180544827}}};
+  constexpr std::array<std::array<double, 4>, 7> points = {{{1. / 3, 1. / 3, 1. / 3, 0.225},
+                                                            {a, a, 1 - 2 * a, 0.132394152788506},
+                                                            {a, 1 - 2 * a, a, 0.132394152788506},
+                                                            {1 - 2 * a, a, a, 0.132394152788506},
+                                                            {b, b, 1 - 2 * b, 0.125939180544827},
+                                                            {b, 1 - 2 * b, b, 0.125939180544827},
+                                                            {1 - 2 * b, b, b, 0.125939180544827}}};
   double squared = 0;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
@@ -267,7 +266,8 @@ Mesh plate(bool in_hole) {
 TEST(Plate, BothSolutionsCloseInOnOneEnergyInContact) {
   for (const auto& [in_hole, friction] :
        {std::pair(false, 0.0), {false, 0.2}, {true, 0.0}, {true, 0.2}}) {
-    SCOPED_TRACE(::testing::Message() << "friction " << friction << (in_hole ? ", in the hole" : ""));
+    SCOPED_TRACE(::testing::Message()
+                 << "friction " << friction << (in_hole ? ", in the hole" : ""));
     Mesh mesh = plate(in_hole);
     double gap_before = 0, lower_before = 0, upper_before = 0, error_before = 1;
     for (int refined = 0; refined < 3; ++refined, mesh = uniformly_refined(mesh)) {
