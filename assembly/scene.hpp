@@ -66,7 +66,8 @@ struct SceneError : InputError {
 void check_values(const Scene& scene);
 
 // Transforms the mesh and poses the scene on it; of contact edges those that can reach their wall.
-// Throws SceneError. Load steps after the first are Problem::later_steps.
+// A crown needs faces with ends. Throws SceneError. Load steps after the first are
+// Problem::later_steps.
 Problem pose(const Scene& scene, Mesh mesh);
 
 }  // namespace airybench
