@@ -87,3 +87,14 @@ def given(row: Row) -> tuple[float, float] | None:
 def is_paper_stop(row: Row) -> bool:
     """A point of an error study that the paper's stop ended."""
     return row.iterative and row.stop == "paper"
+
+
+def front(rows: list[Row], cost: Callable[[Row], float | None], error: Callable[[Row], float],
+          gain: float = 0) -> list[Row]:
+    """Those that no cheaper one equals in error, the cheapest first; a gain of the error of less
+    than this part of it is none."""
+    found: list[Row] = []
+    for row in sorted((row for row in rows if cost(row)), key=lambda row: (cost(row), error(row))):
+        if not found or error(row) < (1 - gain) * error(found[-1]):
+            found.append(row)
+    return found

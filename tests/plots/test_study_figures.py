@@ -189,7 +189,7 @@ class ParetoTest(StudiesTest):
             self.assertFalse([row for row in stress if row.error_total <= level
                               and row.time_s < best.time_s])
         self.assertIsNone(pareto_figure.cheapest(rows, 1e-3))
-        table = pareto_figure.table_of(rows)
+        table = pareto_figure.levels_table(rows)
         self.assertTrue(all(len(line) == len(pareto_figure.TABLE) for line in table))
         self.assertEqual(table[-1][0], study_parts.percent(0.1))
         self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
@@ -258,7 +258,7 @@ class ConvergenceTest(StudiesTest):
         smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
         rows += [row | dict(scene="frictionless") for row in smooth]
         words = words_of(convergence_figure.draw(self.read(rows)))
-        self.assertIn("Right: scene frictionless", words)
+        self.assertIn("Below: scene frictionless", words)
         self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
 
     def test_without_bounds(self) -> None:
@@ -291,12 +291,12 @@ class AtlasTest(StudiesTest):
             row = made_up.stability_study()[0] | dict(error_stress=stress, error_force=force)
             self.assertEqual(atlas_figure.digits(self.read([row])[0]), digits)
 
-    def test_columns_go_by_group_then_by_number(self) -> None:
+    def test_scenes_go_by_group_then_by_number(self) -> None:
         row = made_up.stability_study()[0]
         names = [("b", f"friction_{mu}") for mu in ("10", "1e-8", "1", "10_sheared", "0")]
         names.append(("a", "z"))
         rows = self.read([row | dict(scene_group=g, scene=s) for g, s in names])
-        self.assertEqual(atlas_figure.columns_of(rows),
+        self.assertEqual(atlas_figure.scenes_of(rows),
                          [names[5], names[4], names[1], names[2], names[0], names[3]])
 
     def test_names_do_not_leave_the_sheet(self) -> None:
@@ -355,7 +355,7 @@ class MemoryFigureTest(StudiesTest):
         with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
-        self.assertIn("memory_by_owner.png: 2 cases", out)
+        self.assertIn("memory_by_owner.png, .csv: 2 cases", out)
         shutil.rmtree(self.figures)
         made_up.write_lines(lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
         self.assert_refused("records.jsonl:3", "memory_by_owner", "wings", "blocks")
@@ -368,7 +368,7 @@ class OtherFiguresTest(StudiesTest):
         figure = everything().figures["all_methods"]
         words = words_of(figure)
         self.assertIn("Mesh7-refined2", words)
-        self.assertIn("3STEPD:CHOLMOD: $n^{1.30}$", words)
+        self.assertIn("3STEPD:CHOLMOD $n^{1.30}$", words)
 
     def test_stop_and_error(self) -> None:
         rows = self.read(made_up.error_study(["Mesh1"]))
