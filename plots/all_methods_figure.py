@@ -23,7 +23,7 @@ LEFT, TOP, BETWEEN, LOWEST, BOTTOM = 0.72, 1.15, 0.12, 2.5, 0.5  # inches; LOWES
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
           "error_force": "error of the contact forces, 1"}
 LABEL_PT = 13  # between names
-POWER = 0.6  # inches, for an exponent
+POWER, DASHED = 0.6, 0.36  # inches, for an exponent and a piece of line
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -126,13 +126,18 @@ def draw_panel(axes: Axes, column: str, lines: dict[str, list[Row]]) -> None:
 
 
 def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[str, str],
-               powers: dict[str, float | None]) -> None:
-    """Name and exponent beside the last points, in their order."""
+               powers: dict[str, float | None], dashes: dict[str, object] | None = None) -> None:
+    """Name and exponent beside the last points, in their order; with dashes also a piece of line."""
     inch = 1 / (axes.get_position().width * PAGE_WIDTH)
     for method, at, y in beside(axes, ends, LABEL_PT):
         style = dict(transform=axes.transAxes, va="center", color=colours[method])
         draw_leader(axes, at, 1 + 0.22 * inch, y, color=colours[method], alpha=0.6)
-        axes.text(1 + 0.26 * inch, y, plain(method), fontsize=parts.TYPE, **style)
+        name_at = 1 + 0.26 * inch
+        if dashes:
+            axes.plot([name_at, name_at + DASHED * inch], [y, y], transform=axes.transAxes,
+                      clip_on=False, color=colours[method], linestyle=dashes[method], linewidth=1.4)
+            name_at += (DASHED + 0.06) * inch
+        axes.text(name_at, y, plain(method), fontsize=parts.TYPE, **style)
         if powers[method] is not None:
             axes.text((PAGE_WIDTH - LEFT - 0.05) * inch, y, f"$n^{{{powers[method]:.2f}}}$",
                       ha="right", fontsize=MATH, **style)

@@ -95,7 +95,8 @@ class StudyFiguresTest(StudiesTest):
         folder, (status, out, err) = everything().folder, everything().run
         self.assertEqual((status, err), (0, ""))
         names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
-                 "convergence", "stability_Mesh0", "all_methods"}
+                 "convergence", "stability_Mesh0", "all_methods", "profiles",
+                 "profiles_stability"}
         self.assertEqual({path.stem for path in folder.iterdir()},
                          names | {"figure4", "figure5", "table1"})
         self.assertEqual(out.count("\n"), len(names) + 4)  # figure3 is left out
