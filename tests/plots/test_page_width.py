@@ -6,13 +6,10 @@ import tempfile
 import unittest
 from itertools import combinations
 from pathlib import Path
-from unittest import mock
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
@@ -52,21 +49,6 @@ def of_all_kinds() -> list[dict]:
     return [made_up.record(row) for row in rows] + split
 
 
-def paint(figure: Figure) -> tuple[list[Text], object]:
-    """The texts that are painted, and who painted them."""
-    painted: list[Text] = []
-    draw = Text.draw
-
-    def keep(words: Text, renderer: object) -> None:
-        if words.get_visible() and words.get_text().strip():
-            painted.append(words)
-        draw(words, renderer)
-    canvas = FigureCanvasAgg(figure)
-    with mock.patch.object(Text, "draw", keep):
-        canvas.draw()
-    return painted, canvas.get_renderer()
-
-
 class PageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
@@ -80,7 +62,7 @@ class PageTest(unittest.TestCase):
         cls.figures = {name: figure for name, drawing in cls.drawings.items()
                        if isinstance(figure := drawing.draw(drawing.rows, **drawing.options), Figure)}
         with drawn.without_minor_ticks():
-            cls.painted = {name: paint(figure) for name, figure in cls.figures.items()}
+            cls.painted = {name: drawn.paint(figure) for name, figure in cls.figures.items()}
 
     def test_all_kinds_of_figures_are_here(self) -> None:
         modules = {path.stem for path in Path(figures.__file__).parent.glob("*_figure.py")}
