@@ -1,6 +1,7 @@
 """Methods on adapted meshes: a cell per case with its outcome, time, error and condition number."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
@@ -15,7 +16,7 @@ from figure_words import plain, short
 from record_keys import Row
 from selection import by_mesh, of_scene
 
-CELL, ROW, ABOVE, KEY, BETWEEN = 1.2, 0.36, 0.6, 0.62, 0.1  # inches
+CELL, NARROWEST, ROW, ABOVE, KEY, BETWEEN = 1.2, 1.02, 0.36, 0.6, 0.62, 0.1  # inches
 COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s",
            "peak_heap_bytes", "error_stress", "error_force", "condition_estimate")
 
@@ -55,8 +56,10 @@ def draw(rows: list[Row]) -> Figure:
     meshes = by_mesh(rows)
     methods = list(dict.fromkeys(row.method for row in sorted(rows, key=parts.order)))
     left = 0.25 + LETTER * max(map(len, methods))
-    room = max(int((PAGE_WIDTH - left - 0.15) / CELL), 1)
-    blocks = [list(meshes.values())[k:k + room] for k in range(0, len(meshes), room)]
+    room = PAGE_WIDTH - left - parts.MARGIN
+    most = math.ceil(len(meshes) / math.ceil(len(meshes) * NARROWEST / room))
+    cell = min(CELL, room / most)
+    blocks = [list(meshes.values())[k:k + most] for k in range(0, len(meshes), most)]
     block = ABOVE + ROW * len(methods)
     body = 0.3 + len(blocks) * (block + BETWEEN) + KEY
     figure = parts.sheet(PAGE_WIDTH, body, "Methods on adapted meshes", [
@@ -66,7 +69,7 @@ def draw(rows: list[Row]) -> Figure:
     height = figure.get_size_inches()[1]
     for k, own in enumerate(blocks):
         bottom = 0.3 + k * (block + BETWEEN) + block
-        axes = figure.add_axes([left / PAGE_WIDTH, 1 - bottom / height, CELL * len(own) / PAGE_WIDTH,
+        axes = figure.add_axes([left / PAGE_WIDTH, 1 - bottom / height, cell * len(own) / PAGE_WIDTH,
                                 ROW * len(methods) / height],
                                xlim=(0, len(own)), ylim=(len(methods), 0))
         draw_cells(axes, own, methods)
@@ -81,7 +84,7 @@ def draw(rows: list[Row]) -> Figure:
 def draw_cells(axes: Axes, meshes: list[list[Row]], methods: list[str]) -> None:
     for x, own in enumerate(meshes):
         axes.annotate(head_of(own), (x + 0.5, 0), xytext=(0, 3), textcoords="offset points",
-                      ha="center", va="bottom", fontsize=8)
+                      ha="center", va="bottom", fontsize=SIZE)
         for row in own:
             y = methods.index(row.method)
             _, fill, ink = MARKS[row.outcome or row.status]

@@ -87,6 +87,14 @@ def rate(points: list[Point]) -> float | None:
                             np.log([point.error for point in points]), 1)[0])
 
 
+def fitted(points: list[Point]) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the power law, over two meshes or more."""
+    h, errors = np.array([p.h for p in points]), np.array([p.error for p in points])
+    power = rate(points)
+    ends = np.array([h.min(), h.max()])
+    return ends, np.exp(np.mean(np.log(errors) - power * np.log(h))) * ends**power
+
+
 def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Point]]]:
     """The scene to draw, else the first that has bounds, and its bodies with bounds on two meshes
     or more."""
@@ -136,8 +144,10 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels = Labels(axes)
-    for body, points in bodies.items():
+    for points in bodies.values():
         labels.avoid([p.h for p in points], [p.error for p in points])
+        if rate(points):
+            labels.avoid(*fitted(points))
     for body, points in bodies.items():
         colour, marker = marks[body]
         h, errors = [p.h for p in points], [p.error for p in points]
@@ -146,9 +156,7 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
                   linestyle="none" if power else "-")
         words = plain(body)
         if power:
-            scale = math.exp(np.mean(np.log(errors) - power * np.log(h)))
-            ends = np.array([min(h), max(h)])
-            axes.plot(ends, scale * ends**power, color=colour, linewidth=1.2, zorder=1.5)
+            axes.plot(*fitted(points), color=colour, linewidth=1.2, zorder=1.5)
             words += f": $h^{{{power:.2f}}}$"
         for point in points:
             labels.add(f"{point.mesh}, {parts.percent(point.error)}", point.h, point.error,

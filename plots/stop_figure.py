@@ -103,7 +103,6 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
     axes.spines[["top", "right"]].set_visible(False)
     labels, lines = Labels(axes), {}
     single = [stop for curve in curves.values() if len(curve) == 1 for stop in curve]
-    draw_single(axes, labels, [stop for stop in single if getattr(stop.row, column)], column)
     longer = {words: curve for words, curve in curves.items() if len(curve) > 1}
     for k, (words, curve) in enumerate(longer.items()):
         known = [stop for stop in curve if getattr(stop.row, column)]
@@ -114,6 +113,7 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                   markersize=5, linewidth=1.1, linestyle="-" if k < len(SHADES) else "--")
         labels.avoid(*line)
         lines[words] = line, SHADES[k % len(SHADES)]
+    draw_single(axes, labels, [stop for stop in single if getattr(stop.row, column)], column)
     for words, ((r, y), colour) in lines.items():
         labels.add(words, r[::-1], y[::-1], color=colour, fontsize=8)
 
