@@ -89,22 +89,21 @@ class Labels:
                 centres = centres[((centres - half >= low) & (centres + half <= high)).all(1)]
                 hidden = count_near(seen, centres, half + 1)
                 crossed = count_near((starts + ends) / 2, centres, half + (ends - starts) / 2)
-                costs = (1000 * crossed + 700 * self.met(anchor, centres, half) + 12 * hidden
-                         + least)
+                costs = 1000 * crossed + self.met(anchor, centres, half) + 12 * hidden + least
                 if len(costs) and costs.min() < best[0]:
                     best = (costs.min(), anchor, centres[costs.argmin()])
         return best[1], best[2]
 
 
     def met(self, anchor: np.ndarray, centres: np.ndarray, half: np.ndarray) -> np.ndarray:
-        """(m,): how many leaders, and points of labels, a leader to a box there would cross."""
+        """(m,): the cost of the leaders, and of the labels, that a leader to a box there would cross."""
         ends = border(anchor, centres, half)
         on_way = anchor + np.linspace(0.1, 0.9, 9)[:, None, None] * (ends - anchor)  # (9, m, 2)
         boxes = np.reshape(self.boxes, (-1, 1, 1, 4))
-        inside = ((on_way > boxes[..., :2]) & (on_way < boxes[..., 2:])).all(-1).sum((0, 1))
+        inside = ((on_way > boxes[..., :2]) & (on_way < boxes[..., 2:])).all(-1).any(1).sum(0)
         others = np.reshape(self.leaders, (-1, 1, 2, 2))
         crossed = crossing(anchor, ends, others[..., 0, :], others[..., 1, :]).sum(0)
-        return (np.hypot(*(ends - anchor).T) > LEADER) * (crossed + inside)
+        return (np.hypot(*(ends - anchor).T) > LEADER) * (1000 * crossed + 250 * inside)
 
 
 def border(anchor: np.ndarray, centre: np.ndarray, half: np.ndarray) -> np.ndarray:
