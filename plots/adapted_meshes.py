@@ -13,10 +13,11 @@ from matplotlib.figure import Figure
 from field_drawing import COLORMAP, Scales, draw_body, draw_boundary
 from field_panel import view_of
 from fields import Fields
+from figure_files import PAGE_WIDTH
 from figure_words import plain
 
 LEVEL = re.compile(r"(?P<mesh>.+)%2Badapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
-SHOWN, WIDTH, LEFT, GAP, HIGHEST = 3, 10.0, 0.5, 0.12, 4.2  # inches
+SHOWN, WIDTH, LEFT, GAP, HIGHEST = 3, PAGE_WIDTH, 0.5, 0.12, 4.2  # inches
 TITLE, WORDS, BARS = 0.55, 0.34, 0.75
 BRIGHT = 0.995  # part of the area whose stress is in the scale: singular corners are beyond
 SHADES = 24
@@ -73,13 +74,13 @@ def draw(levels: list[tuple[Fields, np.ndarray, float | None]]) -> Figure:
             axes.spines[:].set_visible(False)
             axes.tick_params(length=2, labelleft=k == 0, labelbottom=row == 1)
             if k == 0:
-                axes.set_ylabel(view.names[1], labelpad=2)
+                axes.set_ylabel("y in mm", labelpad=2)
             if row == 0:
                 draw_body(axes, s, scales)
                 words = f"{len(s.corners)} triangles"
                 axes.set_title(words if error is None else f"{words}, {100 * error:.2g} %", pad=4)
                 continue
-            axes.set_xlabel(view.names[0], labelpad=1)
+            axes.set_xlabel("x in mm", labelpad=1)
             axes.add_collection(PolyCollection(
                 s.placed(s.triangles), array=np.maximum(share * len(share), norm.vmin), norm=norm,
                 cmap=shades, edgecolor="none", rasterized=True))

@@ -1,6 +1,7 @@
 """Methods on adapted meshes: a cell per case with its outcome, time, error and condition number."""
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
@@ -9,12 +10,13 @@ from matplotlib.patches import Rectangle
 
 import study_parts as parts
 from atlas_figure import LETTER, MARKS, SIZE, draw_key
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing
+from figure_table import csv_of
 from figure_words import plain, short
 from record_keys import Row
 from selection import by_mesh, of_scene
 
-CELL, ROW, ABOVE, KEY = 1.12, 0.36, 0.6, 0.62  # inches
+CELL, NARROWEST, ROW, ABOVE, KEY, BETWEEN = 1.2, 1.02, 0.36, 0.6, 0.62, 0.1  # inches
 COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s",
            "peak_heap_bytes", "error_stress", "error_force", "condition_estimate")
 
@@ -22,12 +24,12 @@ COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s"
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "adapted"])
     if study:
-        yield Drawing("adapted_methods", study, draw, table=table_of)
+        yield Drawing("adapted_methods", study, draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
-    return parts.csv_of([row for own in by_mesh(rows).values()
-                         for row in sorted(own, key=parts.order)], COLUMNS)
+    return csv_of([row for own in by_mesh(rows).values()
+                   for row in sorted(own, key=parts.order)], *COLUMNS)
 
 
 def words_of(row: Row) -> tuple[str, str]:
@@ -54,29 +56,35 @@ def draw(rows: list[Row]) -> Figure:
     meshes = by_mesh(rows)
     methods = list(dict.fromkeys(row.method for row in sorted(rows, key=parts.order)))
     left = 0.25 + LETTER * max(map(len, methods))
-    width = max(left + CELL * len(meshes) + 0.15, 7.5)
-    body = 0.3 + ABOVE + ROW * len(methods) + KEY
-    figure = parts.sheet(width, body, "Methods on adapted meshes", [
+    room = PAGE_WIDTH - left - parts.MARGIN
+    most = math.ceil(len(meshes) / math.ceil(len(meshes) * NARROWEST / room))
+    cell = min(CELL, room / most)
+    blocks = [list(meshes.values())[k:k + most] for k in range(0, len(meshes), most)]
+    block = ABOVE + ROW * len(methods)
+    body = 0.3 + len(blocks) * (block + BETWEEN) + KEY
+    figure = parts.sheet(PAGE_WIDTH, body, "Methods on adapted meshes", [
         f"Scene {rows[0].scene}, {parts.threads(rows)}. A column is a mesh, with its total error. A "
         "cell: time of one solve; below it the larger of the relative errors of stresses and contact "
         "forces, and κ, the 1-norm condition number, estimated, of what the method factorises."])
     height = figure.get_size_inches()[1]
-    axes = figure.add_axes([left / width, (height - 0.3 - ABOVE - ROW * len(methods)) / height,
-                            CELL * len(meshes) / width, ROW * len(methods) / height],
-                           xlim=(0, len(meshes)), ylim=(len(methods), 0))
-    draw_cells(axes, list(meshes.values()), methods)
-    axes.set_yticks([k + 0.5 for k in range(len(methods))], map(plain, methods), fontsize=8)
-    axes.set_xticks([])
-    axes.tick_params(length=0, pad=3)
-    axes.spines[:].set_visible(False)
-    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.12, width, of_ok=("", "ok"))
+    for k, own in enumerate(blocks):
+        bottom = 0.3 + k * (block + BETWEEN) + block
+        axes = figure.add_axes([left / PAGE_WIDTH, 1 - bottom / height, cell * len(own) / PAGE_WIDTH,
+                                ROW * len(methods) / height],
+                               xlim=(0, len(own)), ylim=(len(methods), 0))
+        draw_cells(axes, own, methods)
+        axes.set_yticks([k + 0.5 for k in range(len(methods))], map(plain, methods), fontsize=8)
+        axes.set_xticks([])
+        axes.tick_params(length=0, pad=3)
+        axes.spines[:].set_visible(False)
+    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.12, PAGE_WIDTH, of_ok=("", "ok"))
     return figure
 
 
 def draw_cells(axes: Axes, meshes: list[list[Row]], methods: list[str]) -> None:
     for x, own in enumerate(meshes):
         axes.annotate(head_of(own), (x + 0.5, 0), xytext=(0, 3), textcoords="offset points",
-                      ha="center", va="bottom", fontsize=8)
+                      ha="center", va="bottom", fontsize=SIZE)
         for row in own:
             y = methods.index(row.method)
             _, fill, ink = MARKS[row.outcome or row.status]
@@ -85,4 +93,4 @@ def draw_cells(axes: Axes, meshes: list[list[Row]], methods: list[str]) -> None:
             first, second = words_of(row)
             axes.text(x + 0.5, y + (0.33 if second else 0.5), first, color=ink, ha="center",
                       va="center", fontsize=SIZE, weight="bold")
-            axes.text(x + 0.5, y + 0.72, second, color=ink, ha="center", va="center", fontsize=6.5)
+            axes.text(x + 0.5, y + 0.72, second, color=ink, ha="center", va="center", fontsize=SMALLEST_PT)

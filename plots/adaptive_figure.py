@@ -11,6 +11,7 @@ import study_parts as parts
 from direct_labels import Labels
 from figure_files import Drawing
 from figure_parts import WIDTH, axes_at, log_limits, log_log
+from figure_table import CASE, csv_of
 from figure_words import plain
 from record_keys import Row
 from selection import by_body, grouped, is_paper_stop, kind_of, of_scene
@@ -30,7 +31,12 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
               if len({row.n_phi for row in own if kind_of(row) == "adapted"}) > 1}
     shown = [row for row in known if row.body in sorted(bodies)[:BODIES]]
     if shown:
-        yield Drawing("adaptive", shown, draw, vector=True)
+        yield Drawing("adaptive", shown, draw, table_of, vector=True)
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, ("kind_of_mesh", kind_of), "adapt_level", "error_total", "time_s",
+                  "adapt_time_s")
 
 
 def slope(unknowns: list[int], errors: list[float]) -> float:

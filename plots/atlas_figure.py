@@ -1,10 +1,11 @@
-"""The stability atlas: methods x scenes, a cell per case, coloured and lettered by its outcome."""
+"""The stability atlas: scenes x methods, a cell per case, coloured and lettered by its outcome."""
 from __future__ import annotations
 
 import math
 import re
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -14,8 +15,9 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import study_parts as parts
-from figure_files import Drawing
-from figure_words import plain
+from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing
+from figure_table import csv_of
+from figure_words import plain, width_of
 from record_keys import OUTCOMES, Row
 from selection import by_mesh
 
@@ -40,11 +42,12 @@ WORDS = {"other_solution": "another solution than the reference's",
          "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
          "machine_fault": "no process or no file to be had"}
-CELL, ROW, RIGHT, TITLE, KEY = 0.29, 0.235, 0.75, 0.4, 0.62  # inches
+CELL, NARROWEST, ROW, TITLE, KEY, BETWEEN = 0.32, 0.112, 0.16, 0.42, 0.62, 0.25  # inches
+WITH_DIGITS = 0.2  # inches: a cell in which an ok case's digits have room
 LETTER = 0.078  # inches: of a name's letter, about
 SIZE = 7.5
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
-DEEPEST = "#A9CDE8"  # of an ok case with 15 digits; with 6 it has the fill above
+DEEPEST = "#7FB6DE"  # of an ok case with 15 digits; with 6 it has the fill above
 
 
 def digits(row: Row) -> str:
@@ -62,96 +65,132 @@ def shade(number: str) -> str:
     return to_hex(light + depth * (deep - light))
 
 
-def columns_of(rows: list[Row]) -> list[tuple[str, str]]:
+def scenes_of(rows: list[Row]) -> list[tuple[str, str]]:
     """Group and scene, in the order of their names; numbers in a scene's name by size."""
-    def key(column: tuple[str, str]) -> tuple[str, list[str], list[float]]:
-        group, scene = column
-        return group, NUMBER.split(scene), [float(number) for number in NUMBER.findall(scene)]
+    def key(scene: tuple[str, str]) -> tuple[str, list[str], list[float]]:
+        group, name = scene
+        return group, NUMBER.split(name), [float(number) for number in NUMBER.findall(name)]
     return sorted({(row.scene_group, row.scene) for row in rows}, key=key)
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for mesh, own in by_mesh([row for row in rows if row.study == "stability"]).items():
-        yield Drawing(parts.file_name("stability", mesh), own, draw)
+        yield Drawing(parts.file_name("stability", mesh), own, draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """digits: of the largest error of an ok case."""
+    order = {scene: k for k, scene in enumerate(scenes_of(rows))}
+    rows = sorted(rows, key=lambda row: (order[row.scene_group, row.scene], parts.order(row)))
+    return csv_of(rows, "mesh", "scene_group", "scene", "method", "outcome",
+                  ("digits", lambda row: digits(row) if row.outcome == "ok" else None),
+                  "error_stress", "error_force")
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Where cells are: scenes go down, under a line with their group's name; methods, as many as
+    there is room for, go to the right."""
+
+    lines: list[tuple[str, str]]  # group and scene; a group's own line has no scene
+    methods: list[str]
+    cell: float                   # width, inches
+
+    @property
+    def height(self) -> float:
+        return ROW * len(self.lines)
+
+
+def grids_of(rows: list[Row], left: float) -> list[Grid]:
+    """Side by side while cells are not too narrow, below each other else."""
+    methods = list(dict.fromkeys(row.method for row in sorted(rows, key=parts.order)))
+    lines = [line for group, own in groupby(scenes_of(rows), key=lambda scene: scene[0])
+             for line in ((group, ""), *own)]
+    room = PAGE_WIDTH - left - parts.MARGIN
+    count = math.ceil(len(methods) * NARROWEST / room)
+    most = math.ceil(len(methods) / count)
+    cell = min(CELL, room / most)
+    return [Grid(lines, methods[k:k + most], cell) for k in range(0, len(methods), most)]
 
 
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of a stability study's mesh. The figure, or why there is none."""
     if not rows:
         return "no rows"
-    columns = columns_of(rows)
-    families = {row.method: row.family for row in sorted(rows, key=parts.order)}
-    methods = list(families)
-    groups = [(name, len(list(g))) for name, g in groupby(columns, key=lambda c: c[0])]
-    left = 0.25 + LETTER * max(map(len, methods))
-    above = 0.3 + 0.62 * LETTER * max(len(name) for name, _ in groups)
-    below = 0.15 + LETTER * max(len(scene) for _, scene in columns)
-    width = max(left + CELL * len(columns) + max(RIGHT, above), 9)
-    top = TITLE + above
-    body = top + ROW * len(methods) + below + KEY
-    figure = parts.sheet(width, body, f"Stability on {rows[0].mesh}: {len(methods)} methods in "
-                         f"{len(columns)} scenes", [
-        "A row is a method, a column an extreme scene; scenes by group. ok: all errors and "
-        "residuals at most the target; its number n says that the errors of stresses and contact "
-        "forces are at most 1e-n; +: no such error is known. Empty: not in the study. "
-        "Right: how many of its cases are ok."])
-    height = figure.get_size_inches()[1]
-    axes = figure.add_axes([left / width, (height - top - ROW * len(methods)) / height,
-                            CELL * len(columns) / width, ROW * len(methods) / height],
-                           xlim=(0, len(columns)), ylim=(len(methods), 0))
-    draw_cells(axes, rows, columns, methods)
-    draw_names(axes, rows, columns, families)
-    draw_groups(axes, groups)
-    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.1, width)
+    scenes = scenes_of(rows)
+    left = 0.2 + max([width_of(scene, SIZE) for _, scene in scenes]
+                     + [width_of(group, 8, "bold") for group, _ in scenes]) / 72
+    grids = grids_of(rows, left)
+    above = 0.1 + max(width_of(row.method, SIZE) for row in rows) / 72
+    below = 0.5  # counts
+    block = above + grids[0].height + below
+    body = TITLE + len(grids) * (block + BETWEEN) + KEY
+    methods = sum(len(grid.methods) for grid in grids)
+    deep = grids[0].cell < WITH_DIGITS
+    figure = parts.sheet(PAGE_WIDTH, body, f"Stability on {rows[0].mesh}: {methods} methods in "
+                         f"{len(scenes)} scenes", [
+        "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
+        "most the target; " + ("the deeper its blue, the smaller its errors of stresses and contact "
+                               "forces, from 1e-6 to 1e-15. " if deep else
+                               "its number n says that the errors of stresses and contact forces are "
+                               "at most 1e-n; +: no such error is known. ") +
+        "Empty: not in the study. Below: how many of a method's cases are ok."])
+    size = figure.get_size_inches()
+    for k, grid in enumerate(grids):
+        top = TITLE + k * (block + BETWEEN) + above
+        axes = figure.add_axes([left / size[0], 1 - (top + grid.height) / size[1],
+                                grid.cell * len(grid.methods) / size[0], grid.height / size[1]],
+                               xlim=(0, len(grid.methods)), ylim=(len(grid.lines), 0))
+        own = [row for row in rows if row.method in grid.methods]
+        draw_cells(axes, own, grid)
+        draw_names(axes, own, grid)
+    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.1, size[0],
+             of_ok=("", "ok, deeper: more digits") if deep else
+             ("12", "ok, with the digits of its largest error"))
     return figure
 
 
-def draw_cells(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
-               methods: list[str]) -> None:
+def draw_cells(axes: Axes, rows: list[Row], grid: Grid) -> None:
     for row in rows:
         letter, fill, ink = MARKS[row.outcome]
         if row.outcome == "ok":
-            letter, fill = digits(row), shade(digits(row))
-        x, y = columns.index((row.scene_group, row.scene)), methods.index(row.method)
+            letter, fill = digits(row) if grid.cell >= WITH_DIGITS else "", shade(digits(row))
+        x, y = grid.methods.index(row.method), grid.lines.index((row.scene_group, row.scene))
         wrong = row.outcome == "wrong_success"
         # Not add_patch: it measures each for the limits, which are set.
         axes.add_artist(Rectangle((x, y), 1, 1, facecolor=fill, zorder=2 + wrong, clip_on=False,
                                   edgecolor="black" if wrong else "white",
                                   linewidth=1.6 if wrong else 0.6))
-        axes.text(x + 0.5, y + 0.53, letter, color=ink, ha="center", va="center",
-                  fontsize=SIZE, zorder=4, weight="normal" if row.outcome == "ok" else "bold")
+        if letter:
+            axes.text(x + 0.5, y + 0.53, letter, color=ink, ha="center", va="center", zorder=4,
+                      fontsize=SMALLEST_PT, weight="normal" if row.outcome == "ok" else "bold")
 
 
-def draw_names(axes: Axes, rows: list[Row], columns: list[tuple[str, str]],
-               families: dict[str, str]) -> None:
-    methods = list(families)
-    axes.set_xticks([k + 0.5 for k in range(len(columns))],
-                    [plain(scene) for _, scene in columns], rotation=90, fontsize=SIZE)
-    axes.set_yticks([k + 0.5 for k in range(len(methods))], map(plain, methods), fontsize=8)
-    axes.tick_params(length=0, pad=3)
+def draw_names(axes: Axes, rows: list[Row], grid: Grid) -> None:
+    scenes = [(k, scene) for k, (_, scene) in enumerate(grid.lines) if scene]
+    axes.set_yticks([k + 0.5 for k, _ in scenes], [plain(scene) for _, scene in scenes],
+                    fontsize=SIZE)
+    axes.set_xticks([k + 0.5 for k in range(len(grid.methods))], map(plain, grid.methods),
+                    rotation=90, fontsize=SIZE)
+    axes.tick_params(length=0, pad=3, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)
+    for k, (group, scene) in enumerate(grid.lines):
+        if not scene:
+            axes.annotate(plain(group), (0, k + 0.6), xycoords=axes.get_yaxis_transform(),
+                          xytext=(-3, 0), textcoords="offset points", ha="right", va="center",
+                          fontsize=8, weight="bold")
+            axes.axhline(k + 0.9, color="0.25", linewidth=0.6, zorder=1)
+    families = {row.method: row.family for row in rows}
     count = Counter(row.method for row in rows)
     ok = Counter(row.method for row in rows if row.outcome == "ok")
-    for k, method in enumerate(methods):
-        axes.annotate(f"{ok[method]} of {count[method]}", (1, k + 0.53), xytext=(5, 0),
-                      xycoords=axes.get_yaxis_transform(), textcoords="offset points",
-                      va="center", fontsize=SIZE, color="0.3")
-        if k and families[method] != families[methods[k - 1]]:
-            axes.plot([0, len(columns)], [k, k], color="0.25", linewidth=0.8, zorder=2.5)
-
-
-def draw_groups(axes: Axes, groups: list[tuple[str, int]]) -> None:
-    """A bracket over the scenes of each, and its name."""
-    start = 0
-    for name, count in groups:
-        end = start + count
-        if start:
-            axes.axvline(start, color="0.25", linewidth=0.8, zorder=2.5)
-        bracket = [start + 0.12, start + 0.12, end - 0.12, end - 0.12], [-0.2, -0.45, -0.45, -0.2]
-        axes.plot(*bracket, color="black", linewidth=0.8, clip_on=False)
-        axes.text((start + end) / 2, -0.65, plain(name), rotation=40, rotation_mode="anchor",
-                  ha="left", va="bottom", fontsize=8)
-        start = end
+    for k, method in enumerate(grid.methods):
+        axes.annotate(f"{ok[method]}/{count[method]}", (k + 0.53, 0), xytext=(0, -4),
+                      xycoords=axes.get_xaxis_transform(), textcoords="offset points",
+                      ha="center", va="top", rotation=90, fontsize=SMALLEST_PT, color="0.3")
+        if k and families[method] != families[grid.methods[k - 1]]:
+            axes.axvline(k, color="0.25", linewidth=0.8, zorder=2.5)
+    axes.annotate("ok", (0, 0), xycoords="axes fraction", xytext=(-3, -4), ha="right", va="top",
+                  textcoords="offset points", fontsize=SIZE, color="0.3")
 
 
 def draw_key(figure: Figure, rows: list[Row], left: float, top: float, width: float,

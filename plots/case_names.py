@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from urllib.parse import unquote
 
 
 def case_name(case: Mapping) -> str:
@@ -18,6 +19,11 @@ def case_name(case: Mapping) -> str:
     solver = case.get("contact_solver")
     implied = "gauss-seidel" if sweeps else "newton"
     return name + (f"/contact={solver}" if solver and solver != implied else "")
+
+
+def words_of_file(stem: str) -> str:
+    """'Mesh0+adapt1, default, SYMMLQ:DTIC3' of the stem of a case's files."""
+    return ", ".join(unquote(part.replace("+", ":")) for part in stem.split("--"))
 
 
 def file_of(name: str) -> str:

@@ -7,13 +7,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import study_parts as parts
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
+from figure_table import CASE, csv_of
 from figure_words import plain
 from record_keys import CONTACT_SOLVERS, Row
 from selection import grouped
 
-WIDTH, LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 10.5, 0.72, 0.62, 0.12, 2.3, 0.45, 0.3
+LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 0.72, 0.62, 0.12, 2.3, 0.45, 0.3  # inches
 LOOKS = dict(zip(CONTACT_SOLVERS, (("#000000", "o"), ("#D55E00", "s"), ("#0072B2", "^"),
                                    ("#00805C", "D"))))
 AT_EDGE = 0.95  # of an axes' height: where a solver that found nothing is marked
@@ -24,7 +25,7 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for method, own in grouped(study, lambda row: row.method).items():
         name = "contact" if len({row.method for row in study}) == 1 else \
             parts.file_name("contact", method)
-        yield Drawing(name, own, draw)
+        yield Drawing(name, own, draw, table_of)
 
 
 def iterations(row: Row) -> float | None:
@@ -41,13 +42,18 @@ def seconds(row: Row) -> float | None:
 QUANTITIES = ((seconds, "time of the contact law, s"), (iterations, "iterations, 1"))
 
 
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, "n_c", "contact_solver", "stage_contact_s",
+                  ("iterations", iterations))
+
+
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of one method. The figure, or why there is none."""
     if not any(seconds(row) and row.n_c for row in rows):
         return "no case of the contact study has a time"
     scenes = grouped(rows, lambda row: row.scene)
     failed = [row for row in rows if not row.completed]
-    figure = parts.sheet(WIDTH, TOP + 2 * HEIGHT + GAP + BOTTOM + KEY,
+    figure = parts.sheet(PAGE_WIDTH, TOP + 2 * HEIGHT + GAP + BOTTOM + KEY,
                          "Four solvers of the condensed contact problem", [
         f"{rows[0].method}, {parts.threads(rows)}. One column is a scene, one point a mesh: all "
         "solvers get the same D and G there. Above: the median time of the stage; below: "
@@ -55,7 +61,7 @@ def draw(rows: list[Row]) -> Figure | str:
         "(newton, whose steps are added), or iterations of ADMM. " +
         (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
          "the iterations or the time allowed." if failed else "All cases were solved.")])
-    panel = (WIDTH - LEFT - 0.1 - GAP * (len(scenes) - 1)) / len(scenes)
+    panel = (PAGE_WIDTH - LEFT - 0.1 - GAP * (len(scenes) - 1)) / len(scenes)
     for k, (of, words) in enumerate(QUANTITIES):
         values = [value for row in rows if (value := of(row))]
         for j, (scene, own) in enumerate(scenes.items()):
@@ -75,7 +81,7 @@ def draw(rows: list[Row]) -> Figure | str:
             else:
                 axes.set_xlabel("contact forces $n_C$, 1")
     for k, (solver, (colour, marker)) in enumerate(LOOKS.items()):
-        figure.text((LEFT + 0.2 + 1.5 * k) / WIDTH, 1 - 0.36 / figure.get_size_inches()[1],
+        figure.text((LEFT + 0.2 + 1.5 * k) / PAGE_WIDTH, 1 - 0.36 / figure.get_size_inches()[1],
                     plain(solver), color=colour, va="center", fontsize=9)
         axes = axes_at(figure, LEFT + 1.5 * k, 0.31, 0.12, 0.1)
         axes.plot(0, 0, marker=marker, color=colour, markersize=5, clip_on=False)

@@ -12,13 +12,16 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
+from figure_table import csv_of
 from figure_words import plain
 from record_keys import Row
 from selection import by_mesh, scene_of
 
-LEFT, TOP, HEIGHT, BOTTOM, GAP, MAIN, BESIDE = 0.72, 0.4, 4.0, 0.5, 0.85, 5.0, 3.6
+LEFT, TOP, HEIGHT, BELOW, BOTTOM, GAP = 0.72, 0.4, 3.8, 2.6, 0.55, 0.85  # inches
+TITLE = 0.3  # over the bounds
+SIDE_BY_SIDE = 2  # bodies with bounds
 MARKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#00805C", "^"), ("#8A3FA0", "D"), ("#C98500", "v"),
          ("#56B4E9", "P"), ("#777777", "X"))  # of the bodies, in turn
 H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
@@ -41,7 +44,21 @@ class Point:
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "error"]
     if study:
-        yield Drawing("convergence", study, draw)
+        yield Drawing("convergence", study, draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """Of the scene drawn, then of that of the bounds, if it is another. rate: of the body."""
+    lines = []
+    for scene in dict.fromkeys([scene_of(rows), bounded_of(rows)[0] or scene_of(rows)]):
+        for body, points in points_of([row for row in rows if row.scene == scene]).items():
+            lines += [(scene, body, point, rate(points)) for point in points]
+    bounds = (("lower_bound_Nmm", 0), ("upper_bound_Nmm", 1))
+    return csv_of(lines, ("scene", lambda line: line[0]), ("body", lambda line: line[1]),
+                  ("mesh", lambda line: line[2].mesh), ("n_phi", lambda line: line[2].n_phi),
+                  ("error_discretisation", lambda line: line[2].error),
+                  *((name, lambda line, k=k: line[2].bounds_Nmm and line[2].bounds_Nmm[k])
+                    for name, k in bounds), ("rate", lambda line: line[3]))
 
 
 def marks_of(bodies: Iterable[str]) -> dict[str, tuple[str, str]]:
@@ -70,6 +87,14 @@ def rate(points: list[Point]) -> float | None:
                             np.log([point.error for point in points]), 1)[0])
 
 
+def fitted(points: list[Point]) -> tuple[np.ndarray, np.ndarray]:
+    """Ends of the power law, over two meshes or more."""
+    h, errors = np.array([p.h for p in points]), np.array([p.error for p in points])
+    power = rate(points)
+    ends = np.array([h.min(), h.max()])
+    return ends, np.exp(np.mean(np.log(errors) - power * np.log(h))) * ends**power
+
+
 def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Point]]]:
     """The scene to draw, else the first that has bounds, and its bodies with bounds on two meshes
     or more."""
@@ -90,18 +115,22 @@ def draw(rows: list[Row]) -> Figure | str:
     if sum(map(len, bodies.values())) < 2:
         return "fewer than two meshes have error_discretisation"
     bounded_scene, bounded = bounded_of(rows)
-    width = LEFT + MAIN + 0.15 + len(bounded) * (GAP + BESIDE)
-    figure = parts.sheet(width, TOP + HEIGHT + BOTTOM,
+    below = TITLE + BELOW + BOTTOM
+    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM
+                         + below * math.ceil(len(bounded) / SIDE_BY_SIDE),
                          "Discretisation error", [
         f"Scene {scene}. Relative constitutive relation error between the equilibrated "
         "stresses and the compatible P2 displacements on the same mesh. h^p: power law fitted by "
         "least squares of logarithms."
-        + (f" Right: scene {bounded_scene}; the bounds of the energy are guaranteed where there is "
+        + (f" Below: scene {bounded_scene}; the bounds of the energy are guaranteed where there is "
            "no friction." if bounded else "")])
     marks = marks_of(dict.fromkeys([*bodies, *bounded]))
-    draw_errors(axes_at(figure, LEFT, TOP, MAIN, HEIGHT), bodies, marks)
-    for k, (body, points) in enumerate(bounded.items(), 1):
-        axes = axes_at(figure, LEFT + MAIN + k * GAP + (k - 1) * BESIDE, TOP, BESIDE, HEIGHT)
+    draw_errors(axes_at(figure, LEFT, TOP, PAGE_WIDTH - LEFT - 0.15, HEIGHT), bodies, marks)
+    beside = min(len(bounded), SIDE_BY_SIDE)
+    for k, (body, points) in enumerate(bounded.items()):
+        width = (PAGE_WIDTH - 0.15 - GAP * beside) / beside
+        axes = axes_at(figure, GAP + k % beside * (GAP + width), TOP + HEIGHT + BOTTOM + TITLE
+                       + below * (k // beside), width, BELOW)
         draw_bounds(axes, body, points, marks[body][0])
     return figure
 
@@ -115,8 +144,10 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels = Labels(axes)
-    for body, points in bodies.items():
+    for points in bodies.values():
         labels.avoid([p.h for p in points], [p.error for p in points])
+        if rate(points):
+            labels.avoid(*fitted(points))
     for body, points in bodies.items():
         colour, marker = marks[body]
         h, errors = [p.h for p in points], [p.error for p in points]
@@ -125,9 +156,7 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
                   linestyle="none" if power else "-")
         words = plain(body)
         if power:
-            scale = math.exp(np.mean(np.log(errors) - power * np.log(h)))
-            ends = np.array([min(h), max(h)])
-            axes.plot(ends, scale * ends**power, color=colour, linewidth=1.2, zorder=1.5)
+            axes.plot(*fitted(points), color=colour, linewidth=1.2, zorder=1.5)
             words += f": $h^{{{power:.2f}}}$"
         for point in points:
             labels.add(f"{point.mesh}, {parts.percent(point.error)}", point.h, point.error,
@@ -146,6 +175,6 @@ def draw_bounds(axes: Axes, body: str, points: list[Point], colour: str) -> None
     axes.plot(h, lower, color=colour, marker="^", linestyle=(0, (4, 1.5)), label="lower bound")
     axes.margins(y=0.12)
     axes.legend(frameon=False, loc="best")
-    axes.set(xlabel=H, ylabel="energy, N mm", title=f"bounds of the energy, {plain(body)}")
+    axes.set(xlabel=r"$n_\varphi^{-1/2}$, 1", ylabel="energy, N mm", title=f"bounds of the energy, {plain(body)}")
     axes.ticklabel_format(axis="y", useOffset=False)
     axes.spines[["top", "right"]].set_visible(False)

@@ -9,9 +9,10 @@ from matplotlib.patheffects import withStroke
 
 from figure_words import plain, width_of
 
-DISTANCES = (5, 11, 18, 27, 38, 52, 70)
+DISTANCES = (5, 11, 18, 27, 38, 52, 70, 95, 125)
 DIRECTIONS = 16
 LEADER = 8  # beyond this distance a line leads to the label
+LEADER_NAME = "_leader"  # of that line, in no legend
 HALO = withStroke(linewidth=2, foreground="white", alpha=0.85)
 SPACING = 3  # between samples of a curve
 
@@ -24,6 +25,7 @@ class Labels:
     size: float = 7.5
     obstacles: list[np.ndarray] = field(default_factory=list)  # (n, 2) each
     boxes: list[np.ndarray] = field(default_factory=list)      # left, bottom, right, top
+    leaders: list[np.ndarray] = field(default_factory=list)    # (2, 2) each: ends
 
     def points(self, x: object, y: object) -> np.ndarray:
         """(n, 2)."""
@@ -57,12 +59,12 @@ class Labels:
         self.boxes.append(np.r_[centre - half, centre + half])
         scale = self.axes.figure.dpi / 72
         inverse = self.axes.transData.inverted().transform
-        gap = centre - anchor
-        nearest = centre - np.clip(gap, -half, half)
+        nearest = border(anchor, centre, half)
         if np.hypot(*(nearest - anchor)) > LEADER:
-            ends = inverse(np.array([anchor, nearest]) * scale)
+            self.leaders.append(np.array([anchor, nearest]))
+            ends = inverse(self.leaders[-1] * scale)
             self.axes.plot(*ends.T, color=text.get("color", "0.4"), linewidth=0.4, alpha=0.7,
-                           zorder=3)
+                           zorder=3, label=LEADER_NAME)
             self.avoid(*ends.T)
         self.axes.text(*inverse(centre * scale), words if formula else plain(words), ha="center",
                        va="center", fontsize=size, zorder=8, path_effects=[HALO], **text)
@@ -87,10 +89,34 @@ class Labels:
                 centres = centres[((centres - half >= low) & (centres + half <= high)).all(1)]
                 hidden = count_near(seen, centres, half + 1)
                 crossed = count_near((starts + ends) / 2, centres, half + (ends - starts) / 2)
-                costs = 1000 * crossed + 12 * hidden + least
+                costs = 1000 * crossed + self.met(anchor, centres, half) + 12 * hidden + least
                 if len(costs) and costs.min() < best[0]:
                     best = (costs.min(), anchor, centres[costs.argmin()])
         return best[1], best[2]
+
+
+    def met(self, anchor: np.ndarray, centres: np.ndarray, half: np.ndarray) -> np.ndarray:
+        """(m,): the cost of the leaders, and of the labels, that a leader to a box there would cross."""
+        ends = border(anchor, centres, half)
+        on_way = anchor + np.linspace(0.1, 0.9, 9)[:, None, None] * (ends - anchor)  # (9, m, 2)
+        boxes = np.reshape(self.boxes, (-1, 1, 1, 4))
+        inside = ((on_way > boxes[..., :2]) & (on_way < boxes[..., 2:])).all(-1).any(1).sum(0)
+        others = np.reshape(self.leaders, (-1, 1, 2, 2))
+        crossed = crossing(anchor, ends, others[..., 0, :], others[..., 1, :]).sum(0)
+        return (np.hypot(*(ends - anchor).T) > LEADER) * (1000 * crossed + 250 * inside)
+
+
+def border(anchor: np.ndarray, centre: np.ndarray, half: np.ndarray) -> np.ndarray:
+    """The point of a box that is next to the anchor."""
+    return centre - np.clip(centre - anchor, -half, half)
+
+
+def crossing(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.ndarray:
+    """Whether the segments ab and cd cross; (..., 2) each -> (...)."""
+    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+        (px, py), (qx, qy) = np.moveaxis(q - p, -1, 0), np.moveaxis(r - p, -1, 0)
+        return np.sign(px * qy - py * qx)
+    return (side(a, b, c) * side(a, b, d) < 0) & (side(c, d, a) * side(c, d, b) < 0)
 
 
 def count_near(points: np.ndarray, centres: np.ndarray, reach: np.ndarray) -> np.ndarray:

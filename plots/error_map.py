@@ -10,12 +10,14 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
+from case_names import words_of_file
 from field_drawing import COLORMAP, draw_boundary
 from field_panel import body_height, view_of, width_of
 from fields import Fields
-from figure_words import plain
+from figure_files import PAGE_WIDTH
+from figure_words import plain, width_of as words_width
 
-WIDTH, HIGHEST, LEFT, RIGHT, TOP, BOTTOM = 9.0, 5.0, 0.55, 0.15, 0.62, 0.92  # inches
+WIDTH, HIGHEST, LEFT, RIGHT, TOP, BOTTOM = PAGE_WIDTH, 5.0, 0.55, 0.15, 0.62, 0.92  # inches
 DPI = 120
 DECADES = 5  # of the scale at most
 SHADES = 24  # few, for a small file
@@ -43,11 +45,12 @@ def draw(s: Fields, share: np.ndarray) -> Figure:
         rasterized=True))
     draw_boundary(axes, s)
     axes.tick_params(length=2)
-    axes.set_ylabel(view.names[1], labelpad=2)
-    axes.set_xlabel(view.names[0], labelpad=1)
+    axes.set_ylabel("y in mm", labelpad=2)
+    axes.set_xlabel("x in mm", labelpad=1)
     axes.spines[:].set_visible(False)
-    figure.text(0.1 / width, 1 - 0.1 / top, plain(f"{s.name}: where the discretisation error is"),
-                va="top", fontsize=10, weight="bold")
+    title = f"{words_of_file(s.name)}: where the discretisation error is"
+    figure.text(0.1 / width, 1 - 0.1 / top, plain(title), va="top", weight="bold",
+                fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
     figure.text(0.1 / width, 1 - 0.32 / top, va="top", s=f"{len(share)} triangles; a tenth of them "
                 f"has {100 * share_of_worst(share):.0f} % of the squared error.")
     bar = figure.colorbar(ScalarMappable(norm, shades), orientation="horizontal",

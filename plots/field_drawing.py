@@ -1,6 +1,6 @@
 """Draws the stress in a body, and the points and the pressure of a contact face, into given axes.
 
-A body lies as its Fields say; a face has its outward normal down.
+A body lies as it is, x to the right and y up; a face has its outward normal down.
 """
 from __future__ import annotations
 
@@ -11,10 +11,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
+from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withTickedStroke
 from matplotlib.tri import Triangulation
 
 from fields import Fields, chains, largest_shear
+from figure_files import SMALLEST_PT
+from figure_words import width_of
 
 COLORMAP = "viridis"
 # Okabe and Ito's colours; shape and lightness say the same in grey.
@@ -29,6 +32,7 @@ ROLE = {
     "contact": dict(color="#D00060", linewidth=2.0, linestyle=(0, (2, 1))),
 }
 FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
+SMALLEST_MARKER_PT = 3.5  # below, open, stick and slip cannot be told apart
 TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
 
 
@@ -106,22 +110,19 @@ def face_frame(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, str]:
         else "along the face, mm"
 
 
-def looks_down(s: Fields, face: np.ndarray) -> bool:
-    """In the picture of the body; more down than sideways."""
-    normal = face_frame(s.edges[face])[1][:, 0]
-    return (normal[0] if s.sideways else -normal[1]) > 0.7
-
-
 def draw_strip(axes: Axes, s: Fields, face: np.ndarray, scales: Scales, marker_pt: float) -> None:
     """Elements behind a face and its contact points; s in the face's frame, axes with limits set.
 
     A point is drawn outside the body, a quarter of the edge's length from its end of the edge; the
-    edge's second point a little farther out.
+    edge's second point a little farther out. Where they would be too small, their states make a band.
     """
     (left, right), (outside, inside) = axes.get_xlim(), axes.get_ylim()
     x, y = s.triangles[..., 0], s.triangles[..., 1]
     draw_stress(axes, s, (x.max(1) > inside) & (y.max(1) > left) & (y.min(1) < right), scales)
     draw_boundary(axes, s)
+    if marker_pt < SMALLEST_MARKER_PT:
+        draw_states(axes, s, face, outside)
+        return
     along, state = s.edges[face, :, 1], s.state[face]
     along = 0.75 * along + 0.25 * along[:, ::-1]
     off = np.broadcast_to(np.array([0.42, 0.75]) * outside, along.shape)
@@ -130,15 +131,40 @@ def draw_strip(axes: Axes, s: Fields, face: np.ndarray, scales: Scales, marker_p
                   markersize=marker_pt, markeredgewidth=0.5)
 
 
+def halves(s: Fields, face: np.ndarray) -> np.ndarray:
+    """(points of the face, 2): start and end along it of the half edge of each, s in its frame."""
+    a, b = s.edges[face, :, 1].T
+    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
+
+
+def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
+    """Neighbours that are in the same state, along a face."""
+    return [(state, list(run)) for state, run in
+            groupby(range(states.size), states.ravel().__getitem__)]
+
+
+def draw_states(axes: Axes, s: Fields, face: np.ndarray, outside: float) -> None:
+    """A band outside the face, named where there is room."""
+    place = halves(s, face)
+    box = axes.get_window_extent()
+    pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
+    for state, run in runs(s.state[face]):
+        left, right = place[run[0], 0], place[run[-1], 1]
+        axes.add_patch(Rectangle((left, 0.25 * outside), right - left, 0.65 * outside,
+                                 facecolor="white" if state == "open" else STATE[state]["fill"],
+                                 edgecolor=STATE[state]["color"], linewidth=0.6))
+        if width_of(state, SMALLEST_PT) + 4 < (right - left) * pt_per_mm:
+            axes.text((left + right) / 2, 0.59 * outside, state, ha="center", va="center",
+                      fontsize=SMALLEST_PT)
+
+
 def draw_traction(axes: Axes, s: Fields, face: np.ndarray) -> None:
     """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face."""
     along, traction = s.edges[face, :, 1], np.abs(s.traction[face])
-    a, b = along.T
     p, q = traction[:, :, 0].T
-    x = np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)  # half an edge for each point
+    x = halves(s, face)
     y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
-    for state, run in groupby(range(len(x)), s.state[face].ravel().__getitem__):
-        run = list(run)
+    for state, run in runs(s.state[face]):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
     axes.plot(along.T, traction[:, :, 0].T, color="black", linewidth=0.8)
     axes.plot(along.T, traction[:, :, 1].T, **FRICTION)

@@ -1,6 +1,7 @@
-"""Lays out one solution: the body, and below it its contact faces, enlarged. Sizes in inches."""
+"""Lays out one solution: the body, and below or beside it its contact faces, enlarged. In inches."""
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -9,43 +10,42 @@ from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
-from matplotlib.patches import ConnectionPatch, Patch
+from matplotlib.patches import Patch
 
 import field_drawing as drawing
 from fields import Fields
 from figure_words import plain
 
-TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.08
+TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
+SCALE = 0.3  # of a body, below it
+NARROWEST = 1.5  # a face
 MARKERS = 0.2  # below a face, for its contact points
-SCALE = 0.2  # of a body, where no face has one
 MARKER_PT = 4.5  # at most
-MARGIN = 0.04  # around a body, of its extent in x
+MARGIN = 0.04  # around a body, of its extent in y
 BEHIND, BESIDE = 0.1, 0.03  # the body behind a face and the space at its ends, of its length
+TALL, HIGHEST = 1.4, 5.6  # height over width of a body with its faces beside it; its height
+LOW_TRACTION = 0.5  # of such a face
 
-AddAxes = Callable[..., Axes]  # left, top, width, height in inches; limits
+AddAxes = Callable[..., Axes]  # left, top, width, height; limits
 
 
 @dataclass(frozen=True)
 class View:
-    """Limits of a body's axes, mm: left, right and bottom, top; the axes' names."""
+    """Limits of a body's axes, mm: left, right and bottom, top."""
 
     across: tuple[float, float]
     upward: tuple[float, float]
-    names: tuple[str, str]
 
     @property
     def height(self) -> float:
         """Over its width."""
-        return abs(self.upward[1] - self.upward[0]) / (self.across[1] - self.across[0])
+        return (self.upward[1] - self.upward[0]) / (self.across[1] - self.across[0])
 
 
 def view_of(s: Fields) -> View:
     low, high = s.boundary.min(axis=(0, 1)), s.boundary.max(axis=(0, 1))
-    margin = MARGIN * (high - low)[0 if s.sideways else 1]
-    (x0, y0), (x1, y1) = low - margin, high + margin
-    if s.sideways:
-        return View((y0, y1), (x1 - 0.75 * margin, x0), ("y in mm", "x in mm"))
-    return View((x0, x1), (y0, y1), ("x in mm", "y in mm"))
+    margin = MARGIN * (high - low)[1]
+    return View(*zip(low - margin, high + margin))
 
 
 def body_height(s: Fields, width: float) -> float:
@@ -57,96 +57,135 @@ def width_of(s: Fields, body: float) -> float:
     return body / body_height(s, 1 + LEFT + RIGHT) + LEFT + RIGHT
 
 
-def has_scale_below(s: Fields) -> bool:
-    """A face with the body's own coordinates."""
-    return any(drawing.face_frame(s.edges[face])[2] == view_of(s).names[0] for face in s.faces())
+@dataclass(frozen=True)
+class Place:
+    """Of a contact face: from the panel's left and upper edge."""
+
+    left: float
+    top: float
+    width: float
+    strip: float     # height of its elements and points
+    traction: float  # and of its pressure, below
+    named: bool      # the pressure's axis has its words
 
 
-def gap_of(s: Fields) -> float:
-    """Between the body and its faces."""
-    return GAP if has_scale_below(s) else GAP + SCALE
+@dataclass(frozen=True)
+class Layout:
+    """Of a panel."""
+
+    body_width: float  # of the body's axes, which begin at LEFT and TITLE
+    body_height: float
+    faces: list[Place]
+    height: float
 
 
-def column_of(s: Fields, width: float) -> tuple[float, float]:
-    """Width of a face's column, and the height of its strip of elements and points."""
-    faces = s.faces()
-    column = (width - LEFT - RIGHT + GAP) / len(faces) - GAP
-    return column, BEHIND * column / (1 + 2 * BESIDE) + MARKERS
+def faces_of(s: Fields) -> list[np.ndarray]:
+    """In the order in which they are drawn: from the left, those of a tall body from above."""
+    def place(face: np.ndarray) -> float:
+        x, y = s.edges[face].mean(axis=(0, 1))
+        return -y if is_tall(s) else x
+    return sorted(s.faces(), key=place)
+
+
+def is_tall(s: Fields) -> bool:
+    return view_of(s).height > TALL and len(s.edges) > 0
+
+
+def strip_of(width: float) -> float:
+    return BEHIND * width / (1 + 2 * BESIDE) + MARKERS
+
+
+def layout_of(s: Fields, width: float) -> Layout:
+    count = len(s.faces())
+    if is_tall(s):
+        body = HIGHEST / view_of(s).height
+        left = LEFT + body + GAP + LEFT
+        across = min(width - left - RIGHT, 4.5)
+        step = strip_of(across) + LOW_TRACTION + LABELS
+        faces = [Place(left, TITLE + k * step, across, strip_of(across), LOW_TRACTION, True)
+                 for k in range(count)]
+        return Layout(body, HIGHEST, faces, TITLE + max(HIGHEST + LABELS, count * step))
+    height = body_height(s, width)
+    below = TITLE + height + SCALE + GAP
+    room = width - LEFT - RIGHT + GAP
+    in_row = min(max(int(room / (NARROWEST + GAP)), 1), max(count, 1))
+    column = room / in_row - GAP
+    step = strip_of(column) + TRACTION + LABELS
+    faces = [Place(LEFT + k % in_row * (column + GAP), below + k // in_row * step, column,
+                   strip_of(column), TRACTION, k % in_row == 0) for k in range(count)]
+    rows = math.ceil(count / in_row)
+    return Layout(width - LEFT - RIGHT, height, faces,
+                  below + rows * step if rows else TITLE + height + LABELS)
 
 
 def height_of(s: Fields, width: float) -> float:
-    faces = gap_of(s) + column_of(s, width)[1] + TRACTION if len(s.edges) else 0
-    return TITLE + body_height(s, width) + faces + LABELS
+    return layout_of(s, width).height
 
 
 def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                scales: drawing.Scales) -> None:
+    """left, top: of the panel, from the figure's lower left corner."""
     size = np.tile(figure.get_size_inches(), 2)
 
-    def add_axes(left: float, top: float, width: float, height: float, **limits: object) -> Axes:
-        return figure.add_axes(np.array([left, top - height, width, height]) / size, **limits)
+    def add_axes(x: float, below: float, width: float, height: float, **limits: object) -> Axes:
+        return figure.add_axes(np.array([left + x, top - below - height, width, height]) / size,
+                               **limits)
 
-    view, height = view_of(s), body_height(s, width)
-    body = add_axes(left + LEFT, top - TITLE, width - LEFT - RIGHT, height, xlim=view.across,
+    view, layout = view_of(s), layout_of(s, width)
+    body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.across,
                     ylim=view.upward)
     body.tick_params(length=2)
-    body.set_ylabel(view.names[1], labelpad=2)
+    body.set_ylabel("y in mm", labelpad=2)
+    body.set_xlabel("x in mm", labelpad=1)
     body.tick_params(axis="x", pad=1)
-    if has_scale_below(s):
-        body.set_xticks([])
-    else:
-        body.set_xlabel(view.names[0], labelpad=1)
     body.spines[:].set_visible(False)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
-    body.set_title(f"{plain(s.mesh)}: {len(s.corners)} triangles{n_phi}", pad=5)
+    figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
+                (top - TITLE + 0.07) / size[1],
+                f"{plain(s.mesh)}: {len(s.corners)} triangles{n_phi}", va="bottom", fontsize=9,
+                ha="left" if is_tall(s) else "center")
     drawing.draw_body(body, s, scales)
-    lettered = not all(drawing.looks_down(s, face) for face in s.faces())
-    for k, face in enumerate(sorted(s.faces(), key=lambda face: s.placed(s.edges[face[0], 0])[0])):
-        column, strip = column_of(s, width)
-        corner = (left + LEFT + k * (column + GAP), top - TITLE - height - gap_of(s))
-        draw_face(body, s, face, add_axes, corner, (column, strip), scales, k, lettered)
+    faces = faces_of(s)
+    for k, (face, place) in enumerate(zip(faces, layout.faces)):
+        draw_face(body, s, face, add_axes, place, scales, letter_of(k) if len(faces) > 1 else "")
 
 
-def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes,
-              corner: tuple[float, float], size: tuple[float, float], scales: drawing.Scales,
-              k: int, lettered: bool) -> None:
-    """A strip of elements with the contact points, below it the pressure. corner: left, top.
+def letter_of(k: int) -> str:
+    """A to Z, then A2 to Z2, …"""
+    return chr(ord("A") + k % 26) + (str(k // 26 + 1) if k > 25 else "")
 
-    The k-th face: lines lead to it from the body, or it is lettered in both.
-    """
+
+def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place: Place,
+              scales: drawing.Scales, letter: str) -> None:
+    """A strip of elements with the contact points, below it the pressure; its letter in both
+    pictures."""
     origin, frame, along = drawing.face_frame(s.edges[face])
     local = s.moved(origin, frame)
     start, end = local.edges[face[0], 0, 1], local.edges[face[-1], 1, 1]
     limits = (start - BESIDE * (end - start), end + BESIDE * (end - start))
-    per_mm = size[0] / (limits[1] - limits[0])
+    per_mm = place.width / (limits[1] - limits[0])
 
-    strip = add_axes(*corner, *size, xlim=limits, xticks=[], yticks=[],
-                     ylim=(MARKERS / per_mm, (MARKERS - size[1]) / per_mm))
+    strip = add_axes(place.left, place.top, place.width, place.strip, xlim=limits, xticks=[],
+                     yticks=[], ylim=(MARKERS / per_mm, (MARKERS - place.strip) / per_mm))
     strip.spines[:].set_color("0.5")
     strip.spines["bottom"].set_visible(False)
     spacing_pt = 72 * per_mm * (end - start) / len(face)
     drawing.draw_strip(strip, local, face, scales, min(MARKER_PT, 0.67 * spacing_pt))
 
-    traction = add_axes(corner[0], corner[1] - size[1], size[0], TRACTION,
+    traction = add_axes(place.left, place.top + place.strip, place.width, place.traction,
                         xlim=limits, ylim=(scales.pressure_MPa, 0))
-    traction.tick_params(labelleft=k == 0, length=2)
+    traction.tick_params(labelleft=place.named, length=2)
     traction.spines[["right", "bottom"]].set_visible(False)
     traction.set_xlabel(along, labelpad=1)
-    traction.set_ylabel("MPa" if k == 0 else "", labelpad=2)
+    traction.set_ylabel("MPa" if place.named else "", labelpad=2)
     drawing.draw_traction(traction, local, face)
 
-    if lettered:
-        letter, box = chr(ord("A") + k % 26), dict(facecolor="white", edgecolor="none", pad=0.8)
-        middle = s.edges[face].mean(axis=(0, 1))
-        normal = s.placed(frame[:, 0]) * (-1 if s.sideways else 1, 1)
-        body.annotate(letter, s.placed(middle), xytext=9 * normal, textcoords="offset points",
-                      ha="center", va="center", weight="bold")
+    if letter:
+        box = dict(facecolor="white", edgecolor="none", pad=0.8)
+        body.annotate(letter, s.edges[face].mean(axis=(0, 1)), xytext=9 * frame[:, 0],
+                      textcoords="offset points", ha="center", va="center", weight="bold")
         strip.annotate(letter, (0, 1), xycoords="axes fraction", xytext=(4, -3), weight="bold",
                        textcoords="offset points", va="top", bbox=box)
-        return
-    for side, point in enumerate((s.edges[face[0], 0], s.edges[face[-1], 1])):
-        body.add_artist(ConnectionPatch(s.placed(point), (side, 1), "data", "axes fraction",
-                                        axesA=body, axesB=strip, color="0.5", linewidth=0.5))
 
 
 def draw_legend(figure: Figure, scales: drawing.Scales) -> None:

@@ -12,7 +12,6 @@ import numpy as np
 import pandas as pd
 
 from case_names import case_name, file_of
-from paper_sizes import catalogue_mesh
 from records import RecordsError, cells_of, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
@@ -38,7 +37,7 @@ class Fields:
     state: np.ndarray     # (P/2, 2) of STATES
     mesh: str
     n_phi: int | None     # from the record; None: there is none
-    sideways: bool        # drawn with y to the right and x down: a tooth rests on its foundation
+    of_face: bool = False  # seen from a face: outward normal and tangent instead of x and y
 
     @property
     def triangles(self) -> np.ndarray:
@@ -46,14 +45,15 @@ class Fields:
         return self.corners[:, :, 0]
 
     def moved(self, origin: np.ndarray, frame: np.ndarray) -> Fields:
-        """Positions seen from origin (2,) along the frame's columns (2, 2), drawn with the first
-        down and the second to the right; stresses stay."""
-        return replace(self, sideways=True, **{key: (getattr(self, key) - origin) @ frame
+        """Positions seen from origin (2,) along the frame's columns (2, 2), normal and tangent;
+        stresses stay."""
+        return replace(self, of_face=True, **{key: (getattr(self, key) - origin) @ frame
                                                for key in ("corners", "boundary", "edges")})
 
     def placed(self, points: np.ndarray) -> np.ndarray:
-        """(..., 2) x, y -> to the right and along the vertical axis of a picture."""
-        return points[..., ::-1] if self.sideways else points
+        """(..., 2) -> to the right and along the vertical axis of a picture: x and y as they are, a
+        face with its tangent to the right."""
+        return points[..., ::-1] if self.of_face else points
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face; around a hole two, cut apart where
@@ -193,5 +193,4 @@ def read_fields(results: Path, name: str, cases: dict[str, tuple[str, int]]) -> 
     half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), mesh=mesh, n_phi=n_phi,
-                  sideways=catalogue_mesh(mesh) is not None)
+                  state=state.reshape(-1, 2), mesh=mesh, n_phi=n_phi)

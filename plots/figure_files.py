@@ -16,6 +16,8 @@ from record_keys import Row
 # Of a colour's value: what is left of it in steps of 6.
 STEPS = (255 - (255 - np.arange(256) + 2) // 6 * 6).astype(np.uint8)
 VECTOR_DPI, DPI, COLOURS = 200, 120, 128
+# A page shows a figure about 830 pixels wide: 100 an inch of the widest, 7 points as 9.7 pixels.
+PAGE_WIDTH, SMALLEST_PT = 8.3, 7
 
 
 @dataclass(frozen=True)
@@ -25,13 +27,13 @@ class Drawing:
     name: str                          # of its files
     rows: list[Row]                    # that it shows, or names
     draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
+    table: Callable[[list[Row]], str]  # of rows: the numbers drawn, a CSV beside the figure
     vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
-    table: Callable[[list[Row]], str] | None = None  # CSV, for a file beside the figure
 
     @property
     def suffixes(self) -> tuple[str, ...]:
-        return ((".svg", ".png") if self.vector else (".png",)) + ((".csv",) if self.table else ())
+        return (".svg", ".png", ".csv") if self.vector else (".png", ".csv")
 
     def writer(self, figure: Figure, suffix: str) -> Callable[[Path], object]:
         if suffix == ".csv":

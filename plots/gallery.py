@@ -6,12 +6,13 @@
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
 element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
-an adaptive loop have one. Exit 2: wrong input; one line says
-which, and nothing is written.
+an adaptive loop have one. Beside each picture NAME.csv has its numbers. Exit 2: wrong input; one
+line says which, and nothing is written.
 """
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
@@ -21,24 +22,27 @@ from matplotlib.figure import Figure
 import adapted_meshes
 import command
 import error_map
+import field_tables
+from case_names import words_of_file
 from field_drawing import Scales
-from field_panel import draw_legend, draw_panel, height_of, width_of
+from field_panel import draw_legend, draw_panel, height_of, is_tall, width_of
 from fields import (Fields, cases_of, error_names_in, errors_of, names_in, read_error_share,
                     read_fields)
-from figure_files import write_small_png
+from figure_files import PAGE_WIDTH, write_small_png
+from figure_words import plain
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
          "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
-WIDTH, HEADER, FOOTER = 10.0, 0.5, 0.6  # inches
+WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.66, 0.62  # inches
 BODY = 5.0  # highest body in a picture of its own
 HEADING = (
     r"Largest shear stress in the plane, "
     r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
-    "stresses linear on each third of a triangle, nothing averaged.\n"
-    "Below each body its contact faces, enlarged: elements, contact points (two per edge), "
-    "contact pressure. Scene and method: ")
+    "stresses linear\non each third of a triangle, nothing averaged. Below or beside each body its contact "
+    "faces, enlarged: elements,\ncontact points (two per edge) or a band of their states, contact "
+    "pressure. Scene and method: ")
 
 
 def compose(rows: list[list[Fields]]) -> Figure:
@@ -46,11 +50,11 @@ def compose(rows: list[list[Fields]]) -> Figure:
     scales = Scales.of([s for row in rows for s in row])
     widths = [WIDTH / len(row) for row in rows]
     if len(rows) == len(rows[0]) == 1:
-        widths = [min(WIDTH, width_of(rows[0][0], BODY))]
+        widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
     heights = [max(height_of(s, width) for s in row) for row, width in zip(rows, widths)]
     figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
-    heading = HEADING + rows[0][0].name.partition("-")[2].replace("$", r"\$")
+    heading = HEADING + plain(words_of_file(rows[0][0].name).partition(", ")[2])
     figure.text(0.5, 1 - 0.1 / top, heading, ha="center", va="top")
     top -= HEADER
     for row, width, height in zip(rows, widths, heights):
@@ -69,9 +73,17 @@ def write(figure: Figure, path: Path) -> None:
         write_small_png(figure, DPI, path)
 
 
-def save(figure: Figure, targets: list[Path]) -> None:
-    command.replace_all(targets[0].parent, {path.name: partial(write, figure) for path in targets})
-    print(*targets, sep="\n")
+def save(out: Path, name: str, table: str, writers: dict[str, Callable[[Path], object]]) -> None:
+    """A picture by its suffixes, and its numbers beside it."""
+    writers = {name + suffix: write for suffix, write in writers.items()}
+    command.replace_all(out, writers | {
+        f"{name}.csv": partial(Path.write_text, data=table, encoding="utf-8")})
+    print(*(out / file for file in writers), sep="\n")
+
+
+def save_composed(out: Path, name: str, rows: list[list[Fields]], suffixes: tuple[str, ...]) -> None:
+    save(out, name, field_tables.contact_points([s for row in rows for s in row]),
+         dict.fromkeys(suffixes, partial(write, compose(rows))))
 
 
 def choose(names: list[str]) -> list[str] | None:
@@ -102,25 +114,21 @@ def draw(args: argparse.Namespace) -> None:
     out.mkdir(parents=True, exist_ok=True)
     if chosen:
         *teeth, rack = (solutions[name] for name in chosen)
-        save(compose([teeth, [rack]]), [out / "gallery.png", out / "gallery.svg"])
+        save_composed(out, "gallery", [teeth, [rack]], (".png", ".svg"))
     if args.each or not chosen:
         for name, s in solutions.items():
-            save(compose([[s]]), [out / f"fields_{name}.png"])
+            save_composed(out, f"fields_{name}", [[s]], (".png",))
     levels = adapted_meshes.chosen(list(maps))
     if levels and all(maps[name][1].any() for name in levels):
-        figure = adapted_meshes.draw([(*maps[name], errors_of(args.results).get(name))
-                                      for name in levels])
-        command.replace_all(out, {"adapted_meshes.png": partial(
-            write_small_png, figure, adapted_meshes.DPI)})
-        print(out / "adapted_meshes.png")
+        shown = [(*maps[name], errors_of(args.results).get(name)) for name in levels]
+        save(out, "adapted_meshes", field_tables.adapted_levels(shown), {".png": partial(
+            write_small_png, adapted_meshes.draw(shown), adapted_meshes.DPI)})
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
-        path = out / f"error_map_{name}.png"
-        command.replace_all(out, {path.name: partial(write_small_png, error_map.draw(s, share),
-                                             error_map.DPI, colours=200)})
-        print(path)
+        save(out, f"error_map_{name}", field_tables.error_shares(s, share), {".png": partial(
+            write_small_png, error_map.draw(s, share), error_map.DPI, colours=200)})
 
 
 def main() -> None:

@@ -8,13 +8,14 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
+from figure_table import csv_of
 from figure_words import plain
 from record_keys import Row
 from selection import by_mesh, grouped
 
-WIDTH, LEFT, TOP, BOTTOM, HEIGHT, GAP = 8.0, 0.62, 0.55, 0.45, 3.6, 0.15  # inches
+LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
 COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
 MESHES = 2  # that there is room for
 
@@ -23,12 +24,12 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "load-steps" and row.load_steps]
     shown = [row for own in list(by_mesh(study).values())[:MESHES] for row in own]
     if shown:
-        yield Drawing("load_steps", shown, draw, vector=True, table=table_of)
+        yield Drawing("load_steps", shown, draw, table_of, vector=True)
 
 
 def table_of(rows: list[Row]) -> str:
-    return parts.csv_of([row for own in by_mesh(rows).values() for row in
-                         sorted(own, key=lambda row: (*parts.order(row), row.load_steps))], COLUMNS)
+    return csv_of([row for own in by_mesh(rows).values() for row in
+                   sorted(own, key=lambda row: (*parts.order(row), row.load_steps))], *COLUMNS)
 
 
 def draw(rows: list[Row]) -> Figure | str:
@@ -38,13 +39,13 @@ def draw(rows: list[Row]) -> Figure | str:
         return "no case of the study of load steps has a time"
     meshes = by_mesh(timed)
     lost = len(rows) - len(timed)
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM, "Load steps", [
+    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM, "Load steps", [
         "Time of all steps of a path to the same loads, over their number. Level at the left: what "
         "a body costs once, its condensation; rising in proportion to the right: what each step "
         "costs anew, contact law, recovery and check, or a whole iteration. "
         f"{parts.threads(rows)}."
         + (f" {lost} of {len(rows)} cases have no answer and are not drawn." if lost else "")])
-    panel = (WIDTH - LEFT - 0.1 - (len(meshes) - 1) * GAP) / len(meshes)
+    panel = (PAGE_WIDTH - LEFT - 0.1 - (len(meshes) - 1) * GAP) / len(meshes)
     for k, (mesh, own) in enumerate(meshes.items()):
         axes = axes_at(figure, LEFT + k * (panel + GAP), TOP, panel, HEIGHT)
         log_log(axes, xlim=log_limits([row.load_steps for row in timed], 1.4),

@@ -7,13 +7,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import study_parts as parts
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at
+from figure_table import CASE, csv_of
 from figure_words import plain, width_of
 from record_keys import OWNERS, Row
 from selection import by_body, by_mesh, compared, grouped, of_scene
 
-WIDTH, LEFT, RIGHT, TOP, BOTTOM, BAR = 8.6, 1.5, 1.75, 0.92, 0.45, 0.27
+LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
 BETWEEN = 0.75  # the axes of two meshes
 ROOM = 24  # bars
 MIB = 2**20
@@ -37,13 +38,22 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
                       and row.stop == "target" and not row.study])
     if split:
         bars = [bar for own in by_body(split).values() for bar in chosen(own)]
-        yield Drawing("memory_by_owner", bars, draw)
+        yield Drawing("memory_by_owner", bars, draw, table_of)
 
 
 def chosen(rows: list[Row]) -> list[Row]:
     """Of a body's largest mesh that has two methods or more; by peak."""
     meshes = [compared(own, ROOM) for own in by_mesh(rows).values()]
     return sorted(next((own for own in reversed(meshes) if len(own) > 1), []), key=peak_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """A line per bar and owner."""
+    pieces = [(row, owner, own) for row in rows for owner, own in row.memory_by_owner.items()]
+    return csv_of(pieces, *((name, lambda piece, name=name: getattr(piece[0], name))
+                            for name in CASE), ("owner", lambda piece: piece[1]),
+                  *((name, lambda piece, name=name: piece[2].get(name))
+                    for name in ("peak_bytes", "counted_bytes")))
 
 
 def peaks_of(row: Row) -> dict[str, int]:
@@ -70,7 +80,7 @@ def draw(rows: list[Row]) -> Figure | str:
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
               if row.memory_counts_differ]
     body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
-    figure = parts.sheet(WIDTH, TOP + body + BOTTOM,
+    figure = parts.sheet(PAGE_WIDTH, TOP + body + BOTTOM,
                          "Where the memory goes", [
         f"{'; '.join(sizes)}, scene {rows[0].scene}, {parts.threads(rows)}. "
         "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
@@ -83,13 +93,13 @@ def draw(rows: list[Row]) -> Figure | str:
     left = max(LEFT, max(width_of(row.method, parts.TYPE) for row in rows) / 72 + 0.2)
     top = TOP
     for mesh, own in meshes.items():
-        axes = axes_at(figure, left, top, WIDTH - left - RIGHT, BAR * len(own))
+        axes = axes_at(figure, left, top, PAGE_WIDTH - left - RIGHT, BAR * len(own))
         draw_bars(axes, own, used)
         if len(meshes) > 1:
             axes.set_title(plain(mesh), loc="left", pad=2, weight="bold")
         top += BAR * len(own) + BETWEEN
     figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
-                  bbox_to_anchor=(left / WIDTH - 0.01, 1 - 0.26 / height),
+                  bbox_to_anchor=(left / PAGE_WIDTH - 0.01, 1 - 0.26 / height),
                   borderpad=0, columnspacing=1.4, handlelength=1.2, labelspacing=0.3)
     return figure
 

@@ -7,25 +7,26 @@ from collections.abc import Iterator
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+import selection
 import study_parts as parts
 from direct_labels import Labels
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
-from figure_words import plain
+from figure_table import CASE, KNOB, csv_of
+from figure_words import plain, width_of
 from record_keys import Row
 from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene
-from work_precision_figure import AXES, curves_of, value_of
+from work_precision_figure import AXES, value_of
 
-WIDTH, LEFT, TOP, HEIGHT, GAP, BETWEEN = 11.5, 0.72, 0.65, 4.4, 0.3, 0.5
-SIDE_BY_SIDE = 2  # bodies
-TABLE_LINE = 0.19  # inches: a line of the table
-HIGHEST = 1.0  # total errors above are not drawn: nothing of such an answer is right
+LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
+TABLE_LINE = 0.17  # inches: a line of the table
+HIGHEST = 0.2  # total errors above are of no use, and not drawn …
+OVER_FLOOR = 1.5  # … but for so many times the discretisation error of the coarsest mesh
 GAIN = 0.01  # of the error: less is not worth a point of the front
 STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
-TABLE = ("total error at most", "cheapest method", "mesh", "time", "peak heap",
+TABLE = ("error at most", "cheapest method", "mesh", "time", "peak heap",
          "displacements: mesh", "time", "peak heap")
-TABLE_AT = (0.0, 0.13, 0.39, 0.5, 0.58, 0.67, 0.84, 0.92)  # of the sheet's width
 FLOOR_WORDS = 11  # points, between words of two floors
 # Kinds of meshes: colour and width of their fronts.
 KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
@@ -37,17 +38,36 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     if study:
         levels_of = [row for row in rows if row.study == "" and row.adapt_level is not None
                      and row.scene == study[0].scene]
-        yield Drawing("pareto", study + levels_of, draw)
+        yield Drawing("pareto", study + levels_of, draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """on_front_in_…: of the stress methods on meshes of the kind."""
+    known = known_of(rows)
+    stress = [row for row in known if not row.in_displacements]
+    fronts = {column: {row.line for own in grouped(stress, lambda row: (row.body, kind_of(row)))
+                       .values() for row in front(own, column)} for column in AXES}
+    return csv_of(known, *CASE, *KNOB, ("kind_of_mesh", kind_of), *AXES, "error_discretisation",
+                  "error_stress", "error_total",
+                  *((f"on_front_in_{column}", lambda row, own=own: row.line in own)
+                    for column, own in fronts.items()))
+
+
+def known_of(rows: list[Row]) -> list[Row]:
+    highest = highest_of(rows)
+    return [row for row in rows if row.time_s and row.error_total and row.error_total <= highest]
+
+
+def highest_of(rows: list[Row]) -> float:
+    """Total error drawn, at most 1: nothing of such an answer is right."""
+    floor = max((row.error_discretisation or 0 for row in rows), default=0)
+    return min(max(HIGHEST, OVER_FLOOR * floor), 1)
 
 
 def front(rows: list[Row], column: str) -> list[Row]:
     """Those that no cheaper one equals in total error, the cheapest first; GAIN is no gain."""
-    found: list[Row] = []
-    for row in sorted((row for row in rows if value_of(row, column)),
-                      key=lambda row: (value_of(row, column), row.error_total)):
-        if not found or row.error_total < (1 - GAIN) * found[-1].error_total:
-            found.append(row)
-    return found
+    return selection.front(rows, lambda row: value_of(row, column), lambda row: row.error_total,
+                           GAIN)
 
 
 def levels(errors: list[float]) -> list[float]:
@@ -75,7 +95,7 @@ def with_knob(row: Row) -> str:
     return f"{row.method}, {row.knob} {row.knob_value or 0:g}" if row.knob else row.method
 
 
-def table_of(rows: list[Row]) -> list[tuple[str, ...]]:
+def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
     """Cells of TABLE for each level, the largest error first."""
     stress = [row for row in rows if not row.in_displacements]
     lines = []
@@ -93,68 +113,67 @@ def table_of(rows: list[Row]) -> list[tuple[str, ...]]:
 
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of an error study's scene. The figure, or why there is none."""
-    known = [row for row in rows if row.time_s and row.error_total and row.error_total <= HIGHEST]
+    known = known_of(rows)
     if not known:
         return "no row has time_s and an error_total up to 1"
     bodies = by_body(sorted(known, key=lambda row: row.n_phi))
-    tables = {body: table_of(of_body) for body, of_body in bodies.items()}
+    tables = {body: levels_table(of_body) for body, of_body in bodies.items()}
     kinds = [kind for kind in KINDS if kind in map(kind_of, known)]
     columns = [column for column in AXES if any(value_of(row, column) for row in known)]
-    block = TOP + len(columns) * (HEIGHT + BETWEEN)  # of as many bodies as stand side by side
-    over = block * math.ceil(len(bodies) / SIDE_BY_SIDE)
-    heights = {body: 0.2 + TABLE_LINE * (len(table) + 1.5) for body, table in tables.items()}
+    heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 2)
+               for body, table in tables.items()}
+    figure = parts.sheet(PAGE_WIDTH, sum(heights.values()),
+                         "What a total error costs: method and mesh together",
+                         [caption(rows, known, kinds)])
+    panel = (PAGE_WIDTH - LEFT - 0.1 - (len(columns) - 1) * GAP) / len(columns)
+    above = 0.0
+    for body, of_body in bodies.items():
+        errors = [row.error_total for row in of_body]
+        figure.text(LEFT / PAGE_WIDTH, 1 - (above + TOP - 0.18) / figure.get_size_inches()[1],
+                    plain(body), fontsize=10, weight="bold")
+        for j, column in enumerate(columns):
+            axes = axes_at(figure, LEFT + j * (panel + GAP), above + TOP, panel, HEIGHT)
+            own = [row for row in of_body if value_of(row, column)]
+            log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.1),
+                    xlim=log_limits([value_of(row, column) for row in own], 1.6))
+            axes.spines[["top", "right"]].set_visible(False)
+            if j == 0:
+                axes.set_ylabel("total relative error of the stresses, 1")
+            else:
+                axes.tick_params(labelleft=False)
+            draw_panel(axes, own, column, kinds)
+        draw_table(figure, above + TOP + HEIGHT + BOTTOM, displacements_of(of_body), tables[body])
+        above += heights[body]
+    return figure
+
+
+def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     names = displacements_of(known)
     others = (f"The displacement method {' and '.join(names)} has its own curve; by definition it "
               "has the mesh's error. ") if names else ""
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
     tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
     adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
-    figure = parts.sheet(WIDTH, over + sum(heights.values()) + 0.3,
-                         "What a total error costs: method and mesh together", [
+    highest = highest_of(rows)
+    beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
+    cut = f" {beyond} solves with errors above {parts.percent(highest)} are not drawn." \
+        if beyond else ""
+    return (
         f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
         "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
-        "give or take 1 %. Dotted: the discretisation error of meshes as they are, the lowest that "
-        "a method can reach there; a method's curve ends there however many more digits it "
-        f"computes. {others}Small points: all solves{tuned}.{adapting}"])
-    beside = min(len(bodies), SIDE_BY_SIDE)
-    panel = (WIDTH - LEFT - 0.1 - (beside - 1) * GAP) / beside
-    errors = [row.error_total for row in known]
-    for k, (body, of_body) in enumerate(bodies.items()):
-        place, above = k % beside, block * (k // beside) + TOP
-        left = LEFT + place * (panel + GAP)
-        figure.text(left / WIDTH, 1 - (above - 0.18) / figure.get_size_inches()[1], plain(body),
-                    fontsize=10, weight="bold")
-        for j, column in enumerate(columns):
-            axes = axes_at(figure, left, above + j * (HEIGHT + BETWEEN), panel, HEIGHT)
-            own = [row for row in of_body if value_of(row, column)]
-            log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.25),
-                    xlim=log_limits([value_of(row, column) for row in own], 1.6))
-            axes.spines[["top", "right"]].set_visible(False)
-            if place == 0:
-                axes.set_ylabel("total relative error of the stresses, 1")
-            else:
-                axes.tick_params(labelleft=False)
-            draw_panel(axes, own, column, kinds)
-    top = over + 0.1
-    for body, table in tables.items():
-        figure.text(LEFT / WIDTH, 1 - (top + 0.1) / figure.get_size_inches()[1], plain(body),
-                    fontsize=8, style="italic")
-        draw_table(figure, top + 0.2, displacements_of(bodies[body]), table)
-        top += heights[body]
-    return figure
+        "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
+        "the discretisation error of meshes as they are, the lowest that a method can reach there. "
+        f"{others}Small points: all solves{tuned}.{adapting}{cut}")
 
 
 def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> None:
     labels = Labels(axes)
     draw_floors(axes, [row for row in rows if kind_of(row) == "as they are"], labels)
     stress = [row for row in rows if not row.in_displacements]
-    for mesh in dict.fromkeys(row.mesh for row in stress):
-        for curve in curves_of([row for row in stress if row.mesh == mesh]).values():
-            look = curve[0].look
-            axes.plot([value_of(row, column) for row in curve], [row.error_total for row in curve],
-                      color=look.colour, marker=look.marker, markersize=3, linewidth=0.7, alpha=0.3,
-                      linestyle=look.dashes, zorder=2)
+    for row in stress:
+        axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
+                  marker=row.look.marker, markersize=2.5, alpha=0.35, markeredgewidth=0, zorder=2)
     fronts = {kind: front([row for row in stress if kind_of(row) == kind], column)
               for kind in kinds}
     for kind, best in fronts.items():
@@ -166,12 +185,15 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
                 draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column,
                                    kind if len(kinds) > 1 else "")
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
-    named: set[tuple[str, str]] = set()
-    for row in reversed(fronts.get("as they are", [])):  # the lowest of a method on a mesh
-        if (row.method, row.mesh) not in named:
-            labels.add(f"{row.method}, {row.mesh}", value_of(row, column), row.error_total,
-                       weight="bold", color=row.look.colour)
-        named.add((row.method, row.mesh))
+    for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
+        meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
+        labels.add(f"{method}, {joined(meshes)}", [value_of(row, column) for row in own[::-1]],
+                   [row.error_total for row in own[::-1]], weight="bold",
+                   color=own[0].look.colour)
+
+
+def joined(meshes: list[str]) -> str:
+    return meshes[0] if len(meshes) == 1 else f"{meshes[0]}..{meshes[-1]}"
 
 
 def draw_front(axes: Axes, labels: Labels, best: list[Row], column: str, name: str) -> None:
@@ -204,7 +226,7 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
             groups.append([mesh])
     for group in groups:
         ends = [group[0], group[-1]] if len(group) > 1 else group
-        words = f"{'..'.join(ends)}: {' to '.join(parts.percent(floors[mesh]) for mesh in ends)}"
+        words = f"{joined(ends)}: {' to '.join(parts.percent(floors[mesh]) for mesh in ends)}"
         at = floors[group[0]]
         axes.annotate(plain(words), (1, at), xytext=(-2, 1.5), ha="right",
                       xycoords=axes.get_yaxis_transform(), textcoords="offset points",
@@ -239,10 +261,16 @@ def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None
 
 def draw_table(figure: Figure, top: float, displacements: list[str],
                lines: list[tuple[str, ...]]) -> None:
+    """Columns as wide as their widest cell, spread over the page."""
     height = figure.get_size_inches()[1]
-    heads = [f"{'/'.join(displacements)} {head}" if head.startswith("displ") else head
-             for head in TABLE]
-    for k, line in enumerate([heads, *lines]):
-        for at, cell in zip(TABLE_AT if displacements else TABLE_AT[:5], line):
-            figure.text((LEFT + at * (WIDTH - LEFT)) / WIDTH, 1 - (top + k * TABLE_LINE) / height,
-                        plain(cell), va="top", fontsize=8, weight="bold" if k == 0 else "normal")
+    heads = [f"{'/'.join(displacements)}: mesh" if head.startswith("displ") else head
+             for head in TABLE][:None if displacements else 5]
+    table = [heads, *lines]
+    widths = [max(width_of(cell, 8, "bold") for cell in column) / 72 for column in zip(*table)]
+    gap = (PAGE_WIDTH - LEFT - 0.1 - sum(widths)) / max(len(heads) - 1, 1)
+    for k, line in enumerate(table):
+        left = LEFT
+        for cell, width in zip(line, widths):
+            figure.text(left / PAGE_WIDTH, 1 - (top + k * TABLE_LINE) / height, plain(cell),
+                        va="top", fontsize=8, weight="bold" if k == 0 else "normal")
+            left += width + min(gap, 0.35)

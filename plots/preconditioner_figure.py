@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 import figure_parts as parts
 from figure_files import Drawing
 from figure_parts import HEAP, TIME, ErrorScale, Footer, axes_at, draw_point
+from figure_table import CASE, EXTRAPOLATED, csv_of
 from figure_words import Notes, plain, short
 from record_keys import Row
 from selection import by_body, by_mesh, grouped
@@ -31,8 +32,13 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for suffix, own, scale in parts.by_stop(rows):
         shown = [row for of_body in by_body(own).values()
                  for column in columns_of(chosen(of_body)).values() for row in column.values()]
-        yield Drawing(f"figure3{suffix}", shown, draw, vector=True,
+        yield Drawing(f"figure3{suffix}", shown, draw, table_of, vector=True,
                       options=dict(run=own, scale=scale))
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, "family", "preconditioner", "time_s", *EXTRAPOLATED,
+                  "peak_heap_bytes", "error_force")
 
 
 def chosen(rows: list[Row]) -> list[Row]:

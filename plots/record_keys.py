@@ -48,6 +48,10 @@ def is_count(value: object) -> bool:
     return isinstance(value, int) and not isinstance(value, bool) and value >= 0
 
 
+def is_times(value: object) -> bool:
+    return isinstance(value, list) and all(is_number(time) and time > 0 for time in value)
+
+
 def is_text(value: object) -> bool:
     return isinstance(value, str)
 
@@ -85,6 +89,7 @@ POSITIVE = number("a number above 0", lambda x: x > 0)
 NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)
 FINITE = number("a number", lambda x: True)
 SHARE = number("a number from 0 to 1", lambda x: 0 <= x <= 1)
+TIMES = Kind("a list of numbers above 0", is_times, empty=None, may_be_empty=True)
 SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None,
              may_be_empty=True)
 
@@ -123,6 +128,7 @@ class Row:
     repetitions: int = key(COUNT, needed=True)
     time_s: float | None = key(POSITIVE, needed=True)
     time_mad_s: float | None = key(NOT_NEGATIVE)
+    samples_s: list[float] | None = key(TIMES)    # of time_s, every timed run; in records.jsonl only
     load_steps: int | None = key(COUNT)
     time_once_s: float | None = key(NOT_NEGATIVE)     # of time_s, for the body …
     time_per_load_s: float | None = key(NOT_NEGATIVE)  # … and for each load step

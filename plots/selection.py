@@ -52,7 +52,7 @@ def tier(row: Row) -> int:
 def compared(rows: list[Row], room: int) -> list[Row]:
     """Of the paper's methods and those with names of their own; of variants, and then of
     preconditioners, if the methods are then at most `room`. A method under two names, an alias
-    and the general one, is there once for each mesh and stop: by its alias."""
+    and the general one, is there once for each mesh, scene and stop: by its alias."""
     tiers: dict[str, int] = {}
     for row in rows:
         tiers[row.general_name] = min(tier(row), tiers.get(row.general_name, 9))
@@ -66,10 +66,10 @@ def compared(rows: list[Row], room: int) -> list[Row]:
 
 
 def once(rows: list[Row], by_alias: bool) -> list[Row]:
-    """Each method for each mesh and stop."""
-    chosen: dict[tuple[str, str, str], Row] = {}
+    """Each method for each mesh, scene and stop."""
+    chosen: dict[tuple[str, ...], Row] = {}
     for row in rows:
-        case = (row.general_name, row.mesh, row.stop)
+        case = (row.general_name, row.mesh, row.scene, row.stop)
         if case not in chosen or (row.method != row.general_name) == by_alias:
             chosen[case] = row
     return list(chosen.values())
@@ -87,3 +87,14 @@ def given(row: Row) -> tuple[float, float] | None:
 def is_paper_stop(row: Row) -> bool:
     """A point of an error study that the paper's stop ended."""
     return row.iterative and row.stop == "paper"
+
+
+def front(rows: list[Row], cost: Callable[[Row], float | None], error: Callable[[Row], float],
+          gain: float = 0) -> list[Row]:
+    """Those that no cheaper one equals in error, the cheapest first; a gain of the error of less
+    than this part of it is none."""
+    found: list[Row] = []
+    for row in sorted((row for row in rows if cost(row)), key=lambda row: (cost(row), error(row))):
+        if not found or error(row) < (1 - gain) * error(found[-1]):
+            found.append(row)
+    return found

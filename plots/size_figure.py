@@ -4,6 +4,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -11,8 +12,10 @@ from matplotlib.figure import Figure
 
 import figure_parts as parts
 from bodies import sharing_axes
+from direct_labels import LEADER_NAME
 from figure_files import Drawing
 from figure_parts import EDGE_AT, HEAP, TIME, ErrorScale, Footer, Quantity, axes_at, draw_point
+from figure_table import CASE, EXTRAPOLATED, csv_of
 from figure_words import Notes, plain, width_of
 from looks import plain_looks
 from record_keys import Row
@@ -32,8 +35,17 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for suffix, own, scale in parts.by_stop(rows):
         shown = compared(sized([row for row in own if not row.in_displacements]), ROOM)
         for name, quantity in (("figure4", TIME), ("figure5", HEAP)):
-            yield Drawing(name + suffix, shown, draw, vector=True,
-                          options=dict(run=own, quantity=quantity, scale=scale))
+            yield Drawing(name + suffix, shown, draw, partial(table_of, quantity=quantity),
+                          vector=True, options=dict(run=own, quantity=quantity, scale=scale))
+
+
+def table_of(rows: list[Row], quantity: Quantity) -> str:
+    """exponent: that of the method's line, which is cut between bodies of overlapping sizes."""
+    values = ("time_s", *EXTRAPOLATED) if quantity is TIME else ("peak_heap_bytes",)
+    lines = [line for own in sharing_axes(rows) for line in lines_of(own).values()]
+    powers = {row.line: fit(line, quantity) for line in lines for row in line}
+    return csv_of([row for line in lines for row in line], *CASE, *values, "error_force",
+                  ("exponent", lambda row: powers[row.line]))
 
 
 def sized(rows: list[Row]) -> list[Row]:
@@ -228,6 +240,14 @@ def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
     return zip(order, map(at.get, order), places)
 
 
+def draw_leader(axes: Axes, at: tuple[float, float], right: float, y: float,
+                **style: object) -> None:
+    """From a line's end, of the axes' size, to its name: level up to the axes' edge, so that
+    leaders in the order of `beside` do not cross."""
+    axes.plot([at[0], max(at[0], 1), right], [at[1], at[1], y], transform=axes.transAxes,
+              clip_on=False, linewidth=0.4, zorder=1, label=LEADER_NAME, **style)
+
+
 def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
                 fits: dict[str, float | None], looks: PlainLooks) -> None:
     """Name and exponent beside the last points, in their order."""
@@ -237,8 +257,7 @@ def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
         marker, dashes = looks[method]
         style = dict(transform=axes.transAxes, clip_on=False)
         if ends[method]:
-            axes.plot([at[0], 1 + 0.12 * inch], [at[1], y], **style,
-                      color="0.6", linewidth=0.4, zorder=1)
+            draw_leader(axes, at, 1 + 0.12 * inch, y, color="0.6")
         axes.plot([1 + 0.14 * inch, 1 + 0.46 * inch], [y, y], **style, color=LINE_COLOR,
                   linestyle=dashes, linewidth=0.8)
         axes.plot(1 + 0.3 * inch, y, **style, **parts.marker_style(marker, "white"))

@@ -9,13 +9,14 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
+from figure_table import CASE, csv_of
 from figure_words import short
 from record_keys import Row
 from selection import given, grouped, is_paper_stop, of_scene
 
-WIDTH, LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 10.5, 0.72, 0.4, 4.5, 0.72, 4.0, 0.5
+LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 0.72, 0.4, 3.38, 0.72, 3.8, 0.5  # inches
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
 MARKERS = "o^sDvP<X"
 
@@ -32,7 +33,13 @@ class Stop:
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
     if study:
-        yield Drawing("stop_and_error", [row for row in study if stop_of(row)], draw)
+        yield Drawing("stop_and_error", [row for row in study if stop_of(row)], draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, ("r", lambda row: stop_of(row).r),
+                  ("rho_over_r", lambda row: stop_of(row).ratio), "error_force",
+                  "uzawa_iterations")
 
 
 def stop_of(row: Row) -> Stop | None:
@@ -64,7 +71,7 @@ def draw(rows: list[Row]) -> Figure | str:
     stops = [stop for curve in curves.values() for stop in curve]
     families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM,
                          f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
                          f"{parts.percent(max(errors_of(stops)))}", [
         f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
@@ -95,7 +102,9 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     labels, lines = Labels(axes), {}
-    for k, (words, curve) in enumerate(curves.items()):
+    single = [stop for curve in curves.values() if len(curve) == 1 for stop in curve]
+    longer = {words: curve for words, curve in curves.items() if len(curve) > 1}
+    for k, (words, curve) in enumerate(longer.items()):
         known = [stop for stop in curve if getattr(stop.row, column)]
         if not known:
             continue
@@ -104,5 +113,17 @@ def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                   markersize=5, linewidth=1.1, linestyle="-" if k < len(SHADES) else "--")
         labels.avoid(*line)
         lines[words] = line, SHADES[k % len(SHADES)]
+    draw_single(axes, labels, [stop for stop in single if getattr(stop.row, column)], column)
     for words, ((r, y), colour) in lines.items():
         labels.add(words, r[::-1], y[::-1], color=colour, fontsize=8)
+
+
+def draw_single(axes: Axes, labels: Labels, stops: list[Stop], column: str) -> None:
+    """Curves of one point: grey, those of one r under one name."""
+    for r, own in grouped(stops, lambda stop: stop.r).items():
+        y = [getattr(stop.row, column) for stop in own]
+        axes.plot([r] * len(y), y, color="0.55", marker="x", markersize=4.5, linestyle="none")
+        labels.avoid([r] * len(y), y)
+        meshes = list(dict.fromkeys(stop.row.mesh for stop in own))
+        labels.add("..".join(dict.fromkeys([meshes[0], meshes[-1]])), [r] * len(y), y,
+                   color="0.4", fontsize=8)

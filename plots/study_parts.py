@@ -1,8 +1,6 @@
 """What the studies' figures share: colours and markers of methods, sheets with captions, words."""
 from __future__ import annotations
 
-import csv
-import io
 import math
 import re
 from collections.abc import Iterable
@@ -20,17 +18,6 @@ STOP = dict(marker="*", markersize=17, markeredgecolor="black", markeredgewidth=
 def order(row: Row) -> tuple[int, str]:
     """Sorts by family, then by method."""
     return row.look.rank, row.method
-
-
-def csv_of(rows: Iterable[Row], columns: Iterable[str]) -> str:
-    """A line per row, under the columns' names; what is not there is empty."""
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(columns)
-    for row in rows:
-        values = [getattr(row, column) for column in columns]
-        writer.writerow(["" if value is None else value for value in values])
-    return text.getvalue()
 
 
 def file_name(stem: str, mesh: str) -> str:

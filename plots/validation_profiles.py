@@ -15,7 +15,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_files import COLOURS, DPI, write_small_png
+from figure_files import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"
@@ -133,7 +133,7 @@ def draw_hertz(axes: Axes, table: pd.DataFrame) -> None:
 
 
 def draw(table: pd.DataFrame) -> Figure:
-    figure = Figure(figsize=(9, 6.2), layout="constrained")
+    figure = Figure(figsize=(PAGE_WIDTH, 6), layout="constrained")
     panels = (draw_block, draw_cattaneo, draw_punch, draw_hertz)
     for axes, panel in zip(figure.subplots(2, 2).flat, panels):
         panel(axes, table)

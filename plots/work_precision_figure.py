@@ -8,22 +8,51 @@ from matplotlib.figure import Figure
 
 import study_parts as parts
 from direct_labels import Labels
-from figure_files import Drawing
+from figure_files import PAGE_WIDTH, Drawing
 from figure_parts import axes_at, log_limits, log_log
+from figure_table import CASE, KNOB, csv_of
 from figure_words import short
 from record_keys import Row
-from selection import by_mesh, given, grouped, is_paper_stop, of_scene
+from selection import by_mesh, front, given, grouped, is_paper_stop, of_scene
 
-WIDTH, LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 11.5, 0.72, 0.35, (6.6, 3.6), 5.6, 0.42, 0.5
+LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 0.72, 0.35, (4.75, 2.45), 5.0, 0.28, 0.5  # inches
 HIGHEST = 1e3  # errors above are drawn here
 SIZE = 4.5
+GREY = "0.78"  # curves of parameters, behind the best of their family
 AXES = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB"}
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
     for mesh, own in by_mesh(study).items():
-        yield Drawing(parts.file_name("work_precision", mesh), own, draw)
+        yield Drawing(parts.file_name("work_precision", mesh), own, draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """on_envelope: of a family with given parameters, this row is among the best in time."""
+    known = known_of(rows)
+    best = {row.line for own in families_of(curves_of(known)).values()
+            for row in envelope(own, "time_s")}
+    return csv_of(known, *CASE, *KNOB, "time_s", "peak_heap_bytes", "error_force",
+                  ("on_envelope", lambda row: row.line in best))
+
+
+def known_of(rows: list[Row]) -> list[Row]:
+    return [row for row in rows if row.time_s and row.error_force is not None
+            and not row.in_displacements]
+
+
+def families_of(curves: dict[tuple[str, str], list[Row]]) -> dict[str, list[Row]]:
+    """Family -> all points of its methods with given parameters, where there are two or more."""
+    given_ones = grouped([row for curve in curves.values() for row in curve if given(row)],
+                         lambda row: row.family)
+    return {family: own for family, own in given_ones.items()
+            if len({row.method for row in own}) > 1}
+
+
+def envelope(rows: list[Row], column: str) -> list[Row]:
+    """What the best of them reaches."""
+    return front(rows, lambda row: value_of(row, column), lambda row: row.error_force)
 
 
 def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
@@ -35,8 +64,7 @@ def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
 
 def draw(rows: list[Row]) -> Figure | str:
     """rows: of an error study's mesh and scene. The figure, or why there is none."""
-    known = [row for row in rows if row.time_s and row.error_force is not None
-             and not row.in_displacements]
+    known = known_of(rows)
     if not known:
         return "no row has time_s and error_force"
     curves = curves_of(known)
@@ -51,13 +79,16 @@ def draw(rows: list[Row]) -> Figure | str:
              f"{parts.threads(known)}. Error of the contact forces against the reference, a point "
              f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
              f"single points: methods run to their end. Dashed: the target error {short(target)}.")
+    for family, own in families_of(curves).items():
+        words += (f" {family}, thick: the best of its {len({row.method for row in own})} given r "
+                  "and ρ, known only afterwards; grey: each of them.")
     if stops:
         words += (f" Stars: {' and '.join(grouped(stops, lambda row: row.family))} ended by the paper's stop, small "
                   "ones with given r and ρ.")
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     notes = [f"No point: {'; '.join(dict.fromkeys(absent))}."] if absent else []
-    figure = parts.sheet(WIDTH, TOP + HEIGHT + BOTTOM,
+    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM,
                          f"{known[0].mesh}: what each digit costs", [words, *notes])
     left = LEFT
     for column, width in zip(AXES if heap else ["time_s"], PANELS):
@@ -90,23 +121,44 @@ def draw_panel(axes: Axes, column: str, curves: dict[tuple[str, str], list[Row]]
         axes.set_ylabel("relative error of the contact forces, 1")
     else:
         axes.tick_params(labelleft=False)
+    families = families_of(shown)
     ends: dict[str, list[tuple[float, float]]] = {}
     for (method, knob), curve in shown.items():
-        look = curve[0].look
+        look, behind = curve[0].look, given(curve[0]) and curve[0].family in families
         x = [value_of(row, column) for row in curve]
-        y = [min(max(row.error_force, floor), HIGHEST) for row in curve]
-        axes.plot(x, y, color=look.colour, marker=look.marker, markersize=SIZE if knob else 7,
-                  linewidth=1.1, linestyle=look.dashes, markeredgecolor="white",
-                  markeredgewidth=0.4, zorder=4 if knob else 5)
+        y = [height_of(row, floor) for row in curve]
+        axes.plot(x, y, color=GREY if behind else look.colour, marker=look.marker,
+                  markersize=2.5 if behind else SIZE if knob else 7,
+                  linewidth=0.7 if behind else 1.2, linestyle=look.dashes,
+                  markeredgecolor="white", markeredgewidth=0 if behind else 0.4,
+                  zorder=1.5 if behind else 4 if knob else 5)
+        if not behind:
+            labels.avoid(x, y)
+            ends.setdefault(method, sorted(zip(y, x)))  # without knob first
+    best = {family: envelope(own, column) for family, own in families.items()}
+    for family, points in best.items():
+        x, y = [value_of(row, column) for row in points], [height_of(row, floor) for row in points]
+        axes.step(x, y, where="post", color=points[0].look.colour, linewidth=2, zorder=4)
+        axes.plot(x, y, color=points[0].look.colour, marker=points[0].look.marker, linestyle="none",
+                  markersize=SIZE, markeredgecolor="white", markeredgewidth=0.4, zorder=4)
         labels.avoid(x, y)
-        ends.setdefault(method, sorted(zip(y, x)))  # without knob first
     draw_stops(axes, labels, stops, column)
     one = {method: curve[0] for (method, _), curve in shown.items()}
+    for family, points in best.items():
+        if first:
+            labels.add(f"{family}, best of given r, ρ",
+                       [value_of(row, column) for row in points[::-1]],
+                       [height_of(row, floor) for row in points[::-1]], weight="bold",
+                       color=points[0].look.colour)
     for method, points in ends.items():
         if not first and given(one[method]) and one[method].family in ends:
             continue  # its memory is that of the method that chooses r and rho
         y, x = zip(*points)
         labels.add(method, x, y, color=one[method].look.colour if len(points) > 1 else "0.1")
+
+
+def height_of(row: Row, floor: float) -> float:
+    return min(max(row.error_force, floor), HIGHEST)
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
@@ -127,5 +179,5 @@ def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> Non
             words = f"{parts.percent(min(errors))} to {words}"
         labels.add(f"{family} with the paper's stop:\nerror {words}",
                    [value_of(row, column) for row in shown],
-                   [min(error, HIGHEST) for error in errors], weight="bold", fontsize=9,
+                   [min(error, HIGHEST) for error in errors], weight="bold", fontsize=8.5,
                    color=shown[0].look.colour)

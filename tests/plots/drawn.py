@@ -5,7 +5,9 @@ from contextlib import AbstractContextManager
 from unittest import mock
 
 from matplotlib.axis import Axis
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.text import Text
 
 
 def without_minor_ticks() -> AbstractContextManager:
@@ -19,3 +21,18 @@ def words_of(figure: Figure) -> str:
                              get_minor_ticks=lambda axis: axis.minorTicks):
         texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
     return " ".join(text.get_text() for text in texts)
+
+
+def paint(figure: Figure) -> tuple[list[Text], object]:
+    """The texts that are painted, and who painted them."""
+    painted: list[Text] = []
+    draw = Text.draw
+
+    def keep(words: Text, renderer: object) -> None:
+        if words.get_visible() and words.get_text().strip():
+            painted.append(words)
+        draw(words, renderer)
+    canvas = FigureCanvasAgg(figure)
+    with mock.patch.object(Text, "draw", keep):
+        canvas.draw()
+    return painted, canvas.get_renderer()

@@ -104,8 +104,8 @@ class GalleryTest(unittest.TestCase):
     def test_the_four_meshes_make_one_picture(self) -> None:
         self.assertEqual((self.command[0], self.command[2]), (0, ""))
         figures = self.four / "figures"
-        self.assertEqual({p.name for p in figures.iterdir()}, {"gallery.png", "gallery.svg"})
-        self.assert_png(figures / "gallery.png", 1600)
+        self.assertEqual({p.name for p in figures.iterdir()}, {"gallery.png", "gallery.svg", "gallery.csv"})
+        self.assert_png(figures / "gallery.png", 1328)
         svg = (figures / "gallery.svg").read_text()
         self.assertTrue(svg.startswith("<?xml"))
         self.assertLess(len(svg), 2_000_000)
@@ -113,14 +113,16 @@ class GalleryTest(unittest.TestCase):
     def test_each_and_out(self) -> None:
         self.assertEqual(self.each[0], 0)
         self.assertEqual({p.name for p in self.out.iterdir()},
-                         {"gallery.png", "gallery.svg", *(f"fields_{name}.png" for name in NAMES)})
+                         {"gallery.svg", *(f"{name}.{kind}" for kind in ("png", "csv") for name in
+                                           ("gallery", *(f"fields_{name}" for name in NAMES)))})
 
     def test_without_the_four_meshes_each_solution_has_its_picture(self) -> None:
         write_solution(self.fields, NAMES[1], contact=False, corners=LOW)
         self.assertEqual(run(gallery, self.results)[0], 0)
         figures = self.results / "figures"
-        self.assertEqual([p.name for p in figures.iterdir()], [f"fields_{NAMES[1]}.png"])
-        self.assert_png(figures / f"fields_{NAMES[1]}.png", 1600)
+        self.assertEqual({p.name for p in figures.iterdir()},
+                         {f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv")})
+        self.assert_png(figures / f"fields_{NAMES[1]}.png", 1328)
 
     def test_the_same_input_gives_the_same_picture(self) -> None:
         for name in ("gallery.png", "gallery.svg"):
@@ -133,7 +135,11 @@ class GalleryTest(unittest.TestCase):
         with SMALL:
             self.assertEqual(run(gallery, self.results)[0], 0)
         picture = self.results / "figures" / f"error_map_{NAMES[1]}.png"
-        self.assert_png(picture, 686, most_bytes=300_000)
+        self.assert_png(picture, 691, most_bytes=300_000)
+        lines = picture.with_suffix(".csv").read_text(encoding="utf-8").splitlines()
+        self.assertEqual(lines[0], "triangle,x_mm,y_mm,area_mm2,error_share")
+        self.assertEqual([line.split(",")[0::3] for line in lines[1:]], [["1", "2.0"], ["2", "2.0"]])
+        self.assertEqual([line.split(",")[4] for line in lines[1:]], ["0.25", "0.75"])
 
     def test_no_error_no_map(self) -> None:
         write_solution(self.fields, NAMES[1], contact=False)
@@ -155,7 +161,11 @@ class GalleryTest(unittest.TestCase):
             status, out, err = run(gallery, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("adapted_meshes.png", out)
-        self.assert_png(self.results / "figures" / "adapted_meshes.png", 1100)
+        self.assert_png(self.results / "figures" / "adapted_meshes.png", 913)
+        lines = (self.results / "figures" / "adapted_meshes.csv").read_text().splitlines()
+        self.assertEqual([line.split(",")[:3] for line in lines],
+                         [["mesh", "n_phi", "triangles"], *([f"Mesh0%2Badapt{k}", "", "2"]
+                                                            for k in (0, 10, 11))])
 
     def test_element_map_that_cannot_be(self) -> None:
         write_solution(self.fields, NAMES[1])

@@ -105,11 +105,12 @@ class PaperFiguresTest(unittest.TestCase):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
-                 for kind in ("svg", "png")} | {"table1.md"}
+                 for kind in ("svg", "png", "csv")} | {"table1.md"}
         self.assertEqual({path.name for path in self.figures.iterdir()}, names)
-        self.assertEqual(out.count("\n"), 8)
+        self.assertEqual(out.count("\n"), 10)
+        self.assertEqual(out.count("that all of them have; needs 2 and 3"), 2)
         self.assertIn("all_methods: left out: no method has two sizes\n", out)
-        for name in names - {"table1.md"}:
+        for name in (name for name in names if name.endswith(("svg", "png"))):
             start = (self.figures / name).read_bytes()[:8]
             self.assertIn(start, (b"\x89PNG\r\n\x1a\n", b"<?xml ve"), name)
 
@@ -194,7 +195,7 @@ class PaperFiguresTest(unittest.TestCase):
         out, words = self.draw([*rows, case("Mesh1", "SYMMLQ:NONE"),
                                 case("Mesh3", "SYMMLQ:DTIC3,schur=sparse"),
                                 case("Mesh3", "SYMMLQ:DTIC3")])
-        self.assertIn("figure3.svg, .png: 28 cases", out)
+        self.assertIn("figure3.svg, .png, .csv: 28 cases", out)
         self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
         self.assertIn("no estimate: 3STEPCG:NONE (timeout, 3\u00a0% done)", words["figure3"])
         self.assertNotIn("schur", words["figure3"])

@@ -5,20 +5,18 @@ import struct
 import sys
 import tempfile
 import unittest
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from unittest import mock
 
 import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
-from matplotlib.text import Text
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import made_up  # noqa: E402; finds plots
 
-import atlas_figure  # noqa: E402
 import convergence_figure  # noqa: E402
 import direct_labels  # noqa: E402
 import drawn  # noqa: E402
@@ -95,7 +93,8 @@ class StudyFiguresTest(StudiesTest):
         folder, (status, out, err) = everything().folder, everything().run
         self.assertEqual((status, err), (0, ""))
         names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
-                 "convergence", "stability_Mesh0", "all_methods"}
+                 "convergence", "stability_Mesh0", "all_methods", "profiles",
+                 "profiles_stability"}
         self.assertEqual({path.stem for path in folder.iterdir()},
                          names | {"figure4", "figure5", "table1"})
         self.assertEqual(out.count("\n"), len(names) + 4)  # figure3 is left out
@@ -158,6 +157,40 @@ class WorkPrecisionTest(StudiesTest):
             if row.error_force:
                 self.assertIn((row.time_s, row.error_force), points, row)
 
+    def test_many_parameters_are_behind_the_best_of_them(self) -> None:
+        cases = made_up.error_study(["Mesh1"], sweep=False)
+        for r, factor in ((1, 3.0), (20, 1.0), (300, 0.5)):
+            cases += [made_up.point("Mesh1", f"ALM:r={r},rho={r}", factor * 0.01 * 2**k, 1e-3 * 4.0**-k
+                                    * (1 if k < 4 or r == 1 else 1e2), knob="uzawa iterations",
+                                    knob_value=2**k) for k in range(8)]
+        rows = self.read(cases)
+        own, = work_precision_figure.families_of(work_precision_figure.curves_of(rows)).values()
+        self.assertEqual(len(own), 24)
+        best = work_precision_figure.envelope(own, "time_s")
+        self.assertGreater(len({row.method for row in best}), 1)
+        for row in own:
+            self.assertLessEqual(min(other.error_force for other in best
+                                     if other.time_s <= row.time_s), row.error_force)
+        figure = work_precision_figure.draw(rows)
+        words = words_of(figure)
+        self.assertIn("ALM, best of given r, ρ", words)
+        self.assertIn("the best of its 3 given r and ρ, known only afterwards", words)
+        self.assertNotIn("ALM:r=", words)
+        lines = {line.get_color(): line for line in figure.axes[0].lines
+                 if len(line.get_xdata()) == len(best) and line.get_linewidth() == 2}
+        line, = lines.values()
+        np.testing.assert_array_equal(line.get_xdata(), [row.time_s for row in best])
+        grey = [line for line in figure.axes[0].lines
+                if line.get_color() == work_precision_figure.GREY]
+        self.assertEqual([len(line.get_xdata()) for line in grey], [8] * 3)
+        self.assertTrue(all(line.get_zorder() < 2 for line in grey))
+
+    def test_one_set_of_parameters_is_a_curve_like_others(self) -> None:
+        rows = self.read([made_up.point("Mesh1", "ALM:r=20,rho=20", 0.01 * 2**k, 1e-3 * 4.0**-k,
+                                        knob="uzawa iterations", knob_value=2**k) for k in range(8)])
+        self.assertEqual(work_precision_figure.families_of(work_precision_figure.curves_of(rows)), {})
+        self.assertIn("ALM:r=20,rho=20", words_of(work_precision_figure.draw(rows)))
+
     def test_a_row_without_an_error_is_named(self) -> None:
         rows = made_up.error_study(["Mesh3"], sweep=False)
         rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
@@ -189,7 +222,7 @@ class ParetoTest(StudiesTest):
             self.assertFalse([row for row in stress if row.error_total <= level
                               and row.time_s < best.time_s])
         self.assertIsNone(pareto_figure.cheapest(rows, 1e-3))
-        table = pareto_figure.table_of(rows)
+        table = pareto_figure.levels_table(rows)
         self.assertTrue(all(len(line) == len(pareto_figure.TABLE) for line in table))
         self.assertEqual(table[-1][0], study_parts.percent(0.1))
         self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
@@ -200,11 +233,16 @@ class ParetoTest(StudiesTest):
             self.assertTrue(1 <= len(levels) <= pareto_figure.LEVELS)
             self.assertTrue(all(level >= min(errors) for level in levels), errors)
 
+    def test_coarse_meshes_are_not_cut_off(self) -> None:
+        rows = self.read(made_up.error_study(["Mesh0"], sweep=False))
+        for floor, highest in ((0.01, 0.2), (0.3, 0.45), (0.9, 1)):
+            self.assertAlmostEqual(pareto_figure.highest_of(
+                [replace(row, error_discretisation=floor) for row in rows]), highest)
+
     def test_bodies_are_kept_apart(self) -> None:
         words = words_of(pareto_figure.draw(self.read(made_up.error_study(["Mesh3", "Mesh4"]))))
         self.assertIn("one tooth", words)
         self.assertIn("rack of four teeth", words)
-
 
     def test_each_kind_of_meshes_has_a_front(self) -> None:
         study = made_up.error_study(["Mesh1"], sweep=False)
@@ -218,28 +256,6 @@ class ParetoTest(StudiesTest):
         self.assertIn("adapted: HYBRID", words)
         self.assertIn("refined everywhere: HYBRID", words)
         self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
-
-
-class AdaptedMethodsTest(StudiesTest):
-    CASES = [made_up.case(mesh, method, study="adapted", n_phi=n_phi, time_s=time_s,
-                          error_discretisation=0.005, error_total=0.005, condition_estimate=3e9)
-             for mesh, n_phi in (("Mesh0+adapt2", 1500), ("Mesh4+adapt1", 15000))
-             for method, time_s in (("HYBRID", 0.01), ("3STEPD", 0.2))]
-
-    def test_a_cell_per_case_and_a_table_beside_it(self) -> None:
-        self.CASES[3] |= dict(status="timeout", outcome="timeout", time_s="", error_force="",
-                              error_stress="")
-        rows = self.read(self.CASES)
-        plan = [d for d in figures.drawings_of(rows) if d.name == "adapted_methods"]
-        self.assertEqual((".png", ".csv"), plan[0].suffixes)
-        figure = plan[0].draw(plan[0].rows)
-        self.assertEqual(4, len(figure.axes[0].patches))
-        words = words_of(figure)
-        for expected in ("HYBRID", "10 ms", "κ 3e9", "timeout", "0.5 %"):
-            self.assertIn(expected, words)
-        lines = plan[0].table(plan[0].rows).splitlines()
-        self.assertEqual(5, len(lines))
-        self.assertEqual(1, sum("timeout" in line for line in lines))
 
 
 class ConvergenceTest(StudiesTest):
@@ -258,55 +274,13 @@ class ConvergenceTest(StudiesTest):
         smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
         rows += [row | dict(scene="frictionless") for row in smooth]
         words = words_of(convergence_figure.draw(self.read(rows)))
-        self.assertIn("Right: scene frictionless", words)
+        self.assertIn("Below: scene frictionless", words)
         self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
 
     def test_without_bounds(self) -> None:
         rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
         words = words_of(convergence_figure.draw(self.read(rows)))
         self.assertNotIn("bounds", words)
-
-
-class AtlasTest(StudiesTest):
-    def test_a_cell_per_case(self) -> None:
-        rows = self.read(made_up.stability_study())
-        figure = everything().figures["stability_Mesh0"]
-        places = [patch.get_xy() for patch in figure.axes[0].patches]
-        self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
-        words = words_of(figure)
-        wrong = sum(row.outcome == "wrong_success" for row in rows)
-        self.assertIn(f"wrong success: said ok, and is not: {wrong}", words)
-        self.assertEqual(words.split().count("W!"), wrong + 1)
-        for row in rows:
-            self.assertIn(row.scene, words)
-            self.assertIn(row.scene_group, words)
-
-    def test_no_wrong_success_is_said_too(self) -> None:
-        rows = [row for row in made_up.stability_study()[:99] if row["outcome"] != "wrong_success"]
-        self.assertIn("is not: 0", words_of(atlas_figure.draw(self.read(rows))))
-
-    def test_digits(self) -> None:
-        for stress, force, digits in ((1e-9, 2e-7, "6"), (0, 0, "16"), (1e-12, "", "12"),
-                                      ("", "", "+"), (5, "", "0")):
-            row = made_up.stability_study()[0] | dict(error_stress=stress, error_force=force)
-            self.assertEqual(atlas_figure.digits(self.read([row])[0]), digits)
-
-    def test_columns_go_by_group_then_by_number(self) -> None:
-        row = made_up.stability_study()[0]
-        names = [("b", f"friction_{mu}") for mu in ("10", "1e-8", "1", "10_sheared", "0")]
-        names.append(("a", "z"))
-        rows = self.read([row | dict(scene_group=g, scene=s) for g, s in names])
-        self.assertEqual(atlas_figure.columns_of(rows),
-                         [names[5], names[4], names[1], names[2], names[0], names[3]])
-
-    def test_names_do_not_leave_the_sheet(self) -> None:
-        figure = everything().figures["stability_Mesh0"]
-        renderer = figure.canvas.get_renderer()
-        for text in figure.findobj(Text):
-            if text.get_text() and text.get_visible():
-                box = text.get_window_extent(renderer)
-                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
-                                and box.y1 <= figure.bbox.y1, text)
 
 
 class MemoryFigureTest(StudiesTest):
@@ -355,7 +329,7 @@ class MemoryFigureTest(StudiesTest):
         with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
-        self.assertIn("memory_by_owner.png: 2 cases", out)
+        self.assertIn("memory_by_owner.png, .csv: 2 cases", out)
         shutil.rmtree(self.figures)
         made_up.write_lines(lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
         self.assert_refused("records.jsonl:3", "memory_by_owner", "wings", "blocks")
@@ -368,7 +342,7 @@ class OtherFiguresTest(StudiesTest):
         figure = everything().figures["all_methods"]
         words = words_of(figure)
         self.assertIn("Mesh7-refined2", words)
-        self.assertIn("3STEPD:CHOLMOD: $n^{1.30}$", words)
+        self.assertIn("3STEPD:CHOLMOD $n^{1.30}$", words)
 
     def test_stop_and_error(self) -> None:
         rows = self.read(made_up.error_study(["Mesh1"]))

@@ -1,0 +1,157 @@
+"""How the pictures of the fields lie, and what they say of contact.  /usr/bin/python3 -m unittest FILE"""
+import csv
+import sys
+import unittest
+from itertools import combinations
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import drawn  # noqa: E402
+import error_map  # noqa: E402
+import field_drawing  # noqa: E402
+import field_panel  # noqa: E402
+import field_tables  # noqa: E402
+import gallery  # noqa: E402
+from case_names import case_name, file_of, words_of_file  # noqa: E402
+from fields import Fields  # noqa: E402
+from figure_files import PAGE_WIDTH, SMALLEST_PT  # noqa: E402
+
+STATES = ("open", "slip", "stick", "slip")
+
+
+def bar(width: float, height: float, faces: int, edges: int = 4, mesh: str = "bar") -> Fields:
+    """A rectangle from (1, 2) on with so many contact faces of so many edges on its right side, apart;
+    on each the states follow each other, the pressure falls from 8 MPa to 0."""
+    left, low = 1.0, 2.0
+    corners = np.array([(left, low), (left + width, low), (left + width, low + height),
+                        (left, low + height)])
+    triangles = corners[[[0, 1, 2], [0, 2, 3]]]
+    thirds = np.array([[[t[k], t[(k + 1) % 3], t.mean(0)] for k in range(3)] for t in triangles])
+    ends = np.linspace(low, low + height, faces * (edges + 1) + 2)
+    right = [((left + width, a), (left + width, b)) for a, b in zip(ends, ends[1:])]
+    role = ["contact" if k % (edges + 1) else "force" for k in range(len(right))]
+    role[-1] = "force"
+    boundary = [(corners[0], corners[1]), *right, (corners[2], corners[3]), (corners[3], corners[0])]
+    role = np.array(["force", *role, "force", "displacement"])
+    boundary = np.array([[np.asarray(a), np.asarray(b)] for a, b in boundary])
+    contact = boundary[role == "contact"]
+    of_face = np.arange(len(contact)) % edges
+    pressure = 8 * (1 - np.stack([of_face, of_face + 1], 1) / edges)
+    state = np.array(STATES)[of_face * len(STATES) // edges]
+    return Fields("bar--default--HYBRID", thirds, np.ones((2, 3, 3, 3)), boundary, role, contact,
+                  np.stack([-pressure, 0.1 * pressure], -1), np.stack([state, state], 1), mesh, 9)
+
+
+class UprightTest(unittest.TestCase):
+    def setUp(self) -> None:
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(gallery.STYLE)
+
+    def test_bodies_lie_as_they_were_drawn(self) -> None:
+        for mesh in ("Mesh0", "Mesh4+adapt2", "bar"):
+            s = bar(10, 8, 1, mesh=mesh)
+            for figure in (gallery.compose([[s]]), error_map.draw(s, np.array([0.3, 0.7]))):
+                body = figure.axes[0]
+                self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x in mm", "y in mm"))
+                for low, high in (body.get_xlim(), body.get_ylim()):
+                    self.assertLess(low, high)
+                contact = [line for line in body.lines if line.get_color() == "#D00060"]
+                for line in contact:
+                    np.testing.assert_allclose(line.get_xdata(), 11)
+                self.assertEqual(len(contact), 1)
+                size = body.get_position().size * figure.get_size_inches()
+                view = field_panel.view_of(s)
+                self.assertAlmostEqual(size[1] / size[0], view.height)
+
+    def test_type_can_be_read_and_stays_on_the_sheet(self) -> None:
+        for s in (bar(10, 8, 1), bar(10, 40, 4), bar(40, 5, 3, edges=40)):
+            for figure in (gallery.compose([[s]]), error_map.draw(s, np.array([0.3, 0.7]))):
+                self.assertLessEqual(figure.get_size_inches()[0], PAGE_WIDTH)
+                painted, renderer = drawn.paint(figure)
+                for words in painted:
+                    self.assertGreaterEqual(words.get_fontsize(), SMALLEST_PT, words)
+                    box = words.get_window_extent(renderer)
+                    self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
+
+
+class FacesTest(unittest.TestCase):
+    def test_faces_do_not_cover_each_other_or_the_body(self) -> None:
+        for s, width in ((bar(10, 8, 1), 2.7), (bar(10, 8, 3), 2.7), (bar(10, 8, 9), 8.3),
+                         (bar(10, 60, 5), 8.3), (bar(10, 60, 1), 8.3)):
+            layout = field_panel.layout_of(s, width)
+            boxes = [(field_panel.LEFT, field_panel.TITLE, layout.body_width, layout.body_height)]
+            boxes += [(p.left, p.top, p.width, p.strip + p.traction) for p in layout.faces]
+            self.assertEqual(len(boxes), 1 + len(s.faces()))
+            for left, top, across, down in boxes:
+                self.assertGreater(min(across, down), 0.3)
+                self.assertLessEqual(left + across, width + 1e-9)
+                self.assertLessEqual(top + down, layout.height + 1e-9)
+            for (l1, t1, w1, h1), (l2, t2, w2, h2) in combinations(boxes, 2):
+                self.assertTrue(l1 + w1 <= l2 or l2 + w2 <= l1 or t1 + h1 <= t2 or t2 + h2 <= t1)
+
+    def test_faces_are_lettered_in_both_places_and_nothing_leads_across(self) -> None:
+        s = bar(10, 60, 4)
+        figure = gallery.compose([[s]])
+        letters = [text for text in figure.axes[0].texts]
+        self.assertEqual([text.get_text() for text in letters], ["A", "B", "C", "D"])
+        heights = [text.xy[1] for text in letters]
+        self.assertEqual(heights, sorted(heights, reverse=True))  # as the strips beside the body
+        for text in letters:
+            self.assertGreater(text.get_position()[0], 0)  # outside, to the right of the face
+            self.assertAlmostEqual(text.get_position()[1], 0)
+        self.assertEqual([axes.texts[0].get_text() for axes in figure.axes[1:9:2]],
+                         ["A", "B", "C", "D"])
+        self.assertFalse(gallery.compose([[bar(10, 8, 1)]]).axes[0].texts)  # one needs no letter
+        self.assertEqual([field_panel.letter_of(k) for k in (0, 25, 26)], ["A", "Z", "A2"])
+
+    def strip(self, edges: int) -> object:
+        s = bar(10, 8, 1, edges=edges)
+        return gallery.compose([[s]]).axes[1]
+
+    def test_states_are_marks_where_there_is_room_and_a_band_else(self) -> None:
+        few = self.strip(4)
+        marks = [line for line in few.lines if line.get_marker() not in ("None", None, "")]
+        self.assertEqual(sum(len(line.get_xdata()) for line in marks), 8)
+        self.assertFalse(few.patches)
+        many = self.strip(200)
+        self.assertFalse([line for line in many.lines if line.get_marker() not in ("None", None, "")])
+        self.assertEqual([text.get_text() for text in many.texts], list(STATES))
+        ends = [(patch.get_x(), patch.get_x() + patch.get_width()) for patch in many.patches]
+        for (_, end), (start, _) in zip(ends, ends[1:]):
+            self.assertAlmostEqual(end, start)
+        low, high = (8 / 202 * k + 2 for k in (1, 201))
+        np.testing.assert_allclose((ends[0][0], ends[-1][1]), (low, high))
+
+    def test_runs(self) -> None:
+        states = np.array([["open", "slip"], ["slip", "slip"], ["open", "open"]])
+        self.assertEqual(field_drawing.runs(states),
+                         [("open", [0]), ("slip", [1, 2, 3]), ("open", [4, 5])])
+
+
+class TablesTest(unittest.TestCase):
+    def test_contact_points(self) -> None:
+        table = list(csv.DictReader(field_tables.contact_points([bar(10, 60, 2)]).splitlines()))
+        self.assertEqual(len(table), 2 * 4 * 2)
+        self.assertEqual([line["face"] for line in table], ["A"] * 8 + ["B"] * 8)
+        self.assertGreater(float(table[0]["y_mm"]), float(table[8]["y_mm"]))
+        for k, line in enumerate(table[:8]):
+            self.assertAlmostEqual(float(line["pressure_MPa"]), 8 * (1 - (k + 1) // 2 / 4))
+            self.assertEqual(line["state"], STATES[k // 2])
+            self.assertEqual((float(line["x_mm"]), line["along_mm"]), (11, line["y_mm"]))
+
+    def test_areas_are_the_bodys(self) -> None:
+        self.assertAlmostEqual(field_tables.areas(bar(10, 8, 1)).sum(), 80)
+
+    def test_words_of_a_file_are_those_of_its_case(self) -> None:
+        for mesh, method in (("Mesh0+adapt1", "SYMMLQ:DTIC3"), ("a-b%c", "ALM:r=20,rho=20")):
+            case = dict(mesh=mesh, scene="default", method=method)
+            self.assertEqual(words_of_file(file_of(case_name(case))), f"{mesh}, default, {method}")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,176 @@
+"""Figures at the width of a page, and the numbers beside them.  /usr/bin/python3 -m unittest FILE"""
+import csv
+import shutil
+import sys
+import tempfile
+import unittest
+from itertools import combinations
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+from matplotlib.figure import Figure
+
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+
+import made_up  # noqa: E402; finds plots
+
+import direct_labels  # noqa: E402
+import drawn  # noqa: E402
+import figure_parts  # noqa: E402
+import figure_table  # noqa: E402
+import figures  # noqa: E402
+import records  # noqa: E402
+from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing  # noqa: E402
+
+PAGE_PIXELS = 830
+LEGIBLE = 9  # pixels
+
+
+def of_all_kinds() -> list[dict]:
+    """Lines of records of an ordinary run and of every study."""
+    rows = made_up.error_study(["Mesh0", "Mesh1", "Mesh4"]) + made_up.stability_study("Mesh0")
+    rows += made_up.sizes_to_the_limit()
+    rows += [made_up.case("Mesh1", f"{family}:{name}") for family in ("SYMMLQ", "3STEPCG")
+             for name in ("DTIC4", "FLIC2", "SSOR1.0", "NONE")]
+    rows += [made_up.case("Mesh3", method, study="load-steps", scene=f"steps_{n:02d}",
+                          load_steps=n, time_s=0.1 * k + 0.01 * n) for n in (1, 5, 20)
+             for k, method in enumerate(("3STEPD", "ALM"))]
+    rows += [made_up.case(f"Mesh{k}+adapt{level}", method, study="adapted", n_phi=900 * 2**level,
+                          error_discretisation=0.1, condition_estimate=1e9)
+             for k in (0, 4) for level in range(4) for method in ("HYBRID", "3STEPD:CHOLMOD")]
+    rows += [made_up.case(f"Mesh0+adapt{level}", "HYBRID", n_phi=900 * 2**level, adapt_level=level,
+                          adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level,
+                          time_s=0.02 * 2**level) for level in range(4)]
+    rows += [made_up.case(mesh, "3STEPD", study="contact", scene=scene, contact_solver=solver,
+                          stage_contact_s=0.01, contact_iterations=20) for mesh in ("Mesh0", "Mesh1")
+             for scene in ("default", "friction_10") for solver in ("newton", "admm")]
+    split = [made_up.split("Mesh0", method, factor=(3, 2)) for method in ("BLIND:LEAN", "NEWTON")]
+    return [made_up.record(row) for row in rows] + split
+
+
+class PageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls) -> None:
+        folder = Path(tempfile.mkdtemp())
+        cls.addClassCleanup(shutil.rmtree, folder)
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(figure_parts.STYLE)
+        made_up.write_lines(folder / "records.jsonl", of_all_kinds())
+        cls.rows = records.rows_of(records.read_run(folder))
+        cls.drawings = {drawing.name: drawing for drawing in figures.drawings_of(cls.rows)}
+        cls.figures = {name: figure for name, drawing in cls.drawings.items()
+                       if isinstance(figure := drawing.draw(drawing.rows, **drawing.options), Figure)}
+        with drawn.without_minor_ticks():
+            cls.painted = {name: drawn.paint(figure) for name, figure in cls.figures.items()}
+
+    def test_all_kinds_of_figures_are_here(self) -> None:
+        modules = {path.stem for path in Path(figures.__file__).parent.glob("*_figure.py")}
+        used = {drawing.draw.__module__ for name, drawing in self.drawings.items()
+                if name in self.figures}
+        self.assertEqual(used, modules)
+
+    def test_type_can_be_read_at_the_width_of_a_page(self) -> None:
+        for name, figure in self.figures.items():
+            width = figure.get_size_inches()[0]
+            self.assertLessEqual(width, PAGE_WIDTH, name)
+            for words in self.painted[name][0]:
+                pixels = words.get_fontsize() / 72 / width * PAGE_PIXELS
+                self.assertGreaterEqual(pixels, LEGIBLE, f"{name}: {words}")
+
+    def test_words_are_on_the_sheet_and_apart(self) -> None:
+        for name, figure in self.figures.items():
+            painted, renderer = self.painted[name]
+            boxes = [(words, words.get_window_extent(renderer)) for words in painted
+                     if words.get_rotation() in (0, 90)]
+            for words, box in boxes:
+                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
+                                and box.y1 <= figure.bbox.y1, f"{name}: {words}")
+            for (words, box), (other, other_box) in combinations(boxes, 2):
+                self.assertFalse(box.padded(-1).overlaps(other_box), f"{name}: {words} {other}")
+
+    def test_leaders_do_not_cross(self) -> None:
+        seen = 0
+        for name, figure in self.figures.items():
+            for axes in figure.axes:
+                ends = [line.get_transform().transform(line.get_xydata()) for line in axes.lines
+                        if line.get_label() == direct_labels.LEADER_NAME]
+                seen += len(ends)
+                pieces = [(k, a, b) for k, points in enumerate(ends)
+                          for a, b in zip(points, points[1:])]
+                for (j, a, b), (k, c, d) in combinations(pieces, 2):
+                    self.assertFalse(j != k and direct_labels.crossing(a, b, c, d), name)
+        self.assertGreater(seen, 20)
+
+    def test_the_numbers_of_every_figure_stand_beside_it(self) -> None:
+        for name, figure in self.figures.items():
+            drawing = self.drawings[name]
+            self.assertEqual(drawing.suffixes[-1], ".csv")
+            lines = list(csv.reader(drawing.table(drawing.rows).splitlines()))
+            self.assertEqual(len(lines[0]), len(set(lines[0])), name)
+            self.assertEqual({len(line) for line in lines}, {len(lines[0])}, name)
+            self.assertGreater(len(lines), 1, name)
+            self.assertTrue({"mesh", "method"} & set(lines[0]), name)
+
+    def table(self, drawing: Drawing) -> list[dict[str, str]]:
+        return list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+
+    def points(self, name: str, axes: int) -> set[tuple[float, float]]:
+        return {tuple(point) for line in self.figures[name].axes[axes].lines
+                for point in line.get_xydata()}
+
+    def test_what_is_drawn_is_what_is_written(self) -> None:
+        for name, x, y, scale in (("work_precision_Mesh1", "time_s", "error_force", 1),
+                                  ("pareto", "peak_heap_bytes", "error_total", 2**-20),
+                                  ("all_methods", "n_phi", "time_s", 1)):
+            points = np.array([point for k in range(len(self.figures[name].axes))
+                              for point in self.points(name, k)])
+            for line in self.table(self.drawings[name]):
+                if float(line[y]):
+                    wanted = float(line[x]) * scale, float(line[y])
+                    self.assertTrue(np.isclose(points, wanted, rtol=1e-12, atol=0).all(1).any(),
+                                    f"{name}: {line}")
+
+    def test_marks_of_the_tables(self) -> None:
+        powers = {cells["exponent"] for cells in self.table(self.drawings["figure4"])
+                  if cells["method"] == "3STEPD:CHOLMOD"}
+        self.assertEqual({f"{float(power):.2f}" for power in powers}, {"1.30"})
+        best = [cells for cells in self.table(self.drawings["pareto"])
+                if cells["on_front_in_time_s"] == "true" and cells["body"] == "rack of four teeth"]
+        errors = [float(cells["error_total"]) for cells in
+                  sorted(best, key=lambda cells: float(cells["time_s"]))]
+        self.assertGreater(len(errors), 1)
+        self.assertEqual(errors, sorted(errors, reverse=True))
+
+
+class TableTest(unittest.TestCase):
+    def test_cells(self) -> None:
+        values = [(None, ""), (True, "true"), (0.1 + 0.2, "0.30000000000000004"), ("=1+1", "'=1+1"),
+                  ("a,b", '"a,b"'), (-1.5, "-1.5")]
+        text = figure_table.csv_of([value for value, _ in values], ("value", lambda value: value))
+        self.assertEqual(text.split("\n"),
+                         ["value", *(f'""' if not cell else cell for _, cell in values), ""])
+
+
+class LeadersTest(unittest.TestCase):
+    def test_crossing(self) -> None:
+        a, b, c, d = np.array([[0, 0], [2, 2], [0, 2], [2, 0]], float)
+        self.assertTrue(direct_labels.crossing(a, b, c, d))
+        self.assertFalse(direct_labels.crossing(a, c, b, d))
+        self.assertFalse(direct_labels.crossing(a, b, a, d))  # a common end
+
+    def test_crowded_labels_have_leaders_that_do_not_cross(self) -> None:
+        seen = 0
+        for seed in range(8):
+            axes = Figure(figsize=(6, 4)).add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
+            labels = direct_labels.Labels(axes)
+            for k, (x, y) in enumerate(np.random.default_rng(seed).normal(0.5, 0.05, (14, 2))):
+                labels.add(f"method {k}", x, y)
+            seen += len(labels.leaders)
+            for (a, b), (c, d) in combinations(labels.leaders, 2):
+                self.assertFalse(direct_labels.crossing(a, b, c, d), seed)
+        self.assertGreater(seen, 20)
+
+
+if __name__ == "__main__":
+    unittest.main()
