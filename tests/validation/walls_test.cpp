@@ -74,8 +74,12 @@ TEST(Walls, ACylinderOfStraightEdgesIsHertzsWhereItsFaceIsSaidToBeRound) {
                                                 round.solution.F_C, round.solution.edge_moments));
   EXPECT_TRUE(error.guaranteed) << error.flaw;
   EXPECT_LT(error.relative, 0.03);
-  scene.face.reset();  // as a polygon it bears on its vertices first
-  EXPECT_GT(difference_from_hertz(Solved(scene, mesh, "HYBRID")).first, 2 * off);
+  // As a polygon it bears on its vertices, which finer edges show.
+  scene.mesh.refine = 2;
+  const double off_finer = difference_from_hertz(Solved(scene, mesh, "HYBRID")).first;
+  EXPECT_LT(off_finer, off);
+  scene.face.reset();
+  EXPECT_GT(difference_from_hertz(Solved(scene, mesh, "HYBRID")).first, 10 * off_finer);
 }
 
 // A ring from 24 to 30 mm over 120°, its outer side contact, its ends held.
@@ -127,37 +131,41 @@ TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
     scene.boundary[label].displacement_mm =
         LinearValue<Vector2d>{{turned(in), turned(out)}, {in, out}};
   }
-  // Held by friction it is not.
-  Scene sticking = scene;
-  sticking.friction = 10;
-  sticking.wall = CircularWall{{0, 0}, 29.999, CircularWall::Bodies::inside};
-  const double size = Solved(sticking, mesh, "HYBRID").energy();
+  Scene pressed = scene;
+  pressed.wall = CircularWall{{0, 0}, 29.999, CircularWall::Bodies::inside};
+  const double size = Solved(pressed, mesh, "HYBRID").energy();
   for (const char* method : {"HYBRID", "P2", "BLIND:SCHUR"})
     EXPECT_LT(Solved(scene, mesh, method).energy(), 1e-20 * size) << method;
 }
 
 TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
-  // Pressed from inside, its ends free to slide: a uniform state, whatever the number of edges.
+  // Pressed from inside, its ends free to slide: a uniform pressure, the nearer the finer.
   double before = 0;
-  for (const int around : {12, 24}) {
+  for (const int radial : {2, 4}) {
     Scene scene = socket(30.001);
     scene.friction = 0;
     scene.boundary["displacement:left"].support = BoundaryValues::Support::normal;
     scene.boundary["displacement:right"].support = BoundaryValues::Support::normal;
     scene.displacement_mm = {0, 0};
     scene.boundary["force"].pressure_MPa = LinearValue<double>{{40, 40}};
-    const Solved solved(scene, ring_segment(2, around), "HYBRID");
+    const Solved solved(scene, ring_segment(radial, 12 * radial), "HYBRID");
     double least = 1e9, largest = 0;
-    for (const auto& [x, p] : pressures(solved)) {
-      least = std::min(least, p);
-      largest = std::max(largest, p);
+    for (int p = 0; p < solved.system.contact.count; ++p) {
+      const auto [a, b] =
+          solved.problem().mesh.boundary[solved.system.contact.boundary[p]].vertices;
+      const auto& x = solved.problem().mesh.vertices;
+      const double pressure = -2 * solved.solution.F_C(p) / (x[b] - x[a]).norm();
+      least = std::min(least, pressure);
+      largest = std::max(largest, pressure);
     }
     EXPECT_GT(least, 0);
     const double spread = largest / least - 1;
-    if (before > 0) EXPECT_LT(spread, before / 3) << around;
+    if (before > 0) {
+      EXPECT_LT(spread, before / 2);
+    }
     before = spread;
   }
-  EXPECT_LT(before, 0.01);
+  EXPECT_LT(before, 0.02);
 }
 
 TEST(Walls, ATurnedBlockOnAFlatWallIsTheOneOnItsOwnFace) {
@@ -198,7 +206,9 @@ TEST(Walls, EachGroupSlipsByItsOwnFriction) {
     for (int p = 0; p < contact.count; ++p) {
       const bool free =
           boundary_label(block, block.boundary[contact.boundary[p]]) == "contact:upper";
-      if (free) EXPECT_EQ(F(2 * p + 1), 0) << method;
+      if (free) {
+        EXPECT_EQ(F(2 * p + 1), 0) << method;
+      }
       EXPECT_LE(std::abs(F(2 * p + 1)), -contact.friction_at(p) * F(2 * p) + 1e-7 * size) << method;
       if (!free && F(2 * p) < -0.01 * size)
         largest_ratio = std::max(largest_ratio, std::abs(F(2 * p + 1) / F(2 * p)));

@@ -209,7 +209,7 @@ TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
   const airybench::SceneFile given = read_scene_file(file_), other = on_other_bodies(given);
   EXPECT_EQ(given.scene.crown_radius_mm, 400);
   EXPECT_FALSE(other.scene.crown_radius_mm);
-  EXPECT_EQ(other.definition, R"({"crown_radius_mm":null,"friction":0.1})");
+  EXPECT_EQ(other.definition, R"({"friction":0.1,"crown_radius_mm":null})");
   std::ofstream(file_) << R"({"crown_radius_mm": 7})";
   EXPECT_EQ(on_other_bodies(read_scene_file(file_)).scene.crown_radius_mm, 7);
 }

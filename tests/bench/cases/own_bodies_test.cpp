@@ -1,0 +1,60 @@
+// The bodies of docs/bodies, as a user runs them: a model and a scene, one command.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::own_bodies_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class OwnBodies : public ::testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(testing::meshgen_executable())) GTEST_SKIP() << "meshgen is not built here";
+  }
+  std::string body(const std::string& suffix) const {
+    return (testing::source_folder() / "docs/bodies" / (GetParam() + suffix)).string();
+  }
+  testing::CommandResult run(const std::string& arguments) const {
+    return bench_.run("--mesh=" + body(".geo") + " --scene=" + body(".json") +
+                          " --method=HYBRID,P2 --repetitions=1 --out=o " + arguments,
+                      "export AIRYBENCH_CACHE_DIR=cache; ");
+  }
+  const testing::BenchCommand bench_;
+};
+
+TEST_P(OwnBodies, FromTheModelToTablePicturesAndAdaptedMeshes) {
+  const testing::CommandResult result = run("--adapt=3% --fields");
+  ASSERT_EQ(result.code, 0) << result.err << result.out;
+  const std::vector<Json> records = bench_.records();
+  ASSERT_GE(records.size(), 2u);
+  for (const Json& record : records) {
+    EXPECT_EQ(record["status"], "ok") << record;
+    EXPECT_GT(record["n_stick"].get<int>() + record["n_slip"].get<int>(), 0) << record;
+    EXPECT_TRUE(fs::exists(bench_.path("o") / record["mesh_file"].get<std::string>())) << record;
+  }
+  double error = 1;
+  for (const Json& record : records)
+    if (record["method"] == "HYBRID") error = record["error_discretisation"];
+  EXPECT_LE(error, 0.03);
+  int pictures = 0;
+  for (const auto& file : fs::directory_iterator(bench_.path("o/fields")))
+    pictures += file.path().extension() == ".vtu" ? 1 : 0;
+  EXPECT_GE(pictures, static_cast<int>(records.size()));
+}
+
+TEST_P(OwnBodies, RecordsCanBeReplayed) {
+  ASSERT_EQ(run("").code, 0);
+  const testing::CommandResult replayed = bench_.run("replay o:1");
+  EXPECT_EQ(replayed.code, 0) << replayed.err << replayed.out;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, OwnBodies,
+                         ::testing::Values("punch", "dovetail", "cylinder", "L", "plate", "ring"),
+                         [](const auto& body) { return std::string(body.param); });
+
+}  // namespace
+}  // namespace airybench::own_bodies_test
