@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 import field_drawing as drawing
 from fields import Fields
 from figure_words import plain
-from unrolled import unrolled
+from unrolled import BY_LENGTH, unrolled
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
 SCALE = 0.3  # of a body, below it
@@ -181,6 +181,9 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
     traction.set_ylabel("MPa" if place.named else "", labelpad=2)
     drawing.draw_traction(traction, local)
 
+    if line.axis == BY_LENGTH:
+        body.plot(*s.edges[face[0], 0], marker="o", markersize=5, markeredgecolor="white",
+                  color=drawing.ROLE["contact"]["color"], zorder=5, clip_on=False)
     if letter:
         box = dict(facecolor="white", edgecolor="none", pad=0.8)
         start, end = s.edges[face[len(face) // 2]]

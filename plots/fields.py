@@ -50,13 +50,13 @@ class Fields:
         return points[..., ::-1] if self.of_face else points
 
     def faces(self) -> list[np.ndarray]:
-        """Numbers of the contact edges, a chain for each face; around a hole two, cut apart where
-        its y is least and across, as each is drawn along the line between its ends."""
+        """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is
+        least."""
         found = []
         for chain in chains(self.edges):
             starts, ends = self.edges[chain].swapaxes(0, 1)
             closed = (ends[-1] == starts[0]).all()
-            found += np.array_split(np.roll(chain, -starts[:, 1].argmin()), 2) if closed else [chain]
+            found.append(np.roll(chain, -starts[:, 1].argmin()) if closed else chain)
         return found
 
 

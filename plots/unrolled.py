@@ -7,6 +7,7 @@ import numpy as np
 
 from fields import Fields
 
+BY_LENGTH = "along the face from its dot, mm"
 STRAIGHT = 0.999  # cosine of an axis with a face that is told by that axis
 
 
@@ -77,4 +78,4 @@ def unrolled(edges: np.ndarray) -> Unrolled:
     for k, name in enumerate("xy"):
         if span > STRAIGHT * ends[-1] and chord[k] > STRAIGHT * span:
             return Unrolled(edges, along + edges[0, 0, k], f"{name} in mm")
-    return Unrolled(edges, along, "along the face, mm")
+    return Unrolled(edges, along, BY_LENGTH)

@@ -2,6 +2,7 @@
 import csv
 import sys
 import unittest
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -110,6 +111,15 @@ class FacesTest(unittest.TestCase):
         self.assertFalse(gallery.compose([[bar(10, 8, 1)]]).axes[0].texts)  # one needs no letter
         self.assertEqual([field_panel.letter_of(k) for k in (0, 25, 26)], ["A", "Z", "A2"])
 
+    def test_a_face_that_goes_by_its_length_has_a_dot_where_it_begins(self) -> None:
+        s = bar(10, 8, 1)
+        turned = replace(s, **{key: getattr(s, key) @ [[0.8, 0.6], [-0.6, 0.8]]
+                               for key in ("corners", "boundary", "edges")})
+        for solution, dots in ((s, []), (turned, [tuple(turned.edges[0, 0])])):
+            body = gallery.compose([[solution]]).axes[0]
+            self.assertEqual([tuple(line.get_xydata()[0]) for line in body.lines
+                              if line.get_marker() == "o"], dots)
+
     def strip(self, edges: int) -> object:
         s = bar(10, 8, 1, edges=edges)
         return gallery.compose([[s]]).axes[1]
@@ -151,7 +161,7 @@ class UnrolledTest(unittest.TestCase):
 
     def test_an_arc_goes_by_its_length(self) -> None:
         line = unrolled(self.arc(400))
-        self.assertEqual(line.axis, "along the face, mm")
+        self.assertEqual(line.axis, "along the face from its dot, mm")
         for radius, angle in ((5, 0.3), (4, 1.0), (4.5, 3.0), (5.2, 2.0)):
             outward, along = line.of(radius * np.array([np.cos(angle), np.sin(angle)]))
             self.assertAlmostEqual(outward, radius - 5, 3)
