@@ -169,12 +169,25 @@ class UnrolledTest(unittest.TestCase):
         below = line.of(np.array([[4.5, -0.7], [-4.2, -0.4]]))  # the lines that go on from the ends
         np.testing.assert_allclose(below, [[-0.5, -0.7], [-0.8, 5 * np.pi + 0.4]], atol=0.02)
 
+    def test_the_body_around_a_hole_is_behind_its_face(self) -> None:
+        hole = unrolled(self.arc(8, 2 * np.pi)[::-1, ::-1])  # coarse: corners are nearest to many
+        for k in range(8):
+            outward, _ = hole.of(6 * np.array([np.cos(k * np.pi / 4), np.sin(k * np.pi / 4)]))
+            self.assertAlmostEqual(outward, -1)
+        self.assertGreater(hole.of(np.array([0.0, 0.0]))[0], 4)
+
+    def test_a_face_sees_all_triangles_next_to_it(self) -> None:
+        s = bar(10, 8, 1)
+        seen = unrolled(s.edges).seen(s, np.arange(4), 0.5)
+        self.assertEqual((len(seen.corners), seen.of_face), (2, True))
+        np.testing.assert_allclose(seen.corners, s.corners - [11, 0], atol=1e-12)
+
     def test_a_ring_has_no_triangle_across_its_beginning(self) -> None:
         edges = self.arc(40, 2 * np.pi)
         self.assertTrue(unrolled(edges).closed)
         inner = 0.9 * edges
         corners = np.array([[edges[k, 0], edges[k, 1], inner[k, 0]] for k in range(40)])
-        thirds = np.stack([corners] * 3, 1)
+        thirds = np.stack([np.roll(corners, -k, axis=1) for k in range(3)], 1)
         s = Fields("n", thirds, np.ones((40, 3, 3, 3)), edges, np.array(["contact"] * 40), edges,
                    np.zeros((40, 2, 2)), np.full((40, 2), "open"), "ring", None)
         line = unrolled(edges)
