@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 
 from field_drawing import COLORMAP, Scales, draw_body, draw_boundary
@@ -19,7 +19,6 @@ from figure_words import plain
 LEVEL = re.compile(r"(?P<mesh>.+)%2Badapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
 SHOWN, WIDTH, LEFT, GAP, HIGHEST = 3, PAGE_WIDTH, 0.5, 0.12, 4.2  # inches
 TITLE, WORDS, BARS = 0.55, 0.34, 0.75
-BRIGHT = 0.995  # part of the area whose stress is in the scale: singular corners are beyond
 SHADES = 24
 DPI = 110
 
@@ -37,22 +36,9 @@ def chosen(names: list[str]) -> list[str]:
     return []
 
 
-def shear_scale(solutions: list[Fields]) -> Scales:
-    """Up to what BRIGHT of the finest body's area stays below."""
-    finest = solutions[-1]
-    a, b, c = (finest.triangles[:, k] for k in range(3))
-    area = np.abs(np.cross(b - a, c - a))
-    shear = np.hypot((finest.stress[..., 0] - finest.stress[..., 1]) / 2,
-                     finest.stress[..., 2]).mean(axis=(1, 2))
-    order = np.argsort(shear)
-    part = np.cumsum(area[order]) / area.sum()
-    highest = shear[order][min(np.searchsorted(part, BRIGHT), len(order) - 1)]
-    return Scales(Normalize(0, float(highest) or 1), 1)
-
-
 def draw(levels: list[tuple[Fields, np.ndarray, float | None]]) -> Figure:
     """Of each level its fields, its triangles' shares (T,) of e², 1, and its total error."""
-    scales = shear_scale([s for s, _, _ in levels])
+    scales = Scales.of([levels[-1][0]])  # of the finest
     view = view_of(levels[0][0])
     panel = (WIDTH - LEFT - len(levels) * GAP) / len(levels)
     height = panel * view.height
@@ -87,7 +73,7 @@ def draw(levels: list[tuple[Fields, np.ndarray, float | None]]) -> Figure:
             draw_boundary(axes, s)
     for left, mappable, words in (
             (0.08, ScalarMappable(scales.shear, COLORMAP),
-             "largest shear stress in the plane, MPa (brighter: beyond)"),
+             "largest shear stress in the plane, MPa; brightest: or more"),
             (0.56, ScalarMappable(norm, shades), "a triangle's part of the squared error over "
                                                  "their mean, 1")):
         bar = figure.colorbar(mappable, orientation="horizontal",

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.patches import Rectangle
-from matplotlib.patheffects import withTickedStroke
+from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
 from fields import Fields, chains, largest_shear
@@ -32,6 +32,7 @@ ROLE = {
     "contact": dict(color="#D00060", linewidth=2.0, linestyle=(0, (2, 1))),
 }
 FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
+NEARLY = 1.25
 SMALLEST_MARKER_PT = 3.5  # below, open, stick and slip cannot be told apart
 TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
 
@@ -45,9 +46,39 @@ class Scales:
 
     @staticmethod
     def of(solutions: list[Fields]) -> Scales:
-        shear = max(largest_shear(s.stress).max() for s in solutions) or 1
-        pressure = max(np.abs(s.traction).max(initial=0) for s in solutions)
-        return Scales(Normalize(0, shear), 1.08 * pressure or 1)
+        """Of the largest, and not of what singular corners have."""
+        shear = max(map(highest_shear, solutions))
+        pressure = max(map(highest_pressure, solutions))
+        return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
+
+
+def areas(s: Fields) -> np.ndarray:
+    """(T,) mm^2."""
+    a, b = (s.triangles[:, k] - s.triangles[:, 0] for k in (1, 2))
+    return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
+
+
+def highest_but(values: np.ndarray, weights: np.ndarray, part: float, times: float) -> float:
+    """The largest; or so many times what such a part of the weights has at most, if that is far
+    less."""
+    order = np.argsort(values)
+    share = np.cumsum(weights[order]) / weights.sum()
+    usual = times * values[order][min(np.searchsorted(share, part), len(order) - 1)]
+    return float(values.max() if values.max() <= NEARLY * usual else usual)
+
+
+def highest_shear(s: Fields) -> float:
+    """MPa; of 99.5 % of the area."""
+    shear = largest_shear(s.stress)
+    return highest_but(shear.ravel(), np.repeat(areas(s), shear[0].size), 0.995, 1.6)
+
+
+def highest_pressure(s: Fields) -> float:
+    """MPa; of 95 % of the contact in pressure."""
+    pressure = np.abs(s.traction[..., 0]).ravel()
+    lengths = np.repeat(np.hypot(*(s.edges[:, 1] - s.edges[:, 0]).T), 2)
+    pressed = pressure > 0
+    return highest_but(pressure[pressed], lengths[pressed], 0.95, 2) if pressed.any() else 0.0
 
 
 def marker(state: str) -> dict[str, str]:
@@ -68,6 +99,8 @@ def cut(values: np.ndarray, parts: int) -> np.ndarray:
 
 def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> None:
     """tau_max on the chosen triangles (T,); the stress is linear on each third, tau_max is not."""
+    if not chosen.any():
+        return
     parts = int(np.clip(np.sqrt(6e4 / (3 * chosen.sum())), 2, 8))
     xy = cut(s.placed(s.corners[chosen]).reshape(-1, 3, 2), parts).reshape(-1, 2)
     tau = largest_shear(cut(s.stress[chosen].reshape(-1, 3, 3), parts)).ravel()
@@ -97,43 +130,30 @@ def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
     draw_boundary(axes, s)
 
 
-def face_frame(edges: np.ndarray) -> tuple[np.ndarray, np.ndarray, str]:
-    """Origin (2,), frame (2, 2) of outward normal and tangent, and the axis that the tangent is.
-
-    edges (n, 2, 2): a face, the body on its left.
-    """
-    tangent = edges[-1, 1] - edges[0, 0]
-    tangent = tangent / np.hypot(*tangent)
-    normal = np.array([tangent[1], -tangent[0]])
-    return edges[0, 0] @ normal * normal, np.stack([normal, tangent], 1), \
-        "x in mm" if tangent[0] > 0.999 else "y in mm" if tangent[1] > 0.999 \
-        else "along the face, mm"
-
-
-def draw_strip(axes: Axes, s: Fields, face: np.ndarray, scales: Scales, marker_pt: float) -> None:
-    """Elements behind a face and its contact points; s in the face's frame, axes with limits set.
+def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
+    """Elements behind a face and its contact points; s as the face sees it, axes with limits set.
 
     A point is drawn outside the body, a quarter of the edge's length from its end of the edge; the
     edge's second point a little farther out. Where they would be too small, their states make a band.
     """
     (left, right), (outside, inside) = axes.get_xlim(), axes.get_ylim()
     x, y = s.triangles[..., 0], s.triangles[..., 1]
-    draw_stress(axes, s, (x.max(1) > inside) & (y.max(1) > left) & (y.min(1) < right), scales)
+    behind = (x.max(1) > inside) & (x.max(1) < 0.2 * outside)
+    draw_stress(axes, s, behind & (y.max(1) > left) & (y.min(1) < right), scales)
     draw_boundary(axes, s)
     if marker_pt < SMALLEST_MARKER_PT:
-        draw_states(axes, s, face, outside)
+        draw_states(axes, s, outside)
         return
-    along, state = s.edges[face, :, 1], s.state[face]
-    along = 0.75 * along + 0.25 * along[:, ::-1]
+    along = 0.75 * s.edges[..., 1] + 0.25 * s.edges[:, ::-1, 1]
     off = np.broadcast_to(np.array([0.42, 0.75]) * outside, along.shape)
     for name in STATE:
-        axes.plot(along[state == name], off[state == name], linestyle="none", **marker(name),
+        axes.plot(along[s.state == name], off[s.state == name], linestyle="none", **marker(name),
                   markersize=marker_pt, markeredgewidth=0.5)
 
 
-def halves(s: Fields, face: np.ndarray) -> np.ndarray:
-    """(points of the face, 2): start and end along it of the half edge of each, s in its frame."""
-    a, b = s.edges[face, :, 1].T
+def halves(s: Fields) -> np.ndarray:
+    """(points of the face, 2): start and end along it of the half edge of each."""
+    a, b = s.edges[..., 1].T
     return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
 
 
@@ -143,12 +163,12 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
             groupby(range(states.size), states.ravel().__getitem__)]
 
 
-def draw_states(axes: Axes, s: Fields, face: np.ndarray, outside: float) -> None:
+def draw_states(axes: Axes, s: Fields, outside: float) -> None:
     """A band outside the face, named where there is room."""
-    place = halves(s, face)
+    place = halves(s)
     box = axes.get_window_extent()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
-    for state, run in runs(s.state[face]):
+    for state, run in runs(s.state):
         left, right = place[run[0], 0], place[run[-1], 1]
         axes.add_patch(Rectangle((left, 0.25 * outside), right - left, 0.65 * outside,
                                  facecolor="white" if state == "open" else STATE[state]["fill"],
@@ -158,13 +178,19 @@ def draw_states(axes: Axes, s: Fields, face: np.ndarray, outside: float) -> None
                       fontsize=SMALLEST_PT)
 
 
-def draw_traction(axes: Axes, s: Fields, face: np.ndarray) -> None:
-    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face."""
-    along, traction = s.edges[face, :, 1], np.abs(s.traction[face])
+def draw_traction(axes: Axes, s: Fields) -> None:
+    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face; what is beyond
+    the axis is said."""
+    traction = np.abs(s.traction)
     p, q = traction[:, :, 0].T
-    x = halves(s, face)
+    x = halves(s)
     y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
-    for state, run in runs(s.state[face]):
+    for state, run in runs(s.state):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
-    axes.plot(along.T, traction[:, :, 0].T, color="black", linewidth=0.8)
-    axes.plot(along.T, traction[:, :, 1].T, **FRICTION)
+    axes.plot(s.edges[..., 1].T, traction[:, :, 0].T, color="black", linewidth=0.8)
+    axes.plot(s.edges[..., 1].T, traction[:, :, 1].T, **FRICTION)
+    highest = traction[:, :, 0].max()
+    if highest > max(axes.get_ylim()):
+        axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xycoords="axes fraction", xytext=(0, 3),
+                      textcoords="offset points", ha="center", fontsize=SMALLEST_PT,
+                      path_effects=[withStroke(linewidth=2, foreground="white")])

@@ -15,6 +15,7 @@ from matplotlib.patches import Patch
 import field_drawing as drawing
 from fields import Fields
 from figure_words import plain
+from unrolled import BY_LENGTH, unrolled
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
 SCALE = 0.3  # of a body, below it
@@ -159,9 +160,8 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
               scales: drawing.Scales, letter: str) -> None:
     """A strip of elements with the contact points, below it the pressure; its letter in both
     pictures."""
-    origin, frame, along = drawing.face_frame(s.edges[face])
-    local = s.moved(origin, frame)
-    start, end = local.edges[face[0], 0, 1], local.edges[face[-1], 1, 1]
+    line = unrolled(s.edges[face])
+    start, end = line.along[0, 0], line.along[-1, 1]
     limits = (start - BESIDE * (end - start), end + BESIDE * (end - start))
     per_mm = place.width / (limits[1] - limits[0])
 
@@ -170,19 +170,25 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
     strip.spines[:].set_color("0.5")
     strip.spines["bottom"].set_visible(False)
     spacing_pt = 72 * per_mm * (end - start) / len(face)
-    drawing.draw_strip(strip, local, face, scales, min(MARKER_PT, 0.67 * spacing_pt))
+    local = line.seen(s, face, place.strip / per_mm)
+    drawing.draw_strip(strip, local, min(MARKER_PT, 0.67 * spacing_pt), scales)
 
     traction = add_axes(place.left, place.top + place.strip, place.width, place.traction,
                         xlim=limits, ylim=(scales.pressure_MPa, 0))
     traction.tick_params(labelleft=place.named, length=2)
     traction.spines[["right", "bottom"]].set_visible(False)
-    traction.set_xlabel(along, labelpad=1)
+    traction.set_xlabel(line.axis, labelpad=1)
     traction.set_ylabel("MPa" if place.named else "", labelpad=2)
-    drawing.draw_traction(traction, local, face)
+    drawing.draw_traction(traction, local)
 
+    if line.axis == BY_LENGTH:
+        body.plot(*s.edges[face[0], 0], marker="o", markersize=5, markeredgecolor="white",
+                  color=drawing.ROLE["contact"]["color"], zorder=5, clip_on=False)
     if letter:
         box = dict(facecolor="white", edgecolor="none", pad=0.8)
-        body.annotate(letter, s.edges[face].mean(axis=(0, 1)), xytext=9 * frame[:, 0],
+        start, end = s.edges[face[len(face) // 2]]
+        tangent = (end - start) / np.hypot(*(end - start))
+        body.annotate(letter, (start + end) / 2, xytext=9 * np.array([tangent[1], -tangent[0]]),
                       textcoords="offset points", ha="center", va="center", weight="bold")
         strip.annotate(letter, (0, 1), xycoords="axes fraction", xytext=(4, -3), weight="bold",
                        textcoords="offset points", va="top", bbox=box)
@@ -203,4 +209,4 @@ def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
     height = figure.get_size_inches()[1]
     bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
                           cax=figure.add_axes([0.62, 0.36 / height, 0.35, 0.12 / height]))
-    bar.set_label(r"$\tau_{max}$ in MPa", labelpad=1)
+    bar.set_label(r"$\tau_{max}$ in MPa; brightest: or more", labelpad=1)

@@ -4,33 +4,26 @@ from __future__ import annotations
 import numpy as np
 
 from error_map import share_of_worst
-from field_drawing import face_frame
+from field_drawing import areas
 from field_panel import faces_of, letter_of
 from fields import Fields
 from figure_table import csv_of
+from unrolled import unrolled
 
 
 def contact_points(solutions: list[Fields]) -> str:
-    """A line per contact point, by face in the pictures' order; along: the face, from its origin."""
+    """A line per contact point, by face in the pictures' order; along: the pictures' axis of the face."""
     lines = []
     for s in solutions:
         for k, face in enumerate(faces_of(s)):
-            origin, frame, _ = face_frame(s.edges[face])
-            for edge in face:
-                lines += [(s, letter_of(k), point, float((point - origin) @ frame[:, 1]), traction,
-                           state) for point, traction, state in
-                          zip(s.edges[edge], s.traction[edge], s.state[edge])]
+            for edge, along in zip(face, unrolled(s.edges[face]).along):
+                lines += [(s, letter_of(k), *point) for point in
+                          zip(s.edges[edge], map(float, along), s.traction[edge], s.state[edge])]
     return csv_of(lines, ("mesh", lambda line: line[0].mesh), ("n_phi", lambda line: line[0].n_phi),
                   ("face", lambda line: line[1]), ("x_mm", lambda line: float(line[2][0])),
                   ("y_mm", lambda line: float(line[2][1])), ("along_mm", lambda line: line[3]),
                   ("pressure_MPa", lambda line: 0.0 - line[4][0]),
                   ("friction_MPa", lambda line: float(line[4][1])), ("state", lambda line: line[5]))
-
-
-def areas(s: Fields) -> np.ndarray:
-    """(T,) mm^2."""
-    a, b = (s.triangles[:, k] - s.triangles[:, 0] for k in (1, 2))
-    return np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]) / 2
 
 
 def error_shares(s: Fields, share: np.ndarray) -> str:

@@ -5,7 +5,7 @@ T triangles, B boundary edges, P = 2 x (contact edges) contact points.
 """
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -37,32 +37,26 @@ class Fields:
     state: np.ndarray     # (P/2, 2) of STATES
     mesh: str
     n_phi: int | None     # from the record; None: there is none
-    of_face: bool = False  # seen from a face: outward normal and tangent instead of x and y
+    of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
 
     @property
     def triangles(self) -> np.ndarray:
         """(T, 3, 2) mm."""
         return self.corners[:, :, 0]
 
-    def moved(self, origin: np.ndarray, frame: np.ndarray) -> Fields:
-        """Positions seen from origin (2,) along the frame's columns (2, 2), normal and tangent;
-        stresses stay."""
-        return replace(self, of_face=True, **{key: (getattr(self, key) - origin) @ frame
-                                               for key in ("corners", "boundary", "edges")})
-
     def placed(self, points: np.ndarray) -> np.ndarray:
         """(..., 2) -> to the right and along the vertical axis of a picture: x and y as they are, a
-        face with its tangent to the right."""
+        face from its start to the right."""
         return points[..., ::-1] if self.of_face else points
 
     def faces(self) -> list[np.ndarray]:
-        """Numbers of the contact edges, a chain for each face; around a hole two, cut apart where
-        its y is least and across, as each is drawn along the line between its ends."""
+        """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is
+        least."""
         found = []
         for chain in chains(self.edges):
             starts, ends = self.edges[chain].swapaxes(0, 1)
             closed = (ends[-1] == starts[0]).all()
-            found += np.array_split(np.roll(chain, -starts[:, 1].argmin()), 2) if closed else [chain]
+            found.append(np.roll(chain, -starts[:, 1].argmin()) if closed else chain)
         return found
 
 

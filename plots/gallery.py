@@ -35,14 +35,14 @@ TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
          "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
-WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.66, 0.62  # inches
+WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
 BODY = 5.0  # highest body in a picture of its own
 HEADING = (
     r"Largest shear stress in the plane, "
     r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
     "stresses linear\non each third of a triangle, nothing averaged. Below or beside each body its contact "
-    "faces, enlarged: elements,\ncontact points (two per edge) or a band of their states, contact "
-    "pressure. Scene and method: ")
+    "faces, enlarged\nand laid out straight: elements, contact points (two per edge) or a band of their "
+    "states, contact pressure.\nScene and method: ")
 
 
 def compose(rows: list[list[Fields]]) -> Figure:

@@ -2,6 +2,7 @@
 import csv
 import sys
 import unittest
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -20,6 +21,7 @@ import gallery  # noqa: E402
 from case_names import case_name, file_of, words_of_file  # noqa: E402
 from fields import Fields  # noqa: E402
 from figure_files import PAGE_WIDTH, SMALLEST_PT  # noqa: E402
+from unrolled import unrolled  # noqa: E402
 
 STATES = ("open", "slip", "stick", "slip")
 
@@ -109,6 +111,15 @@ class FacesTest(unittest.TestCase):
         self.assertFalse(gallery.compose([[bar(10, 8, 1)]]).axes[0].texts)  # one needs no letter
         self.assertEqual([field_panel.letter_of(k) for k in (0, 25, 26)], ["A", "Z", "A2"])
 
+    def test_a_face_that_goes_by_its_length_has_a_dot_where_it_begins(self) -> None:
+        s = bar(10, 8, 1)
+        turned = replace(s, **{key: getattr(s, key) @ [[0.8, 0.6], [-0.6, 0.8]]
+                               for key in ("corners", "boundary", "edges")})
+        for solution, dots in ((s, []), (turned, [tuple(turned.edges[0, 0])])):
+            body = gallery.compose([[solution]]).axes[0]
+            self.assertEqual([tuple(line.get_xydata()[0]) for line in body.lines
+                              if line.get_marker() == "o"], dots)
+
     def strip(self, edges: int) -> object:
         s = bar(10, 8, 1, edges=edges)
         return gallery.compose([[s]]).axes[1]
@@ -133,6 +144,78 @@ class FacesTest(unittest.TestCase):
                          [("open", [0]), ("slip", [1, 2, 3]), ("open", [4, 5])])
 
 
+class UnrolledTest(unittest.TestCase):
+    def arc(self, count: int, whole: float = np.pi) -> np.ndarray:
+        """Edges of an arc of radius 5 from (5, 0) on, the centre on their left."""
+        angle = np.linspace(0, whole, count + 1)
+        points = 5 * np.stack([np.cos(angle), np.sin(angle)], 1)
+        if whole == 2 * np.pi:
+            points[-1] = points[0]
+        return np.stack([points[:-1], points[1:]], 1)
+
+    def test_a_straight_face_keeps_its_coordinate(self) -> None:
+        line = unrolled(np.array([[[3, -1], [3, 0.5]], [[3, 0.5], [3, 2]]], float))
+        self.assertEqual(line.axis, "y in mm")
+        points = np.random.default_rng(1).uniform(-5, 8, (40, 2, 2))  # also beyond its ends
+        np.testing.assert_allclose(line.of(points), points - [3, 0], atol=1e-12)
+
+    def test_an_arc_goes_by_its_length(self) -> None:
+        line = unrolled(self.arc(400))
+        self.assertEqual(line.axis, "along the face from its dot, mm")
+        for radius, angle in ((5, 0.3), (4, 1.0), (4.5, 3.0), (5.2, 2.0)):
+            outward, along = line.of(radius * np.array([np.cos(angle), np.sin(angle)]))
+            self.assertAlmostEqual(outward, radius - 5, 3)
+            self.assertAlmostEqual(along, 5 * angle, 2)
+        below = line.of(np.array([[4.5, -0.7], [-4.2, -0.4]]))  # the lines that go on from the ends
+        np.testing.assert_allclose(below, [[-0.5, -0.7], [-0.8, 5 * np.pi + 0.4]], atol=0.02)
+
+    def test_the_body_around_a_hole_is_behind_its_face(self) -> None:
+        hole = unrolled(self.arc(8, 2 * np.pi)[::-1, ::-1])  # coarse: corners are nearest to many
+        for k in range(8):
+            outward, _ = hole.of(6 * np.array([np.cos(k * np.pi / 4), np.sin(k * np.pi / 4)]))
+            self.assertAlmostEqual(outward, -1)
+        self.assertGreater(hole.of(np.array([0.0, 0.0]))[0], 4)
+
+    def test_a_face_sees_all_triangles_next_to_it(self) -> None:
+        s = bar(10, 8, 1)
+        seen = unrolled(s.edges).seen(s, np.arange(4), 0.5)
+        self.assertEqual((len(seen.corners), seen.of_face), (2, True))
+        np.testing.assert_allclose(seen.corners, s.corners - [11, 0], atol=1e-12)
+
+    def test_a_ring_has_no_triangle_across_its_beginning(self) -> None:
+        edges = self.arc(40, 2 * np.pi)
+        self.assertTrue(unrolled(edges).closed)
+        inner = 0.9 * edges
+        corners = np.array([[edges[k, 0], edges[k, 1], inner[k, 0]] for k in range(40)])
+        thirds = np.stack([np.roll(corners, -k, axis=1) for k in range(3)], 1)
+        s = Fields("n", thirds, np.ones((40, 3, 3, 3)), edges, np.array(["contact"] * 40), edges,
+                   np.zeros((40, 2, 2)), np.full((40, 2), "open"), "ring", None)
+        line = unrolled(edges)
+        seen = line.seen(s, np.arange(40), 1.0)
+        self.assertGreaterEqual(len(seen.corners), 38)
+        width = np.ptp(seen.triangles[..., 1], axis=1)
+        self.assertLess(width.max(), 2)
+        np.testing.assert_allclose(seen.edges[:, 1, 1], np.cumsum(np.hypot(
+            *(edges[:, 1] - edges[:, 0]).T)))
+
+
+class ScalesTest(unittest.TestCase):
+    def test_a_singular_corner_does_not_darken_the_body(self) -> None:
+        values, weights = np.r_[np.linspace(1, 10, 999), 1000], np.ones(1000)
+        self.assertAlmostEqual(field_drawing.highest_but(values, weights, 0.995, 1.6), 16, 0)
+        self.assertEqual(field_drawing.highest_but(values[:-1], weights[:-1], 0.995, 1.6), 10)
+        weights[-1] = 500  # now it is no corner
+        self.assertEqual(field_drawing.highest_but(values, weights, 0.995, 1.6), 1000)
+
+    def test_a_pressure_beyond_the_axis_is_said(self) -> None:
+        s = bar(10, 8, 1, edges=40)
+        self.assertFalse(gallery.compose([[s]]).axes[2].texts)
+        s.traction[0, 0, 0] = -3456.7
+        axes = gallery.compose([[s]]).axes[2]
+        self.assertLess(max(axes.get_ylim()), 30)
+        self.assertEqual([text.get_text() for text in axes.texts], ["up to 3460 MPa"])
+
+
 class TablesTest(unittest.TestCase):
     def test_contact_points(self) -> None:
         table = list(csv.DictReader(field_tables.contact_points([bar(10, 60, 2)]).splitlines()))
@@ -145,7 +228,7 @@ class TablesTest(unittest.TestCase):
             self.assertEqual((float(line["x_mm"]), line["along_mm"]), (11, line["y_mm"]))
 
     def test_areas_are_the_bodys(self) -> None:
-        self.assertAlmostEqual(field_tables.areas(bar(10, 8, 1)).sum(), 80)
+        self.assertAlmostEqual(field_drawing.areas(bar(10, 8, 1)).sum(), 80)
 
     def test_words_of_a_file_are_those_of_its_case(self) -> None:
         for mesh, method in (("Mesh0+adapt1", "SYMMLQ:DTIC3"), ("a-b%c", "ALM:r=20,rho=20")):
