@@ -108,10 +108,10 @@ TEST_F(HolesCommand, AdviceIsGivenWithoutTheSkipped) {
 }
 
 TEST_F(HolesCommand, ACrownNeedsAFaceWithEnds) {
-  std::ofstream(bench_.path("crown.json")) << R"({"crown_radius_mm": 400})";
-  EXPECT_EQ(bench("--mesh=pin.msh --scene=crown.json --out=o"), 2);
+  std::ofstream(bench_.path("crowned.json")) << R"({"crown_radius_mm": 300})";
+  EXPECT_EQ(bench("--mesh=pin.msh --scene=crowned.json --out=o"), 2);
   EXPECT_EQ(complaint(),
-            "bench: crown.json: crown_radius_mm: 400 on the mesh pin, where a contact face is "
+            "bench: crowned.json: crown_radius_mm: 300 on the mesh pin, where a contact face is "
             "closed and has no middle (allowed: null, for no crown)\n");
   EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
 }
