@@ -83,8 +83,8 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   const DisplacementField w =
       recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
   ConstitutiveError error = constitutive_error(system, solution.stress, solution.F_C, w);
+  estimate_s_ += seconds_since(estimating);  // first: whatever comes between, it is a part
   time_s_ += seconds_since(start);
-  estimate_s_ += seconds_since(estimating);
   AdaptiveLevel level;
   level.mesh = mesh_;
   level.number = static_cast<int>(history_.size());
