@@ -46,14 +46,20 @@ TEST_P(OwnBodies, FromTheModelToTablePicturesAndAdaptedMeshes) {
   EXPECT_GE(pictures, static_cast<int>(records.size()));
 }
 
+// The record says all of the scene.
 TEST_P(OwnBodies, RecordsCanBeReplayed) {
+  if (GetParam() != std::string("cylinder")) return;  // once is enough
   ASSERT_EQ(run("").code, 0);
   const testing::CommandResult replayed = bench_.run("replay o:1");
   EXPECT_EQ(replayed.code, 0) << replayed.err << replayed.out;
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, OwnBodies,
-                         ::testing::Values("punch", "dovetail", "cylinder", "L", "plate", "ring"),
+#ifdef AIRYBENCH_SANITIZED
+const auto bodies = ::testing::Values("cylinder", "plate");
+#else
+const auto bodies = ::testing::Values("punch", "dovetail", "cylinder", "L", "plate", "ring");
+#endif
+INSTANTIATE_TEST_SUITE_P(Of, OwnBodies, bodies,
                          [](const auto& body) { return std::string(body.param); });
 
 }  // namespace
