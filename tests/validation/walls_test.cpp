@@ -84,7 +84,9 @@ TEST(Walls, ACylinderOfStraightEdgesIsHertzsWhereItsFaceIsSaidToBeRound) {
 
 // A ring from 24 to 30 mm over 120°, its outer side contact, its ends held.
 Mesh ring_segment(int radial, int around) {
-  Mesh mesh{.name = "ring", .body_names = {"ring"}};
+  Mesh mesh;
+  mesh.name = "ring";
+  mesh.body_names = {"ring"};
   const int right = boundary_group(mesh, "right"), left = boundary_group(mesh, "left");
   for (int i = 0; i <= around; ++i)
     for (int k = 0; k <= radial; ++k) {
