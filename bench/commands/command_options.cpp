@@ -91,8 +91,10 @@ Options parse_options(int argc, const char* const* argv) {
          "meshes, *.msh, and Gmsh models, *.geo, *.step, *.brep, *.iges, which meshgen converts")
       ->capture_default_str();
   add_model_settings(app, options.model_settings);
-  app.add_option("--method", options.methods,
-                 "names or globs, separated by commas; default: all the paper's methods");
+  app.add_option(
+      "--method", options.methods,
+      "names or globs, separated by commas; default: all the paper's methods, for bodies "
+      "with holes also HYBRID and P2");
   app.add_option_function<std::vector<std::string>>(
       "--scene",
       [&](const std::vector<std::string>& lists) {

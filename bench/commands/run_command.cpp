@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
@@ -94,11 +95,20 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
     fmt::print("note: {}\n", warning);
 }
 
+// Those asked for. By default the paper's, which leave out bodies with holes: for these also what
+// takes them.
+std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
+  if (!options.methods.empty()) return select_methods(options.methods);
+  std::string names = default_methods(options.study);
+  const auto has_holes = [](const PosedScene& s) { return hole_count(s.problem->mesh) > 0; };
+  if (options.study == Study::none && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
+  return select_methods(names);
+}
+
 // The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
-  const std::vector<Method> selected =
-      select_methods(options.methods.empty() ? default_methods(options.study) : options.methods);
-  std::vector<Case> plan = plan_cases(pose_and_adapt(options, short_of), selected, options.study,
+  const std::vector<PosedScene> scenes = pose_and_adapt(options, short_of);
+  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
                                       options.stop, options.contact);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty() && short_of.empty())

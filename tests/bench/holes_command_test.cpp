@@ -65,6 +65,14 @@ TEST_F(HolesCommand, SkippedCasesTakeNoTimeInAPlan) {
   EXPECT_NE(result.out.find("the run: about 0 µs"), std::string::npos) << result.out;
 }
 
+TEST_F(HolesCommand, ByDefaultThereAreMethodsThatTakeThem) {
+  ASSERT_EQ(bench("--mesh=plate.msh --scene=flat.json --repetitions=1 --out=o"), 0) << complaint();
+  std::vector<std::string> ok;
+  for (const Json& r : bench_.records())
+    if (r["status"] == "ok") ok.push_back(r["method"]);
+  EXPECT_EQ(ok, (std::vector<std::string>{"HYBRID", "P2"}));
+}
+
 TEST_F(HolesCommand, StudiesGoAroundThem) {
   for (const char* study : {"error", "contact", "stability"}) {
     SCOPED_TRACE(study);

@@ -14,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 
 #ifdef AIRYBENCH_SANITIZED
-constexpr int mutants = 80;
+constexpr int mutants = 400;
 #else
 constexpr int mutants = 1000;
 #endif
