@@ -53,11 +53,12 @@ std::optional<ThreePoints> wall_distances(const Mesh& mesh, int row, const EdgeV
                                           double reach_mm) {
   const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
   const Eigen::Vector2d m = edge_frame(x[0], x[2]).normal;
+  constexpr double least_cosine = 0.05;
   std::array<std::optional<double>, 3> met;
   std::optional<double> largest;
   for (std::size_t k = 0; k < 3; ++k) {
     const Eigen::Vector2d n = law_normal(values, x[k], m);
-    if (!(n.dot(m) > 0)) continue;  // it faces away
+    if (!(n.dot(m) > least_cosine)) continue;  // it faces away
     met[k] = distance_along(*values.wall, x[k], n);
     if (met[k] && std::abs(*met[k]) > reach_mm) met[k].reset();
     if (!met[k]) continue;
@@ -78,7 +79,7 @@ void check_face(const Mesh& mesh, int row, const std::string& label, const Wall&
     if (t && std::abs(*t) <= allowed_mm) continue;
     refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
            "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
-               " mm, 2 % of the group's length)");
+               " mm, 2 % of the body's size)");
   }
 }
 
@@ -116,35 +117,31 @@ Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
                             const ContactDefaults& defaults) {
   constexpr double farthest = 100, face_share = 0.02;
   const double diameter = diameter_of(mesh);
-  std::map<std::string, double> length_mm;
-  const auto for_each_contact_edge = [&](const auto& visit) {
-    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
-      if (mesh.boundary[row].role == BoundaryRole::contact)
-        visit(row, boundary_label(mesh, mesh.boundary[row]));
-  };
-  for_each_contact_edge([&](int row, const std::string& label) {
-    const auto x = points_of(mesh, row);
-    length_mm[label] += (x[2] - x[0]).norm();
-  });
   std::vector<int> free;
   std::map<std::string, int> met;  // edges of groups with a wall
-  for_each_contact_edge([&](int row, const std::string& label) {
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const std::string label = boundary_label(mesh, mesh.boundary[row]);
     const EdgeValues values = values_of(mesh, row, conditions, defaults);
-    if (!values.wall) return;
-    if (values.face) check_face(mesh, row, label, *values.face, face_share * length_mm[label]);
+    if (!values.wall) continue;
     const auto distances = wall_distances(mesh, row, values, farthest * diameter);
     met[label] += distances ? 1 : 0;
-    if (!distances) free.push_back(row);
-    for (std::size_t k = 0; distances && k < 3; ++k)
-      check_interference(label, points_of(mesh, row)[k], (*distances)[k] + values.clearance_mm,
-                         diameter);
-  });
+    if (!distances) {
+      free.push_back(row);
+      continue;
+    }
+    if (values.face) check_face(mesh, row, label, *values.face, face_share * diameter);
+    for (std::size_t k = 0; k < 3; ++k)  // without clearance, which load steps may change
+      check_interference(label, points_of(mesh, row)[k], (*distances)[k], diameter);
+  }
   for (const auto& [label, count] : met)
     if (count == 0)
       throw TransformError(label +
                            ": wall: no edge meets it (allowed: a wall that lies in the direction "
                            "of the edges' outward normals, its free side towards them)");
-  for (const int row : free) mesh.boundary[row].role = BoundaryRole::force;
+  for (const int row : free)
+    mesh.boundary[row] = {mesh.boundary[row].vertices, BoundaryRole::force,
+                          boundary_group(mesh, out_of_reach)};
   return mesh;
 }
 
@@ -186,7 +183,9 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryCond
     const auto at = [&](const Eigen::Vector2d& x) { return law_normal(values, x, m); };
     normals[static_cast<std::size_t>(row)] = {{at(a), at(middle), at(b)},
                                               {at((2 * a + b) / 3), at((a + 2 * b) / 3)}};
-    own &= !values.wall || std::holds_alternative<PolylineWall>(*values.wall);
+    constexpr double rounding = 1e-12;
+    for (const Eigen::Vector2d& n : normals[static_cast<std::size_t>(row)].at_node)
+      own &= (n - m).norm() <= rounding;
   }
   if (own) normals.clear();
   return normals;

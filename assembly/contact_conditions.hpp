@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "assembly/boundary_values.hpp"
@@ -18,10 +19,13 @@ struct ContactDefaults {
   std::optional<Wall> wall, face;
 };
 
-// Edges from which no wall is met, nearer than a hundred sizes of the body, cannot touch: they
-// become force edges and keep their group. An edge that is met at its ends or middle only has the
-// largest gap of these. Throws TransformError: a wall that no edge of a group meets, or that lies
-// more than a tenth of the body's size inside it; a face that is not where the edges are.
+// The group of force edges that were contact edges.
+inline constexpr std::string_view out_of_reach = "out of reach";
+// Edges from which no wall is met, nearer than a hundred sizes of the body and at less than 87° to
+// their normal, cannot touch: they become free edges of that group. An edge that is met at its ends
+// or middle only has the largest gap of these. Throws TransformError: a wall that no edge of a
+// group meets, or that lies more than a tenth of the body's size inside it, clearance or not; a
+// face that is farther from an edge than 2 % of that size.
 Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
                             const ContactDefaults& defaults);
 

@@ -19,7 +19,7 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 std::vector<Crossing> crossings(const FlatWall& wall, const Eigen::Vector2d& x,
                                 const Eigen::Vector2d& m) {
-  const Eigen::Vector2d n = wall.normal.normalized();
+  const Eigen::Vector2d n = wall.normal.stableNormalized();
   const double slope = n.dot(m);
   if (slope == 0) return {};
   return {{n.dot(wall.point_mm - x) / slope, n}};
@@ -72,7 +72,7 @@ void check_point(const std::string& key, const Eigen::Vector2d& point) {
 void check(const std::string& key, const FlatWall& wall) {
   check_point(key + ": flat: point_mm", wall.point_mm);
   check_point(key + ": flat: normal", wall.normal);
-  if (wall.normal.norm() == 0)
+  if (wall.normal.isZero(0))
     refuse(key + ": flat: normal", shown(wall.normal), "(allowed: not zero)");
 }
 
@@ -102,7 +102,7 @@ void check_curve(const std::string& key, const std::optional<Wall>& wall) {
 }
 
 std::optional<Eigen::Vector2d> direction_towards(const Wall& wall, const Eigen::Vector2d& x) {
-  if (const auto* flat = std::get_if<FlatWall>(&wall)) return -flat->normal.normalized();
+  if (const auto* flat = std::get_if<FlatWall>(&wall)) return -flat->normal.stableNormalized();
   if (const auto* round = std::get_if<CircularWall>(&wall); round && x != round->centre_mm) {
     const double side = round->bodies == CircularWall::Bodies::inside ? 1 : -1;
     return side * (x - round->centre_mm).normalized();

@@ -84,7 +84,8 @@ std::vector<MeshFile> read_meshes(const MeshChoice& choice) {
 
 bool is_of_catalogue(const std::filesystem::path& file) {
   std::error_code ignored;
-  return std::filesystem::equivalent(file.parent_path(), mesh_directory(), ignored);
+  return std::filesystem::equivalent(std::filesystem::absolute(file).parent_path(),
+                                     mesh_directory(), ignored);
 }
 
 void keep_models(const std::vector<MeshFile>& files) {

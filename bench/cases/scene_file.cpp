@@ -246,7 +246,7 @@ SceneFile read_scene_file(const std::filesystem::path& file) {
     throw SceneError(error.what());
   }
   Json json = json_of(text, file.string());
-  inline_polylines(json, file.parent_path());
+  inline_polylines(json, file);
   Scene scene = checked_scene(json, file.string());
   scene.name = name;
   return {std::move(scene), json_text(json)};

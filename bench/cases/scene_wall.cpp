@@ -65,12 +65,12 @@ bool is_header(const std::string& line) {
   return line.find_first_of("0123456789") == line.npos && line.find_first_of(", ") != line.npos;
 }
 
-Json points_of(const std::filesystem::path& file) {
+Json points_of(const std::filesystem::path& file, const std::string& place) {
   std::string text;
   try {
     text = file_text(file);
   } catch (const FileError& error) {
-    throw SceneError(error.what());
+    throw SceneError(place + ": polyline: " + error.what());
   }
   Json points = Json::array();
   std::istringstream lines(text);
@@ -81,8 +81,9 @@ Json points_of(const std::filesystem::path& file) {
     if (points.empty() && is_header(line)) continue;
     const std::optional<Eigen::Vector2d> point = point_of(line);
     if (!point)
-      throw SceneError(fmt::format("{}:{}: '{}' (allowed: two numbers, x and y in mm)",
-                                   file.string(), number, shortened(line)));
+      throw SceneError(
+          fmt::format("{}: polyline: {}:{}: '{}' (allowed: two numbers, x and y in mm)", place,
+                      file.string(), number, shortened(line)));
     points.push_back({point->x(), point->y()});
   }
   return points;
@@ -101,13 +102,13 @@ Wall read_wall(const SceneReader& reader, const std::string& key, const Json& js
   return *wall;
 }
 
-void inline_polylines(Json& json, const std::filesystem::path& folder) {
+void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
   if (!json.is_structured()) return;
   for (auto& [key, value] : json.items())
     if (json.is_object() && key == "polyline" && value.is_string())
-      value = points_of(folder / value.get<std::string>());
+      value = points_of(scene_file.parent_path() / value.get<std::string>(), scene_file.string());
     else
-      inline_polylines(value, folder);
+      inline_polylines(value, scene_file);
 }
 
 }  // namespace airybench

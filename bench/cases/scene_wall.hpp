@@ -17,9 +17,9 @@ enum class Curve { wall, face };
 Wall read_wall(const SceneReader& reader, const std::string& key, const Json& json, Curve kind);
 
 // Puts the points of files in the place of their names, wherever `json` has a "polyline"; the files
-// are looked for from `folder`. Two numbers a line, x and y in mm, separated by a comma or spaces;
-// empty lines, those that begin with '#', and a first line of two words are skipped. Throws
+// are looked for beside the scene's. Two numbers a line, x and y in mm, separated by a comma or
+// spaces; empty lines, those that begin with '#', and a first line of two words are skipped. Throws
 // SceneError.
-void inline_polylines(Json& json, const std::filesystem::path& folder);
+void inline_polylines(Json& json, const std::filesystem::path& scene_file);
 
 }  // namespace airybench

@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // Also when adapted or refined: Mesh0+adapt3.
-bool is_of_catalogue(const std::string& mesh) {
+bool is_named_after_catalogue(const std::string& mesh) {
   const std::string body = mesh.substr(0, mesh.find('+'));
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
@@ -28,7 +28,7 @@ bool is_newer(const fs::path& file, const fs::path& than) {
 
 std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
   const auto last = std::find_if(records.rbegin(), records.rend(),
-                                 [](const Record& r) { return !is_of_catalogue(r.mesh); });
+                                 [](const Record& r) { return !is_named_after_catalogue(r.mesh); });
   if (last == records.rend()) return "";
   for (const Record& record : records) {
     if (!has_fields || record.mesh != last->mesh) continue;

@@ -3,14 +3,31 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iostream>
 #include <iterator>
 
+#include "assembly/contact_conditions.hpp"
 #include "bench/adapting/adapted_scenes.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
+namespace {
+
+void note_out_of_reach(const PosedScene& posed) {
+  const Mesh& mesh = posed.problem->mesh;
+  const std::string label = fmt::format("force:{}", out_of_reach);
+  const auto free = std::ranges::count_if(
+      mesh.boundary, [&](const BoundaryEdge& edge) { return boundary_label(mesh, edge) == label; });
+  if (free > 0)
+    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet no wall, and are free\n",
+                             mesh.name, posed.scene_name, free,
+                             free + mesh_sizes(mesh).contact_edges);
+}
+
+}  // namespace
+
 std::vector<PosedScene> pose_all(const Options& options) {
   std::vector<SceneFile> scenes;
   for (const auto& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
@@ -30,6 +47,7 @@ std::vector<PosedScene> pose_all(const Options& options) {
       const auto& [scene, definition] = is_of_catalogue(file.path) ? given : on_other_bodies(given);
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
+      note_out_of_reach(posed.back());
     }
   if (!options.dry_run && !options.explain) keep_models(files);
   return posed;

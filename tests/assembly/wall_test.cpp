@@ -113,6 +113,37 @@ TEST(Wall, EdgesOutOfReachBecomeForceEdges) {
     }
 }
 
+TEST(Wall, EdgesOutOfReachAreFreeWhateverTheirGroupIsCalled) {
+  Mesh block = testing::small_block(4, 4, 0);
+  Scene scene = scene_with(PolylineWall{{{11, -1}, {11, 5.5}}});
+  scene.boundary["force"].pressure_MPa = LinearValue<double>{{100, 100}};
+  for (BoundaryEdge& edge : block.boundary)  // a group of force edges with contact's name
+    if (boundary_label(block, edge) == "force:top") edge.group = BoundaryEdge::no_group;
+  const Problem problem = pose(scene, block);
+  int free = 0;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (block.boundary[row].role == BoundaryRole::contact &&
+        problem.mesh.boundary[row].role == BoundaryRole::force) {
+      EXPECT_EQ(boundary_label(problem.mesh, problem.mesh.boundary[row]), "force:out of reach");
+      EXPECT_TRUE(problem.loads.traction_MPa({10, 9}, {1, 0}, row).isZero(0));
+      ++free;
+    }
+  EXPECT_EQ(free, 1);
+}
+
+TEST(Wall, SidesAlongTheWallsNormalAreOutOfReachHoweverTheBodyIsTurned) {
+  for (const double angle : {0., 0.1, 33., 211.}) {
+    Turned block(angle);
+    for (BoundaryEdge& edge : block.mesh.boundary)
+      if (edge.role == BoundaryRole::force)
+        edge = {edge.vertices, BoundaryRole::contact, BoundaryEdge::no_group};
+    const Vector2d towards = block.turn * Vector2d(-1, 0), point = block.turn * Vector2d(10.5, 0);
+    const Problem problem = pose(scene_with(FlatWall{point, towards}), block.mesh);
+    EXPECT_EQ(mesh_sizes(problem.mesh).contact_edges, 4) << angle;
+    EXPECT_TRUE(problem.contact_normals.empty()) << angle;  // the face's own
+  }
+}
+
 TEST(Wall, ContactGroupsHaveTheirOwnWallFrictionAndClearance) {
   Mesh block = testing::small_block(4, 4, 0);
   const int upper = boundary_group(block, "upper");
@@ -171,7 +202,7 @@ TEST(Wall, WhatCannotBeAWall) {
   scene.face = CircularWall{{0, 5}, 12, inside};
   EXPECT_EQ(complaint(scene),
             in + "boundary: contact: face: is 0.908712 mm from the edge at [10, 0] (allowed: up to "
-                 "0.2 mm, 2 % of the group's length)");
+                 "0.282843 mm, 2 % of the body's size)");
   scene.wall.reset();
   EXPECT_EQ(complaint(scene), in + "face: given without a wall (allowed: beside one)");
   scene = {};

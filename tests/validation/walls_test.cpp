@@ -170,6 +170,23 @@ TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
   EXPECT_LT(before, 0.02);
 }
 
+TEST(Walls, ARoundWallHasNoStrictBoundsAndNoFalseCrossingOfThem) {
+  Scene scene = socket(29.99);
+  scene.friction = 0;
+  scene.displacement_mm = {0, 0};
+  scene.boundary["displacement:left"].support = BoundaryValues::Support::normal;
+  scene.boundary["displacement:right"].support = BoundaryValues::Support::normal;
+  const Solved solved(scene, ring_segment(2, 24), "HYBRID");
+  const ConstitutiveError error =
+      constitutive_error(solved.system, solved.solution.stress, solved.solution.F_C,
+                         recovered_displacement(solved.system, solved.solution.stress,
+                                                solved.solution.F_C, solved.solution.edge_moments));
+  EXPECT_EQ(error.flaw, "");
+  EXPECT_FALSE(error.guaranteed);
+  EXPECT_GT(error.relative, 0);
+  EXPECT_LT(error.relative, 0.05);
+}
+
 TEST(Walls, ATurnedBlockOnAFlatWallIsTheOneOnItsOwnFace) {
   for (const char* method : {"HYBRID", "P2", "3STEPD"}) {
     Scene own;

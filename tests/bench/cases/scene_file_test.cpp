@@ -197,11 +197,10 @@ TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
     }
     return std::string("none");
   };
-  EXPECT_EQ(said(),
-            (folder / "profile.csv").string() + ":2: '2 a' (allowed: two numbers, x and y in mm)");
+  const std::string named = file_.string() + ": polyline: " + (folder / "profile.csv").string();
+  EXPECT_EQ(said(), named + ":2: '2 a' (allowed: two numbers, x and y in mm)");
   std::filesystem::remove(folder / "profile.csv");
-  EXPECT_EQ(said(),
-            (folder / "profile.csv").string() + ": cannot be opened: No such file or directory");
+  EXPECT_EQ(said(), named + ": cannot be opened: No such file or directory");
 }
 
 TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
