@@ -8,7 +8,9 @@
 // unit and meaning.
 #pragma once
 
+#include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/cases/plan.hpp"
