@@ -12,6 +12,7 @@
 #include "bench/commands/claims_command.hpp"
 #include "bench/commands/compare_command.hpp"
 #include "bench/commands/export_command.hpp"
+#include "bench/commands/export_problem_command.hpp"
 #include "bench/commands/merge_command.hpp"
 #include "bench/commands/replay_command.hpp"
 #include "bench/commands/run_command.hpp"
@@ -27,9 +28,13 @@ using Command = int (*)(int argc, const char* const* argv);
 
 // `bench WORD …`; without such a word it is a run.
 const std::map<std::string_view, Command> commands = {
-    {"advise", airybench::advise_command},   {"claims", airybench::claims_command},
-    {"compare", airybench::compare_command}, {"export", airybench::export_command},
-    {"merge", airybench::merge_command},     {"replay", airybench::replay_command},
+    {"advise", airybench::advise_command},
+    {"claims", airybench::claims_command},
+    {"compare", airybench::compare_command},
+    {"export", airybench::export_command},
+    {"export-problem", airybench::export_problem_command},
+    {"merge", airybench::merge_command},
+    {"replay", airybench::replay_command},
     {"track", airybench::track_command},
 };
 

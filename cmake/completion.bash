@@ -7,7 +7,7 @@ _airybench() {
     options=$("${words[@]}" --help 2>/dev/null | grep -o '^ *\(-[a-z],\)\?--[a-z-]*' | grep -o -- '--[a-z-]*')
     mapfile -t COMPREPLY < <(compgen -W "$options" -- "$word")
   elif [[ ${COMP_CWORD} -eq 1 && ${COMP_WORDS[0]##*/} == airybench ]]; then
-    mapfile -t COMPREPLY < <(compgen -W "advise claims compare track export merge replay" -- "$word")
+    mapfile -t COMPREPLY < <(compgen -W "advise claims compare track export export-problem merge replay" -- "$word")
   else
     mapfile -t COMPREPLY < <(compgen -f -- "$word")
   fi

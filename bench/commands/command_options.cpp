@@ -21,6 +21,7 @@ Other commands (each has --help)
   bench compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
   bench track            a night's run, added to a history and judged
   bench export DIR       records for Google Benchmark's tools, trackers, JUnit
+  bench export-problem   a problem's matrices, for solvers of one's own
   bench merge DIR...     the shards of a run, joined
   bench replay RECORD    one recorded case, run again
 

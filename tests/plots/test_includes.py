@@ -25,6 +25,8 @@ ROOMS = {
     # What runs cases.
     "bench/heap": ["support"],
     "bench/cases": ["bench/records", "solvers", "assembly", "mesh", "support"],
+    "bench/problems": ["bench/cases", "bench/judging", "bench/records", "solvers", "assembly", "mesh",
+                       "support"],
     "bench/measuring": ["bench/cases", "bench/judging", "bench/heap", "bench/records",
                         "bench/statistics", "solvers", "assembly", "mesh", "support"],
     "bench/isolation": ["bench/measuring", "bench/cases", "bench/heap", "bench/records", "solvers",
@@ -33,7 +35,8 @@ ROOMS = {
                        "bench/heap", "bench/records", "solvers", "assembly", "mesh", "support"],
     "bench/running": ["bench/isolation", "bench/measuring", "bench/cases", "bench/output",
                       "bench/records", "support"],
-    "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring", "bench/cases",
+    "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring",
+                       "bench/problems", "bench/cases",
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
     # A benchmark by itself.

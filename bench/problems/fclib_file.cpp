@@ -1,0 +1,175 @@
+#include "bench/problems/fclib_file.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <numeric>
+#include <stdexcept>
+
+namespace airybench {
+namespace {
+
+// A thing of HDF5 that is open.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
+    if (id < 0) throw std::runtime_error("HDF5: something cannot be made");
+  }
+  ~Handle() { close_(id_); }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const { return id_; }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+void check(herr_t result) {
+  if (result < 0) throw std::runtime_error("HDF5: something cannot be written");
+}
+
+// Without times: the same problem is the same file.
+void write(hid_t place, const std::string& name, hid_t type, const Handle& space,
+           const void* values) {
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  check(H5Pset_obj_track_times(creation, false));
+  const Handle set(H5Dcreate2(place, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT),
+                   H5Dclose);
+  check(H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
+}
+
+Handle space_of(const std::vector<hsize_t>& shape) {
+  return {H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose};
+}
+
+void write(hid_t place, const std::string& name, const std::vector<int>& values) {
+  write(place, name, H5T_NATIVE_INT, space_of({values.size()}), values.data());
+}
+void write(hid_t place, const std::string& name, int value) {
+  write(place, name, std::vector<int>{value});
+}
+void write(hid_t place, const std::string& name, const Eigen::VectorXd& values) {
+  write(place, name, H5T_NATIVE_DOUBLE, space_of({static_cast<hsize_t>(values.size())}),
+        values.data());
+}
+void write(hid_t place, const std::string& name, const std::string& text) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  check(H5Tset_size(type, text.size() + 1));
+  write(place, name, type, Handle(H5Screate(H5S_SCALAR), H5Sclose), text.c_str());
+}
+
+Handle group(hid_t place, const char* name) {
+  return {H5Gcreate2(place, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose};
+}
+
+void write_array(hid_t place, const ProblemArray& array) {
+  std::vector<hsize_t> shape = {static_cast<hsize_t>(array.rows())};
+  if (!array.is_vector()) shape.push_back(static_cast<hsize_t>(array.columns()));
+  const Handle space = space_of(shape);
+  const auto write_rows = [&]<typename Scalar>(const Eigen::MatrixX<Scalar>& values, hid_t type) {
+    using Rows = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Rows by_rows = values;
+    write(place, array.name, type, space, by_rows.data());
+  };
+  if (const auto* whole = std::get_if<Eigen::MatrixXi>(&array.values))
+    write_rows(*whole, H5T_NATIVE_INT);
+  else
+    write_rows(std::get<Eigen::MatrixXd>(array.values), H5T_NATIVE_DOUBLE);
+}
+
+// Symmetric, so its columns are its rows.
+void write_matrix(hid_t place, const Eigen::MatrixXd& W) {
+  const Handle matrix = group(place, "W");
+  const int m = static_cast<int>(W.rows());
+  constexpr int compressed_rows = -2;
+  write(matrix, "m", m);
+  write(matrix, "n", m);
+  write(matrix, "nzmax", m * m);
+  write(matrix, "nz", compressed_rows);
+  std::vector<int> start, column;
+  for (int i = 0; i <= m; ++i) start.push_back(i * m);
+  for (int i = 0; i < m * m; ++i) column.push_back(i % m);
+  write(matrix, "p", start);
+  write(matrix, "i", column);
+  write(matrix, "x", W.reshaped());
+}
+
+// Two components per contact point: of a vector the tangential ones are zero where there are none.
+Eigen::VectorXd with_tangents(const ContactPoints& contact, const Eigen::VectorXd& vector) {
+  if (contact.components == 2) return vector;
+  Eigen::VectorXd both = Eigen::VectorXd::Zero(2 * contact.count);
+  both(Eigen::seqN(0, contact.count, 2)) = vector;
+  return both;
+}
+Eigen::MatrixXd with_tangents(const ContactPoints& contact, const Eigen::MatrixXd& matrix) {
+  if (contact.components == 2) return matrix;
+  Eigen::MatrixXd both = Eigen::MatrixXd::Identity(2 * contact.count, 2 * contact.count);
+  const auto normal = Eigen::seqN(0, contact.count, 2);
+  both(normal, normal) = matrix;
+  return both;
+}
+
+void write_problem(hid_t file, const CondensedProblem& condensed, double s,
+                   const std::string& title) {
+  const ContactPoints& contact = condensed.contact;
+  const auto& [D, G] = condensed.reference.condensed;
+  const Eigen::VectorXd& F_C = condensed.reference.F_C;
+  const Handle local = group(file, "fclib_local");
+  write(local, "spacedim", 2);
+  const Eigen::MatrixXd W = s * D;
+  write_matrix(local, with_tangents(contact, W));
+  const Eigen::VectorXd q = s * (G + condensed.gap());
+  {
+    const Handle vectors = group(local, "vectors");
+    write(vectors, "q", with_tangents(contact, q));
+    write(vectors, "mu", condensed.friction());
+  }
+  {
+    const Handle info = group(local, "info");
+    write(info, "title", title);
+    write(info, "description",
+          std::string("plane elasticity with dry friction, condensed to the contact points; "
+                      "normal first"));
+    write(info, "math_info",
+          fmt::format("W = s D, q = s (G + gap), r = -F_C in N, u = -s (u_C - gap), s = {} N/mm; "
+                      "W symmetric positive definite",
+                      s));
+  }
+  const Handle solution = group(file, "solution");
+  const Eigen::VectorXd r = -F_C;
+  write(solution, "r", with_tangents(contact, r));
+  write(solution, "u", with_tangents(contact, Eigen::VectorXd(W * r + q)));
+}
+
+std::string image_of(hid_t file) {
+  check(H5Fflush(file, H5F_SCOPE_GLOBAL));
+  const ssize_t size = H5Fget_file_image(file, nullptr, 0);
+  if (size <= 0) throw std::runtime_error("HDF5: no image of the file");
+  std::string bytes(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file, bytes.data(), bytes.size()) != size)
+    throw std::runtime_error("HDF5: no image of the file");
+  return bytes;
+}
+
+}  // namespace
+
+std::string fclib_file(const CondensedProblem& condensed, const std::vector<ProblemArray>& arrays,
+                       const std::string& title) {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
+  const double s = 1 / condensed.reference.condensed.D.diagonal().mean();
+  const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr std::size_t growth_bytes = 1 << 20;
+  check(H5Pset_fapl_core(in_memory, growth_bytes, false));
+  const Handle file(H5Fcreate("fclib", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose);
+  write_problem(file, condensed, s, title);
+  {
+    const Handle ours = group(file, "airybench");
+    write(ours, "scale_N_per_mm", Eigen::VectorXd::Constant(1, s));
+    for (const ProblemArray& array : arrays)
+      if (array.name != "D") write_array(ours, array);
+  }
+  return image_of(file);
+}
+
+}  // namespace airybench

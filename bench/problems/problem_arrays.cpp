@@ -1,0 +1,163 @@
+#include "bench/problems/problem_arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "bench/problems/known_rows.hpp"
+#include "support/errors.hpp"
+
+namespace airybench {
+namespace {
+
+template <int width>
+Eigen::MatrixXi index_table(const std::vector<std::array<int, width>>& rows) {
+  Eigen::MatrixXi table(static_cast<Eigen::Index>(rows.size()), width);
+  for (Eigen::Index i = 0; i < table.rows(); ++i)
+    for (int k = 0; k < width; ++k) table(i, k) = rows[i][k];
+  return table;
+}
+
+Eigen::MatrixXd point_table(const std::vector<Eigen::Vector2d>& points) {
+  Eigen::MatrixXd table(static_cast<Eigen::Index>(points.size()), 2);
+  for (Eigen::Index i = 0; i < table.rows(); ++i) table.row(i) = points[i];
+  return table;
+}
+
+// An empty vector of a system is zero.
+Eigen::MatrixXd written_out(const Eigen::VectorXd& vector, Eigen::Index size) {
+  if (vector.size() > 0) return vector;
+  return Eigen::VectorXd::Zero(size);
+}
+
+SparseRows whole(const SparseColumns& lower_triangle) {
+  return SparseColumns(lower_triangle.selfadjointView<Eigen::Lower>());
+}
+
+// Per unknown: 0 phi, 1 phi,x, 2 phi,y of a vertex, 3 dphi/dn of an edge; and which.
+Eigen::MatrixXi unknown_table(const DofNumbering& dofs) {
+  Eigen::MatrixXi table(dofs.count, 2);
+  for (int v = 0; v < static_cast<int>(dofs.of_vertex.size()); ++v)
+    if (const int first = dofs.of_vertex[v]; first != DofNumbering::gauge)
+      for (int k = 0; k < 3; ++k) table.row(first + k) << k, v;
+  for (int e = 0; e < static_cast<int>(dofs.of_edge.size()); ++e)
+    table.row(dofs.of_edge[e]) << 3, e;
+  return table;
+}
+
+void add_rows(std::vector<ProblemArray>& arrays, const std::string& name, const std::string& matrix,
+              const std::vector<KnownRow>& rows) {
+  std::vector<std::array<int, 2>> places;
+  std::vector<Eigen::Vector2d> directions;
+  for (const KnownRow& row : rows) {
+    places.push_back({row.boundary_row, row.end});
+    directions.push_back(row.direction);
+  }
+  arrays.push_back(
+      {name + "_rows", "1",
+       fmt::format("per row of {}: row of boundary, end of that edge (0 start, 1 end)", matrix),
+       index_table<2>(places)});
+  arrays.push_back(
+      {name + "_directions", "1",
+       fmt::format("per row of {}: unit vector along which the force is measured", matrix),
+       point_table(directions)});
+}
+
+Eigen::MatrixXd contact_points(const Problem& problem, const ContactPoints& contact) {
+  std::vector<Eigen::Vector2d> points;
+  for (int p = 0; p < contact.count; ++p) {
+    const BoundaryEdge& edge = problem.mesh.boundary[contact.boundary[p]];
+    points.push_back(problem.mesh.vertices[edge.vertices[p % 2]]);
+  }
+  return point_table(points);
+}
+
+}  // namespace
+
+Eigen::Index ProblemArray::rows() const {
+  return std::visit([](const auto& matrix) { return Eigen::Index(matrix.rows()); }, values);
+}
+Eigen::Index ProblemArray::columns() const {
+  return std::visit([](const auto& matrix) { return Eigen::Index(matrix.cols()); }, values);
+}
+
+Eigen::VectorXd CondensedProblem::gap() const { return written_out(contact.gap, contact.size()); }
+
+Eigen::VectorXd CondensedProblem::friction() const {
+  Eigen::VectorXd mu(contact.count);
+  for (int p = 0; p < contact.count; ++p) mu(p) = contact.friction_at(p);
+  return mu;
+}
+
+CondensedProblem condensed_problem(const PosedScene& posed) {
+  const DualSystem points = assemble(posed.problem, Blocks::contact_points);
+  const std::string name = posed.problem->mesh.name + "/" + posed.scene_name;
+  if (points.contact.count == 0)
+    throw InputError(name + ": no contact points (allowed: a scene with contact)");
+  try {
+    return {points.contact, compute_reference(points)};
+  } catch (const Breakdown& breakdown) {
+    throw InputError(fmt::format("{}: {}", name, breakdown.what()));
+  }
+}
+
+std::vector<ProblemArray> mesh_arrays(const Mesh& mesh) {
+  std::vector<std::array<int, 2>> boundary;
+  std::vector<std::array<int, 1>> roles;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    boundary.push_back(edge.vertices);
+    roles.push_back({static_cast<int>(edge.role)});
+  }
+  return {
+      {"vertices_mm", "mm", "x, y of every vertex", point_table(mesh.vertices)},
+      {"triangles", "1", "three vertices, counter-clockwise", index_table<3>(mesh.triangles)},
+      {"edges", "1", "low vertex, high vertex; normal (s_y, -s_x) with s from low to high",
+       index_table<2>(number_edges(mesh).vertices)},
+      {"boundary", "1", "start and end vertex of every boundary edge, the body on the left",
+       index_table<2>(boundary)},
+      {"boundary_roles", "1", "per row of boundary: 0 displacement, 1 force, 2 contact",
+       index_table<1>(roles)},
+  };
+}
+
+std::vector<ProblemArray> airy_arrays(const DualSystem& system) {
+  std::vector<ProblemArray> arrays = {
+      {"S", "1", "flexibility in x = phi/scale, symmetric positive definite, diagonal 1",
+       whole(system.S), true},
+      {"C_F", "sqrt(N/mm)", "x to the known forces", system.C_F},
+      {"q", "sqrt(N mm)", "load", written_out(system.q, system.n())},
+      {"F", "N", "known forces, C_F x = F", written_out(system.F, system.n_f())},
+      {"scale", "sqrt(N/mm), of derivatives sqrt(N/mm)/mm",
+       "Airy function and derivatives: phi = scale * x", written_out(system.scale, system.n())},
+      {"unknowns", "1",
+       "per x: 0 phi, 1 phi,x, 2 phi,y of a vertex, 3 dphi/dn of an edge; which vertex or edge",
+       unknown_table(system.dofs)},
+  };
+  if (system.n_c() > 0) {
+    arrays.push_back({"C_C", "sqrt(N/mm)", "x to the contact forces, without F0", system.C_C});
+    arrays.push_back({"F0", "N", "contact forces of the stress that balances the body force",
+                      written_out(system.F0, system.n_c())});
+  }
+  add_rows(arrays, "force", "C_F", known_rows(*system.problem, Known::force));
+  return arrays;
+}
+
+std::vector<ProblemArray> condensed_arrays(const Problem& problem,
+                                           const CondensedProblem& condensed) {
+  const auto& [D, G] = condensed.reference.condensed;
+  const int n_c = condensed.contact.size();
+  std::vector<ProblemArray> arrays = {
+      {"D", "mm/N", "compliance, symmetric positive definite: u_C = D F_C - G", D, true},
+      {"G", "mm", "-G are the contact displacements without contact forces", written_out(G, n_c)},
+      {"gap", "mm", "r = u_C - gap, per row of F_C", written_out(condensed.contact.gap, n_c)},
+      {"mu", "1", "friction, per contact point", Eigen::MatrixXd(condensed.friction())},
+      {"F_C", "N", "an answer to compare with: the refined solution of HYBRID",
+       written_out(condensed.reference.F_C, n_c)},
+      {"contact_points_mm", "mm", "x, y of every contact point: an end of a contact edge",
+       contact_points(problem, condensed.contact)},
+  };
+  add_rows(arrays, "contact", "F_C", known_rows(problem, Known::contact_law));
+  return arrays;
+}
+
+}  // namespace airybench

@@ -1,0 +1,33 @@
+// The files of a posed problem: what another solver needs to solve it.
+//
+//   matrix-market  NAME.mtx for every array (matrix_market.hpp)
+//   npz            S.npz, C_F.npz, C_C.npz, and problem.npz with all dense arrays (numpy_files.hpp)
+//   fclib          problem.hdf5, the condensed problem (fclib_file.hpp)
+//
+// and problem.json, which describes them: equations, signs, and of every array its file, shape,
+// unit and meaning.
+#pragma once
+
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "bench/cases/plan.hpp"
+#include "support/atomic_folder.hpp"
+
+namespace airybench {
+
+inline constexpr std::array<std::string_view, 3> all_problem_formats = {"matrix-market", "npz",
+                                                                        "fclib"};
+// Throws UsageError: no such format, or one whose library this build is without.
+void check_problem_format(const std::string& format);
+
+struct ProblemFiles {
+  Files files;
+  std::vector<std::string> notes;  // a line each: what is not in them, and why
+};
+// Throws InputError: the problem has nothing that this format can hold.
+ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
+
+}  // namespace airybench
