@@ -79,7 +79,7 @@ void check_face(const Mesh& mesh, int row, const std::string& label, const Wall&
     if (t && std::abs(*t) <= allowed_mm) continue;
     refuse(label + ": face", t ? "is " + shown(std::abs(*t)) + " mm" : std::string("is not seen"),
            "from the edge at " + shown(point) + " (allowed: up to " + shown(allowed_mm) +
-               " mm, 2 % of the body's size)");
+               " mm, 5 % of the body's size)");
   }
 }
 
@@ -115,7 +115,7 @@ struct EdgeGap {
 
 Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
                             const ContactDefaults& defaults) {
-  constexpr double farthest = 100, face_share = 0.02;
+  constexpr double farthest = 100, face_share = 0.05;
   const double diameter = diameter_of(mesh);
   std::vector<int> free;
   std::map<std::string, int> met;  // edges of groups with a wall

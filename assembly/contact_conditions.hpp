@@ -25,7 +25,7 @@ inline constexpr std::string_view out_of_reach = "out of reach";
 // their normal, cannot touch: they become free edges of that group. An edge that is met at its ends
 // or middle only has the largest gap of these. Throws TransformError: a wall that no edge of a
 // group meets, or that lies more than a tenth of the body's size inside it, clearance or not; a
-// face that is farther from an edge than 2 % of that size.
+// face that is farther from an edge than 5 % of that size.
 Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
                             const ContactDefaults& defaults);
 

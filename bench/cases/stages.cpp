@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "assembly/contact_conditions.hpp"
+
 namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
@@ -24,6 +26,14 @@ std::string why_skipped(const Problem& problem, const Method& method) {
   for (const Method& other : methods())
     if (why_no_blocks(problem.mesh, other.blocks).empty()) others.push_back(other.name);
   return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
+}
+
+int edges_out_of_reach(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const std::string label = fmt::format("force:{}", out_of_reach);
+  return static_cast<int>(std::ranges::count_if(mesh.boundary, [&](const BoundaryEdge& edge) {
+    return boundary_label(mesh, edge) == label;
+  }));
 }
 
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,

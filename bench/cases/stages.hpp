@@ -19,6 +19,9 @@ struct StageDecision {
 // n_f.
 MeshSizes solved_sizes(const Problem& problem);
 
+// Contact edges that could not meet their wall, and are free (assembly/contact_conditions.hpp).
+int edges_out_of_reach(const Problem& problem);
+
 // Why a method is not run on a problem, with those that are; empty: it is.
 std::string why_skipped(const Problem& problem, const Method& method);
 

@@ -6,10 +6,10 @@
 #include <iostream>
 #include <iterator>
 
-#include "assembly/contact_conditions.hpp"
 #include "bench/adapting/adapted_scenes.hpp"
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/scene_file.hpp"
+#include "bench/cases/stages.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -17,10 +17,7 @@ namespace {
 
 void note_out_of_reach(const PosedScene& posed) {
   const Mesh& mesh = posed.problem->mesh;
-  const std::string label = fmt::format("force:{}", out_of_reach);
-  const auto free = std::ranges::count_if(
-      mesh.boundary, [&](const BoundaryEdge& edge) { return boundary_label(mesh, edge) == label; });
-  if (free > 0)
+  if (const int free = edges_out_of_reach(*posed.problem); free > 0)
     std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet no wall, and are free\n",
                              mesh.name, posed.scene_name, free,
                              free + mesh_sizes(mesh).contact_edges);

@@ -202,7 +202,7 @@ TEST(Wall, WhatCannotBeAWall) {
   scene.face = CircularWall{{0, 5}, 12, inside};
   EXPECT_EQ(complaint(scene),
             in + "boundary: contact: face: is 0.908712 mm from the edge at [10, 0] (allowed: up to "
-                 "0.282843 mm, 2 % of the body's size)");
+                 "0.707107 mm, 5 % of the body's size)");
   scene.wall.reset();
   EXPECT_EQ(complaint(scene), in + "face: given without a wall (allowed: beside one)");
   scene = {};
