@@ -1,6 +1,5 @@
 #include "assembly/contact_conditions.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -33,12 +32,6 @@ std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
   const auto [start, end] = mesh.boundary[row].vertices;
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
   return {a, (a + b) / 2, b};
-}
-
-double diameter_of(const Mesh& mesh) {
-  Eigen::AlignedBox2d box;
-  for (const Eigen::Vector2d& x : mesh.vertices) box.extend(x);
-  return box.diagonal().norm();
 }
 
 // The direction in which an edge of outward normal m meets its wall at x; m where there is none.
@@ -116,7 +109,8 @@ struct EdgeGap {
 Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
                             const ContactDefaults& defaults) {
   constexpr double farthest = 100, face_share = 0.05;
-  const double diameter = diameter_of(mesh);
+  const MeshExtent extent = extent_of(mesh);
+  const double diameter = std::hypot(extent.width_mm, extent.height_mm);
   std::vector<int> free;
   std::map<std::string, int> met;  // edges of groups with a wall
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {

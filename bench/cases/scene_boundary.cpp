@@ -44,10 +44,6 @@ BoundaryValues read_values(const SceneReader& reader, const std::string& key, co
   const auto number = [&](std::optional<double>& target) {
     return [&](const std::string& k, const Json& v) { target = reader.number(k, v); };
   };
-  const auto wall = [&](std::optional<Wall>& target, Curve kind) {
-    return
-        [&, kind](const std::string& k, const Json& v) { target = read_wall(reader, k, v, kind); };
-  };
   reader.object(key + ": ", json,
                 {{"traction_MPa", vector(values.traction_MPa)},
                  {"pressure_MPa",
@@ -65,8 +61,8 @@ BoundaryValues read_values(const SceneReader& reader, const std::string& key, co
                   }},
                  {"friction", number(values.contact.friction)},
                  {"clearance_mm", number(values.contact.clearance_mm)},
-                 {"wall", wall(values.contact.wall, Curve::wall)},
-                 {"face", wall(values.contact.face, Curve::face)}});
+                 {"wall", set_wall(reader, values.contact.wall, Curve::wall)},
+                 {"face", set_wall(reader, values.contact.face, Curve::face)}});
   return values;
 }
 

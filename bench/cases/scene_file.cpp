@@ -149,10 +149,6 @@ Scene from_json(const Json& json, const std::string& file) {
   const auto vector = [&](Eigen::Vector2d& target) {
     return [&](const std::string& k, const Json& v) { target = reader.vector(k, v); };
   };
-  const auto wall = [&](std::optional<Wall>& target, Curve kind) {
-    return
-        [&, kind](const std::string& k, const Json& v) { target = read_wall(reader, k, v, kind); };
-  };
   const auto text = [&](std::string& target) {
     return [&](const std::string& k, const Json& v) { target = reader.text(k, v); };
   };
@@ -177,8 +173,8 @@ Scene from_json(const Json& json, const std::string& file) {
           else
             scene.crown_radius_mm = reader.number(k, v);
         }},
-       {"wall", wall(scene.wall, Curve::wall)},
-       {"face", wall(scene.face, Curve::face)},
+       {"wall", set_wall(reader, scene.wall, Curve::wall)},
+       {"face", set_wall(reader, scene.face, Curve::face)},
        {"clearance_mm", number(scene.clearance_mm)},
        {"displacement_mm", vector(scene.displacement_mm)},
        {"body_force_N_per_mm3", vector(scene.body_force_N_per_mm3)},

@@ -89,8 +89,6 @@ Json points_of(const std::filesystem::path& file, const std::string& place) {
   return points;
 }
 
-}  // namespace
-
 Wall read_wall(const SceneReader& reader, const std::string& key, const Json& json, Curve kind) {
   std::optional<Wall> wall;
   reader.object(
@@ -100,6 +98,14 @@ Wall read_wall(const SceneReader& reader, const std::string& key, const Json& js
        {"polyline", [&](const auto& k, const Json& v) { wall = read_polyline(reader, k, v); }}});
   if (json.size() != 1) reader.fail(key, json, "one of flat, circle, polyline");
   return *wall;
+}
+
+}  // namespace
+
+SceneReader::Setter set_wall(const SceneReader& reader, std::optional<Wall>& target, Curve kind) {
+  return [&reader, &target, kind](const std::string& key, const Json& json) {
+    target = read_wall(reader, key, json, kind);
+  };
 }
 
 void inline_polylines(Json& json, const std::filesystem::path& scene_file) {

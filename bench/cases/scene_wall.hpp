@@ -14,7 +14,8 @@ namespace airybench {
 
 // A face has no "bodies": it is the body's own.
 enum class Curve { wall, face };
-Wall read_wall(const SceneReader& reader, const std::string& key, const Json& json, Curve kind);
+// Reads one into the target, which must outlive the reading.
+SceneReader::Setter set_wall(const SceneReader& reader, std::optional<Wall>& target, Curve kind);
 
 // Puts the points of files in the place of their names, wherever `json` has a "polyline"; the files
 // are looked for beside the scene's. Two numbers a line, x and y in mm, separated by a comma or

@@ -20,6 +20,11 @@ std::string in_quotes(const std::string& text) {
   return quoted + "\"";
 }
 
+std::string cell(const Json& value) {
+  if (value.is_null()) return "";
+  return value.is_string() ? csv_cell(value.get<std::string>()) : json_text(value);
+}
+
 }  // namespace
 
 std::string csv_quoted(const std::string& text) { return in_quotes(no_formula(text)); }
@@ -27,11 +32,6 @@ std::string csv_quoted(const std::string& text) { return in_quotes(no_formula(te
 std::string csv_cell(const std::string& given) {
   const std::string text = no_formula(given);
   return text.find_first_of(",\"\r\n") == text.npos ? text : in_quotes(text);
-}
-
-static std::string cell(const Json& value) {
-  if (value.is_null()) return "";
-  return value.is_string() ? csv_cell(value.get<std::string>()) : json_text(value);
 }
 
 std::string csv_text(const std::vector<Record>& records) {

@@ -28,14 +28,19 @@ step(${prefix}/bin/airybench --mesh=${meshes} --method=HYBRID --repetitions=1 --
 if(NOT said MATCHES "Mesh0/default/HYBRID[^\n]* ok")
   message(FATAL_ERROR "airybench: ${said}")
 endif()
-# Everything that the completion offers is an option.
-execute_process(COMMAND bash -c "PATH=${prefix}/bin:$PATH
-  . ${prefix}/share/bash-completion/completions/airybench
-  COMP_WORDS=(airybench --mes) COMP_CWORD=1; _airybench; echo \${COMPREPLY[*]}"
-  OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
-if(NOT said STREQUAL "--mesh --mesh-size\n")
-  message(FATAL_ERROR "completion: ${said}")
-endif()
+# The completion offers the program's own options and commands.
+foreach(word_and_offers IN ITEMS "--mes:--mesh --mesh-size" "ex:export export-problem")
+  string(REPLACE ":" ";" pair "${word_and_offers}")
+  list(GET pair 0 word)
+  list(GET pair 1 offers)
+  execute_process(COMMAND bash -c "PATH=${prefix}/bin:$PATH
+    . ${prefix}/share/bash-completion/completions/airybench
+    COMP_WORDS=(airybench ${word}) COMP_CWORD=1; _airybench; echo \${COMPREPLY[*]}"
+    OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
+  if(NOT said STREQUAL "${offers}\n")
+    message(FATAL_ERROR "completion of ${word}: ${said}")
+  endif()
+endforeach()
 file(READ ${prefix}/share/man/man1/airybench.1 page)
 if(NOT page MATCHES "\\.SH NAME\nairybench " OR NOT page MATCHES "mesh")
   message(FATAL_ERROR "manual page: ${page}")
