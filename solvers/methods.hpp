@@ -21,8 +21,10 @@ const std::vector<Method>& methods();
 //   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]
 //   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
 //   ALM:r=<r>,rho=<rho>
-// Throws std::invalid_argument: one line with the item that matches nothing and what is valid.
-std::vector<Method> select_methods(std::string_view selection);
+// others: stand behind the table's. Throws std::invalid_argument: one line with the item that
+// matches nothing and what is valid.
+std::vector<Method> select_methods(std::string_view selection,
+                                   const std::vector<Method>& others = {});
 
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);

@@ -23,6 +23,7 @@ void describe(const Method& method, Record& record) {
   record.general_name = method.identity();
   record.family = method.family;
   record.preconditioner = method.preconditioner;
+  record.program = method.program;
   record.iterative = method.is_iterative();
   record.in_paper = method.in_paper;
   record.in_displacements = method.in_displacements;

@@ -20,7 +20,8 @@ struct Options {
   std::vector<std::string>
       model_settings;   // of --mesh's Gmsh models: "--role=clamped=displacement"
   std::string methods;  // empty: all the paper's
-  std::vector<std::filesystem::path> scenes;  // empty: the default scene
+  std::vector<std::filesystem::path> externals;  // declarations of other programs
+  std::vector<std::filesystem::path> scenes;     // empty: the default scene
   std::filesystem::path out = "results/latest";
   std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods
   Study study = Study::none;

@@ -21,7 +21,8 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
     const Stop own_stop = knob.stop.value_or(stop);
     std::optional<ContactSolver> solver;
-    if (method.condenses_contact() && solved_sizes(*scene.problem).contact_edges > 0) {
+    if (method.condenses_contact() && method.program.empty() &&
+        solved_sizes(*scene.problem).contact_edges > 0) {
       solver = implied_contact_solver(own_stop, knob.name);
       if (*solver == ContactSolver::newton) solver = knob.contact.value_or(contact);
     }

@@ -20,6 +20,11 @@ MeshSizes solved_sizes(const Problem& problem) {
 }
 
 std::string why_skipped(const Problem& problem, const Method& method) {
+  const bool external = !method.program.empty();
+  if (external && !problem.later_steps.empty())
+    return "a path of load steps: other programs are asked for one";
+  if (external && method.condenses_contact() && mesh_sizes(problem.mesh).contact_edges == 0)
+    return "no contact boundary: nothing is left for the program";
   const std::string why = why_no_blocks(problem.mesh, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;

@@ -105,6 +105,15 @@ Options parse_options(int argc, const char* const* argv) {
       "scene file(s), separated by commas (in a name a comma is \\,); default: the documented "
       "tooth or "
       "rack");
+  app.add_option_function<std::vector<std::string>>(
+      "--external",
+      [&](const std::vector<std::string>& lists) {
+        for (const std::string& list : lists)
+          for (const std::string& file : split_list(list)) options.externals.emplace_back(file);
+      },
+      "declaration(s) of other programs that solve our problems, separated by commas: each is a "
+      "method EXTERNAL:name, beside those of --method's default or chosen by it "
+      "(docs/external-solvers.md)");
   add_whole(
       app, "--figure", 3, 5, 0,
       [&](std::int64_t figure) { options.figure = static_cast<int>(figure); },

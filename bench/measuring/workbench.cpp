@@ -109,6 +109,11 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     refused = true;
   }
   result.time_s = seconds_since(start) - watched_s;
+  if (const auto& program = result.solution.program) {  // its memory is not in our heap
+    result.time_s -= program->not_solve_s;
+    result.peak_rss_bytes = program->peak_bytes;
+    return result;
+  }
   if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
@@ -201,9 +206,12 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
 
 JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
-  return {solution.status, solution.displacement.cols() > 0
-                               ? verify_displacement(system, solution)
-                               : verify(system, solution, reference(step))};
+  if (solution.displacement.cols() == 0)
+    return {solution.status, verify(system, solution, reference(step))};
+  JudgedStep result = {solution.status, verify_displacement(system, solution)};
+  // Another's discrete law is not ours; how far it is from it, in N, is said.
+  if (solution.program) result.verification.natural_map_residual.reset();
+  return result;
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
@@ -303,7 +311,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (!solution.stress.empty()) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    note_discretisation(method, record);
+    note_discretisation(method, solution, record);
     if (!fields.empty()) write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
@@ -313,6 +321,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(by_name(solution.times));
+    if (solution.program) record.program_samples_s.push_back(solution.program->wall_s);
     note_memory(run, record);
   }
   return examination;
@@ -339,6 +348,7 @@ TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
   timed.stages = by_name(run.solution.times);
   timed.status = run.solution.status;
   timed.message = run.solution.message;
+  if (run.solution.program) timed.program_s = run.solution.program->wall_s;
   return timed;
 }
 

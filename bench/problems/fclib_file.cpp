@@ -113,8 +113,7 @@ Eigen::MatrixXd with_tangents(const ContactPoints& contact, const Eigen::MatrixX
 void write_problem(hid_t file, const CondensedProblem& condensed, double s,
                    const std::string& title) {
   const ContactPoints& contact = condensed.contact;
-  const auto& [D, G] = condensed.reference.condensed;
-  const Eigen::VectorXd& F_C = condensed.reference.F_C;
+  const auto& [D, G] = condensed.condensed;
   const Handle local = group(file, "fclib_local");
   write(local, "spacedim", 2);
   const Eigen::MatrixXd W = s * D;
@@ -136,8 +135,9 @@ void write_problem(hid_t file, const CondensedProblem& condensed, double s,
                       "W symmetric positive definite",
                       s));
   }
+  if (condensed.answer.size() == 0) return;
   const Handle solution = group(file, "solution");
-  const Eigen::VectorXd r = -F_C;
+  const Eigen::VectorXd r = -condensed.answer;
   write(solution, "r", with_tangents(contact, r));
   write(solution, "u", with_tangents(contact, Eigen::VectorXd(W * r + q)));
 }
@@ -157,7 +157,7 @@ std::string image_of(hid_t file) {
 std::string fclib_file(const CondensedProblem& condensed, const std::vector<ProblemArray>& arrays,
                        const std::string& title) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
-  const double s = 1 / condensed.reference.condensed.D.diagonal().mean();
+  const double s = 1 / condensed.condensed.D.diagonal().mean();
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth_bytes = 1 << 20;
   check(H5Pset_fapl_core(in_memory, growth_bytes, false));

@@ -28,6 +28,7 @@ void summarise_times(Record& r) {
   r.time_low_s = interval.low > 0 ? std::optional(interval.low) : std::nullopt;
   r.time_high_s = interval.low > 0 ? std::optional(interval.high) : std::nullopt;
   r.assembly_s = median_of(r.assembly_samples_s);
+  r.program_s = median_of(r.program_samples_s);
   r.noise_kernel_s = median_of(r.noise_kernel_samples_s);
 }
 

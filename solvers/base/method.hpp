@@ -48,6 +48,8 @@ struct Method {
   bool in_displacements = false;
   std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
                                Stage::contact, Stage::recover, Stage::check};  // in order
+  // Another's, by its program's own word for its version (bench/external); empty: ours.
+  std::string program = {};
   // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
   // contact there is nothing to condense.
   bool condenses_contact_only = false;
