@@ -41,15 +41,16 @@ std::vector<std::string> filled_in(std::vector<std::string> command,
 // One run of the program on one problem.
 class ProgramSolve {
  public:
-  ProgramSolve(const Caller& caller, const Files& problem, const RunControl& control)
-      : name_(caller.declaration.name), output_(work_.add("output", {})) {
+  ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
+               const RunControl& control)
+      : name_(caller.declaration.name), output_(work_->add("output", {})) {
     const Declaration& declaration = caller.declaration;
     const double limit_s = control.deadline.remaining_s();
     if (!(limit_s > 0)) throw TimeoutReached("time limit reached before the program began");
     const std::string threads = std::to_string(control.threads);
     const Program program = {
         filled_in(declaration.command,
-                  {{"{input}", work_.add("input", problem).string()},
+                  {{"{input}", work_->add("input", problem()).string()},
                    {"{output}", output_.string()},
                    {"{threads}", threads},
                    {"{tolerance}", fmt::format("{}", control.tolerance)},
@@ -60,7 +61,7 @@ class ProgramSolve {
          {"MKL_NUM_THREADS", threads},
          {"LC_ALL", "C.UTF-8"},
          {"PYTHONDONTWRITEBYTECODE", "1"}},
-        work_.path() / "printed"};
+        work_->path() / "printed"};
     const ProcessTreeEnd end = run_process_tree(program, {limit_s, caller.memory_limit_bytes});
     run_.wall_s = end.wall_s;
     run_.peak_bytes = end.peak_bytes;
@@ -81,12 +82,15 @@ class ProgramSolve {
   const Answer& answer() const { return answer_; }
 
   // The handing over ends here: what follows is ours, on our clock.
-  void end_handing_over() { run_.not_solve_s = seconds_since(start_) - answer_.time_s; }
+  void end_handing_over() {
+    work_.reset();
+    run_.not_solve_s = seconds_since(start_) - answer_.time_s;
+  }
 
   // Its word.
   void note(const RunControl& control, Solution& solution) const {
     solution.status = answer_.status;
-    solution.message = answer_.message;
+    if (answer_.status != Status::ok) solution.message = answer_.message;
     solution.parameters = answer_.parameters;
     solution.error_estimate.reset();
     if (answer_.error_estimate) judge_by_own_estimate(*answer_.error_estimate, control, solution);
@@ -103,21 +107,22 @@ class ProgramSolve {
                                 : Status::crashed;
   }
   std::string message_of(const ProcessTreeEnd& end, double limit_s) const {
-    const std::vector<std::string> lines = printed_lines(work_.path() / "printed");
+    const std::vector<std::string> lines = printed_lines(work_->path() / "printed");
     return fmt::format("{} {}{}", name_, how_it_ended(end, limit_s),
                        lines.empty() ? "" : ": " + lines.back());
   }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string name_;
-  WorkFolder work_;
+  std::optional<WorkFolder> work_ = std::optional<WorkFolder>(std::in_place);
   std::filesystem::path output_;
   Answer answer_;
   ProgramRun run_;
 };
 
 Solution solve_airy(const Caller& caller, const DualSystem& system, const RunControl& control) {
-  ProgramSolve program(caller, airy_files(system, caller.declaration.format), control);
+  ProgramSolve program(
+      caller, [&] { return airy_files(system, caller.declaration.format); }, control);
   const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
   Solution solution;
   if (system.n_c() > 0) solution.F_C = program.array("F_C.mtx", system.n_c(), 1);
@@ -146,7 +151,8 @@ DisplacementField displacement_of(const Problem& problem, const Eigen::MatrixXd&
 
 Solution solve_body(const Caller& caller, const DualSystem& system, const RunControl& control) {
   const Problem& problem = *system.problem;
-  ProgramSolve program(caller, body_files(problem, caller.declaration.format), control);
+  ProgramSolve program(
+      caller, [&] { return body_files(problem, caller.declaration.format); }, control);
   const Eigen::MatrixXd values =
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
   program.end_handing_over();
@@ -176,7 +182,9 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
   control.contact_by = [&](const CondensedSystem& condensed, const ContactPoints& contact,
                            const RunControl&) {
     const std::string& format = caller.declaration.format;
-    program.emplace(caller, condensed_files(*system.problem, {contact, condensed}, format), given);
+    program.emplace(
+        caller,
+        [&] { return condensed_files(*system.problem, {contact, condensed}, format); }, given);
     ContactResult result;
     result.F_C = forces_of(*program, contact, format);
     result.converged = true;  // its own word
