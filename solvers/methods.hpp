@@ -16,6 +16,9 @@ namespace airybench {
 // name.
 const std::vector<Method>& methods();
 
+// What solves problems that come without a body (GivenContact); it is not in the table.
+Method condensed_contact();
+
 // The methods that a comma-separated list selects: names of the table and globs, in the table's
 // order and none twice; then general names that are not in the table, as they come:
 //   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]

@@ -38,14 +38,16 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
     record.status_reason = std::move(why);
   }
   record.mesh = problem.mesh.name;
-  note(problem.mesh, record);
+  if (!problem.given) note(problem.mesh, record);
   describe(method, record);
   record.threads = options.threads;
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;
-  record.n_phi = sizes.n_phi;
-  record.n_f = sizes.n_f;
+  if (!problem.given) {
+    record.n_phi = sizes.n_phi;
+    record.n_f = sizes.n_f;
+  }
   record.n_c = sizes.n_c;
   record.load_steps = 1 + std::ssize(problem.later_steps);
   record.stages_left_out = Json::object();

@@ -20,6 +20,7 @@ struct Options {
   std::vector<std::string>
       model_settings;   // of --mesh's Gmsh models: "--role=clamped=displacement"
   std::string methods;  // empty: all the paper's
+  std::vector<std::filesystem::path> problems;   // FCLIB files, instead of meshes and scenes
   std::vector<std::filesystem::path> externals;  // declarations of other programs
   std::vector<std::filesystem::path> scenes;     // empty: the default scene
   std::filesystem::path out = "results/latest";
@@ -27,11 +28,11 @@ struct Options {
   Study study = Study::none;
   double target_error = 1e-6;
   Stop stop = Stop::target;
-  ContactSolver contact = ContactSolver::newton;
-  bool append = false;      // keep the records that are in the folder
-  bool resume = false;      // and run only the cases that have none
-  Shard shard;              // the part of the plan that is run
-  bool interleave = false;  // repetitions of a scene's cases in random turn
+  std::optional<ContactSolver> contact;  // none: see plan_cases()
+  bool append = false;                   // keep the records that are in the folder
+  bool resume = false;                   // and run only the cases that have none
+  Shard shard;                           // the part of the plan that is run
+  bool interleave = false;               // repetitions of a scene's cases in random turn
   int repetitions = 5;
   int threads = 1;
   double timeout_s = 900;                          // per solve

@@ -41,11 +41,11 @@ struct Case {
   CaseName name() const;
 };
 
-// Scene by scene, so that methods on the same blocks run after one another.
+// Scene by scene, so that methods on the same blocks run after one another. contact: none: Newton,
+// and of given contact problems all of them.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study = Study::none,
-                             Stop stop = Stop::target,
-                             ContactSolver contact = ContactSolver::newton);
+                             Stop stop = Stop::target, std::optional<ContactSolver> contact = {});
 
 // SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
 std::string fingerprint(const std::vector<Case>& plan);

@@ -75,6 +75,17 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
+void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
+               const std::string& about) {
+  app.add_option_function<std::vector<std::string>>(
+      option,
+      [&files](const std::vector<std::string>& lists) {
+        for (const std::string& list : lists)
+          for (const std::string& file : split_list(list)) files.emplace_back(file);
+      },
+      about);
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -96,21 +107,15 @@ Options parse_options(int argc, const char* const* argv) {
       "--method", options.methods,
       "names or globs, separated by commas; default: all the paper's methods, for bodies "
       "with holes also HYBRID and P2");
-  app.add_option_function<std::vector<std::string>>(
-      "--scene",
-      [&](const std::vector<std::string>& lists) {
-        for (const std::string& list : lists)
-          for (const std::string& file : split_list(list)) options.scenes.emplace_back(file);
-      },
+  add_files(
+      app, "--scene", options.scenes,
       "scene file(s), separated by commas (in a name a comma is \\,); default: the documented "
-      "tooth or "
-      "rack");
-  app.add_option_function<std::vector<std::string>>(
-      "--external",
-      [&](const std::vector<std::string>& lists) {
-        for (const std::string& list : lists)
-          for (const std::string& file : split_list(list)) options.externals.emplace_back(file);
-      },
+      "tooth or rack");
+  add_files(app, "--problem", options.problems,
+            "instead of meshes and scenes, condensed contact problems in FCLIB's format, separated "
+            "by commas: every contact solver (--contact: that one) on each");
+  add_files(
+      app, "--external", options.externals,
       "declaration(s) of other programs that solve our problems, separated by commas: each is a "
       "method EXTERNAL:name, beside those of --method's default or chosen by it "
       "(docs/external-solvers.md)");
@@ -259,13 +264,18 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.fields && fields != "true" && !options.mean_fields)
     throw UsageError(fmt::format("--fields: {} (allowed: mean, or no value)", shortened(fields)));
   if (stop == "paper") options.stop = Stop::paper;
-  options.contact = *contact_solver_of(contact);
   if (app.get_option("--contact")->count() > 0) {
+    options.contact = contact_solver_of(contact);
     if (options.stop == Stop::paper)
       throw UsageError("--contact: not with --stop=paper, whose contact law is gauss-seidel");
     if (options.study == Study::contact)
       throw UsageError("--contact: not with --study=contact, which has all of them");
   }
+  if (!options.problems.empty())
+    for (const char* of_bodies :
+         {"--mesh", "--scene", "--figure", "--study", "--adapt", "--fields"})
+      if (app.get_option(of_bodies)->count() > 0)
+        throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
   if (options.study == Study::error && options.stop == Stop::paper)
     throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
   if (options.study == Study::contact && options.stop == Stop::paper)

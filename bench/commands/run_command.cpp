@@ -111,7 +111,11 @@ std::vector<Method> other_programs(const Options& options) {
 // Those asked for. By default the paper's, which leave out bodies with holes: for these also what
 // takes them.
 std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
-  const std::vector<Method> others = other_programs(options);
+  std::vector<Method> others = other_programs(options);
+  if (!options.problems.empty()) {
+    others.insert(others.begin(), condensed_contact());
+    return options.methods.empty() ? others : select_methods(options.methods, others);
+  }
   if (!options.methods.empty()) return select_methods(options.methods, others);
   std::string names = default_methods(options.study);
   const auto has_holes = [](const PosedScene& s) { return hole_count(s.problem->mesh) > 0; };
@@ -122,7 +126,8 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
 
 // The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
-  const std::vector<PosedScene> scenes = pose_and_adapt(options, short_of);
+  const std::vector<PosedScene> scenes =
+      options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
                                       options.stop, options.contact);
   if (!options.filter.empty()) plan = matching(plan, options.filter);

@@ -174,9 +174,10 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
   return F(Eigen::seqN(0, contact.count, 2));
 }
 
-// solve: of the method whose contact law the program is.
-Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualSystem& system,
+Solution solve_contact_law(const Caller& caller, const DualSystem& system,
                            const RunControl& given) {
+  static const Solve of_body = select_methods("HYBRID").front().solve,
+                     of_given_contact = condensed_contact().solve;
   std::optional<ProgramSolve> program;
   RunControl control = given;
   control.contact_by = [&](const CondensedSystem& condensed, const ContactPoints& contact,
@@ -184,7 +185,10 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
     const std::string& format = caller.declaration.format;
     program.emplace(
         caller,
-        [&] { return condensed_files(*system.problem, {contact, condensed}, format); }, given);
+        [&] {
+          return condensed_files(*system.problem, {contact, condensed}, format);
+        },
+        given);
     ContactResult result;
     result.F_C = forces_of(*program, contact, format);
     result.converged = true;  // its own word
@@ -192,7 +196,8 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
     program->end_handing_over();
     return result;
   };
-  Solution solution = solve(system, control);
+  Solution solution =
+      system.problem->given ? of_given_contact(system, control) : of_body(system, control);
   if (!program) return solution;
   const std::optional<std::int64_t> linear = solution.linear_iterations;
   if (has_answer(solution.status)) program->note(given, solution);
@@ -224,8 +229,9 @@ Method external_method(const Declaration& declaration,
       break;
     case Declaration::Reads::condensed:
       method = select_methods("HYBRID").front();
-      solve = [caller, hybrid = method.solve](const DualSystem& s, const RunControl& c) {
-        return solve_contact_law(caller, hybrid, s, c);
+      method.takes = Method::Takes::both;
+      solve = [caller](const DualSystem& s, const RunControl& c) {
+        return solve_contact_law(caller, s, c);
       };
       break;
   }

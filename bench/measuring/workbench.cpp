@@ -28,7 +28,7 @@ Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& opti
     : problem_(std::move(problem)),
       options_(options),
       left_out_(std::move(left_out)),
-      no_reference_(left_out_.reference) {}
+      no_reference_(problem_->given ? "a problem without a body" : left_out_.reference) {}
 
 void Workbench::prepare(const Method& method) {
   try {
@@ -78,7 +78,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
-  control.contact = options_.contact;
+  control.contact = options_.contact.value_or(control.contact);
   control.target_error = options_.target_error;
   control.condition = histories && asks_for_condition(options_.study);
   control.tolerance = choice.tolerance;
@@ -167,7 +167,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   Json attempt = {{"tolerance", choice.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (!run.solution.stress.empty() && reference() != nullptr) {
+  if (is_answered(run.solution) && (problem_->given || reference() != nullptr)) {
     verify_run(blocks, run);
     attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].verification).value;
   }
@@ -206,6 +206,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
 
 JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
+  if (problem_->given) return {solution.status, verify_given_contact(system, solution)};
   if (solution.displacement.cols() == 0)
     return {solution.status, verify(system, solution, reference(step))};
   JudgedStep result = {solution.status, verify_displacement(system, solution)};
@@ -222,8 +223,8 @@ std::optional<Verification> Workbench::verify_as_other_solution(const AssembledB
                                                                 const Run& run) {
   const Verification& v = run.judged.back().verification;
   // Only where the law is met with the reference's D and G, but by other forces; not of a path.
-  if (run.judged.size() > 1 || !v.friction_coupling ||
-      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual) <=
+  if (problem_->given || run.judged.size() > 1 || !v.friction_coupling ||
+      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0)) <=
         options_.target_error))
     return {};
   try {
@@ -259,7 +260,7 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
     record.status_reason =
         fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
                     worst.name, worst.value, options_.target_error);
-  } else if (!v.error_stress && !method.in_displacements) {
+  } else if (!v.error_stress && !method.in_displacements && !problem_->given) {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
   } else if (v.unstressed) {
@@ -308,11 +309,12 @@ Workbench::Examination Workbench::examine(const Method& method,
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
   if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
-  if (!solution.stress.empty()) {
+  if (is_answered(solution)) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    note_discretisation(method, solution, record);
-    if (!fields.empty()) write_fields_of(method, *assembled.system, solution, record, fields);
+    if (!problem_->given) note_discretisation(method, solution, record);
+    if (!fields.empty() && !problem_->given)
+      write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
   const bool once = problem_->later_steps.empty() &&
@@ -325,6 +327,10 @@ Workbench::Examination Workbench::examine(const Method& method,
     note_memory(run, record);
   }
   return examination;
+}
+
+bool Workbench::is_answered(const Solution& solution) const {
+  return problem_->given ? solution.F_C.size() > 0 : !solution.stress.empty();
 }
 
 void Workbench::note_memory(const Run& run, Record& record) {

@@ -89,6 +89,7 @@ class Workbench {
   Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
               Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
+  bool is_answered(const Solution& solution) const;  // there is something to judge
   JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
   static void note_memory(const Run& run, Record& record);

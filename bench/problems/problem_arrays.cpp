@@ -196,6 +196,7 @@ std::vector<ProblemArray> condensed_arrays(const Problem& problem,
   if (condensed.answer.size() > 0)
     arrays.push_back({"F_C", "N", "an answer to compare with: the refined solution of HYBRID",
                       Eigen::MatrixXd(condensed.answer)});
+  if (problem.given) return arrays;
   arrays.push_back({"contact_points_mm", "mm",
                     "x, y of every contact point: an end of a contact edge",
                     contact_points(problem, condensed.contact)});

@@ -16,6 +16,7 @@
 #endif
 #ifdef AIRYBENCH_HAS_HDF5
 #include "bench/problems/fclib_file.hpp"
+#include "bench/problems/fclib_reader.hpp"
 #endif
 
 namespace airybench {
@@ -215,6 +216,14 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   description.update(answer);
   result.files = write(exported, format, std::move(description));
   return result;
+}
+
+std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file) {
+#ifdef AIRYBENCH_HAS_HDF5
+  return read_fclib(file);
+#else
+  throw UsageError(fmt::format("--problem: {}: this build is without HDF5", file.string()));
+#endif
 }
 
 Files airy_files(const DualSystem& system, const std::string& format) {

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +33,10 @@ struct ProblemFiles {
 };
 // Throws InputError: the problem has nothing that this format can hold.
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
+
+// A contact problem from a file (fclib_reader.hpp). Throws FileError; UsageError: this build is
+// without HDF5.
+std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file);
 
 // What another solver is handed of a case, in a format that there is. No answer is in it.
 Files airy_files(const DualSystem& system, const std::string& format);  // with gap and mu
