@@ -1,17 +1,17 @@
 // Siconos' solvers of the plane contact problem with friction, on a problem in FCLIB's format:
 //
-//   siconos nsgs|cpg|lemke INPUT OUTPUT TOLERANCE
+//   siconos nsgs|cpg|lemke INPUT OUTPUT TOLERANCE   |   siconos --version
 //
 //   u = W r + q,  r_n ≥ 0,  u_n ≥ 0,  r_n u_n = 0,  |r_t| ≤ μ r_n,  r_t against u_t when it slips
 //
 // Status and error_estimate are Siconos' own word, right or not. Its measure of the error is
 // ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖) with û_n = u_n + μ |u_t|.
-#include <hdf5.h>
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
 #include <NonSmoothDrivers.h>
 #include <NumericsMatrix.h>
 #include <SolverOptions.h>
+#include <hdf5.h>
 
 #include <chrono>
 #include <cstdio>
@@ -50,6 +50,8 @@ std::vector<double> dense(hid_t file, int size) {
 }
 
 int main(int count, char** words) {
+  if (count == 2 && words[1] == std::string("--version"))
+    return std::puts("Siconos " SICONOS_VERSION) < 0;
   if (count != 5) return 2;
   const std::map<std::string, int> solvers = {{"nsgs", SICONOS_FRICTION_2D_NSGS},
                                               {"cpg", SICONOS_FRICTION_2D_CPG},
