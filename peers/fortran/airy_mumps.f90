@@ -96,6 +96,7 @@ contains
       write (10, '(a, es11.4, a, i0, a, es11.4, a)') '"time_s": ', sum(time_s), &
         ', "contact_iterations": ', sweeps, ', "error_estimate": ', error, ','
     end if
+    if (status == 'breakdown') write (10, '(a)') '"time_s": 0,'
     write (10, '(a)') '"parameters": "Schur complement; projected Gauss-Seidel"}'
     close (10)
     stop
