@@ -184,7 +184,10 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
     const std::string& format = caller.declaration.format;
     program.emplace(
         caller,
-        [&] { return condensed_files(*system.problem, {contact, condensed}, format); }, given);
+        [&] {
+          return condensed_files(*system.problem, {contact, condensed}, format);
+        },
+        given);
     ContactResult result;
     result.F_C = forces_of(*program, contact, format);
     result.converged = true;  // its own word

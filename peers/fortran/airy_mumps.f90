@@ -31,9 +31,9 @@ program airy_mumps
   call get_command_argument(3, word)
   read (word, *) tolerance
 
-  S = read_sparse(named('S')); C_F = read_sparse(named('C_F')); C_C = read_sparse(named('C_C'))
-  q = read_vector(named('q')); F = read_vector(named('F')); F0 = read_vector(named('F0'))
-  gap = read_vector(named('gap')); mu = read_vector(named('mu'))
+  S = read_sparse(input, 'S'); C_F = read_sparse(input, 'C_F'); C_C = read_sparse(input, 'C_C')
+  q = read_vector(input, 'q'); F = read_vector(input, 'F'); F0 = read_vector(input, 'F0')
+  gap = read_vector(input, 'gap'); mu = read_vector(input, 'mu')
   n = size(q); n_c = size(F0)
   mumps%n = n + size(F) + n_c; mumps%lrhs = mumps%n; mumps%nrhs = 1
   allocate (mumps%irn, source=[S%row, n + C_F%row, n + size(F) + C_C%row])
@@ -101,10 +101,4 @@ contains
     close (10)
     stop
   end subroutine
-
-  function named(name) result(file)
-    character(*), intent(in) :: name
-    character(:), allocatable :: file
-    file = trim(input)//'/'//name//'.mtx'
-  end function
 end program

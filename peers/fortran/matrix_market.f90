@@ -9,10 +9,12 @@ module matrix_market
 
 contains
 
-  ! Opens a file behind its comments.
-  logical function opened(file)
-    character(*), intent(in) :: file
+  ! Opens FOLDER/NAME.mtx behind its comments.
+  logical function opened(folder, name)
+    character(*), intent(in) :: folder, name
+    character(len_trim(folder) + len(name) + 5) :: file
     character :: first
+    file = trim(folder)//'/'//name//'.mtx'
     inquire (file=file, exist=opened)
     if (.not. opened) return
     open (10, file=file, action='read')
@@ -23,23 +25,23 @@ contains
     backspace (10)
   end function
 
-  function read_vector(file) result(values)
-    character(*), intent(in) :: file
+  function read_vector(folder, name) result(values)
+    character(*), intent(in) :: folder, name
     real(real64), allocatable :: values(:)
     integer :: rows
     rows = 0
-    if (opened(file)) read (10, *) rows
+    if (opened(folder, name)) read (10, *) rows
     allocate (values(rows))
     if (rows > 0) read (10, *) values
     close (10)
   end function
 
-  function read_sparse(file) result(matrix)
-    character(*), intent(in) :: file
+  function read_sparse(folder, name) result(matrix)
+    character(*), intent(in) :: folder, name
     type(coordinates) :: matrix
     integer :: rows, columns, entries, k
     entries = 0
-    if (opened(file)) read (10, *) rows, columns, entries
+    if (opened(folder, name)) read (10, *) rows, columns, entries
     allocate (matrix%row(entries), matrix%column(entries), matrix%value(entries))
     if (entries > 0) read (10, *) (matrix%row(k), matrix%column(k), matrix%value(k), k=1, entries)
     close (10)

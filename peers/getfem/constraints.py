@@ -58,7 +58,7 @@ def is_free(axis, held):
 
 
 def contact(problem, sides, held, of_coefficients):
-    """Normal and tangential rows, gaps and friction of every node, or Bernstein coefficient, on contact edges.
+    """Rows (normal, tangential), gaps, friction of every node or Bernstein coefficient of contact edges.
 
     A vertex between two edges has their mean normal, the smaller gap and the smaller friction.
     """

@@ -1,4 +1,4 @@
-"""Total displacement by GetFEM: P2 triangles, contact with friction by augmented Lagrangian and Newton.
+"""Displacements by GetFEM: P2 triangles, contact with friction by augmented Lagrangian and Newton.
 
     displacements.py nodes|coefficients INPUT OUTPUT
 
@@ -19,30 +19,31 @@ from answer import write_answer  # noqa: E402
 
 
 def finite_elements(problem):
-    """The elements of u, and their nodes: of vertices, then edges; of boundary edges (start, middle, end)."""
+    """Mesh, elements of u, their nodes: of vertices, then edges; of boundary edges (start, middle, end)."""
     vertices, edges = problem["vertices_mm"], problem["edges"]
     mesh = gf.Mesh("empty", 2)
     mesh.add_convex(gf.GeoTrans("GT_PK(2,1)"), vertices[problem["triangles"]].T)
     elements = gf.MeshFem(mesh, 2)
     elements.set_fem(gf.Fem("FEM_PK(2,2)"))
-    places = np.vstack([vertices, vertices[edges].mean(1)])
-    nodes = cKDTree(elements.basic_dof_nodes()[:, ::2].T).query(places)[1]
+    nodes = cKDTree(elements.basic_dof_nodes()[:, ::2].T).query(
+        np.vstack([vertices, vertices[edges].mean(1)]))[1]
     middle = {edge: len(vertices) + i for i, edge in enumerate(map(frozenset, edges.tolist()))}
     sides = [(a, middle[frozenset((a, b))], b) for a, b in problem["boundary"].tolist()]
     return mesh, elements, nodes, nodes[sides]
 
 
 def add_elasticity(model, mesh, elements, problem):
-    stiffness = np.linalg.inv(problem["compliance_per_MPa"].reshape(-1, 3, 3))
-    of_triangle = stiffness[problem["triangle_body"]]
+    """Returns the smallest shear modulus."""
+    of_body = np.linalg.inv(problem["compliance_per_MPa"].reshape(-1, 3, 3))
+    of_triangle = of_body[problem["triangle_body"]]
     constant = gf.MeshFem(mesh, 1)
     constant.set_fem(gf.Fem("FEM_PK(2,0)"))
     model.add_fem_variable("u", elements)
     model.add_initialized_fem_data("lambda", constant, of_triangle[:, 0, 1])
     model.add_initialized_fem_data("mu", constant, of_triangle[:, 2, 2])
-    integration = gf.MeshIm(mesh, gf.Integ("IM_TRIANGLE(2)"))
-    model.add_isotropic_linearized_elasticity_brick(integration, "u", "lambda", "mu")
-    return stiffness[:, 2, 2].max()
+    quadrature = gf.MeshIm(mesh, gf.Integ("IM_TRIANGLE(2)"))
+    model.add_isotropic_linearized_elasticity_brick(quadrature, "u", "lambda", "mu")
+    return of_triangle[:, 2, 2].min()
 
 
 def spmat(rows, columns):
@@ -53,9 +54,8 @@ def spmat(rows, columns):
     return matrix
 
 
-def add_contact(model, size, r, normal_rows, tangential_rows, gaps, friction):
+def add_contact(model, size, normal_rows, tangential_rows, gaps, friction):
     model.add_variable("normal_forces", len(gaps))
-    model.add_initialized_data("r", [r])
     model.add_initialized_data("gaps", gaps)
     rows = [spmat(normal_rows, size)]
     names = ["normal_forces"]
@@ -76,12 +76,19 @@ def solve(problem, of_coefficients):
     rows, values, held = supports(problem, sides)
     model.add_variable("reactions", len(values))
     model.add_constraint_with_multipliers("u", "reactions", spmat(rows, size), values)
+    model.add_initialized_data("r", [shear_modulus])
     law = contact(problem, sides, held, of_coefficients)
     if law[0]:
-        add_contact(model, size, shear_modulus / 10, *law)
-    # With the default line search, or a larger r, it may alternate between two states for ever.
-    steps, converged = model.solve("max_iter", 200, "max_res", 1e-9, "lsolver", "mumps",
-                                   "lsearch", "simplest")
+        add_contact(model, size, *law)
+    steps, converged = 0, False
+    for part in (10, 100, 1000):  # too large an r, or the default line search, and it may cycle
+        model.set_variable("r", [shear_modulus / part])
+        model.to_variables(np.zeros(model.nbdof()))
+        more, converged = model.solve("max_iter", 100, "max_res", 1e-9, "lsolver", "mumps",
+                                      "lsearch", "simplest")
+        steps += more
+        if converged:
+            break
     return model.variable("u").reshape(-1, 2)[nodes], steps, converged
 
 

@@ -14,6 +14,7 @@
 #include <hdf5.h>
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -79,11 +80,12 @@ int main(int count, char** words) {
   vector << "%%MatrixMarket matrix array real general\n" << size << " 1\n";
   for (const double value : r) vector << std::setprecision(17) << value << '\n';
   vector.close();
-  std::ofstream(output + "/answer.json")
-      << std::setprecision(17) << R"({"status": ")" << (info == 0 ? "ok" : "not_converged")
-      << R"(", "message": "info = )" << info << R"(", "time_s": )" << time.count()
-      << R"(, "stages": {"contact": )" << time.count() << R"(}, "contact_iterations": )"
-      << options->iparam[SICONOS_IPARAM_ITER_DONE] << R"(, "error_estimate": )"
-      << options->dparam[SICONOS_DPARAM_RESIDU] << R"(, "parameters": "tolerance )" << words[4]
-      << "\"}\n";
+  const double residual = options->dparam[SICONOS_DPARAM_RESIDU];
+  std::ofstream answer(output + "/answer.json");
+  answer << std::setprecision(17) << R"({"status": ")" << (info == 0 ? "ok" : "not_converged")
+         << R"(", "message": "info = )" << info << ", residual " << residual << R"(", "time_s": )"
+         << time.count() << R"(, "stages": {"contact": )" << time.count()
+         << R"(}, "contact_iterations": )" << options->iparam[SICONOS_IPARAM_ITER_DONE];
+  if (std::isfinite(residual)) answer << R"(, "error_estimate": )" << residual;
+  answer << R"(, "parameters": "tolerance )" << words[4] << "\"}\n";
 }
