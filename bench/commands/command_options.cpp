@@ -1,9 +1,11 @@
 #include "bench/commands/command_options.hpp"
 
 #include <fmt/format.h>
+#include <glob.h>
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "bench/commands/command_line.hpp"
 #include "bench/measuring/build_info.hpp"
@@ -75,13 +77,23 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
+// Those that a glob matches, in order; one that matches nothing is a file's name.
+std::vector<std::filesystem::path> files_of(const std::string& item) {
+  glob_t found = {};
+  glob(item.c_str(), GLOB_NOCHECK, nullptr, &found);
+  std::vector<std::filesystem::path> files(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  return files;
+}
+
 void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
                const std::string& about) {
   app.add_option_function<std::vector<std::string>>(
       option,
       [&files](const std::vector<std::string>& lists) {
         for (const std::string& list : lists)
-          for (const std::string& file : split_list(list)) files.emplace_back(file);
+          for (const std::string& item : split_list(list))
+            std::ranges::copy(files_of(item), std::back_inserter(files));
       },
       about);
 }
@@ -107,18 +119,18 @@ Options parse_options(int argc, const char* const* argv) {
       "--method", options.methods,
       "names or globs, separated by commas; default: all the paper's methods, for bodies "
       "with holes also HYBRID and P2");
-  add_files(
-      app, "--scene", options.scenes,
-      "scene file(s), separated by commas (in a name a comma is \\,); default: the documented "
-      "tooth or rack");
+  add_files(app, "--scene", options.scenes,
+            "scene file(s) or globs, separated by commas (in a name a comma is \\,); default: the "
+            "documented "
+            "tooth or rack");
   add_files(app, "--problem", options.problems,
-            "instead of meshes and scenes, condensed contact problems in FCLIB's format, separated "
-            "by commas: every contact solver (--contact: that one) on each");
-  add_files(
-      app, "--external", options.externals,
-      "declaration(s) of other programs that solve our problems, separated by commas: each is a "
-      "method EXTERNAL:name, beside those of --method's default or chosen by it "
-      "(docs/external-solvers.md)");
+            "instead of meshes and scenes, condensed contact problems in FCLIB's format, files or "
+            "globs separated by commas: every contact solver (--contact: that one) on each");
+  add_files(app, "--external", options.externals,
+            "declaration(s) of other programs that solve our problems, files or globs separated by "
+            "commas: each is a "
+            "method EXTERNAL:name, beside those of --method's default or chosen by it "
+            "(docs/external-solvers.md)");
   add_whole(
       app, "--figure", 3, 5, 0,
       [&](std::int64_t figure) { options.figure = static_cast<int>(figure); },

@@ -90,7 +90,7 @@ class ProgramSolve {
   // Its word.
   void note(const RunControl& control, Solution& solution) const {
     solution.status = answer_.status;
-    if (answer_.status != Status::ok) solution.message = answer_.message;
+    solution.message = answer_.status == Status::ok ? "" : answer_.message;
     solution.parameters = answer_.parameters;
     solution.error_estimate.reset();
     if (answer_.error_estimate) judge_by_own_estimate(*answer_.error_estimate, control, solution);

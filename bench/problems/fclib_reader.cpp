@@ -154,7 +154,8 @@ std::shared_ptr<const GivenContact> read_fclib(const std::filesystem::path& path
   const FclibFile file(path);
   const std::string local = "/fclib_local";
   if (!file.has(local))
-    file.fail(local, file.has("/fclib_global") ? "is missing, there is /fclib_global" : "is missing",
+    file.fail(local,
+              file.has("/fclib_global") ? "is missing, there is /fclib_global" : "is missing",
               "a condensed (local) problem");
   file.whole(local + "/spacedim", 2, 2);
   for (const char* name : {"/V", "/R", "/vectors/s"})
