@@ -77,8 +77,9 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
-// Those that a glob matches, in order; one that matches nothing is a file's name.
+// The file of that name, or those that a glob matches; one that matches nothing is a file's name.
 std::vector<std::filesystem::path> files_of(const std::string& item) {
+  if (std::error_code error; std::filesystem::exists(item, error)) return {item};
   glob_t found = {};
   glob(item.c_str(), GLOB_NOCHECK, nullptr, &found);
   std::vector<std::filesystem::path> files(found.gl_pathv, found.gl_pathv + found.gl_pathc);
