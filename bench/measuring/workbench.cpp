@@ -21,6 +21,10 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
+bool is_zero(const StressField& stress) {
+  return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
+}
+
 }  // namespace
 
 Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options,
@@ -210,8 +214,12 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
   if (solution.displacement.cols() == 0)
     return {solution.status, verify(system, solution, reference(step))};
   JudgedStep result = {solution.status, verify_displacement(system, solution)};
-  // Another's discrete law is not ours; how far it is from it, in N, is said.
-  if (solution.program) result.verification.natural_map_residual.reset();
+  if (solution.program) {
+    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    result.verification.natural_map_residual.reset();
+    // And no stress of its own is no reason to think that there is none.
+    result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
+  }
   return result;
 }
 
