@@ -40,6 +40,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   note(problem.mesh, record);
   describe(method, record);
   record.threads = options.threads;
+  record.precision = options.precision;
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;

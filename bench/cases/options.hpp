@@ -32,6 +32,8 @@ struct Options {
   Shard shard;              // the part of the plan that is run
   bool interleave = false;  // repetitions of a scene's cases in random turn
   int repetitions = 5;
+  std::optional<double> precision;  // repetitions go on until the median is known to this share …
+  int max_repetitions = 1000;       // … at most so many
   int threads = 1;
   double timeout_s = 900;                          // per solve
   double long_case_s = 30;                         // a longer solve is measured once

@@ -8,7 +8,9 @@
 #include "bench/commands/command_line.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
+#include "bench/statistics/median_interval.hpp"
 #include "support/lists.hpp"
+#include "support/numbers.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -142,6 +144,18 @@ Options parse_options(int argc, const char* const* argv) {
       app, "--repetitions", 1, 100000, options.repetitions,
       [&](std::int64_t count) { options.repetitions = static_cast<int>(count); },
       "timed runs of each case");
+  std::string precision;
+  CLI::Option* precise = app.add_option(
+      "--precision", precision,
+      "a share, as 2%: timed runs go on after --repetitions until both ends of the 95 % interval "
+      "of "
+      "the median time are at most so far from it; at most --max-repetitions, or --long-case "
+      "seconds of solves; the record says whether it was reached");
+  add_whole(
+      app, "--max-repetitions", fewest_for_median_interval, 100000, options.max_repetitions,
+      [&](std::int64_t count) { options.max_repetitions = static_cast<int>(count); },
+      "with --precision: the most timed runs of each case")
+      ->needs(precise);
   add_whole(
       app, "--threads", 1, 1024, options.threads,
       [&](std::int64_t count) { options.threads = static_cast<int>(count); },
@@ -224,6 +238,17 @@ Options parse_options(int argc, const char* const* argv) {
       throw UsageError(
           fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(shard)));
     options.shard = *part;
+  }
+  if (precise->count() > 0) {
+    options.precision = parse_percent(precision);
+    if (!options.precision)
+      throw UsageError(fmt::format("--precision: {} (allowed: above 0% and below 100%, as 2%)",
+                                   shortened(precision)));
+    if (study == name_of(Study::stability))
+      throw UsageError("--precision: not with --study=stability, which times each case once");
+    if (options.max_repetitions < options.repetitions)
+      throw UsageError(fmt::format("--max-repetitions: {} (allowed: from --repetitions, {}, on)",
+                                   options.max_repetitions, options.repetitions));
   }
   options.study = study_of(study);
   if (options.study == Study::adapted && adapt.empty()) {

@@ -99,6 +99,9 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   if (options.study == Study::none && record.contact_solver)
     options.contact = *record.contact_solver;
   options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
+  options.precision = record.precision;
+  options.max_repetitions =
+      static_cast<int>(setting(context, "max_repetitions", options.max_repetitions));
   const auto interleaved = context.find("interleaved");
   options.interleave = interleaved != context.end() && interleaved->second == "yes";
   options.timeout_s = setting(context, "timeout_s", options.timeout_s);

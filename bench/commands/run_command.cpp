@@ -24,6 +24,7 @@
 #include "bench/measuring/noise_kernel.hpp"
 #include "bench/records/json.hpp"
 #include "bench/running/progress.hpp"
+#include "bench/running/repetitions.hpp"
 #include "bench/running/runner.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
@@ -77,7 +78,7 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
   const PastRecords past = read_committed_records(options.out);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
-  const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
+  const RunLimits limits = {least_repetitions(options), options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes, options.study == Study::stability};
   fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
   print_left_out(plan, options);
@@ -91,7 +92,7 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
   const std::optional<double> spread =
       noise.empty() ? std::nullopt : std::optional(summarise_noise(noise).spread());
   for (const std::string& warning :
-       machine_warnings(machine_state(context, options.repetitions, spread)))
+       machine_warnings(machine_state(context, least_repetitions(options), spread)))
     fmt::print("note: {}\n", warning);
 }
 

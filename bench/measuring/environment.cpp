@@ -111,6 +111,10 @@ Context context_of_run(const Options& options) {
        options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
   };
   context.insert(settings.begin(), settings.end());
+  if (options.precision) {
+    context["precision"] = fmt::format("{}", *options.precision);
+    context["max_repetitions"] = std::to_string(options.max_repetitions);
+  }
   if (!options.adapt.empty()) {
     context["adapt"] = text_of(options.adapt);
     if (options.marking) context["marking"] = fmt::format("{}", *options.marking);

@@ -6,10 +6,25 @@
 #include <cmath>
 #include <set>
 
+#include "bench/statistics/median_interval.hpp"
 #include "support/seconds_since.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
+
+namespace {
+
+std::string imprecise_line(const Record& r) {
+  const std::optional<double> uncertainty = median_uncertainty(r.samples_s);
+  return fmt::format("{}: time known to ± {}, not {:g} %, after {} repetitions\n",
+                     name_of(r).text(),
+                     uncertainty ? fmt::format("{:.2g} %", 100 * *uncertainty) : "?",
+                     100 * *r.precision, r.samples_s.size());
+}
+
+double cost(std::int64_t n_phi) { return std::pow(static_cast<double>(n_phi), 1.7); }
+
+}  // namespace
 
 std::string results_table(const std::vector<Record>& records) {
   const bool adapted =
@@ -27,6 +42,8 @@ std::string results_table(const std::vector<Record>& records) {
       row.insert(row.end() - 1, {show_error(r.error_total), show_seconds(r.adapt_time_s)});
   }
   std::string table = aligned_table(rows, 1);
+  for (const Record& r : records)
+    if (r.precision && !r.precision_reached && r.time_s) table += imprecise_line(r);
   std::set<std::string> said;  // the same of every method on a mesh
   for (const Record& r : records)
     if (r.status != Status::ok)
@@ -36,12 +53,6 @@ std::string results_table(const std::vector<Record>& records) {
       table += line;
   return table;
 }
-
-namespace {
-
-double cost(std::int64_t n_phi) { return std::pow(static_cast<double>(n_phi), 1.7); }
-
-}  // namespace
 
 Progress::Progress(std::vector<std::int64_t> n_phi_of_cases) : cases_(n_phi_of_cases.size()) {
   for (const std::int64_t n_phi : n_phi_of_cases) total_ += cost(n_phi);

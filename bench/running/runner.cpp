@@ -6,7 +6,6 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "bench/cases/blank_record.hpp"
@@ -15,6 +14,7 @@
 #include "bench/output/record_files.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/running/progress.hpp"
+#include "bench/running/repetitions.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -82,14 +82,13 @@ class SceneRunner {
   }
   // The time of one repetition. A long case has its only one from its detail run.
   double next_sample(std::size_t k, Record& record, benchmark::State& state) {
-    const double so_far = std::accumulate(record.samples_s.begin(), record.samples_s.end(), 0.0);
-    if (record.samples_s.empty() || (!record.measured_once && so_far < options_.long_case_s)) {
+    if (is_repeated(record, options_)) {
       const TimedRun run = scene_.measure_time(k);
       add_run(run, record);
       return run.time_s;
     }
     const bool first = record.measured_once && shown_once_.insert(k).second;
-    if (!first) state.SkipWithError("not repeated: a long case");
+    if (!first) state.SkipWithError("not repeated: a long case, or precise enough");
     return record.samples_s.back();
   }
   static void note_noise(std::vector<double>& samples) {
@@ -154,7 +153,7 @@ void run_scene(const std::vector<const Case*>& cases, const Options& options, Sc
                                  [&run, k](benchmark::State& state) { run.measure(k, state); })
         ->UseManualTime()
         ->Iterations(1)
-        ->Repetitions(options.repetitions)
+        ->Repetitions(most_repetitions(options))
         ->Unit(benchmark::kMillisecond);
   Reporter reporter(run);
   try {
