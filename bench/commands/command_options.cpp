@@ -8,7 +8,7 @@
 #include "bench/commands/command_line.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
-#include "bench/statistics/median_interval.hpp"
+#include "bench/running/repetitions.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
@@ -152,7 +152,7 @@ Options parse_options(int argc, const char* const* argv) {
       "the median time are at most so far from it; at most --max-repetitions, or --long-case "
       "seconds of solves; the record says whether it was reached");
   add_whole(
-      app, "--max-repetitions", fewest_for_median_interval, 100000, options.max_repetitions,
+      app, "--max-repetitions", 1, 100000, options.max_repetitions,
       [&](std::int64_t count) { options.max_repetitions = static_cast<int>(count); },
       "with --precision: the most timed runs of each case")
       ->needs(precise);
@@ -246,9 +246,9 @@ Options parse_options(int argc, const char* const* argv) {
                                    shortened(precision)));
     if (study == name_of(Study::stability))
       throw UsageError("--precision: not with --study=stability, which times each case once");
-    if (options.max_repetitions < options.repetitions)
-      throw UsageError(fmt::format("--max-repetitions: {} (allowed: from --repetitions, {}, on)",
-                                   options.max_repetitions, options.repetitions));
+    if (options.max_repetitions < least_repetitions(options))
+      throw UsageError(fmt::format("--max-repetitions: {} (allowed: from {} on)",
+                                   options.max_repetitions, least_repetitions(options)));
   }
   options.study = study_of(study);
   if (options.study == Study::adapted && adapt.empty()) {
