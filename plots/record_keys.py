@@ -135,6 +135,8 @@ class Row:
     assembly_s: float | None = key(NOT_NEGATIVE)
     stage_contact_s: float | None = key(NOT_NEGATIVE)
     stage_check_s: float | None = key(NOT_NEGATIVE)
+    noise_kernel_s: float | None = key(POSITIVE)  # a loop that is always the same, beside the case …
+    busy_kernel_s: float | None = key(POSITIVE)   # … and on all threads at once
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
@@ -157,7 +159,8 @@ class Row:
     condition_estimate: float | None = key(NOT_NEGATIVE)  # of what the method factorises
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps"), may_be_empty=True))
+    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps", "scaling"),
+                           may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)

@@ -79,6 +79,7 @@ void identify(const Case& planned, Record& record) {
   record.case_number = planned.number;
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
+  if (planned.knob.threads) record.threads = *planned.knob.threads;
   record.study = name_of(planned.study);
   record.stop = planned.stop;
   record.contact_solver = planned.contact;

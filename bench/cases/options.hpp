@@ -15,6 +15,8 @@
 
 namespace airybench {
 
+inline constexpr int most_threads = 1024;
+
 struct Options {
   std::string meshes = "Mesh0..Mesh3";
   std::vector<std::string>
@@ -34,7 +36,8 @@ struct Options {
   int repetitions = 5;
   std::optional<double> precision;  // repetitions go on until the median is known to this share …
   int max_repetitions = 1000;       // … at most so many
-  int threads = 1;
+  int threads = 1;                  // of the scaling study the most
+  std::vector<int> thread_counts = {1};            // of the scaling study, from 1 on
   double timeout_s = 900;                          // per solve
   double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included

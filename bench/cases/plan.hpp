@@ -41,11 +41,13 @@ struct Case {
   CaseName name() const;
 };
 
-// Scene by scene, so that methods on the same blocks run after one another.
+// thread_counts: of the scaling study. Scene by scene, so that methods on the same blocks run after
+// one another.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study = Study::none,
                              Stop stop = Stop::target,
-                             ContactSolver contact = ContactSolver::newton);
+                             ContactSolver contact = ContactSolver::newton,
+                             const std::vector<int>& thread_counts = {1});
 
 // SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
 std::string fingerprint(const std::vector<Case>& plan);

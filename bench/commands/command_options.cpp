@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cstring>
+#include <set>
 
 #include "bench/commands/command_line.hpp"
+#include "bench/isolation/threads_at_hand.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
 #include "bench/running/repetitions.hpp"
@@ -77,6 +79,35 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
+// One number; of the scaling study several, no more than there are processors: what runs on fewer
+// has no efficiency.
+void read_threads(const std::string& text, bool is_given, Options& options) {
+  const bool scaling = options.study == Study::scaling;
+  const int processors = processors_at_hand();
+  std::set<int> counts = {1};
+  if (scaling && !is_given) {
+    for (int count = 2; count < processors; count *= 2) counts.insert(count);
+    counts.insert(processors);
+  }
+  const std::vector<std::string> words =
+      scaling ? split_list(text) : std::vector<std::string>{text};
+  for (const std::string& word : words) {
+    const std::optional<std::int64_t> count = parse_whole(word);
+    if (!count || *count < 1 || *count > (scaling ? processors : most_threads))
+      throw UsageError(fmt::format(
+          "--threads: {} (allowed: {})", shortened(text),
+          scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
+                                processors)
+                  : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
+                                most_threads)));
+    counts.insert(static_cast<int>(*count));
+    options.threads = static_cast<int>(*count);
+  }
+  if (!scaling) return;
+  options.thread_counts.assign(counts.begin(), counts.end());
+  options.threads = options.thread_counts.back();
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
@@ -121,7 +152,8 @@ Options parse_options(int argc, const char* const* argv) {
                  "(every method on the extreme scenes of bench/scenes/stability), contact (every "
                  "contact solver on the same condensed problems, bench/scenes/contact), adapted "
                  "(the methods on adapted meshes of tooth and rack: --adapt=1.5%,0.5%,0.15% "
-                 "--levels=last) or load-steps (paths of 1 to 50 steps, bench/scenes/load-steps)")
+                 "--levels=last), load-steps (paths of 1 to 50 steps, bench/scenes/load-steps) or "
+                 "scaling (every method on 1, 2, … threads)")
       ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
@@ -156,10 +188,13 @@ Options parse_options(int argc, const char* const* argv) {
       [&](std::int64_t count) { options.max_repetitions = static_cast<int>(count); },
       "with --precision: the most timed runs of each case")
       ->needs(precise);
-  add_whole(
-      app, "--threads", 1, 1024, options.threads,
-      [&](std::int64_t count) { options.threads = static_cast<int>(count); },
-      "threads of BLAS and for right-hand sides");
+  std::string threads = "1";
+  CLI::Option* given_threads =
+      app.add_option(
+             "--threads", threads,
+             "threads of BLAS and for right-hand sides; with --study=scaling a list (1,2,4; "
+             "1 is always among them), by default 1, 2, 4, … up to the processors")
+          ->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
              "seconds that one solve may take; one that does not end by itself is ended");
   add_number(
@@ -291,6 +326,7 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = defaults->timeout_s;
   }
   if (options.study == Study::stability) options.repetitions = 1;
+  read_threads(threads, given_threads->count() > 0, options);
   return options;
 }
 

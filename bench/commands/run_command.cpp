@@ -110,7 +110,7 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   const std::vector<PosedScene> scenes = pose_and_adapt(options, short_of);
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
-                                      options.stop, options.contact);
+                                      options.stop, options.contact, options.thread_counts);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty() && short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");

@@ -36,7 +36,7 @@ std::filesystem::path fields_of(const Case& c, const Options& options) {
 // The case's own process.
 void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
                 const ActivityBoard& board) {
-  set_threads(options.threads);
+  set_threads(c.knob.threads.value_or(options.threads));
   const heap::Backstop backstop(options.memory_limit_bytes);
   Record record;
   Workbench::Choice choice;

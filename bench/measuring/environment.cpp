@@ -111,6 +111,8 @@ Context context_of_run(const Options& options) {
        options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
   };
   context.insert(settings.begin(), settings.end());
+  if (options.study == Study::scaling)
+    context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
   if (options.precision) {
     context["precision"] = fmt::format("{}", *options.precision);
     context["max_repetitions"] = std::to_string(options.max_repetitions);
