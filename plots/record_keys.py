@@ -93,6 +93,9 @@ TIMES = Kind("a list of numbers above 0", is_times, empty=None, may_be_empty=Tru
 SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None,
              may_be_empty=True)
 
+WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
+    map(is_text, value.values())), empty=None, may_be_empty=True)
+
 
 def key(kind: Kind, needed: bool = False) -> object:
     """needed: figures do without none of these."""
@@ -129,6 +132,8 @@ class Row:
     time_s: float | None = key(POSITIVE, needed=True)
     time_mad_s: float | None = key(NOT_NEGATIVE)
     samples_s: list[float] | None = key(TIMES)    # of time_s, every timed run; in records.jsonl only
+    precision: float | None = key(SHARE)          # that repetitions went on for …
+    precision_reached: bool = key(FLAG)           # … and whether they got there
     load_steps: int | None = key(COUNT)
     time_once_s: float | None = key(NOT_NEGATIVE)     # of time_s, for the body …
     time_per_load_s: float | None = key(NOT_NEGATIVE)  # … and for each load step
@@ -137,6 +142,7 @@ class Row:
     stage_check_s: float | None = key(NOT_NEGATIVE)
     noise_kernel_s: float | None = key(POSITIVE)  # a loop that is always the same, beside the case …
     busy_kernel_s: float | None = key(POSITIVE)   # … and on all threads at once
+    noise_kernel_samples_s: list[float] | None = key(TIMES)  # in records.jsonl only, as samples_s
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
@@ -152,6 +158,7 @@ class Row:
     target_error: float | None = key(POSITIVE)
     error_stress: float | None = key(NOT_NEGATIVE)
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
+    reference_error: float | None = key(NOT_NEGATIVE)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)
     adapt_level: int | None = key(COUNT)          # of an adaptive loop; None: the mesh as it is
@@ -166,6 +173,7 @@ class Row:
     scene_group: str = key(TEXT)
     knob: str = key(TEXT)  # what an error study turned; empty: nothing, this is the one point
     knob_value: float | None = key(NOT_NEGATIVE)
+    context: dict | None = key(WORDS)  # where and with what; in records.jsonl only
     body: str = ""         # that the mesh divides; from the keys above
     look: Look = Look()    # of its family
 
