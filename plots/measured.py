@@ -92,6 +92,15 @@ def machines_and_programs(rows: list[Row]) -> Iterator[str]:
            f"{listed(counted(row.threads, 'thread') for row in rows)}.")
 
 
+def search(rows: list[Row]) -> Iterator[str]:
+    """For parameters and tolerances."""
+    for budget in sorted({row.tuning_budget_s for row in rows if row.tuning_budget_s}):
+        own = [row for row in rows if row.tuning_budget_s == budget]
+        of = "all cases" if len(own) == len(rows) else counted(len(own), "case")
+        yield (f"In {of} that choice had {budget:g} s; "
+               f"in {sum(row.tuning_cut for row in own)} of them it ended there with the best found.")
+
+
 def times(rows: list[Row]) -> Iterator[str]:
     timed = [row for row in rows if row.time_s]
     if not timed:
@@ -195,7 +204,7 @@ def stops(rows: list[Row]) -> Iterator[str]:
 
 
 PARTS: tuple[Callable[[list[Row]], Iterator[str]], ...] = (
-    cases, machines_and_programs, times, noise, memory, errors)
+    cases, machines_and_programs, times, search, noise, memory, errors)
 
 
 def paragraph(rows: list[Row]) -> str:

@@ -144,6 +144,8 @@ class Row:
     busy_kernel_s: float | None = key(POSITIVE)   # … and on all threads at once
     noise_kernel_samples_s: list[float] | None = key(TIMES)  # in records.jsonl only, as samples_s
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
+    tuning_budget_s: float | None = key(NOT_NEGATIVE)
+    tuning_cut: bool = key(FLAG)                  # the search ended for lack of time
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)

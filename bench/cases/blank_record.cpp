@@ -41,6 +41,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   describe(method, record);
   record.threads = options.threads;
   record.precision = options.precision;
+  record.tuning_budget_s = options.tuning_budget_s;
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;

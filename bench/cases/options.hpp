@@ -39,6 +39,8 @@ struct Options {
   int threads = 1;                  // of the scaling study the most
   std::vector<int> thread_counts = {1};            // of the scaling study, from 1 on
   double timeout_s = 900;                          // per solve
+  std::optional<double> tuning_budget_s;           // of a case's search for parameters, tolerances
+  std::vector<double> budgets_s;                   // of the error study: --budget
   double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
   std::vector<AdaptGoal> adapt;     // refine the meshes where the error is, until each of these …

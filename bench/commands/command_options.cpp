@@ -18,6 +18,8 @@
 namespace airybench {
 namespace {
 
+constexpr double most_of_a_limit = 1e9;
+
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
   bench advise           which mesh and which method give an error that one chooses
@@ -108,11 +110,28 @@ void read_threads(const std::string& text, bool is_given, Options& options) {
   options.threads = options.thread_counts.back();
 }
 
+// Runs may take twice as long: a detail run takes longer than a timed one. The search for
+// parameters, which is in no time, keeps the limit that it had.
+void read_budgets(const std::string& text, bool has_timeout, Options& options) {
+  if (options.study != Study::error)
+    throw UsageError("--budget: only with --study=error, whose points it chooses from");
+  for (const std::string& word : split_list(text)) {
+    const std::optional<double> seconds = parse_number(word);
+    if (!seconds || !(*seconds > 0 && *seconds <= most_of_a_limit))
+      throw UsageError(fmt::format("--budget: {} (allowed: numbers of seconds above 0, up to {})",
+                                   shortened(text), most_of_a_limit));
+    options.budgets_s.push_back(*seconds);
+  }
+  std::ranges::sort(options.budgets_s);
+  if (has_timeout) return;
+  if (!options.tuning_budget_s) options.tuning_budget_s = options.timeout_s;
+  options.timeout_s = 2 * options.budgets_s.back();
+}
+
 }  // namespace
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  constexpr double most_of_a_limit = 1e9;
   CLI::App app(
       "Time, memory and error of methods for stress-formulated contact with friction, for every "
       "mesh, scene and method chosen.",
@@ -197,6 +216,19 @@ Options parse_options(int argc, const char* const* argv) {
           ->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
              "seconds that one solve may take; one that does not end by itself is ended");
+  double tuning_budget_s = options.timeout_s;
+  CLI::Option* tuning_budget =
+      add_number(
+          app, "--tuning-budget", Least::above_zero, most_of_a_limit, tuning_budget_s,
+          "seconds that each case may search for parameters and tolerances: no other is tried "
+          "afterwards, and the best found is kept; default: --timeout, and six tolerances")
+          ->default_str("");
+  std::string budgets;
+  CLI::Option* budget = app.add_option(
+      "--budget", budgets,
+      "with --study=error: seconds, one or several (0.01,0.1): the least error of every method "
+      "with "
+      "a solve of at most that time (figures/budget.csv); a solve is ended at twice the largest");
   add_number(
       app, "--long-case", Least::above_zero, most_of_a_limit, options.long_case_s,
       "seconds: a longer solve is measured once, and repetitions end when they add up to this");
@@ -326,6 +358,8 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = defaults->timeout_s;
   }
   if (options.study == Study::stability) options.repetitions = 1;
+  if (tuning_budget->count() > 0) options.tuning_budget_s = tuning_budget_s;
+  if (budget->count() > 0) read_budgets(budgets, app.get_option("--timeout")->count() > 0, options);
   read_threads(threads, given_threads->count() > 0, options);
   return options;
 }

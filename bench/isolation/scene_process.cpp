@@ -67,7 +67,7 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
 // What an activity may take, before the grace.
 double limit_s(const ActivityBoard& board, const Options& options) {
   constexpr double least_for_others_s = 900;
-  return is_run(board.activity()) ? options.timeout_s
+  return is_run(board.activity()) ? run_limit_s(board.activity(), options)
                                   : std::max(options.timeout_s, least_for_others_s);
 }
 

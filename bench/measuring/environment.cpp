@@ -111,6 +111,10 @@ Context context_of_run(const Options& options) {
        options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
   };
   context.insert(settings.begin(), settings.end());
+  if (options.tuning_budget_s)
+    context["tuning_budget_s"] = fmt::format("{}", *options.tuning_budget_s);
+  if (!options.budgets_s.empty())
+    context["budgets_s"] = fmt::format("{}", fmt::join(options.budgets_s, ","));
   if (options.study == Study::scaling)
     context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
   if (options.precision) {

@@ -1,4 +1,6 @@
 """The paragraph about how records were measured.  /usr/bin/python3 -m unittest FILE"""
+import contextlib
+import io
 import shutil
 import sys
 import tempfile
@@ -74,6 +76,10 @@ class MeasuredTest(unittest.TestCase):
                    line("HYBRID") | {"noise_kernel_samples_s": [1.0, 0.9, 1.1]}],
                   "scattered by 5\u00a0% (median absolute deviation over median of 6 times)")
 
+    def test_the_search_has_a_budget(self) -> None:
+        self.says([line("ALM", tuning_budget_s=2.5, tuning_cut="true"), line()],
+                  "In 1 case that choice had 2.5 s; in 1 of them it ended there")
+
     def test_both_stops(self) -> None:
         self.says([line("ALM"), line("ALM", stop="paper")], "(1 case) or ended by the paper's stops (1).")
         self.says([line("ALM", stop="paper")], "ended by the paper's own stops, whatever error")
@@ -83,7 +89,8 @@ class MeasuredTest(unittest.TestCase):
         folder = Path(tempfile.mkdtemp())
         self.addCleanup(shutil.rmtree, folder)
         made_up.write(folder / "results.csv", [made_up.case("Mesh0", "3STEPD")])
-        figures.draw_all(records.rows_of(records.read_run(folder)), folder / "figures")
+        with contextlib.redirect_stdout(io.StringIO()):
+            figures.draw_all(records.rows_of(records.read_run(folder)), folder / "figures")
         said = (folder / "figures/measured.md").read_text(encoding="utf-8")
         for part in ("a machine that the record does not name", "a program that the record does not",
                      "libraries that the record does not name"):

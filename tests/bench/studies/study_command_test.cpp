@@ -66,6 +66,18 @@ TEST_F(StudyCommand, ErrorHasAPointForEveryValueOfTheKnob) {
   EXPECT_EQ(tolerances.size() + 1, records().size());
 }
 
+// A budget limits solves, not the search for parameters; figures take it from the context.
+TEST_F(StudyCommand, BudgetsOfAnErrorStudyAreInItsContext) {
+  ASSERT_NE(
+      bench("--study=error --mesh=Mesh0 --method=HYBRID --repetitions=1 --budget=20,5 --out=o"), 2)
+      << content("err.txt");
+  for (const Json& record : records()) {
+    EXPECT_EQ(record["context"]["budgets_s"], "5,20");
+    EXPECT_EQ(record["context"]["timeout_s"], "40");
+    EXPECT_EQ(record["tuning_budget_s"], 900);
+  }
+}
+
 TEST_F(StudyCommand, ScalingIsACaseForEveryNumberOfThreads) {
   const bool two = std::thread::hardware_concurrency() > 1;
   ASSERT_EQ(bench("--study=scaling --mesh=Mesh0 --method=HYBRID,3STEPD --repetitions=2 --out=o "
