@@ -78,9 +78,9 @@ def draw_all(rows: list[Row], out: Path) -> None:
     if sizes:
         writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
         report.append(f"{out / 'table1.md'}")
-    if points := budgets.points_of(rows):
+    if cases := budgets.cases_of(rows):
         for name, table in (("budget.csv", budgets.csv_table), ("budget.md", budgets.markdown)):
-            writers[name] = partial(Path.write_text, data=table(points), encoding="utf-8")
+            writers[name] = partial(Path.write_text, data=table(cases), encoding="utf-8")
         report.append(f"{out / 'budget'}.csv, .md")
     writers["measured.md"] = lambda path: path.write_text(paragraph(rows), encoding="utf-8")
     report.append(f"{out / 'measured.md'}")

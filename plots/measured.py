@@ -13,7 +13,7 @@ import numpy as np
 
 from figure_words import span, targets
 from profiles import solved
-from record_keys import Row
+from record_keys import NOT_NEGATIVE, Row
 from study_parts import percent
 
 UNKNOWN = "unknown"  # bench writes it for what the machine does not tell
@@ -153,15 +153,11 @@ def noise(rows: list[Row]) -> Iterator[str]:
         spread = np.median(np.abs(samples - middle)) / middle
         yield ("A fixed loop, timed beside every case, scattered by "
                f"{percent(spread)} (median absolute deviation over median of {len(samples)} times).")
-    loads = [float(word(row, "load_1min_at_start")) for row in rows
-             if is_number(word(row, "load_1min_at_start"))]
+    told = (NOT_NEGATIVE.of_text(word(row, "load_1min_at_start")) for row in rows)
+    loads = list(filter(NOT_NEGATIVE.accepts, told))
     if loads:
         yield ("The machine's load in the minute before a run began was "
                + " to ".join(dict.fromkeys(f"{end(loads):.2f}" for end in (min, max))) + ".")
-
-
-def is_number(text: str) -> bool:
-    return text.replace(".", "", 1).isdigit()
 
 
 def memory(rows: list[Row]) -> Iterator[str]:
@@ -193,14 +189,22 @@ def errors(rows: list[Row]) -> Iterator[str]:
     yield from stops(rows)
 
 
+def is_turned(row: Row) -> bool:
+    return row.study == "error" and bool(row.knob)
+
+
 def stops(rows: list[Row]) -> Iterator[str]:
-    ended = Counter(row.stop for row in rows if row.iterative and not row.knob)
+    turned = [row for row in rows if is_turned(row)]
+    ended = Counter(row.stop for row in rows if row.iterative and not is_turned(row))
     if ended["target"]:
         yield ("Iterative methods were tightened towards that by their own estimates"
                + (f" ({counted(ended['target'], 'case')}) or ended by the paper's stops "
                   f"({ended['paper']})." if ended["paper"] else "."))
     elif ended["paper"]:
         yield "Iterative methods ended by the paper's own stops, whatever error they leave."
+    if turned:
+        yield (f"In {counted(len(turned), 'case')} the accuracy was set on purpose, by "
+               f"{' or '.join(sorted({row.knob for row in turned}))}.")
 
 
 PARTS: tuple[Callable[[list[Row]], Iterator[str]], ...] = (

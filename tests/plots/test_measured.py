@@ -80,10 +80,16 @@ class MeasuredTest(unittest.TestCase):
         self.says([line("ALM", tuning_budget_s=2.5, tuning_cut="true"), line()],
                   "In 1 case that choice had 2.5 s; in 1 of them it ended there")
 
+    def test_a_load_that_is_no_number_is_not_told(self) -> None:
+        for load in ("-1.00", "unknown", "\u00b2", "nan"):
+            self.assertNotIn("machine's load", self.said([line(context={"load_1min_at_start": load})]))
+
     def test_both_stops(self) -> None:
         self.says([line("ALM"), line("ALM", stop="paper")], "(1 case) or ended by the paper's stops (1).")
         self.says([line("ALM", stop="paper")], "ended by the paper's own stops, whatever error")
         self.assertNotIn("Iterative methods", self.said([line()]))
+        self.says([made_up.record(case) for case in made_up.error_study(["Mesh0"])],
+                  "accuracy was set on purpose, by contact sweeps or tolerance or uzawa iterations.")
 
     def test_records_without_a_context_say_so(self) -> None:
         folder = Path(tempfile.mkdtemp())
