@@ -357,6 +357,10 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--mesh")->count() == 0) options.meshes = defaults->meshes;
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = defaults->timeout_s;
   }
+  if (options.study == Study::scaling && options.interleave)
+    throw UsageError(
+        "--interleave: not with --study=scaling: BLAS's idle threads of one case are awake in "
+        "another's time");
   if (options.study == Study::stability) options.repetitions = 1;
   if (tuning_budget->count() > 0) options.tuning_budget_s = tuning_budget_s;
   if (budget->count() > 0) read_budgets(budgets, app.get_option("--timeout")->count() > 0, options);

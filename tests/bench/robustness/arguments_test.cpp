@@ -42,6 +42,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--repetitions=1e1", "--repetitions: 1e1"},
            {"--repetitions=3.0", "--repetitions: 3.0"},
            {"--threads=02", "--threads: 02"},
+           {"--interleave --study=scaling", "--interleave: not with --study=scaling"},
            {"--tuning-budget=0", "--tuning-budget: 0 (allowed: a number above 0"},
            {"--budget=1", "--budget: only with --study=error"},
            {"--budget=1,x --study=error", "--budget: 1,x (allowed: numbers of seconds above 0"},
