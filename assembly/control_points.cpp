@@ -89,4 +89,16 @@ ControlPoints control_points(const Problem& problem) {
   return points;
 }
 
+Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress) {
+  const ControlPoints points = control_points(problem);
+  const Eigen::Matrix2Xd force = nodal_forces(problem, stress).sum - nodal_loads(problem);
+  const int m = points.law.components;
+  Eigen::VectorXd F(points.law.size());
+  for (int p = 0; p < points.law.count; ++p) {
+    F.segment(m * p, m) = (points.frame(p).transpose() * force.col(points.node[p])).head(m);
+    if (m == 2 && points.on_roller[p]) F(2 * p + 1) = 0;
+  }
+  return F;
+}
+
 }  // namespace airybench

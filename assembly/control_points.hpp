@@ -35,6 +35,10 @@ struct ControlPoints {
 };
 ControlPoints control_points(const Problem& problem);
 
+// The forces that hold quadratic displacements at the control points, by their stresses: what nodal
+// forces there differ from the loads. Per point normal, tangential (μ = 0: normal).
+Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress);
+
 // The coefficients of g0 along an edge of Γ_C: start, edge, end.
 std::array<double, 3> gap_coefficients(const Problem& problem, int boundary_row);
 

@@ -68,6 +68,11 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
 
 ContactPoints contact_points(const Problem& problem) {
   ContactPoints contact;
+  if (problem.given) {
+    contact.friction = problem.given->friction;
+    contact.count = static_cast<int>(contact.friction.size());
+    return contact;
+  }
   contact.components = problem.has_friction() ? 2 : 1;
   std::vector<double> gap;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <functional>
+#include <memory>
 #include <type_traits>
 #include <vector>
 
@@ -66,6 +67,14 @@ struct ContactNormals {
 // Rollers are parallel when their directions differ by a smaller sine than this.
 inline constexpr double straight_roller = 1e-6;
 
+// A contact problem that came without a body: r = D F − b, with D and b as they came, and μ per
+// point; normal and tangential component at each. Units are whoever wrote it's.
+struct GivenContact {
+  Eigen::MatrixXd D;
+  Eigen::VectorXd b;
+  std::vector<double> friction;
+};
+
 struct Problem {
   Mesh mesh;
   MeshEdges edges = {};
@@ -77,6 +86,7 @@ struct Problem {
   // Load steps after this one, each with all of u0. Slip is measured from the step before: they are
   // posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};
+  std::shared_ptr<const GivenContact> given = {};  // instead of all the others but the mesh's name
   int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {

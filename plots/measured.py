@@ -111,6 +111,10 @@ def times(rows: list[Row]) -> Iterator[str]:
     yield ("A time is the wall-clock time of one solve, from assembled blocks to contact forces and "
            "stresses, of all load steps together; assembling the blocks and choosing parameters and "
            f"tolerances is not in it{own}.")
+    others = [row.program for row in timed if row.program]
+    if others:
+        yield (f"In {counted(len(others), 'case')} another program solved ({listed(others)}): its own "
+               "clock timed the solve, ours what it leaves to us.")
     again = [row for row in timed if row.repetitions > 1]
     once = len(timed) - len(again)
     if again:

@@ -113,6 +113,7 @@ class Row:
     general_name: str = key(NAME, needed=True)    # the same for all names of a method
     family: str = key(NAME, needed=True)
     preconditioner: str = key(TEXT, needed=True)
+    program: str = key(TEXT)                      # another's, with its version; empty: ours
     iterative: bool = key(FLAG, needed=True)      # it has a stop to choose
     in_paper: bool = key(FLAG, needed=True)
     in_displacements: bool = key(FLAG, needed=True)  # another discrete problem

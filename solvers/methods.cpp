@@ -103,26 +103,28 @@ std::vector<std::string> split_selection(std::string_view selection) {
   return items;
 }
 
-std::string valid_names() {
+std::string valid_names(const std::vector<Method>& table) {
   std::string names;
-  for (const Method& method : methods())
+  for (const Method& method : table)
     if (!is_general_name(method.name)) names += (names.empty() ? "" : ", ") + method.name;
   return names;
 }
 
 }  // namespace
 
-std::vector<Method> select_methods(std::string_view selection) {
-  std::vector<bool> selected(methods().size(), false);
+std::vector<Method> select_methods(std::string_view selection, const std::vector<Method>& others) {
+  std::vector<Method> table = methods();
+  table.insert(table.end(), others.begin(), others.end());
+  std::vector<bool> selected(table.size(), false);
   std::vector<Method> more;
   for (const std::string& item : split_selection(selection)) {
     bool matched = false;
-    for (std::size_t i = 0; i < methods().size(); ++i)
-      if (fnmatch(item.c_str(), methods()[i].name.c_str(), 0) == 0) selected[i] = matched = true;
+    for (std::size_t i = 0; i < table.size(); ++i)
+      if (fnmatch(item.c_str(), table[i].name.c_str(), 0) == 0) selected[i] = matched = true;
     if (matched) continue;
     if (!is_general_name(item))
       throw std::invalid_argument("no method matches '" + shortened(item) +
-                                  "' (valid: " + valid_names() +
+                                  "' (valid: " + valid_names(table) +
                                   ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
                                   "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
     more.push_back(method_of_general_name(item));
@@ -135,7 +137,7 @@ std::vector<Method> select_methods(std::string_view selection) {
     if (!there) result.push_back(method);
   };
   for (std::size_t i = 0; i < selected.size(); ++i)
-    if (selected[i]) add(methods()[i]);
+    if (selected[i]) add(table[i]);
   for (const Method& method : more) add(method);
   if (result.empty()) throw std::invalid_argument("no method is named");
   return result;

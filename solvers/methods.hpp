@@ -16,13 +16,18 @@ namespace airybench {
 // name.
 const std::vector<Method>& methods();
 
+// What solves problems that come without a body (GivenContact); it is not in the table.
+Method condensed_contact();
+
 // The methods that a comma-separated list selects: names of the table and globs, in the table's
 // order and none twice; then general names that are not in the table, as they come:
 //   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]
 //   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
 //   ALM:r=<r>,rho=<rho>
-// Throws std::invalid_argument: one line with the item that matches nothing and what is valid.
-std::vector<Method> select_methods(std::string_view selection);
+// others: stand behind the table's. Throws std::invalid_argument: one line with the item that
+// matches nothing and what is valid.
+std::vector<Method> select_methods(std::string_view selection,
+                                   const std::vector<Method>& others = {});
 
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);

@@ -23,6 +23,7 @@ void describe(const Method& method, Record& record) {
   record.general_name = method.identity();
   record.family = method.family;
   record.preconditioner = method.preconditioner;
+  record.program = method.program;
   record.iterative = method.is_iterative();
   record.in_paper = method.in_paper;
   record.in_displacements = method.in_displacements;
@@ -37,7 +38,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
     record.status_reason = std::move(why);
   }
   record.mesh = problem.mesh.name;
-  note(problem.mesh, record);
+  if (!problem.given) note(problem.mesh, record);
   describe(method, record);
   record.threads = options.threads;
   record.precision = options.precision;
@@ -45,8 +46,10 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;
-  record.n_phi = sizes.n_phi;
-  record.n_f = sizes.n_f;
+  if (!problem.given) {
+    record.n_phi = sizes.n_phi;
+    record.n_f = sizes.n_f;
+  }
   record.n_c = sizes.n_c;
   record.load_steps = 1 + std::ssize(problem.later_steps);
   record.stages_left_out = Json::object();

@@ -22,17 +22,19 @@ struct Options {
   std::vector<std::string>
       model_settings;   // of --mesh's Gmsh models: "--role=clamped=displacement"
   std::string methods;  // empty: all the paper's
-  std::vector<std::filesystem::path> scenes;  // empty: the default scene
+  std::vector<std::filesystem::path> problems;   // FCLIB files, instead of meshes and scenes
+  std::vector<std::filesystem::path> externals;  // declarations of other programs
+  std::vector<std::filesystem::path> scenes;     // empty: the default scene
   std::filesystem::path out = "results/latest";
   std::optional<int> figure;  // of the paper, 3, 4 or 5: its meshes and methods
   Study study = Study::none;
   double target_error = 1e-6;
   Stop stop = Stop::target;
-  ContactSolver contact = ContactSolver::newton;
-  bool append = false;      // keep the records that are in the folder
-  bool resume = false;      // and run only the cases that have none
-  Shard shard;              // the part of the plan that is run
-  bool interleave = false;  // repetitions of a scene's cases in random turn
+  std::optional<ContactSolver> contact;  // none: see plan_cases()
+  bool append = false;                   // keep the records that are in the folder
+  bool resume = false;                   // and run only the cases that have none
+  Shard shard;                           // the part of the plan that is run
+  bool interleave = false;               // repetitions of a scene's cases in random turn
   int repetitions = 5;
   std::optional<double> precision;  // repetitions go on until the median is known to this share …
   int max_repetitions = 1000;       // … at most so many

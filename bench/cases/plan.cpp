@@ -16,14 +16,17 @@ namespace airybench {
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study, Stop stop,
-                             ContactSolver contact, const std::vector<int>& thread_counts) {
+                             std::optional<ContactSolver> contact,
+                             const std::vector<int>& thread_counts) {
   std::vector<Case> cases;
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
     const Stop own_stop = knob.stop.value_or(stop);
     std::optional<ContactSolver> solver;
-    if (method.condenses_contact() && solved_sizes(*scene.problem).contact_edges > 0) {
+    if ((method.condenses_contact() || scene.problem->given) && method.program.empty() &&
+        solved_sizes(*scene.problem).n_c > 0) {
       solver = implied_contact_solver(own_stop, knob.name);
-      if (*solver == ContactSolver::newton) solver = knob.contact.value_or(contact);
+      if (*solver == ContactSolver::newton)
+        solver = knob.contact.value_or(contact.value_or(ContactSolver::newton));
     }
     cases.push_back({scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1,
                      study, own_stop, solver});
@@ -33,7 +36,7 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
       if (study == Study::error)
         for (TurnedMethod& point : error_points(method))
           add(scene, std::move(point.method), std::move(point.knob));
-      else if (study == Study::contact)
+      else if (study == Study::contact || (scene.problem->given && !contact))
         for (TurnedMethod& point : contact_points(method))
           add(scene, std::move(point.method), std::move(point.knob));
       else if (study == Study::scaling)

@@ -11,6 +11,12 @@ namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
   MeshSizes sizes = mesh_sizes(problem.mesh);
+  if (problem.given) {
+    sizes = {};
+    sizes.n_c = static_cast<int>(problem.given->b.size());
+    sizes.contact_edges = sizes.n_c / 4;
+    return sizes;
+  }
   if (!problem.has_friction()) {
     sizes.n_f += sizes.n_c / 2;
     sizes.n_c -= sizes.n_c / 2;
@@ -20,6 +26,15 @@ MeshSizes solved_sizes(const Problem& problem) {
 }
 
 std::string why_skipped(const Problem& problem, const Method& method) {
+  if (problem.given && method.takes == Method::Takes::bodies) return "the problem has no body";
+  if (!problem.given && method.takes == Method::Takes::given_contact)
+    return "the problem has a body: HYBRID condenses it, and solves the contact law";
+  const bool external = !method.program.empty();
+  if (external && !problem.later_steps.empty())
+    return "a path of load steps: other programs are asked for one";
+  if (external && !problem.given && method.condenses_contact() &&
+      mesh_sizes(problem.mesh).contact_edges == 0)
+    return "no contact boundary: nothing is left for the program";
   const std::string why = why_no_blocks(problem.mesh, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;
@@ -40,6 +55,7 @@ std::vector<StageDecision> decide_stages(const Problem& problem, const Method& m
                                          bool fields_asked) {
   if (const std::string why = why_skipped(problem, method); !why.empty())
     return {{"all stages", false, why}};
+  if (problem.given) return {{"contact", true, ""}};
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   const bool airy = method.blocks == Blocks::airy;
   const bool contact = sizes.contact_edges > 0;

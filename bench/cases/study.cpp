@@ -78,6 +78,7 @@ Study study_of(std::string_view name) {
 }
 
 std::vector<TurnedMethod> contact_points(const Method& method) {
+  if (!method.program.empty()) return {{method, {}}};  // it is one
   std::vector<TurnedMethod> points;
   for (const ContactSolver solver : all_contact_solvers)
     points.push_back(turned(method, {"", {}, {}, solver},

@@ -1,24 +1,21 @@
 #include "bench/commands/command_options.hpp"
 
 #include <fmt/format.h>
+#include <glob.h>
 
 #include <algorithm>
 #include <cstring>
-#include <set>
+#include <iterator>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/isolation/threads_at_hand.hpp"
+#include "bench/commands/measuring_options.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
-#include "bench/running/repetitions.hpp"
 #include "support/lists.hpp"
-#include "support/numbers.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
-
-constexpr double most_of_a_limit = 1e9;
 
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
@@ -81,51 +78,26 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
-// One number; of the scaling study several, no more than there are processors: what runs on fewer
-// has no efficiency.
-void read_threads(const std::string& text, bool is_given, Options& options) {
-  const bool scaling = options.study == Study::scaling;
-  const int processors = processors_at_hand();
-  std::set<int> counts = {1};
-  if (scaling && !is_given) {
-    for (int count = 2; count < processors; count *= 2) counts.insert(count);
-    counts.insert(processors);
-  }
-  const std::vector<std::string> words =
-      scaling ? split_list(text) : std::vector<std::string>{text};
-  for (const std::string& word : words) {
-    const std::optional<std::int64_t> count = parse_whole(word);
-    if (!count || *count < 1 || *count > (scaling ? processors : most_threads))
-      throw UsageError(fmt::format(
-          "--threads: {} (allowed: {})", shortened(text),
-          scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
-                                processors)
-                  : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
-                                most_threads)));
-    counts.insert(static_cast<int>(*count));
-    options.threads = static_cast<int>(*count);
-  }
-  if (!scaling) return;
-  options.thread_counts.assign(counts.begin(), counts.end());
-  options.threads = options.thread_counts.back();
+// The file of that name, or those that a glob matches; one that matches nothing is a file's name.
+std::vector<std::filesystem::path> files_of(const std::string& item) {
+  if (std::error_code error; std::filesystem::exists(item, error)) return {item};
+  glob_t found = {};
+  glob(item.c_str(), GLOB_NOCHECK, nullptr, &found);
+  std::vector<std::filesystem::path> files(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  return files;
 }
 
-// Runs may take twice as long: a detail run takes longer than a timed one. The search for
-// parameters, which is in no time, keeps the limit that it had.
-void read_budgets(const std::string& text, bool has_timeout, Options& options) {
-  if (options.study != Study::error)
-    throw UsageError("--budget: only with --study=error, whose points it chooses from");
-  for (const std::string& word : split_list(text)) {
-    const std::optional<double> seconds = parse_number(word);
-    if (!seconds || !(*seconds > 0 && *seconds <= most_of_a_limit))
-      throw UsageError(fmt::format("--budget: {} (allowed: numbers of seconds above 0, up to {})",
-                                   shortened(text), most_of_a_limit));
-    options.budgets_s.push_back(*seconds);
-  }
-  std::ranges::sort(options.budgets_s);
-  if (has_timeout) return;
-  if (!options.tuning_budget_s) options.tuning_budget_s = options.timeout_s;
-  options.timeout_s = 2 * options.budgets_s.back();
+void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
+               const std::string& about) {
+  app.add_option_function<std::vector<std::string>>(
+      option,
+      [&files](const std::vector<std::string>& lists) {
+        for (const std::string& list : lists)
+          for (const std::string& item : split_list(list))
+            std::ranges::copy(files_of(item), std::back_inserter(files));
+      },
+      about);
 }
 
 }  // namespace
@@ -148,15 +120,18 @@ Options parse_options(int argc, const char* const* argv) {
       "--method", options.methods,
       "names or globs, separated by commas; default: all the paper's methods, for bodies "
       "with holes also HYBRID and P2");
-  app.add_option_function<std::vector<std::string>>(
-      "--scene",
-      [&](const std::vector<std::string>& lists) {
-        for (const std::string& list : lists)
-          for (const std::string& file : split_list(list)) options.scenes.emplace_back(file);
-      },
-      "scene file(s), separated by commas (in a name a comma is \\,); default: the documented "
-      "tooth or "
-      "rack");
+  add_files(app, "--scene", options.scenes,
+            "scene file(s) or globs, separated by commas (in a name a comma is \\,); default: the "
+            "documented "
+            "tooth or rack");
+  add_files(app, "--problem", options.problems,
+            "instead of meshes and scenes, condensed contact problems in FCLIB's format, files or "
+            "globs separated by commas: every contact solver (--contact: that one) on each");
+  add_files(app, "--external", options.externals,
+            "declaration(s) of other programs that solve our problems, files or globs separated by "
+            "commas: each is a "
+            "method EXTERNAL:name, beside those of --method's default or chosen by it "
+            "(docs/external-solvers.md)");
   add_whole(
       app, "--figure", 3, 5, 0,
       [&](std::int64_t figure) { options.figure = static_cast<int>(figure); },
@@ -306,18 +281,8 @@ Options parse_options(int argc, const char* const* argv) {
           fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(shard)));
     options.shard = *part;
   }
-  if (precise->count() > 0) {
-    options.precision = parse_percent(precision);
-    if (!options.precision)
-      throw UsageError(fmt::format("--precision: {} (allowed: above 0% and below 100%, as 2%)",
-                                   shortened(precision)));
-    if (study == name_of(Study::stability))
-      throw UsageError("--precision: not with --study=stability, which times each case once");
-    if (options.max_repetitions < least_repetitions(options))
-      throw UsageError(fmt::format("--max-repetitions: {} (allowed: from {} on)",
-                                   options.max_repetitions, least_repetitions(options)));
-  }
   options.study = study_of(study);
+  if (precise->count() > 0) read_precision(precision, options);
   if (options.study == Study::adapted && adapt.empty()) {
     adapt = "1.5%,0.5%,0.15%";
     levels = "last";
@@ -342,13 +307,18 @@ Options parse_options(int argc, const char* const* argv) {
   if (options.fields && fields != "true" && !options.mean_fields)
     throw UsageError(fmt::format("--fields: {} (allowed: mean, or no value)", shortened(fields)));
   if (stop == "paper") options.stop = Stop::paper;
-  options.contact = *contact_solver_of(contact);
   if (app.get_option("--contact")->count() > 0) {
+    options.contact = contact_solver_of(contact);
     if (options.stop == Stop::paper)
       throw UsageError("--contact: not with --stop=paper, whose contact law is gauss-seidel");
     if (options.study == Study::contact)
       throw UsageError("--contact: not with --study=contact, which has all of them");
   }
+  if (!options.problems.empty())
+    for (const char* of_bodies :
+         {"--mesh", "--scene", "--figure", "--study", "--adapt", "--fields"})
+      if (app.get_option(of_bodies)->count() > 0)
+        throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
   if (options.study == Study::error && options.stop == Stop::paper)
     throw UsageError("--stop=paper: not with --study=error, which has the paper's stop as a point");
   if (options.study == Study::contact && options.stop == Stop::paper)

@@ -27,8 +27,9 @@ bool is_newer(const fs::path& file, const fs::path& than) {
 }  // namespace
 
 std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
-  const auto last = std::find_if(records.rbegin(), records.rend(),
-                                 [](const Record& r) { return !is_named_after_catalogue(r.mesh); });
+  const auto last = std::find_if(records.rbegin(), records.rend(), [](const Record& r) {
+    return !r.siconos_error && !is_named_after_catalogue(r.mesh);
+  });
   if (last == records.rend()) return "";
   for (const Record& record : records) {
     if (!has_fields || record.mesh != last->mesh) continue;

@@ -10,7 +10,10 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/cases/stages.hpp"
+#include "bench/problems/problem_files.hpp"
 #include "support/errors.hpp"
+#include "support/sha256.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -47,6 +50,26 @@ std::vector<PosedScene> pose_all(const Options& options) {
       note_out_of_reach(posed.back());
     }
   if (!options.dry_run && !options.explain) keep_models(files);
+  return posed;
+}
+
+std::vector<PosedScene> pose_problems(const Options& options) {
+  std::vector<PosedScene> posed;
+  for (const std::filesystem::path& file : options.problems) {
+    Problem problem;
+    problem.mesh.name = file.stem().string();
+    const auto same = [&](const PosedScene& p) {
+      return p.problem->mesh.name == problem.mesh.name;
+    };
+    if (!is_name(problem.mesh.name) || std::ranges::any_of(posed, same))
+      throw UsageError(
+          fmt::format("--problem: {} (allowed: file names that differ, in UTF-8 without "
+                      "control characters)",
+                      shortened(file.string())));
+    problem.given = read_contact_problem(file);
+    posed.push_back({"fclib", "", recorded_path(file, options.out), sha256_of_file(file), "{}",
+                     std::make_shared<const Problem>(std::move(problem))});
+  }
   return posed;
 }
 

@@ -16,6 +16,7 @@
 #include "bench/commands/command_options.hpp"
 #include "bench/commands/own_bodies.hpp"
 #include "bench/commands/posed_scenes.hpp"
+#include "bench/external/external_method.hpp"
 #include "bench/forecast/prediction.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
@@ -96,19 +97,38 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
     fmt::print("note: {}\n", warning);
 }
 
+std::vector<Method> other_programs(const Options& options) {
+  std::vector<Method> methods;
+  for (const std::filesystem::path& file : options.externals) {
+    methods.push_back(external_method(read_declaration(file), options.memory_limit_bytes));
+    const auto same = [&](const Method& m) { return m.name == methods.back().name; };
+    if (std::ranges::count_if(methods, same) > 1)
+      throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
+                                   file.string(), methods.back().name));
+  }
+  return methods;
+}
+
 // Those asked for. By default the paper's, which leave out bodies with holes: for these also what
 // takes them.
 std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
-  if (!options.methods.empty()) return select_methods(options.methods);
+  std::vector<Method> others = other_programs(options);
+  if (!options.problems.empty()) {
+    others.insert(others.begin(), condensed_contact());
+    return options.methods.empty() ? others : select_methods(options.methods, others);
+  }
+  if (!options.methods.empty()) return select_methods(options.methods, others);
   std::string names = default_methods(options.study);
   const auto has_holes = [](const PosedScene& s) { return hole_count(s.problem->mesh) > 0; };
   if (options.study == Study::none && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
-  return select_methods(names);
+  if (!others.empty()) names += ",EXTERNAL:*";
+  return select_methods(names, others);
 }
 
 // The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
-  const std::vector<PosedScene> scenes = pose_and_adapt(options, short_of);
+  const std::vector<PosedScene> scenes =
+      options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
                                       options.stop, options.contact, options.thread_counts);
   if (!options.filter.empty()) plan = matching(plan, options.filter);

@@ -286,4 +286,17 @@ DisplacementField recovered_displacement(const DualSystem& system, const StressF
   return w;
 }
 
+DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
+                                          DisplacementField w) {
+  const Problem& problem = *system.problem;
+  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const auto weight = stiffnesses(problem, t, shape_of(problem.vertices_of(t)));
+    const std::array<int, 6> node = triangle_nodes(problem, t);
+    for (int m = 0; m < 6; ++m) stiffness(node[m]) += weight(m);
+  }
+  Constraints(system, F_C).apply(stiffness, w);
+  return w;
+}
+
 }  // namespace airybench

@@ -33,4 +33,8 @@ DisplacementField recovered_displacement(const DualSystem& system, const StressF
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::Matrix4Xd& edge_moments);
 
+// The admissible displacement nearest to the given one in the same way: Γ_D and Γ_C as above.
+DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
+                                          DisplacementField w);
+
 }  // namespace airybench

@@ -119,12 +119,7 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
                    result);
   result.error_force = relative_error(D_norm(condensed.D, F - reference->F_C),
                                       D_norm(condensed.D, reference->F_C), scale.energy_norm);
-  if (contact.components == 1) return;
-  double coupling = 0;
-  for (int p = 0; p < contact.count; ++p)
-    coupling = std::max(coupling, contact.friction_at(p) * std::abs(condensed.D(2 * p, 2 * p + 1)) /
-                                      condensed.D(2 * p, 2 * p));
-  result.friction_coupling = coupling;
+  if (contact.components == 2) result.friction_coupling = friction_coupling(contact, condensed.D);
 }
 
 double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
@@ -132,6 +127,14 @@ double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
 }
 
 }  // namespace
+
+double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
+  double coupling = 0;
+  for (int p = 0; p < contact.count; ++p)
+    coupling = std::max(coupling,
+                        contact.friction_at(p) * std::abs(D(2 * p, 2 * p + 1)) / D(2 * p, 2 * p));
+  return coupling;
+}
 
 void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
                          Verification& result) {
@@ -218,7 +221,7 @@ Verification verify(const DualSystem& system, const Solution& solution,
 }
 
 WorstMeasure worst_measure(const Verification& v) {
-  WorstMeasure worst{"equilibrium_residual", v.equilibrium_residual};
+  WorstMeasure worst{"equilibrium_residual", v.equilibrium_residual.value_or(0)};
   const auto consider = [&](const char* name, std::optional<double> value) {
     if (value && !(*value <= worst.value)) worst = {name, *value};  // NaN is worst
   };

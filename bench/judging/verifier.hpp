@@ -22,7 +22,7 @@
 
 namespace airybench {
 
-// Empty: does not apply (no contact, or no reference).
+// Empty: does not apply (no contact, no reference, no body).
 struct Verification {
   std::optional<double> error_stress;
   std::optional<double> error_force;
@@ -31,17 +31,18 @@ struct Verification {
   // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
   // relative to the loads then.
   bool unstressed = false;
-  double equilibrium_residual = std::numeric_limits<double>::infinity();
+  std::optional<double> equilibrium_residual = std::numeric_limits<double>::infinity();
   std::optional<double> natural_map_residual;
   std::optional<double> signorini_violation_N;   // largest normal component of the natural map
   std::optional<double> coulomb_violation_N;     // largest tangential component
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
-  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ
+  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ; of a given problem ½ Fᵀ D F
   std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
   // The largest μ|D_nt| / D_nn of a contact point. From 1 on, its law may have several solutions.
   std::optional<double> friction_coupling;
+  std::optional<double> siconos_error;  // of a given problem
 };
 
 // reference: may be null.
@@ -55,6 +56,12 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
+// Of a given contact problem (problem.hpp), which is nothing but the contact law: its natural map,
+// and the measure that Siconos stops on (fc2d_compute_error; with r = −F, u = W r + q)
+//   siconos_error  ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖),  û_n = u_n + μ|u_t|
+// where P projects on Coulomb's cone. It depends on the units of W.
+Verification verify_given_contact(const DualSystem& system, const Solution& solution);
+
 // ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n, N mm, what Π* lacks of the energy; F_C at the contact points.
 double work_of_prescribed(const DualSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
@@ -66,6 +73,9 @@ void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
 void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
                       const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
                       const LoadScale& scale, Verification& result);
+
+// Of two components per point: Verification::friction_coupling.
+double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D);
 
 // The largest of the relative measures that decide between ok and inaccurate.
 struct WorstMeasure {

@@ -88,7 +88,7 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, doub
     path.steps.push_back(compute_reference(system));
     const double estimate = path.steps.back().error_estimate;
     Solution answer = answer_of(path.steps.back());
-    const double residual = verify(system, answer, nullptr).equilibrium_residual;
+    const double residual = *verify(system, answer, nullptr).equilibrium_residual;
     if (!(residual <= error_at_most && estimate <= error_at_most))
       throw Breakdown(fmt::format(
           "no reference: by its own estimate its error is {:.1e}, its equilibrium residual {:.1e}",

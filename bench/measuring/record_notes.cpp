@@ -47,6 +47,7 @@ void note(const Verification& v, Record& record) {
   record.friction_coupling = v.friction_coupling;
   record.error_force = v.error_force;
   record.equilibrium_residual = v.equilibrium_residual;
+  record.siconos_error = v.siconos_error;
   record.natural_map_residual = v.natural_map_residual;
   record.signorini_violation_N = v.signorini_violation_N;
   record.coulomb_violation_N = v.coulomb_violation_N;
@@ -62,6 +63,7 @@ void note(const Verification& v, Record& record) {
 
 void note_what_is_idle(const Problem& problem, Record& record) {
   const MeshSizes sizes = mesh_sizes(problem.mesh);
+  if (problem.given) return;
   if (sizes.contact_edges + sizes.force_edges == 0) {
     record.status_reason = "the whole boundary is prescribed";
   } else if (sizes.contact_edges == 0) {

@@ -3,9 +3,9 @@
 namespace airybench {
 
 Json to_json(const TimedRun& run) {
-  return {{"time_s", run.time_s},   {"stages", run.stages}, {"status", name_of(run.status)},
-          {"message", run.message}, {"signal", run.signal}, {"ended_in", run.ended_in},
-          {"runs_s", run.runs_s}};
+  return {{"time_s", run.time_s},   {"stages", run.stages},      {"status", name_of(run.status)},
+          {"message", run.message}, {"signal", run.signal},      {"ended_in", run.ended_in},
+          {"runs_s", run.runs_s},   {"program_s", run.program_s}};
 }
 
 TimedRun timed_run_of(const Json& json) {
@@ -15,7 +15,8 @@ TimedRun timed_run_of(const Json& json) {
           json.at("message").get<std::string>(),
           json.at("signal").get<std::string>(),
           json.at("ended_in").get<std::string>(),
-          json.at("runs_s").get<double>()};
+          json.at("runs_s").get<double>(),
+          json.at("program_s").get<double>()};
 }
 
 std::map<std::string, double> by_name(const StageTimes& times) {
@@ -30,6 +31,7 @@ void add_run(const TimedRun& run, Record& record) {
   if (run.status == record.claimed_status) {
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(run.stages);
+    if (run.program_s > 0) record.program_samples_s.push_back(run.program_s);
     return;
   }
   record.status = run.status;
@@ -39,6 +41,7 @@ void add_run(const TimedRun& run, Record& record) {
   if (!run.ended_in.empty()) record.time_so_far_s = run.time_s;
   record.samples_s.clear();
   record.stage_samples.clear();
+  record.program_samples_s.clear();
   for (const char* name :
        {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner", "memory_by_stage",
         "memory_counts_differ", "memory_count_ratio", "heap_allocations", "heap_allocated_bytes"})

@@ -16,6 +16,7 @@ struct TimedRun {
   std::string message = "the run did not take place";
   std::string signal, ended_in;  // see record_fields.def
   double runs_s = 0;             // of the case, up to here
+  double program_s = 0;          // of another's program, from its start to its end
 };
 
 Json to_json(const TimedRun& run);

@@ -21,6 +21,10 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
+bool is_zero(const StressField& stress) {
+  return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
+}
+
 }  // namespace
 
 Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options,
@@ -28,7 +32,7 @@ Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& opti
     : problem_(std::move(problem)),
       options_(options),
       left_out_(std::move(left_out)),
-      no_reference_(left_out_.reference) {}
+      no_reference_(problem_->given ? "a problem without a body" : left_out_.reference) {}
 
 void Workbench::prepare(const Method& method) {
   try {
@@ -78,7 +82,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
-  control.contact = options_.contact;
+  control.contact = options_.contact.value_or(control.contact);
   control.target_error = options_.target_error;
   control.condition = histories && asks_for_condition(options_.study);
   control.tolerance = choice.tolerance;
@@ -109,6 +113,11 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
     refused = true;
   }
   result.time_s = seconds_since(start) - watched_s;
+  if (const auto& program = result.solution.program) {  // its memory is not in our heap
+    result.time_s -= program->not_solve_s;
+    result.peak_rss_bytes = program->peak_bytes;
+    return result;
+  }
   if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
@@ -165,7 +174,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   Json attempt = {{"tolerance", choice.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (!run.solution.stress.empty() && reference() != nullptr) {
+  if (is_answered(run.solution) && (problem_->given || reference() != nullptr)) {
     verify_run(blocks, run);
     attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].verification).value;
   }
@@ -209,9 +218,17 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
 
 JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
-  return {solution.status, solution.displacement.cols() > 0
-                               ? verify_displacement(system, solution)
-                               : verify(system, solution, reference(step))};
+  if (problem_->given) return {solution.status, verify_given_contact(system, solution)};
+  if (solution.displacement.cols() == 0)
+    return {solution.status, verify(system, solution, reference(step))};
+  JudgedStep result = {solution.status, verify_displacement(system, solution)};
+  if (solution.program) {
+    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    result.verification.natural_map_residual.reset();
+    // And no stress of its own is no reason to think that there is none.
+    result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
+  }
+  return result;
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
@@ -222,8 +239,8 @@ std::optional<Verification> Workbench::verify_as_other_solution(const AssembledB
                                                                 const Run& run) {
   const Verification& v = run.judged.back().verification;
   // Only where the law is met with the reference's D and G, but by other forces; not of a path.
-  if (run.judged.size() > 1 || !v.friction_coupling ||
-      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual) <=
+  if (problem_->given || run.judged.size() > 1 || !v.friction_coupling ||
+      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0)) <=
         options_.target_error))
     return {};
   try {
@@ -259,7 +276,7 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
     record.status_reason =
         fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
                     worst.name, worst.value, options_.target_error);
-  } else if (!v.error_stress && !method.in_displacements) {
+  } else if (!v.error_stress && !method.in_displacements && !problem_->given) {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
   } else if (v.unstressed) {
@@ -310,11 +327,12 @@ Workbench::Examination Workbench::examine(const Method& method,
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
   if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
-  if (!solution.stress.empty()) {
+  if (is_answered(solution)) {
     verify_run(assembled, run);
     judge(method, assembled, run, record);
-    note_discretisation(method, record);
-    if (!fields.empty()) write_fields_of(method, *assembled.system, solution, record, fields);
+    if (!problem_->given) note_discretisation(method, solution, record);
+    if (!fields.empty() && !problem_->given)
+      write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
   const bool once = problem_->later_steps.empty() &&
@@ -323,9 +341,14 @@ Workbench::Examination Workbench::examine(const Method& method,
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);
     record.stage_samples.push_back(by_name(solution.times));
+    if (solution.program) record.program_samples_s.push_back(solution.program->wall_s);
     note_memory(run, record);
   }
   return examination;
+}
+
+bool Workbench::is_answered(const Solution& solution) const {
+  return problem_->given ? solution.F_C.size() > 0 : !solution.stress.empty();
 }
 
 void Workbench::note_memory(const Run& run, Record& record) {
@@ -349,6 +372,7 @@ TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
   timed.stages = by_name(run.solution.times);
   timed.status = run.solution.status;
   timed.message = run.solution.message;
+  if (run.solution.program) timed.program_s = run.solution.program->wall_s;
   return timed;
 }
 

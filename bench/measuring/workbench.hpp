@@ -89,13 +89,16 @@ class Workbench {
   Run tighten(const Method& method, const AssembledBlocks& assembled, Choice& choice,
               Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
+  bool is_answered(const Solution& solution) const;  // there is something to judge
   JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
   void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
   // What is known of the discretisation error.
-  void note_discretisation(const Method& method, Record& record);
+  void note_discretisation(const Method& method, const Solution& solution, Record& record);
+  // Of another's displacements, made admissible.
+  void note_error_of_displacement(const Solution& solution, Record& record);
   // The method's own, recovered from its edge moments, or the one that is known of the solution.
   static std::optional<DisplacementField> displacement_of(const DualSystem& system,
                                                           const Solution& solution,

@@ -7,6 +7,7 @@
 namespace airybench {
 
 std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
+  if (method.in_displacements && !method.program.empty()) return {};  // its own are at hand
   if (options_.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
   if (!options_.adapt.empty() || options_.fields || options_.study == Study::adapted)
     return Workbench::Bound::recovery;
@@ -40,7 +41,23 @@ std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound
   return result;
 }
 
-void Workbench::note_discretisation(const Method& method, Record& record) {
+void Workbench::note_error_of_displacement(const Solution& solution, Record& record) {
+  if (reference() == nullptr) {
+    record.status = has_answer(record.status) ? Status::inaccurate : record.status;
+    record.status_reason = "its error is not known: " + no_reference_;
+    return;
+  }
+  const DualSystem system = assemble(problem_, Blocks::contact_points);
+  const auto& [stress, F_C] = std::tie(reference()->stress, reference()->F_C);
+  note(constitutive_error(system, stress, F_C,
+                          admissible_displacement(system, F_C, solution.displacement)),
+       "its own displacements", record);
+}
+
+void Workbench::note_discretisation(const Method& method, const Solution& solution,
+                                    Record& record) {
+  if (method.in_displacements && solution.program)
+    return note_error_of_displacement(solution, record);
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound) : nullptr;
   if (known == nullptr) return;

@@ -1,29 +1,14 @@
 #include "bench/problems/fclib_file.hpp"
 
 #include <fmt/format.h>
-#include <hdf5.h>
 
 #include <numeric>
 #include <stdexcept>
 
+#include "bench/problems/hdf5_handle.hpp"
+
 namespace airybench {
 namespace {
-
-// A thing of HDF5 that is open.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {
-    if (id < 0) throw std::runtime_error("HDF5: something cannot be made");
-  }
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 void check(herr_t result) {
   if (result < 0) throw std::runtime_error("HDF5: something cannot be written");
@@ -113,8 +98,7 @@ Eigen::MatrixXd with_tangents(const ContactPoints& contact, const Eigen::MatrixX
 void write_problem(hid_t file, const CondensedProblem& condensed, double s,
                    const std::string& title) {
   const ContactPoints& contact = condensed.contact;
-  const auto& [D, G] = condensed.reference.condensed;
-  const Eigen::VectorXd& F_C = condensed.reference.F_C;
+  const auto& [D, G] = condensed.condensed;
   const Handle local = group(file, "fclib_local");
   write(local, "spacedim", 2);
   const Eigen::MatrixXd W = s * D;
@@ -136,8 +120,9 @@ void write_problem(hid_t file, const CondensedProblem& condensed, double s,
                       "W symmetric positive definite",
                       s));
   }
+  if (condensed.answer.size() == 0) return;
   const Handle solution = group(file, "solution");
-  const Eigen::VectorXd r = -F_C;
+  const Eigen::VectorXd r = -condensed.answer;
   write(solution, "r", with_tangents(contact, r));
   write(solution, "u", with_tangents(contact, Eigen::VectorXd(W * r + q)));
 }
@@ -157,7 +142,7 @@ std::string image_of(hid_t file) {
 std::string fclib_file(const CondensedProblem& condensed, const std::vector<ProblemArray>& arrays,
                        const std::string& title) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
-  const double s = 1 / condensed.reference.condensed.D.diagonal().mean();
+  const double s = 1 / condensed.condensed.D.diagonal().mean();
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth_bytes = 1 << 20;
   check(H5Pset_fapl_core(in_memory, growth_bytes, false));

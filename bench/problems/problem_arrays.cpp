@@ -5,7 +5,6 @@
 #include <array>
 
 #include "bench/problems/known_rows.hpp"
-#include "support/errors.hpp"
 
 namespace airybench {
 namespace {
@@ -89,18 +88,6 @@ Eigen::VectorXd CondensedProblem::friction() const {
   return mu;
 }
 
-CondensedProblem condensed_problem(const PosedScene& posed) {
-  const DualSystem points = assemble(posed.problem, Blocks::contact_points);
-  const std::string name = posed.problem->mesh.name + "/" + posed.scene_name;
-  if (points.contact.count == 0)
-    throw InputError(name + ": no contact points (allowed: a scene with contact)");
-  try {
-    return {points.contact, compute_reference(points)};
-  } catch (const Breakdown& breakdown) {
-    throw InputError(fmt::format("{}: {}", name, breakdown.what()));
-  }
-}
-
 std::vector<ProblemArray> mesh_arrays(const Mesh& mesh) {
   std::vector<std::array<int, 2>> boundary;
   std::vector<std::array<int, 1>> roles;
@@ -142,20 +129,77 @@ std::vector<ProblemArray> airy_arrays(const DualSystem& system) {
   return arrays;
 }
 
+std::vector<ProblemArray> body_arrays(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const auto rows = static_cast<Eigen::Index>(mesh.boundary.size());
+  Eigen::MatrixXi body(static_cast<Eigen::Index>(mesh.triangles.size()), 1);
+  for (Eigen::Index t = 0; t < body.rows(); ++t) body(t) = mesh.triangle_body[t];
+  Eigen::MatrixXd compliance(static_cast<Eigen::Index>(problem.compliance.size()), 9);
+  for (Eigen::Index b = 0; b < compliance.rows(); ++b)
+    compliance.row(b) = problem.compliance[b].reshaped();  // symmetric
+  Eigen::MatrixXi rollers = Eigen::MatrixXi::Zero(rows, 1);
+  Eigen::MatrixXd u0 = Eigen::MatrixXd::Zero(rows, 6), traction = Eigen::MatrixXd::Zero(rows, 4),
+                  gap = Eigen::MatrixXd::Zero(rows, 3), normals = Eigen::MatrixXd::Zero(rows, 6),
+                  friction = Eigen::MatrixXd::Zero(rows, 1);
+  for (int row = 0; row < static_cast<int>(rows); ++row) {
+    const auto [start, end] = mesh.boundary[row].vertices;
+    const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
+    const BoundaryRole role = mesh.boundary[row].role;
+    rollers(row) = problem.is_roller(row) ? 1 : 0;
+    friction(row) = problem.friction_at(row);
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector2d x = k == 0 ? a : k == 2 ? b : Eigen::Vector2d((a + b) / 2);
+      const EdgeFrame frame = problem.frame_at_node(row, k);
+      if (role == BoundaryRole::displacement) {
+        u0.row(row).segment<2>(2 * k) = problem.motion.at(x);
+        if (problem.loads.displacement_mm)
+          u0.row(row).segment<2>(2 * k) += problem.loads.displacement_mm(x, row);
+      } else if (role == BoundaryRole::contact) {
+        if (problem.loads.gap_mm) gap(row, k) = problem.loads.gap_mm(x, row);
+        normals.row(row).segment<2>(2 * k) = frame.normal;
+      } else if (problem.loads.traction_MPa && k != 1) {
+        traction.row(row).segment<2>(k) = problem.loads.traction_MPa(x, frame.normal, row);
+      }
+    }
+  }
+  return {
+      {"triangle_body", "1", "per triangle: row of compliance_per_MPa", body},
+      {"compliance_per_MPa", "1/MPa",
+       "per body, row by row: (e_xx, e_yy, 2 e_xy) = C (s_xx, s_yy, s_xy), plane strain or stress "
+       "in it",
+       compliance},
+      {"rollers", "1", "per row of boundary: 1 where only the normal displacement is given",
+       rollers},
+      {"u0_mm", "mm", "per row of boundary: given displacement x, y at start, middle, end", u0},
+      {"traction_MPa", "MPa", "per row of boundary: given traction x, y at start and end",
+       traction},
+      {"gap_mm", "mm", "per row of boundary: gap to the wall at start, middle, end", gap},
+      {"contact_normals", "1",
+       "per row of boundary: outward normal of the contact law, x, y at start, middle, end",
+       normals},
+      {"friction", "1", "per row of boundary", friction},
+      {"body_force_N_per_mm3", "N/mm^3", "x, y",
+       Eigen::MatrixXd(problem.loads.body_force_N_per_mm3)},
+  };
+}
+
 std::vector<ProblemArray> condensed_arrays(const Problem& problem,
                                            const CondensedProblem& condensed) {
-  const auto& [D, G] = condensed.reference.condensed;
+  const auto& [D, G] = condensed.condensed;
   const int n_c = condensed.contact.size();
   std::vector<ProblemArray> arrays = {
       {"D", "mm/N", "compliance, symmetric positive definite: u_C = D F_C - G", D, true},
       {"G", "mm", "-G are the contact displacements without contact forces", written_out(G, n_c)},
-      {"gap", "mm", "r = u_C - gap, per row of F_C", written_out(condensed.contact.gap, n_c)},
+      {"gap", "mm", "r = u_C - gap, per row of F_C", Eigen::MatrixXd(condensed.gap())},
       {"mu", "1", "friction, per contact point", Eigen::MatrixXd(condensed.friction())},
-      {"F_C", "N", "an answer to compare with: the refined solution of HYBRID",
-       written_out(condensed.reference.F_C, n_c)},
-      {"contact_points_mm", "mm", "x, y of every contact point: an end of a contact edge",
-       contact_points(problem, condensed.contact)},
   };
+  if (condensed.answer.size() > 0)
+    arrays.push_back({"F_C", "N", "an answer to compare with: the refined solution of HYBRID",
+                      Eigen::MatrixXd(condensed.answer)});
+  if (problem.given) return arrays;
+  arrays.push_back({"contact_points_mm", "mm",
+                    "x, y of every contact point: an end of a contact edge",
+                    contact_points(problem, condensed.contact)});
   add_rows(arrays, "contact", "F_C", known_rows(problem, Known::contact_law));
   return arrays;
 }

@@ -9,8 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "bench/cases/plan.hpp"
-#include "bench/judging/reference.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 
@@ -28,21 +27,23 @@ struct ProblemArray {
   bool is_vector() const { return columns() == 1; }
 };
 
-// The condensed problem in the numbers of the reference, and the answer to compare with.
 struct CondensedProblem {
   ContactPoints contact;
-  Reference reference;
+  CondensedSystem condensed;
+  Eigen::VectorXd answer = {};       // F_C to compare with; empty: none is given away
   Eigen::VectorXd gap() const;       // zeros where ContactPoints has none
   Eigen::VectorXd friction() const;  // per contact point
 };
-// Throws InputError: no contact points, or a reference that cannot be had.
-CondensedProblem condensed_problem(const PosedScene& posed);
 
 // vertices_mm, triangles, edges, boundary, boundary_roles.
 std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
+// With these everything that a displacement method needs: triangle_body, compliance_per_MPa,
+// rollers, u0_mm, traction_MPa, gap_mm, contact_normals, friction, body_force_N_per_mm3.
+std::vector<ProblemArray> body_arrays(const Problem& problem);
 // S, C_F, q, F, scale, unknowns; force_rows, force_directions of C_F's rows; with contact C_C, F0.
 std::vector<ProblemArray> airy_arrays(const DualSystem& system);
-// D, G, gap, mu, F_C, contact_points_mm, and contact_rows, contact_directions of the rows of F_C.
+// D, G, gap, mu, F_C if it is given away; of a body contact_points_mm, and contact_rows,
+// contact_directions of the rows of F_C.
 std::vector<ProblemArray> condensed_arrays(const Problem& problem,
                                            const CondensedProblem& condensed);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "bench/judging/reference.hpp"
 #include "bench/problems/matrix_market.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "bench/records/json.hpp"
@@ -15,6 +16,7 @@
 #endif
 #ifdef AIRYBENCH_HAS_HDF5
 #include "bench/problems/fclib_file.hpp"
+#include "bench/problems/fclib_reader.hpp"
 #endif
 
 namespace airybench {
@@ -23,8 +25,17 @@ namespace {
 struct Exported {
   std::string title;  // "Mesh0/default"
   std::vector<ProblemArray> arrays;
-  std::vector<ProblemArray> of_condensed;
   std::optional<CondensedProblem> condensed;
+  std::vector<ProblemArray> of_condensed = {};  // are among `arrays`, too
+  bool airy = false;                            // these have the Airy system
+
+  void append(std::vector<ProblemArray> more) {
+    std::ranges::move(more, std::back_inserter(arrays));
+  }
+  void append_condensed(const Problem& problem) {
+    of_condensed = condensed_arrays(problem, *condensed);
+    append(of_condensed);
+  }
 };
 
 // Adds files; returns per array, in their order, the file that has it; empty: none, it has no rows,
@@ -61,7 +72,7 @@ std::vector<std::string> write_npz(const Exported& problem, Files& files) {
 std::vector<std::string> write_fclib(const Exported& problem, Files& files) {
   files["problem.hdf5"] = fclib_file(*problem.condensed, problem.of_condensed, problem.title);
   std::vector<std::string> places;
-  for (const ProblemArray& array : problem.arrays)
+  for (const ProblemArray& array : problem.of_condensed)
     places.push_back(array.name == "D" ? "problem.hdf5:/fclib_local/W"
                                        : "problem.hdf5:/airybench/" + array.name);
   return places;
@@ -96,12 +107,12 @@ Json descriptions(const std::vector<ProblemArray>& arrays, const std::vector<std
   return all;
 }
 
-Json equations(bool airy, const Exported& problem, bool fclib) {
+Json equations(const Exported& problem, bool fclib) {
   Json all = Json::array();
-  if (airy && problem.condensed)
+  if (problem.airy && problem.condensed)
     all = {"S x + C_F' lambda + C_C' lambda' = q", "C_F x = F", "F_C = C_C x + F0",
            "lambda' = -u_C"};
-  else if (airy)
+  else if (problem.airy)
     all = {"S x + C_F' lambda = q", "C_F x = F"};
   if (!problem.condensed) return all;
   all.push_back("u_C = D F_C - G");
@@ -116,74 +127,129 @@ Json equations(bool airy, const Exported& problem, bool fclib) {
   return all;
 }
 
-}  // namespace
-
-void check_problem_format(const std::string& format) {
-  std::vector<std::string_view> valid;
-  for (const std::string_view name : all_problem_formats)
-    if (writer_of(name)) valid.push_back(name);
-  if (writer_of(format)) return;
-  const bool known = std::ranges::find(all_problem_formats, format) != all_problem_formats.end();
-  throw UsageError(fmt::format(
-      "--format: {}{} (valid: {})", shortened(format),
-      known ? fmt::format(": this build is without {}", format == "npz" ? "libzip" : "HDF5") : "",
-      fmt::join(valid, ", ")));
-}
-
-ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
-  const Problem& problem = *posed.problem;
+// The files of a format, and what describes them.
+Files write(const Exported& exported, const std::string& format, Json description) {
+  Files files;
+  const std::vector<std::string> places = writer_of(format)(exported, files);
   const bool fclib = format == "fclib";
-  const std::string why_no_airy = why_no_blocks(problem.mesh, Blocks::airy);
-  const bool airy = !fclib && why_no_airy.empty();
-  const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {
-    return edge.role == BoundaryRole::contact;
-  });
-
-  ProblemFiles result;
-  Exported exported{problem.mesh.name + "/" + posed.scene_name, mesh_arrays(problem.mesh), {}, {}};
-  const auto append = [&](std::vector<ProblemArray> more) {
-    std::ranges::move(more, std::back_inserter(exported.arrays));
-  };
-  if (airy) append(airy_arrays(assemble(posed.problem)));
-  if (contact || !airy) {
-    exported.condensed = condensed_problem(posed);
-    exported.of_condensed = condensed_arrays(problem, *exported.condensed);
-    if (fclib)
-      exported.arrays = exported.of_condensed;
-    else
-      append(exported.of_condensed);
-  }
-  if (!fclib && !airy) result.notes.push_back("only the condensed problem: " + why_no_airy);
-  if (!contact) result.notes.emplace_back("only the Airy system: there is no contact");
-  if (!problem.later_steps.empty())
-    result.notes.push_back(
-        fmt::format("only the first of {} load steps: the others depend on its solution",
-                    problem.later_steps.size() + 1));
-
-  const std::vector<std::string> places = writer_of(format)(exported, result.files);
-  Json description = {{"mesh", problem.mesh.name},
-                      {"mesh_sha256", posed.mesh_sha256},
-                      {"scene", posed.scene_name},
-                      {"scene_definition", parse_json(posed.scene_definition)},
-                      {"notes", result.notes},
-                      {"units", "mm, N, MPa; thickness 1 mm"},
-                      {"indices", "from 0"},
-                      {"signs",
-                       "F_C forces on the body, u_C and gap displacements along the same "
-                       "directions; normals outward, n = (s_y, -s_x) of the tangent s"},
-                      {"equations", equations(airy, exported, fclib)}};
+  description["units"] = "mm, N, MPa; thickness 1 mm";
+  description["indices"] = "from 0";
+  description["signs"] =
+      "F_C forces on the body, u_C and gap displacements along the same directions; normals "
+      "outward, n = (s_y, -s_x) of the tangent s";
+  description["equations"] = equations(exported, fclib);
   if (exported.condensed) {
     const ContactPoints& points = exported.condensed->contact;
     description["contact_points"] = points.count;
     description["components"] = points.components;
     description["order"] = points.components == 2 ? "per contact point normal, tangential"
                                                   : "per contact point normal; no friction";
-    description["F_C_error_estimate"] = exported.condensed->reference.error_estimate;
-    description["F_C_natural_map_residual"] = exported.condensed->reference.natural_map_residual;
   }
-  description["arrays"] = descriptions(exported.arrays, places);
-  result.files["problem.json"] = indented_json_text(description, 1) + "\n";
+  description["arrays"] = descriptions(fclib ? exported.of_condensed : exported.arrays, places);
+  files["problem.json"] = indented_json_text(description, 1) + "\n";
+  return files;
+}
+
+// Throws InputError: a reference that cannot be had.
+Reference reference_of(const DualSystem& points, const std::string& title) {
+  if (points.contact.count == 0)
+    throw InputError(title + ": no contact points (allowed: a scene with contact)");
+  try {
+    return compute_reference(points);
+  } catch (const Breakdown& breakdown) {
+    throw InputError(fmt::format("{}: {}", title, breakdown.what()));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string_view> problem_formats() {
+  std::vector<std::string_view> valid;
+  for (const std::string_view name : all_problem_formats)
+    if (writer_of(name)) valid.push_back(name);
+  return valid;
+}
+
+void check_problem_format(const std::string& format) {
+  if (writer_of(format)) return;
+  const bool known = std::ranges::find(all_problem_formats, format) != all_problem_formats.end();
+  throw UsageError(fmt::format(
+      "--format: {}{} (valid: {})", shortened(format),
+      known ? fmt::format(": this build is without {}", format == "npz" ? "libzip" : "HDF5") : "",
+      fmt::join(problem_formats(), ", ")));
+}
+
+ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
+  const Problem& problem = *posed.problem;
+  const bool fclib = format == "fclib";
+  const std::string why_no_airy = why_no_blocks(problem.mesh, Blocks::airy);
+  const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {
+    return edge.role == BoundaryRole::contact;
+  });
+
+  ProblemFiles result;
+  Exported exported{problem.mesh.name + "/" + posed.scene_name, mesh_arrays(problem.mesh), {}};
+  exported.append(body_arrays(problem));
+  exported.airy = !fclib && why_no_airy.empty();
+  if (exported.airy) exported.append(airy_arrays(assemble(posed.problem)));
+  Json answer = Json::object();
+  if (contact || !exported.airy) {
+    const DualSystem points = assemble(posed.problem, Blocks::contact_points);
+    Reference reference = reference_of(points, exported.title);
+    answer = {{"F_C_error_estimate", reference.error_estimate},
+              {"F_C_natural_map_residual", reference.natural_map_residual}};
+    exported.condensed = {points.contact, std::move(reference.condensed), reference.F_C};
+    exported.append_condensed(problem);
+  }
+  if (!fclib && !exported.airy)
+    result.notes.push_back("only the body and the condensed problem: " + why_no_airy);
+  if (!contact) result.notes.emplace_back("no condensed problem: there is no contact");
+  if (!problem.later_steps.empty())
+    result.notes.push_back(
+        fmt::format("only the first of {} load steps: the others depend on its solution",
+                    problem.later_steps.size() + 1));
+  Json description = {{"mesh", problem.mesh.name},
+                      {"mesh_sha256", posed.mesh_sha256},
+                      {"scene", posed.scene_name},
+                      {"scene_definition", parse_json(posed.scene_definition)},
+                      {"notes", result.notes}};
+  description.update(answer);
+  result.files = write(exported, format, std::move(description));
   return result;
+}
+
+std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file) {
+#ifdef AIRYBENCH_HAS_HDF5
+  return read_fclib(file);
+#else
+  throw UsageError(fmt::format("--problem: {}: this build is without HDF5", file.string()));
+#endif
+}
+
+Files airy_files(const DualSystem& system, const std::string& format) {
+  Exported exported{system.problem->mesh.name, airy_arrays(system), {}};
+  exported.airy = true;
+  if (system.contact.count > 0) {  // S and C say the rest
+    const CondensedProblem points{system.contact, {}};
+    exported.arrays.push_back(
+        {"gap", "mm", "r = u_C - gap, per row of F_C", Eigen::MatrixXd(points.gap())});
+    exported.arrays.push_back(
+        {"mu", "1", "friction, per contact point", Eigen::MatrixXd(points.friction())});
+  }
+  return write(exported, format, Json::object());
+}
+
+Files condensed_files(const Problem& problem, CondensedProblem condensed,
+                      const std::string& format) {
+  Exported exported{problem.mesh.name, {}, std::move(condensed)};
+  exported.append_condensed(problem);
+  return write(exported, format, Json::object());
+}
+
+Files body_files(const Problem& problem, const std::string& format) {
+  Exported exported{problem.mesh.name, mesh_arrays(problem.mesh), {}};
+  exported.append(body_arrays(problem));
+  return write(exported, format, Json::object());
 }
 
 }  // namespace airybench

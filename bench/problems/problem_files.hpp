@@ -9,17 +9,21 @@
 #pragma once
 
 #include <array>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "bench/cases/plan.hpp"
+#include "bench/problems/problem_arrays.hpp"
 #include "support/atomic_folder.hpp"
 
 namespace airybench {
 
 inline constexpr std::array<std::string_view, 3> all_problem_formats = {"matrix-market", "npz",
                                                                         "fclib"};
+std::vector<std::string_view> problem_formats();  // those whose library this build has
 // Throws UsageError: no such format, or one whose library this build is without.
 void check_problem_format(const std::string& format);
 
@@ -29,5 +33,15 @@ struct ProblemFiles {
 };
 // Throws InputError: the problem has nothing that this format can hold.
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
+
+// A contact problem from a file (fclib_reader.hpp). Throws FileError; UsageError: this build is
+// without HDF5.
+std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file);
+
+// What another solver is handed of a case, in a format that there is. No answer is in it.
+Files airy_files(const DualSystem& system, const std::string& format);  // with gap and mu
+Files condensed_files(const Problem& problem, CondensedProblem condensed,
+                      const std::string& format);
+Files body_files(const Problem& problem, const std::string& format);
 
 }  // namespace airybench

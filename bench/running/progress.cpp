@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -22,24 +23,71 @@ std::string imprecise_line(const Record& r) {
                      100 * *r.precision, r.samples_s.size());
 }
 
-double cost(std::int64_t n_phi) { return std::pow(static_cast<double>(n_phi), 1.7); }
+// Of the table at the end; shown where a record has the field.
+struct Column {
+  const char* header;
+  const char* field;  // nullptr: always shown
+  std::string (*text)(const Record&);
+};
+
+std::string whole(const std::optional<std::int64_t>& number) {
+  return number ? fmt::format("{}", *number) : "-";
+}
+
+constexpr std::array<Column, 13> table_columns = {{
+    {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
+    {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
+    {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
+    {"time", nullptr, [](const Record& r) { return show_seconds(r.time_s); }},
+    {"±", nullptr,
+     [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},
+    {"heap", nullptr, [](const Record& r) { return show_bytes(r.peak_heap_bytes); }},
+    {"program", "program_s", [](const Record& r) { return show_seconds(r.program_s); }},
+    {"its memory", "program_s",
+     [](const Record& r) {
+       return show_bytes(r.program.empty() ? std::optional<std::int64_t>() : r.peak_rss_bytes);
+     }},
+    {"error stress", "n_phi", [](const Record& r) { return show_error(r.error_stress); }},
+    {"error force", "n_phi", [](const Record& r) { return show_error(r.error_force); }},
+    {"natural map", "siconos_error",
+     [](const Record& r) { return show_error(r.natural_map_residual); }},
+    {"Siconos", "siconos_error", [](const Record& r) { return show_error(r.siconos_error); }},
+    {"status", nullptr, [](const Record& r) { return std::string(name_of(r.status)); }},
+}};
+constexpr std::array<Column, 2> columns_of_errors = {{
+    {"error total", "error_total", [](const Record& r) { return show_error(r.error_total); }},
+    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); }},
+}};
+
+bool any_has(const std::vector<Record>& records, const char* field) {
+  return std::ranges::any_of(
+      records, [&](const Record& r) { return !field_named(field).value(r).is_null(); });
+}
+
+// The total error is that of the mesh for most methods: shown where it tells them apart.
+std::vector<Column> columns_for(const std::vector<Record>& records) {
+  std::vector<Column> columns;
+  for (const Column& c : table_columns)
+    if (c.field == nullptr || any_has(records, c.field)) columns.push_back(c);
+  const bool total =
+      any_has(records, "adapt_level") || std::ranges::any_of(records, [](const Record& r) {
+        return r.in_displacements && !r.program.empty();
+      });
+  if (total)
+    for (const Column& c : columns_of_errors)
+      if (any_has(records, c.field)) columns.insert(columns.end() - 1, c);
+  return columns;
+}
 
 }  // namespace
 
 std::string results_table(const std::vector<Record>& records) {
-  const bool adapted =
-      std::ranges::any_of(records, [](const Record& r) { return r.adapt_level.has_value(); });
-  std::vector<std::string> header = {"case", "n_phi",        "time",        "±",
-                                     "heap", "error stress", "error force", "status"};
-  if (adapted) header.insert(header.end() - 1, {"error total", "adapted in"});
-  std::vector<std::vector<std::string>> rows = {header};
+  const std::vector<Column> columns = columns_for(records);
+  std::vector<std::vector<std::string>> rows(1);
+  for (const Column& column : columns) rows.front().emplace_back(column.header);
   for (const Record& r : records) {
-    auto& row = rows.emplace_back(std::vector<std::string>{
-        name_of(r).text(), fmt::format("{}", r.n_phi.value_or(0)), show_seconds(r.time_s),
-        r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s), show_bytes(r.peak_heap_bytes),
-        show_error(r.error_stress), show_error(r.error_force), std::string(name_of(r.status))});
-    if (adapted)
-      row.insert(row.end() - 1, {show_error(r.error_total), show_seconds(r.adapt_time_s)});
+    rows.emplace_back();
+    for (const Column& column : columns) rows.back().push_back(column.text(r));
   }
   std::string table = aligned_table(rows, 1);
   for (const Record& r : records)
@@ -53,6 +101,14 @@ std::string results_table(const std::vector<Record>& records) {
       table += line;
   return table;
 }
+
+namespace {
+
+double cost(std::int64_t n_phi) {
+  return std::pow(static_cast<double>(std::max<std::int64_t>(n_phi, 1)), 1.7);
+}
+
+}  // namespace
 
 Progress::Progress(std::vector<std::int64_t> n_phi_of_cases) : cases_(n_phi_of_cases.size()) {
   for (const std::int64_t n_phi : n_phi_of_cases) total_ += cost(n_phi);

@@ -42,12 +42,16 @@ struct Method {
   std::string preconditioner = {};  // "DTIC3", as preconditioner_names() spells it; empty: none
   std::string summary = {};         // one line
   bool in_paper = false;            // named there; these are run by default
-  Blocks blocks = Blocks::airy;     // what it needs assembled
+  // What it can be asked to solve: bodies, problems that come condensed (GivenContact), or both.
+  enum class Takes { bodies, given_contact, both } takes = Takes::bodies;
+  Blocks blocks = Blocks::airy;  // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
   std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
                                Stage::contact, Stage::recover, Stage::check};  // in order
+  // Another's, by its program's own word for its version (bench/external); empty: ours.
+  std::string program = {};
   // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
   // contact there is nothing to condense.
   bool condenses_contact_only = false;

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,12 +21,23 @@
 
 namespace airybench {
 
+struct CondensedSystem;
+struct ContactPoints;
+struct ContactResult;
 struct DualSystem;
 struct RunControl;
 
 struct IterationHistory {
   std::string what;              // "natural map residual of the contact sweeps"
   std::vector<double> residual;  // one per iteration
+};
+
+// Of a solve that was another program's.
+struct ProgramRun {
+  double wall_s = 0;  // from its start to its end
+  double not_solve_s =
+      0;  // of our clock's time: its start-up, files; what its own clock leaves out
+  std::int64_t peak_bytes = 0;  // resident, of it and all that it started
 };
 
 // The defaults are those of a method that never ran.
@@ -65,6 +77,7 @@ struct Solution {
   // RunControl::target_error the method says `inaccurate`.
   std::optional<double> error_estimate;
   std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm
+  std::optional<ProgramRun> program;
   // With RunControl::keep_body, where the method can: solves another load case of the same body
   // with what this solve has factorised and condensed, which it owns (kept_body.hpp).
   std::function<Solution(const DualSystem& load_case, const RunControl&)> solve_again;
@@ -102,6 +115,10 @@ class Deadline {
     return deadline;
   }
   bool passed() const { return end_ && std::chrono::steady_clock::now() > *end_; }
+  double remaining_s() const {  // infinity: there is none
+    if (!end_) return std::numeric_limits<double>::infinity();
+    return std::chrono::duration<double>(*end_ - std::chrono::steady_clock::now()).count();
+  }
   // Throws TimeoutReached naming what was being done.
   void check(std::string_view doing) const {
     if (passed()) throw TimeoutReached("time limit reached during " + std::string(doing));
@@ -125,6 +142,9 @@ struct RunControl {
   int contact_sweeps = 100000;        // at most, or iterations of another contact solver
   int uzawa_iterations = 20000;       // at most
   ContactSolver contact = ContactSolver::newton;  // with the paper's stop: Gauss–Seidel
+  // Another's contact solver, instead of these.
+  std::function<ContactResult(const CondensedSystem&, const ContactPoints&, const RunControl&)>
+      contact_by = {};
 };
 
 // What all checks end with: the estimate into the solution, and `inaccurate` where it is above the

@@ -27,6 +27,7 @@ double relative_natural_map(const CondensedSystem& condensed, const ContactPoint
 
 ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                             const RunControl& control) {
+  if (control.contact_by) return control.contact_by(condensed, contact, control);
   switch (control.stop == Stop::paper ? ContactSolver::gauss_seidel : control.contact) {
     case ContactSolver::newton:
       return solve_contact_by_newton(condensed, contact, control);

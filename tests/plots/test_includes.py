@@ -27,6 +27,8 @@ ROOMS = {
     "bench/cases": ["bench/records", "solvers", "assembly", "mesh", "support"],
     "bench/problems": ["bench/cases", "bench/judging", "bench/records", "solvers", "assembly", "mesh",
                        "support"],
+    "bench/external": ["bench/problems", "bench/cases", "bench/judging", "bench/records", "solvers",
+                       "assembly", "mesh", "support"],
     "bench/measuring": ["bench/cases", "bench/judging", "bench/heap", "bench/records",
                         "bench/statistics", "solvers", "assembly", "mesh", "support"],
     "bench/isolation": ["bench/measuring", "bench/cases", "bench/heap", "bench/records", "solvers",
@@ -36,7 +38,7 @@ ROOMS = {
     "bench/running": ["bench/isolation", "bench/measuring", "bench/cases", "bench/output",
                       "bench/records", "bench/statistics", "support"],
     "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring",
-                       "bench/problems", "bench/cases",
+                       "bench/problems", "bench/external", "bench/cases",
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
     # A benchmark by itself.

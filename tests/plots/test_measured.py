@@ -76,6 +76,10 @@ class MeasuredTest(unittest.TestCase):
                    line("HYBRID") | {"noise_kernel_samples_s": [1.0, 0.9, 1.1]}],
                   "scattered by 5\u00a0% (median absolute deviation over median of 6 times)")
 
+    def test_other_programs_have_clocks_of_their_own(self) -> None:
+        self.says([line(), line("EXTERNAL:abacus", program="abacus 2.1")],
+                  "In 1 case another program solved (abacus 2.1): its own clock")
+
     def test_the_search_has_a_budget(self) -> None:
         self.says([line("ALM", tuning_budget_s=2.5, tuning_cut="true"), line()],
                   "In 1 case that choice had 2.5 s; in 1 of them it ended there")

@@ -71,7 +71,7 @@ int rank(const std::string& outcome) {
 std::optional<double> error_level(const Record& record) {
   if (!is_verified(record)) return {};
   Verification seen;
-  seen.equilibrium_residual = record.equilibrium_residual.value_or(seen.equilibrium_residual);
+  seen.equilibrium_residual = record.equilibrium_residual.value_or(*seen.equilibrium_residual);
   seen.error_stress = record.error_stress;
   seen.error_force = record.error_force;
   seen.natural_map_residual = record.natural_map_residual;

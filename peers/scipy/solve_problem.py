@@ -1,28 +1,32 @@
 """Contact forces of an exported problem, in N:  solve_problem.py FOLDER  (of --format=npz)"""
 import sys
+from pathlib import Path
 
 import numpy as np
 from scipy.sparse import bmat, load_npz
 from scipy.sparse.linalg import splu
 
 
-def condense(folder):
-    """D, G of u_C = D F_C - G: the Airy system with n_c + 1 right-hand sides."""
-    S, C_F, C_C = (load_npz(f"{folder}/{name}.npz") for name in ("S", "C_F", "C_C"))
-    load = np.load(f"{folder}/problem.npz")
+def read(folder):
+    sparse = {name: load_npz(Path(folder, f"{name}.npz")) for name in ("S", "C_F", "C_C")
+              if Path(folder, f"{name}.npz").exists()}
+    return dict(np.load(Path(folder, "problem.npz"))) | sparse
+
+
+def responses(S, C_F, C_C, q, F, F0):
+    """x and u_C, in rows, of unit contact forces (columns) and of the loads (last column)."""
     K = bmat([[S, C_F.T, C_C.T], [C_F, None, None], [C_C, None, None]], format="csc")
-    unit_forces = np.eye(K.shape[0])[:, -C_C.shape[0]:]
-    right = np.column_stack([unit_forces, np.concatenate([load["q"], load["F"], -load["F0"]])])
+    unit_forces = np.eye(K.shape[0])[:, K.shape[0] - len(F0):]
+    right = np.column_stack([unit_forces, np.concatenate([q, F, -F0])])
     factor = splu(K)
     x = factor.solve(right)
     x += factor.solve(right - K @ x)
-    u_C = -x[-C_C.shape[0]:]  # = -lambda'
-    return u_C[:, :-1], -u_C[:, -1]
+    return x[:len(q)], -x[len(x) - len(F0):]  # u_C = -lambda'
 
 
 def contact_forces(D, b, mu):
     """F that meets the contact law with r = D F + b: Newton's method on F = P(F - r / diag D)."""
-    components, F = len(b) // len(mu), np.zeros(len(b))
+    components, F = len(b) // max(len(mu), 1), np.zeros(len(b))
     for _ in range(50):
         trial = F - (D @ F + b) / np.diag(D)
         A, right = D.copy(), -b  # r = 0, closed and sticking
@@ -41,8 +45,8 @@ def contact_forces(D, b, mu):
 
 
 if __name__ == "__main__":
-    D, G = condense(sys.argv[1])
-    problem = np.load(f"{sys.argv[1]}/problem.npz")
-    F_C = contact_forces(D, -G - problem["gap"], problem["mu"])
+    problem = read(sys.argv[1])
+    _, u_C = responses(*(problem[name] for name in ("S", "C_F", "C_C", "q", "F", "F0")))
+    F_C = contact_forces(u_C[:, :-1], u_C[:, -1] - problem["gap"], problem["mu"])
     print(F_C.reshape(len(problem["mu"]), -1))
     print("difference:", np.linalg.norm(F_C - problem["F_C"]) / np.linalg.norm(F_C))

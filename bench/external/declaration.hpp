@@ -1,0 +1,43 @@
+// A solver that is a program of somebody else's, as a small JSON file declares it:
+//
+//   { "name": "scipy",
+//     "summary": "sparse LU, Newton's method",
+//     "reads": "airy", "format": "npz", "returns": "airy_function",
+//     "command": ["python3", "solve.py", "{input}", "{output}"],
+//     "version": ["python3", "-c", "import scipy; print('scipy', scipy.__version__)"],
+//     "first_tolerance": 0.01 }
+//
+// reads      airy (S, C_F, C_C and loads), condensed (D, G), body (mesh, material, boundary data)
+// returns    airy_function, contact_forces, displacement: what belongs to each of these
+// command    runs in the folder of this file. {input}: folder of the problem's files; {output}:
+//            empty folder for the answer (answer.hpp); {threads}, {tolerance}, {time_limit_s}
+// version    prints one line
+// first_tolerance  only with {tolerance}: the first one, per target error; it is tightened until
+//            the program's own error estimate is below the target
+// summary, version and first_tolerance may be left out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "solvers/base/method.hpp"
+
+namespace airybench {
+
+struct Declaration {
+  enum class Reads { airy, condensed, body };
+
+  std::filesystem::path folder;
+  std::string name, summary, format;
+  Reads reads = Reads::airy;
+  std::vector<std::string> command;
+  std::string version = "unknown version";  // what its command printed
+  double first_tolerance = 0;
+};
+
+// And asks the program for its version. Throws FileError, one line: file, key, value, what is
+// allowed.
+Declaration read_declaration(const std::filesystem::path& file);
+
+}  // namespace airybench

@@ -1,0 +1,264 @@
+#include "bench/external/external_method.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "assembly/control_points.hpp"
+#include "bench/external/answer.hpp"
+#include "bench/external/process_tree.hpp"
+#include "bench/external/work_folder.hpp"
+#include "bench/problems/problem_files.hpp"
+#include "solvers/contact/contact_result.hpp"
+#include "solvers/methods.hpp"
+#include "support/errors.hpp"
+#include "support/seconds_since.hpp"
+
+namespace airybench {
+namespace {
+
+// What becomes of a case whose program gave no answer.
+struct NoAnswer : std::runtime_error {
+  NoAnswer(Status what, const std::string& message) : std::runtime_error(message), status(what) {}
+  Status status;
+};
+
+struct Caller {
+  Declaration declaration;
+  std::optional<std::int64_t> memory_limit_bytes;
+};
+
+std::vector<std::string> filled_in(std::vector<std::string> command,
+                                   const std::map<std::string, std::string>& values) {
+  for (std::string& word : command)
+    for (const auto& [place, value] : values)
+      for (std::size_t at; (at = word.find(place)) != word.npos;)
+        word.replace(at, place.size(), value);
+  return command;
+}
+
+// One run of the program on one problem.
+class ProgramSolve {
+ public:
+  ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
+               const RunControl& control)
+      : name_(caller.declaration.name), output_(work_->add("output", {})) {
+    const Declaration& declaration = caller.declaration;
+    const double limit_s = control.deadline.remaining_s();
+    if (!(limit_s > 0)) throw TimeoutReached("time limit reached before the program began");
+    const std::string threads = std::to_string(control.threads);
+    const Program program = {
+        filled_in(declaration.command,
+                  {{"{input}", work_->add("input", problem()).string()},
+                   {"{output}", output_.string()},
+                   {"{threads}", threads},
+                   {"{tolerance}", fmt::format("{}", control.tolerance)},
+                   {"{time_limit_s}", fmt::format("{:.3f}", std::min(limit_s, 1e9))}}),
+        declaration.folder,
+        {{"OMP_NUM_THREADS", threads},
+         {"OPENBLAS_NUM_THREADS", threads},
+         {"MKL_NUM_THREADS", threads},
+         {"LC_ALL", "C.UTF-8"},
+         {"PYTHONDONTWRITEBYTECODE", "1"}},
+        work_->path() / "printed"};
+    const ProcessTreeEnd end = run_process_tree(program, {limit_s, caller.memory_limit_bytes});
+    run_.wall_s = end.wall_s;
+    run_.peak_bytes = end.peak_bytes;
+    if (end.exit_code != 0) throw NoAnswer(status_of_end(end), message_of(end, limit_s));
+    answer_ = read_answer(output_);
+    if (!has_answer(answer_.status))
+      throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);
+    if (!(answer_.time_s > 0 && answer_.time_s <= end.wall_s))
+      throw FileError(
+          fmt::format("answer.json: time_s: {} (allowed: above 0, up to the {:.3g} s "
+                      "that the program ran)",
+                      answer_.time_s, end.wall_s));
+  }
+
+  Eigen::MatrixXd array(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
+    return read_array(output_, name, rows, columns);
+  }
+  const Answer& answer() const { return answer_; }
+
+  // The handing over ends here: what follows is ours, on our clock.
+  void end_handing_over() {
+    work_.reset();
+    run_.not_solve_s = seconds_since(start_) - answer_.time_s;
+  }
+
+  // Its word.
+  void note(const RunControl& control, Solution& solution) const {
+    solution.status = answer_.status;
+    solution.message = answer_.status == Status::ok ? "" : answer_.message;
+    solution.parameters = answer_.parameters;
+    solution.error_estimate.reset();
+    if (answer_.error_estimate) judge_by_own_estimate(*answer_.error_estimate, control, solution);
+    solution.linear_iterations = answer_.linear_iterations;
+    solution.contact_iterations = answer_.contact_iterations;
+    solution.program = run_;
+  }
+
+ private:
+  static Status status_of_end(const ProcessTreeEnd& end) {
+    return end.start_error != 0 ? Status::machine_fault
+           : end.timed_out      ? Status::timeout
+           : end.over_memory    ? Status::out_of_memory
+                                : Status::crashed;
+  }
+  std::string message_of(const ProcessTreeEnd& end, double limit_s) const {
+    const std::vector<std::string> lines = printed_lines(work_->path() / "printed");
+    return fmt::format("{} {}{}", name_, how_it_ended(end, limit_s),
+                       lines.empty() ? "" : ": " + lines.back());
+  }
+
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  std::string name_;
+  std::optional<WorkFolder> work_ = std::optional<WorkFolder>(std::in_place);
+  std::filesystem::path output_;
+  Answer answer_;
+  ProgramRun run_;
+};
+
+Solution solve_airy(const Caller& caller, const DualSystem& system, const RunControl& control) {
+  ProgramSolve program(
+      caller, [&] { return airy_files(system, caller.declaration.format); }, control);
+  const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
+  Solution solution;
+  if (system.n_c() > 0) solution.F_C = program.array("F_C.mtx", system.n_c(), 1);
+  program.end_handing_over();
+  program.note(control, solution);
+  for (const auto& [stage, seconds] : program.answer().stages) solution.times[stage] = seconds;
+  const StageTimer timer(solution.times, Stage::recover);
+  solution.phi = airy_function(system, x);
+  solution.stress = stress_of_airy_function(*system.problem, solution.phi);
+  return solution;
+}
+
+// w of the values of u at vertices and edges' middles.
+DisplacementField displacement_of(const Problem& problem, const Eigen::MatrixXd& values) {
+  const auto& x = problem.mesh.vertices;
+  const auto vertices = static_cast<Eigen::Index>(x.size());
+  DisplacementField w = values.transpose();
+  for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) -= problem.motion.at(x[v]);
+  for (Eigen::Index edge = vertices; edge < w.cols(); ++edge) {
+    const auto& [a, b] = problem.edges.vertices[edge - vertices];
+    const Eigen::Vector2d middle = w.col(edge) - problem.motion.at((x[a] + x[b]) / 2);
+    w.col(edge) = edge_coefficients<Eigen::Vector2d>(w.col(a), middle, w.col(b))[1];
+  }
+  return w;
+}
+
+Solution solve_body(const Caller& caller, const DualSystem& system, const RunControl& control) {
+  const Problem& problem = *system.problem;
+  ProgramSolve program(
+      caller, [&] { return body_files(problem, caller.declaration.format); }, control);
+  const Eigen::MatrixXd values =
+      program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
+  program.end_handing_over();
+  Solution solution;
+  program.note(control, solution);
+  for (const auto& [stage, seconds] : program.answer().stages) solution.times[stage] = seconds;
+  const StageTimer timer(solution.times, Stage::recover);
+  solution.displacement = displacement_of(problem, values);
+  solution.stress = stress_of_displacement(problem, solution.displacement);
+  solution.F_C = contact_reactions(problem, solution.stress);
+  return solution;
+}
+
+Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& contact,
+                          const std::string& format) {
+  if (format != "fclib") return program.array("F_C.mtx", contact.size(), 1);
+  const Eigen::VectorXd F = -program.array("r.mtx", 2 * contact.count, 1);
+  if (contact.components == 2) return F;
+  return F(Eigen::seqN(0, contact.count, 2));
+}
+
+Solution solve_contact_law(const Caller& caller, const DualSystem& system,
+                           const RunControl& given) {
+  static const Solve of_body = select_methods("HYBRID").front().solve,
+                     of_given_contact = condensed_contact().solve;
+  std::optional<ProgramSolve> program;
+  RunControl control = given;
+  control.contact_by = [&](const CondensedSystem& condensed, const ContactPoints& contact,
+                           const RunControl&) {
+    const std::string& format = caller.declaration.format;
+    program.emplace(
+        caller,
+        [&] {
+          return condensed_files(*system.problem, {contact, condensed}, format);
+        },
+        given);
+    ContactResult result;
+    result.F_C = forces_of(*program, contact, format);
+    result.converged = true;  // its own word
+    result.iterations = program->answer().contact_iterations.value_or(0);
+    program->end_handing_over();
+    return result;
+  };
+  Solution solution =
+      system.problem->given ? of_given_contact(system, control) : of_body(system, control);
+  if (!program) return solution;
+  const std::optional<std::int64_t> linear = solution.linear_iterations;
+  if (has_answer(solution.status)) program->note(given, solution);
+  solution.linear_iterations = linear;
+  if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
+    *contact_s -= solution.program->not_solve_s;
+  return solution;
+}
+
+}  // namespace
+
+Method external_method(const Declaration& declaration,
+                       std::optional<std::int64_t> memory_limit_bytes) {
+  const Caller caller = {declaration, memory_limit_bytes};
+  Method method;
+  std::function<Solution(const DualSystem&, const RunControl&)> solve;
+  switch (declaration.reads) {
+    case Declaration::Reads::airy:
+      solve = [caller](const DualSystem& s, const RunControl& c) {
+        return solve_airy(caller, s, c);
+      };
+      break;
+    case Declaration::Reads::body:
+      method.blocks = Blocks::contact_points;
+      method.in_displacements = true;
+      solve = [caller](const DualSystem& s, const RunControl& c) {
+        return solve_body(caller, s, c);
+      };
+      break;
+    case Declaration::Reads::condensed:
+      method = select_methods("HYBRID").front();
+      method.takes = Method::Takes::both;
+      solve = [caller](const DualSystem& s, const RunControl& c) {
+        return solve_contact_law(caller, s, c);
+      };
+      break;
+  }
+  if (declaration.reads != Declaration::Reads::condensed) method.stages = {Stage::recover};
+  method.name = "EXTERNAL:" + declaration.name;
+  method.family = "EXTERNAL";
+  method.summary = declaration.summary;
+  method.program = declaration.version;
+  method.knob =
+      declaration.first_tolerance > 0 ? AccuracyKnob::krylov_tolerance : AccuracyKnob::none;
+  method.first_tolerance = declaration.first_tolerance;
+  method.solve = [solve](const DualSystem& system, const RunControl& control) {
+    const auto failed = [](Status status, const std::string& message) {
+      Solution solution;
+      solution.status = status;
+      solution.message = message;
+      return solution;
+    };
+    try {
+      return solve(system, control);
+    } catch (const NoAnswer& why) {
+      return failed(why.status, why.what());
+    } catch (const FileError& why) {
+      return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
+    }
+  };
+  return method;
+}
+
+}  // namespace airybench

@@ -1,0 +1,84 @@
+"""Loads, supports and contact of an exported body as rows on the degrees of freedom of P2 nodes.
+
+A row is {degree of freedom: value}; node k has 2k (along x) and 2k + 1 (along y).
+"""
+import numpy as np
+
+ROLE = {"displacement": 0, "force": 1, "contact": 2}
+
+
+def sides_of(problem, role):
+    return np.flatnonzero(problem["boundary_roles"] == ROLE[role])
+
+
+def length_and_normal(problem, side):
+    s = np.diff(problem["vertices_mm"][problem["boundary"][side]], axis=0)[0]
+    length = np.hypot(*s)
+    return length, np.array([s[1], -s[0]]) / length
+
+
+def row_along(direction, nodes, weights):
+    return {2 * node + axis: weight * direction[axis]
+            for node, weight in zip(nodes, weights) for axis in (0, 1) if weight * direction[axis]}
+
+
+def loads(problem, nodes, sides, size):
+    """Of the tractions, linear on an edge, by Simpson's rule; of the body force, at the middles of edges."""
+    load = np.zeros((size // 2, 2))
+    for side in sides_of(problem, "force"):
+        start, end = problem["traction_MPa"][side].reshape(2, 2)
+        length, _ = length_and_normal(problem, side)
+        load[sides[side]] += length / 6 * np.array([start, 2 * (start + end), end])
+    corners = problem["vertices_mm"][problem["triangles"]]
+    areas = np.abs(np.linalg.det(np.diff(corners, axis=1))) / 2
+    number = {edge: i for i, edge in enumerate(map(frozenset, problem["edges"].tolist()))}
+    for triangle, area in zip(problem["triangles"].tolist(), areas):
+        for a, b in zip(triangle, triangle[1:] + triangle[:1]):
+            middle = nodes[len(problem["vertices_mm"]) + number[frozenset((a, b))]]
+            load[middle] += area / 3 * problem["body_force_N_per_mm3"]
+    return load.ravel()
+
+
+def supports(problem, sides):
+    """Rows and values of what is prescribed; per node the directions that are held."""
+    rows, values, held = [], [], {}
+    for side in sides_of(problem, "displacement"):
+        axes = [length_and_normal(problem, side)[1]] if problem["rollers"][side] else np.eye(2)
+        for node, u0 in zip(sides[side], problem["u0_mm"][side].reshape(3, 2)):
+            for axis in axes:
+                if is_free(axis, held.get(node, [])):
+                    held.setdefault(node, []).append(axis)
+                    rows.append(row_along(axis, [node], [1]))
+                    values.append(axis @ u0)
+    return rows, values, held
+
+
+def is_free(axis, held):
+    return len(held) < 2 and all(abs(axis[0] * d[1] - axis[1] * d[0]) > 1e-6 for d in held)
+
+
+def contact(problem, sides, held, of_coefficients):
+    """Rows (normal, tangential), gaps, friction of every node or Bernstein coefficient of contact edges.
+
+    A vertex between two edges has their mean normal, the smaller gap and the smaller friction.
+    """
+    weights = np.eye(3)
+    if of_coefficients:
+        weights[1] = -1 / 2, 2, -1 / 2
+    points = {}
+    for side in sides_of(problem, "contact"):
+        normals = problem["contact_normals"][side].reshape(3, 2)
+        gaps = weights @ problem["gap_mm"][side]
+        for k, node in enumerate(sides[side]):
+            if is_free(normals[k], held.get(node, [])):
+                point = points.setdefault(node, [sides[side], weights[k], 0, np.inf, np.inf])
+                point[2] = point[2] + normals[k]
+                point[3] = min(point[3], gaps[k])
+                point[4] = min(point[4], problem["friction"][side])
+    law = [], [], [], []
+    for nodes, own, n, gap, friction in points.values():
+        n = n / np.hypot(*n)
+        for column, value in zip(law, (row_along(n, nodes, own), row_along((-n[1], n[0]), nodes, own),
+                                       gap, friction)):
+            column.append(value)
+    return law

@@ -1,0 +1,150 @@
+"""A peer answers the exported Mesh0 as the reference does; its own word is well-formed.
+
+    AIRYBENCH_BENCH=PATH /usr/bin/python3 test_peers.py FOLDER/NAME.json    exit 77: cannot run here
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+from scipy.io import mmread
+from scipy.sparse import load_npz
+
+PROJECT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(PROJECT / "peers"))
+import list as peers  # noqa: E402
+
+BENCH = os.environ["AIRYBENCH_BENCH"]
+SCENES = {
+    "default": {},
+    "without friction": {"friction": 0},
+    "much friction, body force": {"friction": 0.8, "plane": "stress",
+                                  "body_force_N_per_mm3": [0.1, 0]},
+    "pressure, rollers": {"mesh": {"keep_force_edges": 6},
+                          "displacement_mm": [0.01, 0],
+                          "boundary": {"force": {"pressure_MPa": 3},
+                                       "displacement": {"support": "normal"}}},
+}
+FILES = {"airy": {"x.mtx", "F_C.mtx"}, "condensed": {"r.mtx"}, "body": {"displacement_mm.mtx"}}
+STAGES = {"order", "precondition", "factor", "condense", "contact", "recover"}
+
+
+def difference(found: np.ndarray, expected: np.ndarray) -> float:
+    return np.linalg.norm(found - expected) / np.linalg.norm(expected)
+
+
+class PeerTest(unittest.TestCase):
+    declaration: Path
+
+    def setUp(self) -> None:
+        self.peer = json.loads(self.declaration.read_text(encoding="utf-8"))
+        program = self.declaration.parent / self.peer["command"][0]
+        _, reason = peers.version(self.declaration.parent, self.peer["version"])
+        if reason or not program.exists():
+            self.skipTest(f"{self.peer['name']}: {reason or program} (./run peers)")
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def export(self, definition: dict, form: str) -> Path:
+        out = Path(tempfile.mkdtemp(dir=self.folder))
+        scene = self.folder / "scene.json"
+        scene.write_text(json.dumps(definition), encoding="utf-8")
+        ran = subprocess.run([BENCH, "export-problem", "--mesh=Mesh0", f"--scene={scene}",
+                              f"--format={form}", f"--out={out}"],
+                             capture_output=True, text=True, check=False)
+        if "this build is without" in ran.stderr:
+            self.skipTest(ran.stderr)
+        self.assertEqual((0, ""), (ran.returncode, ran.stderr))
+        return out
+
+    def answer(self, definition: dict) -> tuple[Path, dict]:
+        folder = Path(tempfile.mkdtemp(dir=self.folder))
+        places = {"{input}": str(self.export(definition, self.peer["format"])),
+                  "{output}": str(folder), "{tolerance}": "1e-13"}
+        command = [places.get(word, word) for word in self.peer["command"]]
+        ran = subprocess.run(command, cwd=self.declaration.parent, capture_output=True, text=True,
+                             check=False)
+        self.assertEqual(0, ran.returncode, ran.stderr)
+        return folder, json.loads((folder / "answer.json").read_text(encoding="utf-8"))
+
+    def test_its_word_is_well_formed(self) -> None:
+        for name, definition in SCENES.items():
+            with self.subTest(name):
+                folder, said = self.answer(definition)
+                self.assertEqual("ok", said["status"], said)
+                self.assertGreater(said["time_s"], 0)
+                self.assertLessEqual(set(said.get("stages", {})), STAGES)
+                self.assertLessEqual(sum(said.get("stages", {}).values()), 1.001 * said["time_s"])
+                for key in ("message", "parameters"):
+                    self.assertIsInstance(said[key], str)
+                if "{tolerance}" in self.peer["command"]:
+                    self.assertLess(said["error_estimate"], 1e-12)
+                self.assertEqual({"answer.json"} | FILES[self.peer["reads"]],
+                                 {file.name for file in folder.iterdir()})
+
+    def test_its_forces_are_those_of_the_reference(self) -> None:
+        if self.peer["reads"] == "body":
+            self.skipTest("it returns displacements")
+        for name, definition in SCENES.items():
+            with self.subTest(name):
+                folder, _ = self.answer(definition)
+                problem = np.load(self.export(definition, "npz") / "problem.npz")
+                fclib = self.peer["format"] == "fclib"
+                forces = -mmread(folder / "r.mtx") if fclib else mmread(folder / "F_C.mtx")
+                without_friction = fclib and len(problem["F_C"]) == len(problem["mu"])
+                forces = forces.ravel()[::2 if without_friction else 1]
+                self.assertLess(difference(forces, problem["F_C"]), 1e-9)
+
+    def test_its_airy_function_is_compatible_and_in_equilibrium(self) -> None:
+        if self.peer["reads"] != "airy":
+            self.skipTest("it returns no Airy function")
+        for name, definition in SCENES.items():
+            with self.subTest(name):
+                folder, _ = self.answer(definition)
+                out = self.export(definition, "npz")
+                S, C_F, C_C = (load_npz(out / f"{m}.npz").toarray() for m in ("S", "C_F", "C_C"))
+                p = np.load(out / "problem.npz")
+                x, F_C = (mmread(folder / f"{v}.mtx").ravel() for v in ("x", "F_C"))
+                size = np.linalg.norm(F_C)
+                self.assertLess(np.linalg.norm(C_F @ x - p["F"]), 1e-9 * size)
+                self.assertLess(np.linalg.norm(C_C @ x + p["F0"] - F_C), 1e-9 * size)
+                C, strains = np.vstack([C_F, C_C]), S @ x - p["q"]
+                edges = C.T @ np.linalg.lstsq(C.T, strains, rcond=None)[0]
+                self.assertLess(difference(edges, strains), 1e-9)
+
+    def test_its_displacements_are_those_of_p2(self) -> None:
+        if self.peer["reads"] != "body":
+            self.skipTest("it returns no displacements")
+        # Contact of coefficients is P2's discretisation, that of nodes another.
+        allowed = 1e-9 if self.peer["name"] == "getfem-coefficients" else 1e-2
+        for name, definition in SCENES.items():
+            with self.subTest(name):
+                folder, _ = self.answer(definition)
+                found = mmread(folder / "displacement_mm.mtx")
+                nodes, expected = self.displacements_of_p2(definition)
+                self.assertEqual(len(found), nodes.max() + 1)
+                self.assertLess(difference(found[nodes], expected), allowed)
+
+    def displacements_of_p2(self, definition: dict) -> tuple[np.ndarray, np.ndarray]:
+        """Nodes, of every triangle three vertices and the middles of its edges, and their displacements."""
+        p = np.load(self.export(definition, "npz") / "problem.npz")
+        edge = {frozenset(ends): len(p["vertices_mm"]) + i for i, ends in enumerate(p["edges"].tolist())}
+        nodes = [(a, b, c, edge[frozenset((a, b))], edge[frozenset((b, c))], edge[frozenset((c, a))])
+                 for a, b, c in p["triangles"].tolist()]
+        out = Path(tempfile.mkdtemp(dir=self.folder))
+        subprocess.run([BENCH, "--mesh=Mesh0", f"--scene={self.folder / 'scene.json'}", "--method=P2",
+                        "--repetitions=1", "--fields", f"--out={out}"], check=True, capture_output=True)
+        field = np.genfromtxt(next((out / "fields").glob("*.displacement.csv")), delimiter=",", names=True)
+        return np.ravel(nodes), np.column_stack([field["ux_mm"], field["uy_mm"]])
+
+
+if __name__ == "__main__":
+    PeerTest.declaration = PROJECT / "peers" / sys.argv.pop()
+    result = unittest.main(exit=False).result
+    all_skipped = len(result.skipped) == result.testsRun
+    sys.exit(77 if all_skipped else not result.wasSuccessful())
