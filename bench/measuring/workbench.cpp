@@ -78,7 +78,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
   RunControl control;
-  control.deadline = Deadline::after(options_.timeout_s);
+  control.deadline = Deadline::after(run_limit_s(what, options_));
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
@@ -151,6 +151,9 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
   note(tuning.grid, record);
+  record.tuning_cut =
+      tuned.solution.status == Status::timeout ||
+      std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
   if (tuning.solve != nullptr) {
     choice.solve = tuning.solve;
   } else {  // every run says what became of it
@@ -198,7 +201,12 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
     if (options_.stop == Stop::paper || !has_answer(solution.status) ||
         solution.status == Status::ok || attempt == most_attempts || choice.tolerance <= tightest)
       return run;
-    record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
+    const double searched_s = record.tuning_s.value_or(0) + run.time_s;
+    if (options_.tuning_budget_s && searched_s >= *options_.tuning_budget_s) {
+      record.tuning_cut = true;
+      return run;
+    }
+    record.tuning_s = searched_s;
     finished_with = choice.tolerance;
     // Errors follow the tolerance about linearly; a factor of 3 to be sure.
     const double factor = options_.target_error / estimate / 3;
@@ -305,6 +313,8 @@ Workbench::Examination Workbench::examine(const Method& method,
   Solution& solution = run.solution;
   note(solution, record);
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
+  if (record.tuning_cut && record.status != Status::ok)
+    record.status_reason += "; the search was cut: see tuning_cut";
   if (options_.histories) note(solution.histories, record);
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;

@@ -36,7 +36,7 @@ ROOMS = {
     "bench/adapting": ["bench/isolation", "bench/measuring", "bench/judging", "bench/cases",
                        "bench/heap", "bench/records", "solvers", "assembly", "mesh", "support"],
     "bench/running": ["bench/isolation", "bench/measuring", "bench/cases", "bench/output",
-                      "bench/records", "support"],
+                      "bench/records", "bench/statistics", "support"],
     "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring",
                        "bench/problems", "bench/external", "bench/cases",
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
