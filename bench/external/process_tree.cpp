@@ -19,7 +19,11 @@
 namespace airybench {
 namespace {
 
-constexpr long look_every_ns = 10'000'000;
+// A short life is looked at more often.
+timespec until_next_look(double elapsed_s) {
+  const double wait_s = std::clamp(elapsed_s / 50, 1e-3, 10e-3);
+  return {0, static_cast<long>(wait_s * 1e9)};
+}
 
 // All processes below this one, the nearest first.
 std::vector<pid_t> descendants(pid_t of) {
@@ -79,7 +83,7 @@ class Guardian {
     const auto start = std::chrono::steady_clock::now();
     if (!begin()) return end_;
     while (!has_ended_) {
-      const timespec look = {0, look_every_ns};
+      const timespec look = until_next_look(seconds_since(start));
       sigtimedwait(&waited_for_, nullptr, &look);
       std::int64_t bytes = 0;
       for (const pid_t process : descendants(getpid())) bytes += resident_peak_bytes(process);

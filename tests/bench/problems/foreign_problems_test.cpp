@@ -72,9 +72,9 @@ TEST_F(ForeignProblems, EveryContactSolverIsRunAndJudged) {
     EXPECT_EQ(record["status"], "ok");
     EXPECT_LT(record["natural_map_residual"].get<double>(), 1e-11);
     EXPECT_LT(record["siconos_error"].get<double>(), 1e-11);
-    EXPECT_EQ(record["n_open"].get<int>() + record["n_stick"].get<int>() +
-                  record["n_slip"].get<int>(),
-              89);
+    EXPECT_EQ(
+        record["n_open"].get<int>() + record["n_stick"].get<int>() + record["n_slip"].get<int>(),
+        89);
     for (const char* of_bodies : {"equilibrium_residual", "n_phi", "error_stress"})
       EXPECT_TRUE(record.value(of_bodies, Json()).is_null()) << of_bodies;
   }
