@@ -28,7 +28,7 @@ bool is_newer(const fs::path& file, const fs::path& than) {
 
 std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
   const auto last = std::find_if(records.rbegin(), records.rend(), [](const Record& r) {
-    return !r.siconos_error && !is_named_after_catalogue(r.mesh);
+    return r.n_phi && !is_named_after_catalogue(r.mesh);
   });
   if (last == records.rend()) return "";
   for (const Record& record : records) {

@@ -76,6 +76,15 @@ Record find_record(const std::string& name) {
                                lines.empty() ? "missing" : name_of(lines.front().record).text()));
 }
 
+void refuse_what_is_not_at_hand(const Record& record, const std::string& place) {
+  if (!record.program.empty())
+    throw UsageError(fmt::format("{}: {} is another program (allowed: bench's own methods)", place,
+                                 record.method));
+  if (!record.n_phi)
+    throw UsageError(
+        fmt::format("{}: a contact problem of --problem (allowed: cases with a mesh)", place));
+}
+
 double setting(const Context& context, const std::string& key, double otherwise) {
   const std::string word = context_word(context, key);
   if (word.empty()) return otherwise;
@@ -187,6 +196,7 @@ constexpr std::array<const char*, 4> measured = {"time_s", "peak_heap_bytes", "e
 int replay_command(int argc, const char* const* argv) {
   const ReplayOptions asked = parse_replay(argc, argv);
   const Record record = find_record(asked.record);
+  refuse_what_is_not_at_hand(record, asked.record);
   const Context& recorded = record.context;
   const Options options = options_of(record, recorded, asked.out);
   require_threads(options.threads);

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
+#include <iterator>
 #include <sstream>
 
 #include "bench/cases/blank_record.hpp"
@@ -37,11 +38,25 @@ namespace {
 // The paper shows SYMMLQ and says that the other is alike; both are run.
 constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
 
-void print_list() {
+std::vector<Method> other_programs(const Options& options) {
+  std::vector<Method> methods;
+  for (const std::filesystem::path& file : options.externals) {
+    methods.push_back(external_method(read_declaration(file), options.memory_limit_bytes));
+    const auto same = [&](const Method& m) { return m.name == methods.back().name; };
+    if (std::ranges::count_if(methods, same) > 1)
+      throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
+                                   file.string(), methods.back().name));
+  }
+  return methods;
+}
+
+void print_list(const std::vector<Method>& others) {
   fmt::print("meshes ({}):\n", mesh_directory().string());
   for (const std::string_view name : catalogue_mesh_names) fmt::print("  {}\n", name);
   fmt::print("methods (* of the paper, run by default):\n");
-  for (const Method& method : methods()) {
+  std::vector<Method> all = methods();
+  std::ranges::copy(others, std::back_inserter(all));
+  for (const Method& method : all) {
     const std::string same =
         method.general_name.empty() ? "" : fmt::format(" (= {})", method.general_name);
     fmt::print("  {}{:<16}  {}{}\n", method.in_paper ? "*" : " ", method.name, method.summary,
@@ -56,8 +71,10 @@ void print_list() {
 void print_stages(const std::vector<Case>& plan) {
   for (const Case& c : plan) {
     const MeshSizes sizes = solved_sizes(*c.posed.problem);
-    fmt::print("[{}/{}] {}  n_phi {}, n_f {}, n_c {}\n", c.number, plan.size(), c.name().text(),
-               sizes.n_phi, sizes.n_f, sizes.n_c);
+    const std::string of_body =
+        c.posed.problem->given ? "" : fmt::format("n_phi {}, n_f {}, ", sizes.n_phi, sizes.n_f);
+    fmt::print("[{}/{}] {}  {}n_c {}\n", c.number, plan.size(), c.name().text(), of_body,
+               sizes.n_c);
     for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
       fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
                  decision.run ? "" : ": ", decision.reason);
@@ -95,18 +112,6 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
   for (const std::string& warning :
        machine_warnings(machine_state(context, least_repetitions(options), spread)))
     fmt::print("note: {}\n", warning);
-}
-
-std::vector<Method> other_programs(const Options& options) {
-  std::vector<Method> methods;
-  for (const std::filesystem::path& file : options.externals) {
-    methods.push_back(external_method(read_declaration(file), options.memory_limit_bytes));
-    const auto same = [&](const Method& m) { return m.name == methods.back().name; };
-    if (std::ranges::count_if(methods, same) > 1)
-      throw UsageError(fmt::format("--external: {}: another file declares {} (allowed: one)",
-                                   file.string(), methods.back().name));
-  }
-  return methods;
 }
 
 // Those asked for. By default the paper's, which leave out bodies with holes: for these also what
@@ -155,7 +160,7 @@ int run_command(int argc, const char* const* argv) {
     options.methods = *options.figure == 3 ? figure_3_methods : default_methods(Study::none);
   }
   if (options.list) {
-    print_list();
+    print_list(other_programs(options));
     return all_ok;
   }
   const bool only_plans = options.explain || options.dry_run;

@@ -138,12 +138,11 @@ Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::strin
   Eigen::MatrixXd values(rows, columns);
   for (double& value : values.reshaped()) {
     next_line();
-    const char* begin = line.c_str();
-    while (*begin == ' ' || *begin == '\t' || *begin == '+') ++begin;
-    const char* last = line.c_str() + line.find_last_not_of(" \t\r") + 1;
+    const std::size_t size = line.find_last_not_of(" \t\r") + 1;
+    const char* last = line.c_str() + size;
+    const char* begin = line.c_str() + std::min(size, line.find_first_not_of(" \t+"));
     const auto [end, error] = std::from_chars(begin, last, value);
-    if (!file || begin == last || end != last || error != std::errc())
-      fail_here("a number that a double can be");
+    if (!file || end != last || error != std::errc()) fail_here("a number that a double can be");
   }
   while (next_line())
     if (line.find_first_not_of(" \t\r") != line.npos) fail_here("the file's end");

@@ -107,7 +107,7 @@ std::string version_of(const std::filesystem::path& file, const Declaration& dec
   const WorkFolder work;
   const std::filesystem::path printed = work.path() / "version";
   const ProcessTreeEnd end =
-      run_process_tree({command, declaration.folder, {}, printed}, {limit_s});
+      run_process_tree({command, declaration.folder, {}, printed, work.path()}, {limit_s});
   const std::vector<std::string> lines = printed_lines(printed);
   if (end.exit_code != 0 || lines.empty())
     throw FileError(fmt::format("{}: version: {}: {}{}", file.string(),

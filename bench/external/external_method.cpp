@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 #include "assembly/control_points.hpp"
 #include "bench/external/answer.hpp"
@@ -29,12 +32,20 @@ struct Caller {
   std::optional<std::int64_t> memory_limit_bytes;
 };
 
+// Once from left to right: what a value is made of stays.
+std::string filled_in(std::string_view word, const std::map<std::string, std::string>& values) {
+  std::string result;
+  while (!word.empty()) {
+    const auto here = std::ranges::find_if(
+        values, [&](const auto& value) { return word.starts_with(value.first); });
+    result += here == values.end() ? std::string(1, word.front()) : here->second;
+    word.remove_prefix(here == values.end() ? 1 : here->first.size());
+  }
+  return result;
+}
 std::vector<std::string> filled_in(std::vector<std::string> command,
                                    const std::map<std::string, std::string>& values) {
-  for (std::string& word : command)
-    for (const auto& [place, value] : values)
-      for (std::size_t at; (at = word.find(place)) != word.npos;)
-        word.replace(at, place.size(), value);
+  for (std::string& word : command) word = filled_in(word, values);
   return command;
 }
 
@@ -43,14 +54,15 @@ class ProgramSolve {
  public:
   ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
                const RunControl& control)
-      : name_(caller.declaration.name), output_(work_->add("output", {})) {
+      : name_(caller.declaration.name) {
     const Declaration& declaration = caller.declaration;
+    const std::string input = hand_over(problem);
     const double limit_s = control.deadline.remaining_s();
     if (!(limit_s > 0)) throw TimeoutReached("time limit reached before the program began");
     const std::string threads = std::to_string(control.threads);
     const Program program = {
         filled_in(declaration.command,
-                  {{"{input}", work_->add("input", problem()).string()},
+                  {{"{input}", input},
                    {"{output}", output_.string()},
                    {"{threads}", threads},
                    {"{tolerance}", fmt::format("{}", control.tolerance)},
@@ -61,7 +73,8 @@ class ProgramSolve {
          {"MKL_NUM_THREADS", threads},
          {"LC_ALL", "C.UTF-8"},
          {"PYTHONDONTWRITEBYTECODE", "1"}},
-        work_->path() / "printed"};
+        work_->path() / "printed",
+        work_->path()};
     const ProcessTreeEnd end = run_process_tree(program, {limit_s, caller.memory_limit_bytes});
     run_.wall_s = end.wall_s;
     run_.peak_bytes = end.peak_bytes;
@@ -100,6 +113,17 @@ class ProgramSolve {
   }
 
  private:
+  // The problem's folder.
+  std::string hand_over(const std::function<Files()>& problem) {
+    const Files files = problem();
+    try {
+      work_.emplace();
+      output_ = work_->add("output", {});
+      return work_->add("input", files).string();
+    } catch (const FileError& why) {
+      throw NoAnswer(Status::machine_fault, why.what());
+    }
+  }
   static Status status_of_end(const ProcessTreeEnd& end) {
     return end.start_error != 0 ? Status::machine_fault
            : end.timed_out      ? Status::timeout
@@ -114,7 +138,7 @@ class ProgramSolve {
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::string name_;
-  std::optional<WorkFolder> work_ = std::optional<WorkFolder>(std::in_place);
+  std::optional<WorkFolder> work_;
   std::filesystem::path output_;
   Answer answer_;
   ProgramRun run_;

@@ -12,6 +12,7 @@
 #include <csignal>
 #include <ctime>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "support/seconds_since.hpp"
@@ -52,6 +53,7 @@ std::int64_t resident_peak_bytes(pid_t process) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) std::signal(signal, SIG_DFL);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
   setsid();  // the terminal's signals are not for it
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int input = open("/dev/null", O_RDONLY);
   const int output = open(program.output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0666);
   for (const auto& [name, value] : program.environment) setenv(name.c_str(), value.c_str(), 1);
@@ -60,7 +62,8 @@ std::int64_t resident_peak_bytes(pid_t process) {
     arguments.push_back(const_cast<char*>(argument.c_str()));
   arguments.push_back(nullptr);
   if (input >= 0 && output >= 0 && dup2(input, 0) == 0 && dup2(output, 1) == 1 &&
-      dup2(output, 2) == 2 && chdir(program.folder.c_str()) == 0)
+      dup2(output, 2) == 2 && close_range(3, ~0U, CLOSE_RANGE_CLOEXEC) == 0 &&
+      chdir(program.folder.c_str()) == 0)
     execvp(arguments.front(), arguments.data());
   const int error = errno;
   if (write(error_pipe, &error, sizeof error) != sizeof error) _exit(126);
@@ -75,7 +78,9 @@ class Guardian {
     prctl(PR_SET_CHILD_SUBREAPER, 1);
     sigemptyset(&waited_for_);
     sigaddset(&waited_for_, SIGCHLD);
-    sigprocmask(SIG_BLOCK, &waited_for_, &signals_before_);
+    sigset_t all;  // it ends when its parent has ended, not with it
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, &signals_before_);
     std::signal(SIGCHLD, SIG_DFL);
   }
 
@@ -96,6 +101,8 @@ class Guardian {
     }
     end_.wall_s = seconds_since(start);
     end_all();
+    if (std::error_code ignored; getppid() != parent_)
+      std::filesystem::remove_all(program_.scratch, ignored);
     return end_;
   }
 
@@ -169,8 +176,7 @@ ProcessTreeEnd run_process_tree(const Program& program, const ProcessLimits& lim
   }
   close(answer[0]);
   if (guardian < 0) throw std::system_error(error, std::generic_category(), "a program's process");
-  if (got != sizeof end)
-    throw std::system_error(ECHILD, std::generic_category(), "a program's guardian");
+  if (got != sizeof end) throw std::runtime_error("the program's guardian was ended");
   return end;
 }
 

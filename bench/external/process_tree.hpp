@@ -38,9 +38,10 @@ struct Program {
   std::filesystem::path folder;      // that it runs in
   std::map<std::string, std::string> environment = {};  // besides ours
   std::filesystem::path output;                         // file for what it prints
+  std::filesystem::path scratch = {};  // gone with this process, should it end first
 };
 
-// Throws std::system_error: no process, or no pipe.
+// Throws std::system_error: no process, or no pipe; std::runtime_error: no guardian any more.
 ProcessTreeEnd run_process_tree(const Program& program, const ProcessLimits& limits);
 
 }  // namespace airybench

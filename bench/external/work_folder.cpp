@@ -1,9 +1,9 @@
 #include "bench/external/work_folder.hpp"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -14,12 +14,14 @@
 namespace airybench {
 
 WorkFolder::WorkFolder() {
-  std::error_code none;
-  const std::filesystem::path parent = std::filesystem::temp_directory_path(none);
+  const char* given = std::getenv("TMPDIR");
+  // The program runs in another folder.
+  const std::filesystem::path parent =
+      std::filesystem::absolute(given == nullptr || *given == '\0' ? "/tmp" : given);
   std::string name = (parent / "airybench-XXXXXX").string();
-  if (none || mkdtemp(name.data()) == nullptr)
-    throw FileError(fmt::format("{}: no folder can be made there: {}", parent.string(),
-                                none ? none.message() : std::generic_category().message(errno)));
+  if (mkdtemp(name.data()) == nullptr)
+    throw FileError(fmt::format("TMPDIR: {}: no folder can be made there: {}", parent.string(),
+                                std::generic_category().message(errno)));
   path_ = name;
 }
 

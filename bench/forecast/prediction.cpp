@@ -104,6 +104,7 @@ class Past {
 
   std::optional<Grounded> estimate(const Record& c, Quantity quantity,
                                    const Scatter& scatter) const {
+    if (!c.n_phi) return {};  // no body whose size would tell
     const Variant own = variant_of(c);
     if (auto result = from(own, c, quantity, scatter)) return result;
     const Variant* closest = nullptr;
@@ -261,7 +262,8 @@ Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& r
   std::set<std::pair<std::string, std::string>> posed;
   for (const Record& c : cases) {
     result.cases.push_back(predict(c, past, limits));
-    if (c.status == Status::skipped || !posed.insert({c.mesh, c.scene}).second) continue;
+    if (c.status == Status::skipped || !c.n_phi || !posed.insert({c.mesh, c.scene}).second)
+      continue;
     Record hybrid_case;
     hybrid_case.mesh = c.mesh;
     hybrid_case.scene = c.scene;

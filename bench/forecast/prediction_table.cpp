@@ -67,7 +67,7 @@ std::string prediction_table(const std::vector<Record>& cases, const Forecast& f
   for (std::size_t k = 0; k < cases.size(); ++k) {
     const Record& c = cases[k];
     const Prediction& p = forecast.cases[k];
-    rows.push_back({name_of(c).text(), fmt::format("{}", c.n_phi.value_or(0)),
+    rows.push_back({name_of(c).text(), c.n_phi ? fmt::format("{}", *c.n_phi) : "-",
                     p.time_s ? show_time(p.time_s->value) : "-", show_range(p.time_s),
                     show_heap(p.peak_heap_bytes), p.run_s ? show_time(*p.run_s) : "-", p.basis});
   }
