@@ -4,15 +4,15 @@
 
 #include "assembly/load_scale.hpp"
 #include "solvers/base/method.hpp"
-#include "solvers/two_level/active_rows.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/direct/factor_counts.hpp"
+#include "solvers/two_level/active_rows.hpp"
 
 namespace airybench {
 namespace {
 
 struct KrylovBody {
-  HybridizedSystem system;  // K is left out once `matrix` has it
+  HybridizedSystem system;
   EdgeMatrix matrix;
 };
 
@@ -48,15 +48,14 @@ void check(const Problem& problem, const SlotSystem& slots, TwoLevelPrecondition
   Eigen::VectorXd x, Kx;
   const auto energy_of = [&](const std::vector<PointLaw>& laws) {
     linearised.set(laws);
-    *solution.linear_iterations +=
-        linearised.solve(load, digits, control.deadline, x).iterations;
+    *solution.linear_iterations += linearised.solve(load, digits, control.deadline, x).iterations;
     slots.K.multiply(x, Kx);
     return x.dot(Kx);
   };
   const double under_laws = energy_of(rows.laws);
   const double squared = left.defect_energy + under_laws - 2 * x.dot(defect);
-  const double error = safety * std::sqrt(std::max({0.0, squared})) +
-                       0.01 * std::sqrt(left.defect_energy);
+  const double error =
+      safety * std::sqrt(std::max({0.0, squared})) + 0.01 * std::sqrt(left.defect_energy);
   double estimate = relative_error(left.r.lpNorm<Eigen::Infinity>(), left.largest, scale.force_N);
   estimate = std::max(
       estimate, relative_error(error, std::sqrt(stress_norm_squared(problem, solution.stress)),
@@ -70,8 +69,8 @@ void check(const Problem& problem, const SlotSystem& slots, TwoLevelPrecondition
       F.segment(slots.slot[p], m) = solution.F_C.segment(m * p, m);
     M.apply(F, of_F);  // K ≤ M: from below
     const double of_forces = std::sqrt(std::max(0.0, F.dot(of_F)));
-    const double forces_off = safety * (std::sqrt(std::max(0.0, under_laws)) +
-                                        std::sqrt(std::max(0.0, held)));
+    const double forces_off =
+        safety * (std::sqrt(std::max(0.0, under_laws)) + std::sqrt(std::max(0.0, held)));
     const double off = natural_map(slots.contact, slots.compliance, solution.F_C, u_C).norm();
     estimate = std::max({estimate, relative_error(forces_off, of_forces, scale.energy_norm),
                          relative_error(2 * off, solution.F_C.norm(), scale.force_N)});
@@ -93,6 +92,7 @@ Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) 
   control.deadline.check("the assembly of the hybridized system");
   coarse->factorise(problem, body.system, body.matrix, control.deadline, solution.times);
   count_factor(coarse->factor(), solution);
+  body.system.K = {};  // `matrix` has it
   TwoLevelPreconditioner M(body.matrix, std::move(coarse));
   const SlotSystem slots(problem, airy.contact, body.system, body.matrix);
   solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
@@ -103,9 +103,8 @@ Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) 
 
   const bool has_contact = airy.contact.count > 0;
   const RowsResult rows = run_stage(
-      solution.times, has_contact ? Stage::contact : Stage::recover, MemoryOwner::iteration, [&] {
-        return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control);
-      });
+      solution.times, has_contact ? Stage::contact : Stage::recover, MemoryOwner::iteration,
+      [&] { return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control); });
   note_rows(rows, control, solution);
   if (has_contact) {
     solution.contact_iterations = rows.sweeps;

@@ -75,8 +75,8 @@ void move_to_gap(const SlotSystem& s, const std::vector<PointLaw>& laws, Eigen::
 
 // Of those laws that would change, so many, where the natural map is largest.
 std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
-                                      const std::vector<PointLaw>& next,
-                                      const Eigen::VectorXd& map, double share) {
+                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
+                                      double share) {
   std::vector<int> changes;
   for (int p = 0; p < static_cast<int>(laws.size()); ++p)
     if (!(laws[p] == next[p])) changes.push_back(p);

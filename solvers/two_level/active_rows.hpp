@@ -6,8 +6,8 @@
 //   slip    u_n = ḡ_n, (K u − b)_t = −τ μ (K u − b)_n      the normal one is held
 //
 // where F = (K u − b) at contact slots. Held slots leave the system; a slip row takes the normal
-// reaction along, which makes it nonsymmetric: GMRES, preconditioned by preconditioner.hpp with the same
-// slots held. Steps are inexact: a tenth of the natural map while the laws change.
+// reaction along, which makes it nonsymmetric: GMRES, preconditioned by preconditioner.hpp with the
+// same slots held. Steps are inexact: a tenth of the natural map while the laws change.
 //
 // The laws begin with those of the coarse displacements. There is no proof that they settle: after
 // some steps without a smaller natural map only the half of those that would change do, where it is

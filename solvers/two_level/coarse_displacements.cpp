@@ -190,9 +190,8 @@ void CoarseDisplacements::factorise(const Problem& problem, const HybridizedSyst
                                     const EdgeMatrix& K, const Deadline& deadline,
                                     StageTimes& times) {
   const int trailing = unknowns_ - first_trailing_;
-  const ElementMatrices coarse =
-      run_stage(times, Stage::precondition, MemoryOwner::preconditioner,
-                [&] { return galerkin(problem, K, system); });
+  const ElementMatrices coarse = run_stage(times, Stage::precondition, MemoryOwner::preconditioner,
+                                           [&] { return galerkin(problem, K, system); });
   deadline.check("the coarse matrix");
   run_stage(times, Stage::order, MemoryOwner::factor, [&] { factor_.analyse(coarse, trailing); });
   deadline.check("the ordering of the coarse matrix");
@@ -256,7 +255,8 @@ Eigen::VectorXd CoarseDisplacements::restricted(const Eigen::VectorXd& r) const 
   Eigen::VectorXd load(unknowns_);
   for (std::size_t node = 0; node < unknown_.size(); ++node)
     for (int k = 0; k < 2; ++k)
-      if (unknown_[node][k] >= 0) load(unknown_[node][k]) = force(k, static_cast<Eigen::Index>(node));
+      if (unknown_[node][k] >= 0)
+        load(unknown_[node][k]) = force(k, static_cast<Eigen::Index>(node));
   return load;
 }
 
@@ -265,7 +265,8 @@ void CoarseDisplacements::add_prolonged(const Eigen::VectorXd& v, Eigen::VectorX
   Eigen::Matrix2Xd at_node = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(unknown_.size()));
   for (std::size_t node = 0; node < unknown_.size(); ++node)
     for (int k = 0; k < 2; ++k)
-      if (unknown_[node][k] >= 0) at_node(k, static_cast<Eigen::Index>(node)) = v(unknown_[node][k]);
+      if (unknown_[node][k] >= 0)
+        at_node(k, static_cast<Eigen::Index>(node)) = v(unknown_[node][k]);
   for (const BoundaryBlock& of : boundary_)
     for (int i = 0; i < 4; ++i) {
       if (of.held[i]) continue;

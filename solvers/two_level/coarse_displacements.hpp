@@ -82,17 +82,17 @@ class CoarseDisplacements {
 
   CoarseKind kind_;
   int unknowns_ = 0, first_trailing_ = 0;
-  std::vector<NodeUnknowns> unknown_;               // per node
-  std::vector<int> frame_of_node_;                  // row of frame_, or −1: x and y
-  std::vector<Eigen::Matrix2d> frame_;              // columns n, t
-  std::vector<std::array<int, 2>> block_nodes_;     // of every block
-  std::vector<int> boundary_of_block_;              // row of boundary_, or −1
+  std::vector<NodeUnknowns> unknown_;            // per node
+  std::vector<int> frame_of_node_;               // row of frame_, or −1: x and y
+  std::vector<Eigen::Matrix2d> frame_;           // columns n, t
+  std::vector<std::array<int, 2>> block_nodes_;  // of every block
+  std::vector<int> boundary_of_block_;           // row of boundary_, or −1
   std::vector<BoundaryBlock> boundary_;
-  std::vector<int> node_of_point_;                  // per contact point
+  std::vector<int> node_of_point_;  // per contact point
   MultifrontalFactor factor_;
-  Eigen::MatrixXd L_;                     // of the Schur complement on the trailing unknowns
-  std::vector<int> free_;                 // trailing unknowns that are not held, from the first on
-  Eigen::LLT<Eigen::MatrixXd> on_free_;   // of the Schur complement on them
+  Eigen::MatrixXd L_;                    // of the Schur complement on the trailing unknowns
+  std::vector<int> free_;                // trailing unknowns that are not held, from the first on
+  Eigen::LLT<Eigen::MatrixXd> on_free_;  // of the Schur complement on them
 };
 
 }  // namespace airybench

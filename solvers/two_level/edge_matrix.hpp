@@ -14,10 +14,10 @@
 namespace airybench {
 
 struct EdgeMatrix {
-  std::vector<int> block_of_edge;      // edge → block row
-  std::vector<int> start;              // block row → its first block of L; one more at the end
-  std::vector<int> column;             // per block of L
-  std::vector<Eigen::Matrix4d> left;   // L, N/mm
+  std::vector<int> block_of_edge;     // edge → block row
+  std::vector<int> start;             // block row → its first block of L; one more at the end
+  std::vector<int> column;            // per block of L
+  std::vector<Eigen::Matrix4d> left;  // L, N/mm
   std::vector<Eigen::Matrix4d> diagonal;
 
   int blocks() const { return static_cast<int>(diagonal.size()); }

@@ -83,8 +83,8 @@ void TwoLevelPreconditioner::apply(const Eigen::VectorXd& r, Eigen::VectorXd& x)
 }
 
 std::size_t TwoLevelPreconditioner::bytes() const {
-  return inverse_.size() * sizeof(Eigen::Matrix4d) + held_.size() * sizeof(held_[0]) + coarse_->bytes() +
-         static_cast<std::size_t>(rest_.size()) * sizeof(double);
+  return inverse_.size() * sizeof(Eigen::Matrix4d) + held_.size() * sizeof(held_[0]) +
+         coarse_->bytes() + static_cast<std::size_t>(rest_.size()) * sizeof(double);
 }
 
 }  // namespace airybench

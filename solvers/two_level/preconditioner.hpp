@@ -24,7 +24,7 @@ class TwoLevelPreconditioner {
   std::size_t bytes() const;
 
  private:
-  void sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x);   // rest_ = r − K x
+  void sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x);  // rest_ = r − K x
   void sweep_backward(const Eigen::VectorXd& r, Eigen::VectorXd& x);
 
   const EdgeMatrix& K_;

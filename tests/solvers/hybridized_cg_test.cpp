@@ -31,8 +31,7 @@ Solution solve(const char* method, const std::shared_ptr<const Problem>& problem
 // As the harness begins with it.
 RunControl first_control() {
   RunControl control;
-  control.tolerance =
-      select_methods("HYBRID:CG").front().first_tolerance * control.target_error;
+  control.tolerance = select_methods("HYBRID:CG").front().first_tolerance * control.target_error;
   return control;
 }
 
@@ -65,7 +64,10 @@ testing::NamedScenes scenes() {
          s.crown_radius_mm = 200;
        }},
       {"plane stress", [](Scene& s) { s.plane = Plane::stress; }},
-      {"body force", [](Scene& s) { s.body_force_N_per_mm3 = {3, -1}; }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
       {"flat face", [](Scene& s) { s.crown_radius_mm.reset(); }},
       {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
       {"nearly incompressible", [](Scene& s) { s.material.poisson = 0.4999; }},
@@ -120,8 +122,8 @@ TEST(HybridizedCg, WithContactItTakesAFewOfThem) {
 
 TEST(HybridizedCg, SaysWhichCoarseDisplacementsItChose) {
   Scene scene;
-  EXPECT_TRUE(solve("HYBRID:CG", posed(scene, small_tooth(4, 4)))
-                  .parameters.starts_with("coarse=linear"));
+  EXPECT_TRUE(
+      solve("HYBRID:CG", posed(scene, small_tooth(4, 4))).parameters.starts_with("coarse=linear"));
   scene.material.poisson = 0.49;
   EXPECT_TRUE(solve("HYBRID:CG", posed(scene, small_tooth(4, 4)))
                   .parameters.starts_with("coarse=per-edge"));
@@ -189,14 +191,13 @@ TEST(TwoLevels, AreSymmetricAndAboveTheStiffness) {
 TEST(Gmres, SolvesANonsymmetricSystemInAsManyStepsAsItHasRows) {
   constexpr int n = 12;
   std::srand(3);
-  const Eigen::MatrixXd A =
-      4 * Eigen::MatrixXd::Identity(n, n) + Eigen::MatrixXd::Random(n, n);
+  const Eigen::MatrixXd A = 4 * Eigen::MatrixXd::Identity(n, n) + Eigen::MatrixXd::Random(n, n);
   const Eigen::VectorXd r = Eigen::VectorXd::Random(n), m = r.cwiseAbs() + Eigen::VectorXd::Ones(n);
   Eigen::VectorXd x;
-  const GmresResult result = solve_by_gmres(
-      [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
-      [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v.cwiseQuotient(m); }, r,
-      {.tolerance = 1e-12}, {}, x);
+  const GmresResult result =
+      solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
+                     [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v.cwiseQuotient(m); },
+                     r, {.tolerance = 1e-12}, {}, x);
   EXPECT_LE(result.iterations, n);
   EXPECT_LT((A * x - r).norm(), 1e-10 * r.norm());
   EXPECT_THROW(solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
