@@ -175,7 +175,8 @@ class RowsNewton {
         target = control_.tolerance;
       }
     }
-    for (const auto part : {&RowsResult::steps, &RowsResult::sweeps}) best_.*part = now_.*part;
+    for (const auto count : {&RowsResult::steps, &RowsResult::sweeps, &RowsResult::most_at_once})
+      best_.*count = now_.*count;
     best_.iterations = now_.iterations;
     best_.history = std::move(now_.history);
     return best_;
@@ -201,16 +202,18 @@ class RowsNewton {
 
   // Until the linear error is below the target, or no longer falls.
   void solve_linear(double target) {
-    constexpr double condition = 3;  // √ that of M⁻¹K, about
-    for (int idle = 0; idle < 2;) {
-      const double enough = target / condition * (size_ > 0 ? size_ : scale_);
+    constexpr int most_cycles = 50;
+    for (int cycle = 0, idle = 0; cycle < most_cycles && idle < 2; ++cycle) {
+      const double enough = target / two_level_condition * (size_ > 0 ? size_ : scale_);
       const GmresOptions options{1e-8, enough / 2, iterations_at_once(unbalanced_.size())};
       const GmresResult linear =
           linearised_.solve(unbalanced_, options, control_.deadline, correction_);
       now_.iterations += linear.iterations;
+      now_.most_at_once = std::max(now_.most_at_once, linear.iterations);
       now_.u += correction_;
       measure();
-      now_.linear_error = relative_error(condition * linear.reduction * linear.norm, size_, scale_);
+      now_.linear_error =
+          relative_error(two_level_condition * linear.reduction * linear.norm, size_, scale_);
       now_.history.push_back(now_.linear_error);
       if (now_.linear_error <= target) return;
       if (linear.reduction > 0.5) ++idle;

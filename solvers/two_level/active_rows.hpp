@@ -68,6 +68,7 @@ struct RowsResult {
   double linear_error = 0;          // of u under its laws, relative in the energy norm, estimated
   int sweeps = 0, steps = 0;        // on the coarse contact problem; active sets
   std::int64_t iterations = 0;      // of GMRES
+  int most_at_once = 0;             // of them
   std::vector<double> history;      // linear_error
 };
 

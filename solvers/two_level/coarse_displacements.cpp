@@ -124,7 +124,6 @@ void CoarseDisplacements::number_nodes(const Problem& problem) {
 
 void CoarseDisplacements::fill_prolongation(BoundaryBlock& of) const {
   const auto weights = weights_of(kind_);
-  of.P.setZero();
   for (int i = 0; i < 4; ++i)
     for (int n = 0; n < 2; ++n) {
       if (of.nodes[n] == no_node) continue;
@@ -323,6 +322,7 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
     }
     coarse.of_point.push_back(point);
   }
+  if (coarse.points.count == 0) return coarse;
   times.assign(static_cast<std::size_t>(coarse.points.count), 0);
   if (m == 2) coarse.points.friction.assign(times.size(), 0);
   if (contact.gap.size() > 0) coarse.points.gap.setZero(coarse.points.size());

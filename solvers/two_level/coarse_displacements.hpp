@@ -49,6 +49,7 @@ class CoarseDisplacements {
   // The contact problem PᵀKP v = Pᵀb + F.
   CoarseContact contact_problem(const ContactPoints& contact, const Eigen::VectorXd& b) const;
 
+  CoarseKind kind() const { return kind_; }
   int unknowns() const { return unknowns_; }
   std::size_t bytes() const;
   const MultifrontalFactor& factor() const { return factor_; }
@@ -60,7 +61,7 @@ class CoarseDisplacements {
     int block;
     std::array<int, 2> nodes;                  // the second may be no_node
     std::array<Eigen::Vector2d, 4> direction;  // of its slots
-    Eigen::Matrix4d P;                         // slots × components of the two nodes
+    Eigen::Matrix4d P = Eigen::Matrix4d::Zero();  // slots × components of the two nodes
     std::array<bool, 4> held = {};
   };
   static constexpr int no_node = -1;

@@ -19,9 +19,9 @@ TEST(Selection, RefinedMeshesAreNamedByASuffix) {
 }
 
 TEST(Selection, ABadSuffixIsRefusedInOneLine) {
-  for (const char* item : {"Mesh3+refine", "Mesh3+refine0", "Mesh3+refine7", "Mesh3+refine12",
-                           "Mesh3+refine-1", "Mesh3+fine2", "+refine2", "Mesh9+refine2",
-                           "Mesh3+refine1+refine1"}) {
+  for (const char* item :
+       {"Mesh3+refine", "Mesh3+refine0", "Mesh3+refine7", "Mesh3+refine12", "Mesh3+refine-1",
+        "Mesh3+fine2", "+refine2", "Mesh9+refine2", "Mesh3+refine1+refine1"}) {
     try {
       expand_mesh_selection(item);
       FAIL() << item << " was accepted";

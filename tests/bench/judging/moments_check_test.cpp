@@ -16,9 +16,8 @@ class MomentsCheckTest : public ::testing::Test {
   Solution solve(const char* method, double friction) {
     Scene scene;
     scene.friction = friction;
-    system_ = assemble(
-        std::make_shared<const Problem>(pose(scene, testing::small_tooth(8, 6))),
-        Blocks::contact_points);
+    system_ = assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(8, 6))),
+                       Blocks::contact_points);
     RunControl control;
     control.tolerance = 1e-10;
     return run(select_methods(method).front(), system_, control);
