@@ -109,7 +109,7 @@ Method hybrid_cg() {
           .stages = {Stage::precondition, Stage::order, Stage::factor, Stage::contact,
                      Stage::recover, Stage::check},
           .solve = solve_hybridized_cg,
-          .first_tolerance = 1e-2,
+          .first_tolerance = 1e-3,
           .paper_tolerance = 1e-6,
           .knob = AccuracyKnob::krylov_tolerance};
 }

@@ -59,8 +59,8 @@ class CoarseDisplacements {
   // An edge whose slots are not all free, or along a frame.
   struct BoundaryBlock {
     int block;
-    std::array<int, 2> nodes;                  // the second may be no_node
-    std::array<Eigen::Vector2d, 4> direction;  // of its slots
+    std::array<int, 2> nodes;                     // the second may be no_node
+    std::array<Eigen::Vector2d, 4> direction;     // of its slots
     Eigen::Matrix4d P = Eigen::Matrix4d::Zero();  // slots × components of the two nodes
     std::array<bool, 4> held = {};
   };

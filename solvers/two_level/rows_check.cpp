@@ -52,10 +52,10 @@ void check_rows_answer(const Problem& problem, const SlotSystem& slots, const Ed
   const Eigen::VectorXd d = to_slots(slots.K, unknown, unbalanced.defect),
                         load = to_slots(slots.K, unknown, unbalanced.r) + d;
   const Correction under_laws = solve_under(slots, laws, load, M, control.deadline);
-  const double squared = unbalanced.defect_energy + under_laws.norm * under_laws.norm -
-                         2 * under_laws.x.dot(d);
-  const double stress = safety * std::sqrt(std::max(0.0, squared)) +
-                        0.01 * std::sqrt(unbalanced.defect_energy);
+  const double squared =
+      unbalanced.defect_energy + under_laws.norm * under_laws.norm - 2 * under_laws.x.dot(d);
+  const double stress =
+      safety * std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
   double estimate = std::max(
       relative_error(unbalanced.r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N),
       relative_error(stress, std::sqrt(stress_norm_squared(problem, solution.stress)),
