@@ -1,5 +1,7 @@
 #include "bench/judging/moments_check.hpp"
 
+#include <array>
+
 #include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
@@ -11,11 +13,12 @@ Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
     if (!problem.condition(row).in_frame) continue;
     const auto [a, b] = problem.mesh.boundary[row].vertices;
     auto own = moments.col(problem.edges.of_boundary[row]);
-    for (int end = 0;
-         const Eigen::Vector2d u : {Eigen::Vector2d(a < b ? own.head<2>() : own.tail<2>()),
-                                    Eigen::Vector2d(a < b ? own.tail<2>() : own.head<2>())}) {
+    const bool low_first = a < b;
+    const std::array<Eigen::Vector2d, 2> walked = {low_first ? own.head<2>() : own.tail<2>(),
+                                                   low_first ? own.tail<2>() : own.head<2>()};
+    for (int end = 0; end < 2; ++end) {
       const EdgeFrame frame = problem.frame_of_moment(row, end);
-      own.segment<2>(2 * end++) << frame.normal.dot(u), frame.tangent.dot(u);
+      own.segment<2>(2 * end) << frame.normal.dot(walked[end]), frame.tangent.dot(walked[end]);
     }
   }
   return moments;
