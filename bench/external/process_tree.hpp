@@ -1,12 +1,13 @@
 // Another's program, with all that it starts: run, watched, and ended together.
 //
 // Between this process and the program stands a guardian, a fork: it adopts what the program leaves
-// behind (PR_SET_CHILD_SUBREAPER), looks at the tree every ten milliseconds, and kills all of it
-// when a limit is passed, when the program ends, or when this process does, however that ends.
+// behind (PR_SET_CHILD_SUBREAPER), looks at the tree every one to ten milliseconds, and kills all
+// of it when a limit is passed, when the program ends, or when this process does, however that
+// ends.
 //
 // Memory is the sum of the resident peaks (VmHWM) of the processes that are alive at once, its
 // largest value at any look: of one process its own peak, but for what its last ten milliseconds
-// add; of several no less than what they had together.
+// add; of several no less than what they had together. 0: it was too short to be seen.
 #pragma once
 
 #include <cstdint>

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/bench/external/programs.hpp"
+#include "tests/support/background_run.hpp"
 
 namespace airybench::external_command_test {
 namespace {
@@ -16,7 +17,8 @@ class ExternalCommand : public testing::ExternalPrograms {
           R"({"status": "ok", "time_s": 2e-6, "stages": {"contact": 1e-6}, "contact_iterations": 7,
               "parameters": "none"})");
     for (const char* reads : {"airy", "condensed", "body"})
-      declare(reads, reads, "cp right/* $2", {{"version", {"echo", std::string(reads) + " 1.0"}}});
+      declare(reads, reads, "cp right/* $2; sleep 0.1",
+              {{"version", {"echo", std::string(reads) + " 1.0"}}});
   }
 };
 
@@ -121,8 +123,9 @@ TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
   std::filesystem::remove(bench_.path("airy.json"));
   std::filesystem::remove(bench_.path("body.json"));
   declare("condensed", "condensed", "cp right/* $2");
-  const auto result = bench_.run(
-      "--external=condensed.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o", "export TMPDIR=/none; ");
+  const auto result =
+      bench_.run("--external=condensed.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
+                 "export TMPDIR=/none; ");
   EXPECT_EQ(result.code, 1);
   EXPECT_EQ(bench_.records().at(0)["status"], "machine_fault");
   EXPECT_EQ(bench_.records().at(0)["status_reason"],
@@ -139,6 +142,35 @@ TEST_F(ExternalCommand, ItIsListedAndReplayRefusesIt) {
   EXPECT_EQ(result.err,
             "bench: o:Mesh0/default/EXTERNAL:airy: EXTERNAL:airy is another program (allowed: "
             "bench's own methods)\n");
+}
+
+TEST_F(ExternalCommand, ResumeTakesNoRecordsOfAnotherVersion) {
+  write_right();
+  declare("one", "condensed", "cp right/* $2", {{"version", {"echo", "2"}}});
+  records_of("", 0);
+  EXPECT_EQ(records_of("--resume", 0).size(), 1u);
+  declare("one", "condensed", "cp right/* $2", {{"version", {"echo", "3"}}});
+  records_of("--resume", 2);
+  EXPECT_EQ(
+      bench_.content("err.txt"),
+      "bench: o/records.jsonl:1: program: another than now, for Mesh0/default/EXTERNAL:one\n");
+}
+
+TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
+  write_right();
+  std::filesystem::create_directories(bench_.path("tmp"));
+  declare("one", "condensed",
+          "sleep 1000 & setsid sleep 1000 & echo $! > orphan; echo $$ > new; mv new pid; wait");
+  setenv("TMPDIR", bench_.path("tmp").c_str(), 1);
+  testing::BackgroundRun run(bench_,
+                             "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o");
+  unsetenv("TMPDIR");
+  testing::wait_for([&] { return std::filesystem::exists(bench_.path("pid")); });
+  const int status = run.end(SIGINT);
+  EXPECT_TRUE(WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == 130);
+  for (const char* file : {"pid", "orphan"})
+    testing::wait_for([&] { return kill(std::stoi(bench_.content(file)), 0) != 0; });
+  testing::wait_for([&] { return std::filesystem::is_empty(bench_.path("tmp")); });
 }
 
 TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
@@ -182,8 +214,8 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   refused(with({{"reads", "airy"}, {"returns", "airy_function"}, {"format", "fclib"}}),
           "format: \"fclib\" (allowed: matrix-market");
   refused(without("command"), "command: is missing (allowed: a list of texts, the program first)");
-  for (const Json& command : {Json("true"), Json::array(), Json::array({"", "a"}),
-                              Json::array({"true", 1})})
+  for (const Json& command :
+       {Json("true"), Json::array(), Json::array({"", "a"}), Json::array({"true", 1})})
     refused(with({{"command", command}}), "command: " + command.dump() + " (allowed: a list of ");
   refused(with({{"command", {"true", "{outpt}"}}}), "command: \"{outpt}\" (allowed: {input}, ");
   refused(with({{"first_tolerance", 0}}), "first_tolerance: 0 (allowed: a number > 0)");

@@ -38,7 +38,9 @@ class ProcessTree : public ::testing::Test {
   ProcessTreeEnd run(const std::string& script, const ProcessLimits& limits = {patience_s}) const {
     return run_process_tree(shell(script), limits);
   }
-  pid_t pid_in(const std::string& file) const { return std::stoi(testing::text_of(folder_ / file)); }
+  pid_t pid_in(const std::string& file) const {
+    return std::stoi(testing::text_of(folder_ / file));
+  }
   void expect_nobody_is_left() const {
     for (const char* file : {"child", "orphan", "program"})
       EXPECT_TRUE(is_gone(pid_in(file))) << file;

@@ -46,8 +46,9 @@ inline RightAnswer right_answer(const Scene& scene = {}) {
     const auto n = static_cast<Eigen::Index>(vertex.size());
     const auto [a, b] = node < n ? std::array{static_cast<int>(node), static_cast<int>(node)}
                                  : problem->edges.vertices[node - n];
-    const Eigen::Vector2d u = node < n ? Eigen::Vector2d(w.col(node))
-                                       : Eigen::Vector2d((w.col(a) + 2 * w.col(node) + w.col(b)) / 4);
+    const Eigen::Vector2d u = node < n
+                                  ? Eigen::Vector2d(w.col(node))
+                                  : Eigen::Vector2d((w.col(a) + 2 * w.col(node) + w.col(b)) / 4);
     right.displacement_mm.row(node) = u + problem->motion.at((vertex[a] + vertex[b]) / 2);
   }
   return right;

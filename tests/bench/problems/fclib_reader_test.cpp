@@ -160,14 +160,19 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
     return contents_of(problem, storage);
   };
   refused({}, "/fclib_local: is missing (allowed: a condensed (local) problem)");
-  refused({{"/fclib_global/spacedim", whole({2})}},
-          "/fclib_local: is missing, there is /fclib_global (allowed: a condensed (local) problem)");
+  refused(
+      {{"/fclib_global/spacedim", whole({2})}},
+      "/fclib_local: is missing, there is /fclib_global (allowed: a condensed (local) problem)");
   refused(with("spacedim", whole({3})), "/fclib_local/spacedim: 3 (allowed: 2)");
-  refused(with("W/m", whole({3})), "/fclib_local/W/m: 3 (allowed: an even number: two per contact)");
-  refused(with("W/m", whole({-4})), "/fclib_local/W/m: -4 (allowed: a whole number from 2 to 20000)");
-  refused(with("W/m", {{4}}), "/fclib_local/W/m: values of another kind (allowed: 1 whole numbers)");
+  refused(with("W/m", whole({3})),
+          "/fclib_local/W/m: 3 (allowed: an even number: two per contact)");
+  refused(with("W/m", whole({-4})),
+          "/fclib_local/W/m: -4 (allowed: a whole number from 2 to 20000)");
+  refused(with("W/m", {{4}}),
+          "/fclib_local/W/m: values of another kind (allowed: 1 whole numbers)");
   refused(with("W/n", whole({6})), "/fclib_local/W/n: 6 (allowed: 4)");
-  refused(with("W/nz", whole({-3})), "/fclib_local/W/nz: -3 (allowed: a whole number from -2 to 6)");
+  refused(with("W/nz", whole({-3})),
+          "/fclib_local/W/nz: -3 (allowed: a whole number from -2 to 6)");
   refused(with("W/nzmax", whole({17})),
           "/fclib_local/W/nzmax: 17 (allowed: a whole number from 1 to 16)");
   refused(with("W/p", whole({0, 1})), "/fclib_local/W/p: 2 values (allowed: 5 whole numbers)");
@@ -238,8 +243,8 @@ TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
 }
 
 // One contact, by hand: W = I, q = (−1, 0.5), μ = 0.5, r = (2, 0): u = r + q = (1, 0.5), û = (1.25,
-// 0.5), r − û = (0.75, −0.5) is outside of the cone: nearest n = (0.75 + 0.25)/1.25 = 0.8, t = −0.4;
-// the difference to r is (1.2, 0.4); the largest of ‖r‖ = 2, ‖u‖ and ‖q‖ is 2.
+// 0.5), r − û = (0.75, −0.5) is outside of the cone: nearest n = (0.75 + 0.25)/1.25 = 0.8, t =
+// −0.4; the difference to r is (1.2, 0.4); the largest of ‖r‖ = 2, ‖u‖ and ‖q‖ is 2.
 TEST(SiconosError, OfOneContactByHand) {
   const auto given = std::make_shared<GivenContact>();
   given->D = Eigen::Matrix2d::Identity();

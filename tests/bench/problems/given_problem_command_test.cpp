@@ -69,8 +69,8 @@ TEST_F(GivenProblemCommand, PlansAreShown) {
 TEST_F(GivenProblemCommand, WrongUseIsRefused) {
   const std::string problem = "--problem=fclib/problem.hdf5 ";
   refused(problem + "--method=NONE", "no method matches 'NONE' (valid: ");
-  for (const char* option : {"--mesh=Mesh0", "--scene=a.json", "--figure=3", "--study=error",
-                             "--adapt=1%", "--fields"})
+  for (const char* option :
+       {"--mesh=Mesh0", "--scene=a.json", "--figure=3", "--study=error", "--adapt=1%", "--fields"})
     refused(problem + option, std::string(option).substr(0, std::string(option).find('=')) +
                                   ": not with --problem, which has no body");
   refused("--problem=fclib/problem.hdf5,fclib/problem.hdf5", "--problem: fclib/problem.hdf5 (allo");
