@@ -15,7 +15,8 @@ namespace {
 [[noreturn]] void refuse_item(std::string_view item, const std::string& why) {
   throw std::invalid_argument("mesh '" + shortened(item) + "': " + why +
                               " (valid: Mesh0..Mesh7, a list Mesh0,Mesh3, a range Mesh1..Mesh4, "
-                              "a glob Mesh[0-3], or files *.msh, " +
+                              "a glob Mesh[0-3], any of these with +refine1 … +refine" +
+                              std::to_string(most_named_refinements) + ", or files *.msh, " +
                               std::string(model_extensions) + ")");
 }
 
@@ -28,6 +29,13 @@ std::size_t catalogue_row(std::string_view name, std::string_view item) {
 std::vector<std::string> expand_item(std::string_view item) {
   if (item.empty()) refuse_item(item, "empty");
   if (is_mesh_file(item)) return {std::string(item)};
+  if (const auto plus = item.find('+'); plus != item.npos) {
+    const std::optional<RefinedName> refined = parse_refined_name(item);
+    if (!refined) refuse_item(item, "no such suffix");
+    std::vector<std::string> names = expand_item(refined->name);
+    for (std::string& name : names) name += item.substr(plus);
+    return names;
+  }
 
   std::size_t first = 0, last = 0;
   if (const auto dots = item.find(".."); dots != item.npos) {
@@ -49,6 +57,16 @@ std::vector<std::string> expand_item(std::string_view item) {
 }
 
 }  // namespace
+
+std::optional<RefinedName> parse_refined_name(std::string_view name) {
+  constexpr std::string_view suffix = "+refine";
+  const auto at = name.find('+');
+  if (at == 0 || at == name.npos || name.size() != at + suffix.size() + 1) return {};
+  const int times = name.back() - '0';
+  if (name.substr(at, suffix.size()) != suffix || times < 1 || times > most_named_refinements)
+    return {};
+  return RefinedName{name.substr(0, at), times};
+}
 
 bool is_mesh_file(std::string_view item) {
   return item.find('/') != item.npos || format_of(item) != ModelFormat::other;

@@ -5,7 +5,9 @@
 
 The figures are those that the modules *_figure.py beside this program plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
-table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue.
+table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
+budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
+the records were measured, in words for a paper.
 
 Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
@@ -15,15 +17,18 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from functools import partial
 from importlib import import_module
 from pathlib import Path
 
 import matplotlib
 
+import budgets
 import command
 from figure_files import Drawing
 from figure_parts import STYLE
 from figure_words import merged
+from measured import paragraph
 from paper_sizes import table1
 from record_keys import Row
 from records import read_run, rows_of
@@ -73,9 +78,14 @@ def draw_all(rows: list[Row], out: Path) -> None:
     if sizes:
         writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
         report.append(f"{out / 'table1.md'}")
-    if writers:
-        out.mkdir(parents=True, exist_ok=True)
-        command.replace_all(out, writers)
+    if cases := budgets.cases_of(rows):
+        for name, table in (("budget.csv", budgets.csv_table), ("budget.md", budgets.markdown)):
+            writers[name] = partial(Path.write_text, data=table(cases), encoding="utf-8")
+        report.append(f"{out / 'budget'}.csv, .md")
+    writers["measured.md"] = lambda path: path.write_text(paragraph(rows), encoding="utf-8")
+    report.append(f"{out / 'measured.md'}")
+    out.mkdir(parents=True, exist_ok=True)
+    command.replace_all(out, writers)
     undrawn = listed(rows, drawn)
     print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
 

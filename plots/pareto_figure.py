@@ -98,6 +98,7 @@ def with_knob(row: Row) -> str:
 def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
     """Cells of TABLE for each level, the largest error first."""
     stress = [row for row in rows if not row.in_displacements]
+    several = len(displacements_of(rows)) > 1
     lines = []
     for level in reversed(levels([row.error_total for row in rows])):
         cells = [parts.percent(level)]
@@ -105,7 +106,8 @@ def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
                             (cheapest([row for row in rows if row.in_displacements], level),
                              False)):
             own = [with_knob(best) if best else "–"] if named else []
-            cells += own + ([best.mesh, parts.seconds(best.time_s),
+            which = f"{best.method}, " if best and several and not named else ""
+            cells += own + ([which + best.mesh, parts.seconds(best.time_s),
                              parts.mebibytes(best.peak_heap_bytes)] if best else ["–"] * 3)
         lines.append(tuple(cells))
     return lines
@@ -149,8 +151,13 @@ def draw(rows: list[Row]) -> Figure | str:
 
 def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     names = displacements_of(known)
-    others = (f"The displacement method {' and '.join(names)} has its own curve; by definition it "
-              "has the mesh's error. ") if names else ""
+    others = ""
+    if len(names) == 1:
+        others = (f"The displacement method {names[0]} has its own curve; by definition it has the "
+                  "mesh's error. ")
+    elif names:
+        others = (f"The displacement methods {', '.join(names[:-1])} and {names[-1]} have their own "
+                  "curves and errors. ")
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
     tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
     adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
@@ -263,7 +270,8 @@ def draw_table(figure: Figure, top: float, displacements: list[str],
                lines: list[tuple[str, ...]]) -> None:
     """Columns as wide as their widest cell, spread over the page."""
     height = figure.get_size_inches()[1]
-    heads = [f"{'/'.join(displacements)}: mesh" if head.startswith("displ") else head
+    who = displacements[0] if len(displacements) == 1 else "displacements"
+    heads = [f"{who}: mesh" if head.startswith("displ") else head
              for head in TABLE][:None if displacements else 5]
     table = [heads, *lines]
     widths = [max(width_of(cell, 8, "bold") for cell in column) / 72 for column in zip(*table)]

@@ -22,7 +22,8 @@ from selection import grouped
 
 LEFT, TOP, PANEL, BETWEEN, BOTTOM = 0.72, 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
-SETS = {"": "", "stability": "_stability", "adapted": "_adapted"}  # study -> end of the file's name
+SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
+        "load-steps": "_load_steps"}  # study -> end of the file's name
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,9 @@ TIMES = Kind("a list of numbers above 0", is_times, empty=None, may_be_empty=Tru
 SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None,
              may_be_empty=True)
 
+WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
+    map(is_text, value.values())), empty=None, may_be_empty=True)
+
 
 def key(kind: Kind, needed: bool = False) -> object:
     """needed: figures do without none of these."""
@@ -110,6 +113,7 @@ class Row:
     general_name: str = key(NAME, needed=True)    # the same for all names of a method
     family: str = key(NAME, needed=True)
     preconditioner: str = key(TEXT, needed=True)
+    program: str = key(TEXT)                      # another's, with its version; empty: ours
     iterative: bool = key(FLAG, needed=True)      # it has a stop to choose
     in_paper: bool = key(FLAG, needed=True)
     in_displacements: bool = key(FLAG, needed=True)  # another discrete problem
@@ -129,13 +133,20 @@ class Row:
     time_s: float | None = key(POSITIVE, needed=True)
     time_mad_s: float | None = key(NOT_NEGATIVE)
     samples_s: list[float] | None = key(TIMES)    # of time_s, every timed run; in records.jsonl only
+    precision: float | None = key(SHARE)          # that repetitions went on for …
+    precision_reached: bool = key(FLAG)           # … and whether they got there
     load_steps: int | None = key(COUNT)
     time_once_s: float | None = key(NOT_NEGATIVE)     # of time_s, for the body …
     time_per_load_s: float | None = key(NOT_NEGATIVE)  # … and for each load step
     assembly_s: float | None = key(NOT_NEGATIVE)
     stage_contact_s: float | None = key(NOT_NEGATIVE)
     stage_check_s: float | None = key(NOT_NEGATIVE)
+    noise_kernel_s: float | None = key(POSITIVE)  # a loop that is always the same, beside the case …
+    busy_kernel_s: float | None = key(POSITIVE)   # … and on all threads at once
+    noise_kernel_samples_s: list[float] | None = key(TIMES)  # in records.jsonl only, as samples_s
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
+    tuning_budget_s: float | None = key(NOT_NEGATIVE)
+    tuning_cut: bool = key(FLAG)                  # the search ended for lack of time
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)
@@ -150,6 +161,7 @@ class Row:
     target_error: float | None = key(POSITIVE)
     error_stress: float | None = key(NOT_NEGATIVE)
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
+    reference_error: float | None = key(NOT_NEGATIVE)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)
     adapt_level: int | None = key(COUNT)          # of an adaptive loop; None: the mesh as it is
@@ -157,12 +169,14 @@ class Row:
     condition_estimate: float | None = key(NOT_NEGATIVE)  # of what the method factorises
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps"), may_be_empty=True))
+    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps", "scaling"),
+                           may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)
     knob: str = key(TEXT)  # what an error study turned; empty: nothing, this is the one point
     knob_value: float | None = key(NOT_NEGATIVE)
+    context: dict | None = key(WORDS)  # where and with what; in records.jsonl only
     body: str = ""         # that the mesh divides; from the keys above
     look: Look = Look()    # of its family
 

@@ -77,6 +77,7 @@ const std::vector<Method>& methods() {
         METHOD(three_step_lean),
         METHOD(three_step_cholmod),
         METHOD(hybrid),
+        METHOD(hybrid_cg),
         METHOD(p2),
     };
     for (const char* family : {"SYMMLQ:", "3STEPCG:"})

@@ -27,4 +27,10 @@ std::optional<std::int64_t> parse_whole(std::string_view text) {
   return parse_all<std::int64_t>(text);
 }
 
+std::optional<double> parse_percent(std::string_view text) {
+  if (!text.ends_with('%')) return {};
+  const std::optional<double> percent = parse_number(text.substr(0, text.size() - 1));
+  return percent && *percent > 0 && *percent < 100 ? std::optional(*percent / 100) : std::nullopt;
+}
+
 }  // namespace airybench

@@ -8,11 +8,7 @@ namespace airybench {
 
 std::optional<AdaptGoal> adapt_goal_of(const std::string& text) {
   constexpr std::int64_t most_unknowns = 5'000'000;
-  if (text.ends_with('%')) {
-    const std::optional<double> percent = parse_number(text.substr(0, text.size() - 1));
-    if (!percent || !(*percent > 0 && *percent < 100)) return {};
-    return AdaptGoal{*percent / 100, {}};
-  }
+  if (const std::optional<double> error = parse_percent(text)) return AdaptGoal{error, {}};
   const std::optional<std::int64_t> unknowns = parse_whole(text);
   if (!unknowns || *unknowns < 1 || *unknowns > most_unknowns) return {};
   return AdaptGoal{{}, static_cast<int>(*unknowns)};

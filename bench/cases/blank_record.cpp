@@ -41,6 +41,8 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   if (!problem.given) note(problem.mesh, record);
   describe(method, record);
   record.threads = options.threads;
+  record.precision = options.precision;
+  record.tuning_budget_s = options.tuning_budget_s;
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;
@@ -81,6 +83,7 @@ void identify(const Case& planned, Record& record) {
   record.case_number = planned.number;
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
+  if (planned.knob.threads) record.threads = *planned.knob.threads;
   record.study = name_of(planned.study);
   record.stop = planned.stop;
   record.contact_solver = planned.contact;

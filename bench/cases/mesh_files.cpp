@@ -9,6 +9,7 @@
 #include "bench/records/case_name.hpp"
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
+#include "mesh/refinement.hpp"
 #include "mesh/selection.hpp"
 #include "support/atomic_file.hpp"
 #include "support/data_folder.hpp"
@@ -43,6 +44,15 @@ MeshFile converted(const std::filesystem::path& model, const MeshChoice& choice)
   return file;
 }
 
+// Of the catalogue; made in memory, its file is never there.
+MeshFile refined_mesh(const std::filesystem::path& path, const RefinedName& refined) {
+  MeshFile file{path, "", read_msh(path.parent_path() / (std::string(refined.name) + ".msh"))};
+  for (int i = 0; i < refined.times; ++i) file.mesh = uniformly_refined(file.mesh);
+  file.mesh.name = path.stem().string();
+  file.sha256 = sha256_hex(msh_text(file.mesh));
+  return file;
+}
+
 MeshFile read_or_convert(const std::filesystem::path& path, const MeshChoice& choice) {
   const ModelFormat format = format_of(path);
   if (format == ModelFormat::geo || format == ModelFormat::cad) return converted(path, choice);
@@ -57,6 +67,9 @@ MeshFile read_or_convert(const std::filesystem::path& path, const MeshChoice& ch
 }  // namespace
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
+  if (is_of_catalogue(path))
+    if (const auto refined = parse_refined_name(path.stem().string()))
+      return refined_mesh(path, *refined);
   Mesh mesh = read_msh(path);
   check_name(mesh, path);
   return {path, sha256_of_file(path), std::move(mesh)};

@@ -19,7 +19,9 @@ struct MeshFile {
 // The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one that comes with this program.
 std::filesystem::path mesh_directory();
 
-// Throws MeshError, std::invalid_argument: the file's name is no name of a mesh.
+// Also Mesh3+refine2.msh beside Mesh3.msh of the catalogue, which is made in memory; its SHA-256 is
+// that of the file it would be. Throws MeshError, std::invalid_argument: the file's name is no name
+// of a mesh.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 // What the command line says of meshes.

@@ -15,6 +15,8 @@
 
 namespace airybench {
 
+inline constexpr int most_threads = 1024;
+
 struct Options {
   std::string meshes = "Mesh0..Mesh3";
   std::vector<std::string>
@@ -34,8 +36,13 @@ struct Options {
   Shard shard;                           // the part of the plan that is run
   bool interleave = false;               // repetitions of a scene's cases in random turn
   int repetitions = 5;
-  int threads = 1;
+  std::optional<double> precision;  // repetitions go on until the median is known to this share …
+  int max_repetitions = 1000;       // … at most so many
+  int threads = 1;                  // of the scaling study the most
+  std::vector<int> thread_counts = {1};            // of the scaling study, from 1 on
   double timeout_s = 900;                          // per solve
+  std::optional<double> tuning_budget_s;           // of a case's search for parameters, tolerances
+  std::vector<double> budgets_s;                   // of the error study: --budget
   double long_case_s = 30;                         // a longer solve is measured once
   std::optional<std::int64_t> memory_limit_bytes;  // of heap per solve, blocks included
   std::vector<AdaptGoal> adapt;     // refine the meshes where the error is, until each of these …

@@ -16,7 +16,8 @@ namespace airybench {
 
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study, Stop stop,
-                             std::optional<ContactSolver> contact) {
+                             std::optional<ContactSolver> contact,
+                             const std::vector<int>& thread_counts) {
   std::vector<Case> cases;
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
     const Stop own_stop = knob.stop.value_or(stop);
@@ -37,6 +38,9 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
           add(scene, std::move(point.method), std::move(point.knob));
       else if (study == Study::contact || (scene.problem->given && !contact))
         for (TurnedMethod& point : contact_points(method))
+          add(scene, std::move(point.method), std::move(point.knob));
+      else if (study == Study::scaling)
+        for (TurnedMethod& point : scaling_points(method, thread_counts))
           add(scene, std::move(point.method), std::move(point.knob));
       else
         add(scene, method, {});

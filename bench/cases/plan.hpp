@@ -42,10 +42,11 @@ struct Case {
 };
 
 // Scene by scene, so that methods on the same blocks run after one another. contact: none: Newton,
-// and of given contact problems all of them.
+// and of given contact problems all of them. thread_counts: of the scaling study.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, Study study = Study::none,
-                             Stop stop = Stop::target, std::optional<ContactSolver> contact = {});
+                             Stop stop = Stop::target, std::optional<ContactSolver> contact = {},
+                             const std::vector<int>& thread_counts = {1});
 
 // SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
 std::string fingerprint(const std::vector<Case>& plan);

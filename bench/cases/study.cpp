@@ -64,6 +64,8 @@ std::string name_of(Study study) {
       return "adapted";
     case Study::load_steps:
       return "load-steps";
+    case Study::scaling:
+      return "scaling";
     default:
       return "";
   }
@@ -81,6 +83,16 @@ std::vector<TurnedMethod> contact_points(const Method& method) {
   for (const ContactSolver solver : all_contact_solvers)
     points.push_back(turned(method, {"", {}, {}, solver},
                             [solver](RunControl& control) { control.contact = solver; }));
+  return points;
+}
+
+std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector<int>& threads) {
+  std::vector<TurnedMethod> points;
+  for (const int count : threads) {
+    points.push_back(turned(method, {"threads", count, {}, {}, count},
+                            [count](RunControl& control) { control.threads = count; }));
+    points.back().method.first_tolerance = method.first_tolerance;  // tightened as ever
+  }
   return points;
 }
 
@@ -127,6 +139,8 @@ std::optional<StudyDefaults> defaults_of(Study study) {
       return StudyDefaults{"Mesh0,Mesh4", 60};
     case Study::load_steps:
       return StudyDefaults{"Mesh3", 120};
+    case Study::scaling:
+      return StudyDefaults{"Mesh4..Mesh7", 120};
     default:
       return {};
   }
@@ -143,6 +157,7 @@ std::string default_methods(Study study) {
            "BLIND:SCHUR:REFINED,HYBRID,P2";
   if (study == Study::load_steps)
     return "3STEPD:CHOLMOD,ALM:r=20,rho=20,ALM:AUTO,BLIND:SCHUR,HYBRID,P2";
+  if (study == Study::scaling) return "3STEPD,3STEPD:CHOLMOD,BLIND,BLIND:SCHUR,HYBRID,SDTIC6";
   if (study == Study::none) {
     std::string names;
     for (const Method& method : methods())

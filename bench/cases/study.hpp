@@ -12,6 +12,8 @@
 //              them stand edges of a ten-thousandth of the body's size
 //   load-steps methods that condense, and that do not, along paths of 1 to 50 equal steps
 //              (bench/scenes/load-steps): what a body costs once, and what every load case
+//   scaling    every method on 1, 2, … threads, on every mesh: the same problem on more threads
+//              (strong scaling) and, between meshes, more unknowns on more threads (weak scaling)
 #pragma once
 
 #include <array>
@@ -25,9 +27,10 @@
 
 namespace airybench {
 
-enum class Study { none, error, stability, contact, adapted, load_steps };
-inline constexpr std::array<Study, 5> all_studies = {Study::error, Study::stability, Study::contact,
-                                                     Study::adapted, Study::load_steps};
+enum class Study { none, error, stability, contact, adapted, load_steps, scaling };
+inline constexpr std::array<Study, 6> all_studies = {Study::error,      Study::stability,
+                                                     Study::contact,    Study::adapted,
+                                                     Study::load_steps, Study::scaling};
 // Its records have the condition number of what the method factorises.
 constexpr bool asks_for_condition(Study study) {
   return study == Study::stability || study == Study::adapted;
@@ -41,6 +44,7 @@ struct Knob {
   std::optional<double> value;
   std::optional<Stop> stop;  // another than the run's
   std::optional<ContactSolver> contact;
+  std::optional<int> threads = {};  // another number than the run's
 };
 
 struct TurnedMethod {
@@ -52,6 +56,8 @@ struct TurnedMethod {
 std::vector<TurnedMethod> error_points(const Method& method);
 // With every contact solver.
 std::vector<TurnedMethod> contact_points(const Method& method);
+// On each of these numbers of threads.
+std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector<int>& threads);
 
 // What a study measures, and how long it waits, where it is not told.
 struct StudyDefaults {

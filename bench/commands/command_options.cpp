@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "bench/commands/command_line.hpp"
+#include "bench/commands/measuring_options.hpp"
 #include "bench/measuring/build_info.hpp"
 #include "bench/records/json.hpp"
 #include "support/lists.hpp"
@@ -103,7 +104,6 @@ void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::p
 
 Options parse_options(int argc, const char* const* argv) {
   Options options;
-  constexpr double most_of_a_limit = 1e9;
   CLI::App app(
       "Time, memory and error of methods for stress-formulated contact with friction, for every "
       "mesh, scene and method chosen.",
@@ -146,7 +146,8 @@ Options parse_options(int argc, const char* const* argv) {
                  "(every method on the extreme scenes of bench/scenes/stability), contact (every "
                  "contact solver on the same condensed problems, bench/scenes/contact), adapted "
                  "(the methods on adapted meshes of tooth and rack: --adapt=1.5%,0.5%,0.15% "
-                 "--levels=last) or load-steps (paths of 1 to 50 steps, bench/scenes/load-steps)")
+                 "--levels=last), load-steps (paths of 1 to 50 steps, bench/scenes/load-steps) or "
+                 "scaling (every method on 1, 2, … threads)")
       ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
   add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
@@ -169,12 +170,40 @@ Options parse_options(int argc, const char* const* argv) {
       app, "--repetitions", 1, 100000, options.repetitions,
       [&](std::int64_t count) { options.repetitions = static_cast<int>(count); },
       "timed runs of each case");
+  std::string precision;
+  CLI::Option* precise = app.add_option(
+      "--precision", precision,
+      "a share, as 2%: timed runs go on after --repetitions until both ends of the 95 % interval "
+      "of "
+      "the median time are at most so far from it; at most --max-repetitions, or --long-case "
+      "seconds of solves; the record says whether it was reached");
   add_whole(
-      app, "--threads", 1, 1024, options.threads,
-      [&](std::int64_t count) { options.threads = static_cast<int>(count); },
-      "threads of BLAS and for right-hand sides");
+      app, "--max-repetitions", 1, 100000, options.max_repetitions,
+      [&](std::int64_t count) { options.max_repetitions = static_cast<int>(count); },
+      "with --precision: the most timed runs of each case")
+      ->needs(precise);
+  std::string threads = "1";
+  CLI::Option* given_threads =
+      app.add_option(
+             "--threads", threads,
+             "threads of BLAS and for right-hand sides; with --study=scaling a list (1,2,4; "
+             "1 is always among them), by default 1, 2, 4, … up to the processors")
+          ->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
              "seconds that one solve may take; one that does not end by itself is ended");
+  double tuning_budget_s = options.timeout_s;
+  CLI::Option* tuning_budget =
+      add_number(
+          app, "--tuning-budget", Least::above_zero, most_of_a_limit, tuning_budget_s,
+          "seconds that each case may search for parameters and tolerances: no other is tried "
+          "afterwards, and the best found is kept; default: --timeout, and six tolerances")
+          ->default_str("");
+  std::string budgets;
+  CLI::Option* budget = app.add_option(
+      "--budget", budgets,
+      "with --study=error: seconds, one or several (0.01,0.1): the least error of every method "
+      "with "
+      "a solve of at most that time (figures/budget.csv); a solve is ended at twice the largest");
   add_number(
       app, "--long-case", Least::above_zero, most_of_a_limit, options.long_case_s,
       "seconds: a longer solve is measured once, and repetitions end when they add up to this");
@@ -253,6 +282,7 @@ Options parse_options(int argc, const char* const* argv) {
     options.shard = *part;
   }
   options.study = study_of(study);
+  if (precise->count() > 0) read_precision(precision, options);
   if (options.study == Study::adapted && adapt.empty()) {
     adapt = "1.5%,0.5%,0.15%";
     levels = "last";
@@ -297,7 +327,14 @@ Options parse_options(int argc, const char* const* argv) {
     if (app.get_option("--mesh")->count() == 0) options.meshes = defaults->meshes;
     if (app.get_option("--timeout")->count() == 0) options.timeout_s = defaults->timeout_s;
   }
+  if (options.study == Study::scaling && options.interleave)
+    throw UsageError(
+        "--interleave: not with --study=scaling: BLAS's idle threads of one case are awake in "
+        "another's time");
   if (options.study == Study::stability) options.repetitions = 1;
+  if (tuning_budget->count() > 0) options.tuning_budget_s = tuning_budget_s;
+  if (budget->count() > 0) read_budgets(budgets, app.get_option("--timeout")->count() > 0, options);
+  read_threads(threads, given_threads->count() > 0, options);
   return options;
 }
 

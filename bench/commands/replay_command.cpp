@@ -95,6 +95,19 @@ double setting(const Context& context, const std::string& key, double otherwise)
   return *value;
 }
 
+// Of the run of a scaling study: "1,2,4".
+std::vector<int> thread_counts_of(const Context& context) {
+  std::vector<int> counts;
+  for (const std::string& word : split_list(context_word(context, "threads"))) {
+    const std::int64_t count = parse_whole(word).value_or(0);
+    if (count < 1 || count > most_threads)
+      throw FileError(fmt::format("context: threads: {} (allowed: whole numbers from 1 to {})",
+                                  shortened(word), most_threads));
+    counts.push_back(static_cast<int>(count));
+  }
+  return counts;
+}
+
 Options options_of(const Record& record, const Context& context, std::filesystem::path out) {
   Options options;
   options.out = std::move(out);
@@ -105,9 +118,17 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   else
     options.stop = record.stop;
   if (record.study != name_of(Study::error)) options.study = study_of(record.study);
+  if (options.study == Study::scaling) {
+    options.thread_counts = thread_counts_of(context);
+    options.threads = options.thread_counts.back();
+  }
   if (options.study == Study::none && record.contact_solver)
     options.contact = *record.contact_solver;
   options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
+  options.precision = record.precision;
+  options.tuning_budget_s = record.tuning_budget_s;
+  options.max_repetitions =
+      static_cast<int>(setting(context, "max_repetitions", options.max_repetitions));
   const auto interleaved = context.find("interleaved");
   options.interleave = interleaved != context.end() && interleaved->second == "yes";
   options.timeout_s = setting(context, "timeout_s", options.timeout_s);
@@ -143,7 +164,7 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
   const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop,
-                               options.contact);
+                               options.contact, options.thread_counts);
   for (const Case& c : plan)
     if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop &&
         (!record.contact_solver || c.contact == record.contact_solver))

@@ -26,6 +26,7 @@
 #include "bench/measuring/noise_kernel.hpp"
 #include "bench/records/json.hpp"
 #include "bench/running/progress.hpp"
+#include "bench/running/repetitions.hpp"
 #include "bench/running/runner.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
@@ -95,7 +96,7 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
   const PastRecords past = read_committed_records(options.out);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
-  const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
+  const RunLimits limits = {least_repetitions(options), options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes, options.study == Study::stability};
   fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
   print_left_out(plan, options);
@@ -109,7 +110,7 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
   const std::optional<double> spread =
       noise.empty() ? std::nullopt : std::optional(summarise_noise(noise).spread());
   for (const std::string& warning :
-       machine_warnings(machine_state(context, options.repetitions, spread)))
+       machine_warnings(machine_state(context, least_repetitions(options), spread)))
     fmt::print("note: {}\n", warning);
 }
 
@@ -134,7 +135,7 @@ std::vector<Case> plan_of(const Options& options, std::vector<std::string>& shor
   const std::vector<PosedScene> scenes =
       options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
-                                      options.stop, options.contact);
+                                      options.stop, options.contact, options.thread_counts);
   if (!options.filter.empty()) plan = matching(plan, options.filter);
   if (plan.empty() && short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");

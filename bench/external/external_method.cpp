@@ -261,7 +261,7 @@ Method external_method(const Declaration& declaration,
   }
   if (declaration.reads != Declaration::Reads::condensed) method.stages = {Stage::recover};
   method.name = "EXTERNAL:" + declaration.name;
-  method.family = "EXTERNAL";
+  method.family = method.name;
   method.summary = declaration.summary;
   method.program = declaration.version;
   method.knob =

@@ -9,7 +9,6 @@
 #include <array>
 #include <cerrno>
 #include <chrono>
-#include <cmath>
 #include <csignal>
 #include <ctime>
 #include <fstream>
@@ -21,10 +20,10 @@
 namespace airybench {
 namespace {
 
-// A program that ends soon is looked at more often: after every tenth of the time that it has run.
-timespec until_next_look(double ran_s) {
-  constexpr double most_often_s = 1e-3, least_often_s = 1e-2;
-  return {0, std::lround(1e9 * std::clamp(ran_s / 10, most_often_s, least_often_s))};
+// A short life is looked at more often.
+timespec until_next_look(double elapsed_s) {
+  const double wait_s = std::clamp(elapsed_s / 50, 1e-3, 10e-3);
+  return {0, static_cast<long>(wait_s * 1e9)};
 }
 
 // All processes below this one, the nearest first.

@@ -10,7 +10,6 @@
 
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
-#include "support/text_table.hpp"
 
 namespace airybench {
 
@@ -58,7 +57,7 @@ std::vector<std::string> printed_lines(const std::filesystem::path& file) {
 std::string how_it_ended(const ProcessTreeEnd& end, double limit_s) {
   if (end.start_error != 0)
     return "cannot be started: " + std::generic_category().message(end.start_error);
-  if (end.timed_out) return "was ended after the limit of " + show_seconds(limit_s);
+  if (end.timed_out) return fmt::format("was ended after the limit of {:.3g} s", limit_s);
   if (end.over_memory) return "was ended: it passed the memory limit";
   if (end.signal != 0) return fmt::format("was ended by SIG{}", sigabbrev_np(end.signal));
   return fmt::format("ended with exit code {}", end.exit_code);

@@ -36,7 +36,7 @@ std::filesystem::path fields_of(const Case& c, const Options& options) {
 // The case's own process.
 void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
                 const ActivityBoard& board) {
-  set_threads(options.threads);
+  set_threads(c.knob.threads.value_or(options.threads));
   const heap::Backstop backstop(options.memory_limit_bytes);
   Record record;
   Workbench::Choice choice;
@@ -67,7 +67,7 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
 // What an activity may take, before the grace.
 double limit_s(const ActivityBoard& board, const Options& options) {
   constexpr double least_for_others_s = 900;
-  return is_run(board.activity()) ? options.timeout_s
+  return is_run(board.activity()) ? run_limit_s(board.activity(), options)
                                   : std::max(options.timeout_s, least_for_others_s);
 }
 

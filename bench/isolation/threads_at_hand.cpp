@@ -32,6 +32,10 @@ bool can_start(int threads) {
 
 }  // namespace
 
+int processors_at_hand() {
+  return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
 std::string lack_of_address_space(int threads) {
   constexpr std::uint64_t MiB = 1024 * 1024;
   // A thread's stack and BLAS's buffer of 128 MiB; the program itself.

@@ -7,6 +7,9 @@
 
 namespace airybench {
 
+// Processors that this process may run on.
+int processors_at_hand();
+
 // Why the address space (ulimit -v) is too small for so many threads, and for those that BLAS has
 // started by itself; empty: it is not.
 std::string lack_of_address_space(int threads);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "assembly/edge_forces.hpp"
+#include "assembly/rough_compliance.hpp"
+#include "bench/judging/moments_check.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
@@ -122,6 +124,17 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   if (contact.components == 2) result.friction_coupling = friction_coupling(contact, condensed.D);
 }
 
+void verify_moments(const DualSystem& system, const Solution& solution, const LoadScale& scale,
+                    Verification& result) {
+  const MomentsCheck check = check_moments(system, solution.edge_moments);
+  result.stress_of_moments_off = relative_error(
+      stress_distance(*system.problem, solution.stress, check.stress),
+      std::sqrt(stress_norm_squared(*system.problem, solution.stress)), scale.energy_norm);
+  if (system.contact.count > 0)
+    note_contact_law(system.contact, solution.F_C, check.contact_displacement,
+                     rough_compliance(*system.problem, system.contact), scale, result);
+}
+
 double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
   return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
 }
@@ -217,6 +230,8 @@ Verification verify(const DualSystem& system, const Solution& solution,
     result.reference_error = reference->error_estimate;
   }
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
+  if (reference == nullptr && solution.edge_moments.cols() > 0)
+    verify_moments(system, solution, scale, result);
   return result;
 }
 
@@ -228,6 +243,7 @@ WorstMeasure worst_measure(const Verification& v) {
   consider("error_stress", v.error_stress);
   consider("error_force", v.error_force);
   consider("natural_map_residual", v.natural_map_residual);
+  consider("distance of stresses from those of the edge moments", v.stress_of_moments_off);
   return worst;
 }
 

@@ -28,6 +28,9 @@ struct Verification {
   std::optional<double> error_force;
   std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
   std::optional<double> reference_error;        // of the reference, by its own estimate
+  // Without a reference, of an answer with edge moments: how far its stresses are from those of the
+  // moments, relative in the energy norm. No error: see moments_check.hpp.
+  std::optional<double> stress_of_moments_off;
   // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
   // relative to the loads then.
   bool unstressed = false;
@@ -45,7 +48,8 @@ struct Verification {
   std::optional<double> siconos_error;  // of a given problem
 };
 
-// reference: may be null.
+// reference: may be null. The contact law is then checked with the answer's own edge moments, where
+// it has any, and ρ = 1/rough_compliance.
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
 
 // The same for a displacement method, another discrete problem that has no reference: judged by its

@@ -30,6 +30,11 @@ bool is_run(Activity activity) {
          activity == Activity::memory_run || activity == Activity::timed_run;
 }
 
+double run_limit_s(Activity run, const Options& options) {
+  return run == Activity::tuning ? options.tuning_budget_s.value_or(options.timeout_s)
+                                 : options.timeout_s;
+}
+
 ActivityBoard::ActivityBoard() {
   void* page =
       mmap(nullptr, sizeof(Page), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);

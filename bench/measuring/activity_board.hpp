@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "bench/cases/options.hpp"
 #include "solvers/base/stage_times.hpp"
 
 namespace airybench {
@@ -25,6 +26,9 @@ enum class Activity {
 };
 std::string_view name_of(Activity activity);  // "detail run"
 bool is_run(Activity activity);               // of the method itself: tuning and the three runs
+
+// What a run may take: --timeout; tuning --tuning-budget, where there is one.
+double run_limit_s(Activity run, const Options& options);
 
 class ActivityBoard : public StageObserver {
  public:

@@ -111,6 +111,16 @@ Context context_of_run(const Options& options) {
        options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
   };
   context.insert(settings.begin(), settings.end());
+  if (options.tuning_budget_s)
+    context["tuning_budget_s"] = fmt::format("{}", *options.tuning_budget_s);
+  if (!options.budgets_s.empty())
+    context["budgets_s"] = fmt::format("{}", fmt::join(options.budgets_s, ","));
+  if (options.study == Study::scaling)
+    context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
+  if (options.precision) {
+    context["precision"] = fmt::format("{}", *options.precision);
+    context["max_repetitions"] = std::to_string(options.max_repetitions);
+  }
   if (!options.adapt.empty()) {
     context["adapt"] = text_of(options.adapt);
     if (options.marking) context["marking"] = fmt::format("{}", *options.marking);

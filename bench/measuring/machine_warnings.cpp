@@ -25,6 +25,7 @@ MachineState machine_state(const std::map<std::string, std::string>& environment
   const std::optional<double> load = parse_number(known("load_1min_at_start"));
   if (load && *load >= 0) state.load = *load;
   state.cpus = static_cast<int>(parse_whole(known("cpus")).value_or(0));
+  state.threads = static_cast<int>(parse_whole(known("threads")).value_or(1));
   state.repetitions = repetitions;
   state.noise = noise;
   state.heap_probe = known("heap_probe") == "on";
@@ -42,6 +43,9 @@ std::vector<std::string> machine_warnings(const MachineState& s) {
     lines.push_back(
         fmt::format("other work on the machine: load {:.2f} on {} CPUs (quiet: at most {:.1f})",
                     *s.load, s.cpus, most_load_per_cpu * s.cpus));
+  if (s.cpus > 0 && s.threads > s.cpus)
+    lines.push_back(fmt::format("--threads={}: more than the {} CPUs: they wait for one another",
+                                s.threads, s.cpus));
   if (s.noise && *s.noise > most_noise)
     lines.push_back(
         fmt::format("times scatter by {:.1f} % in a loop that is always the same (quiet: at most "

@@ -12,7 +12,7 @@ namespace airybench {
 struct MachineState {
   std::string governor;        // of the CPU's frequency: "performance", "powersave"
   std::optional<double> load;  // processes that ran or wanted to, mean of the last minute
-  int cpus = 0;
+  int cpus = 0, threads = 1;
   int repetitions = 0;
   std::optional<double> noise;  // median absolute deviation over median of the noise kernel
   bool heap_probe = false;

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <barrier>
 #include <chrono>
+#include <memory>
+#include <thread>
 
 #include "bench/statistics/robust.hpp"
 #include "support/seconds_since.hpp"
@@ -15,9 +18,14 @@ namespace {
 constexpr int rows = 128;
 constexpr int sweep_length = 1 << 20;  // doubles: 8 MiB
 
+struct Work {
+  std::array<std::array<double, rows>, rows> column;  // lower triangle: column[j][i], i ≥ j
+  std::array<double, sweep_length> values;
+};
+
 // A = L D Lᵀ in place, columns one after another, of A = I + 1 1ᵀ/rows; the sum of D.
-double factorise() {
-  static std::array<std::array<double, rows>, rows> column;  // lower triangle: column[j][i], i ≥ j
+double factorise(Work& work) {
+  auto& column = work.column;
   for (int j = 0; j < rows; ++j) {
     column[j].fill(1.0 / rows);
     column[j][j] += 1;
@@ -35,8 +43,8 @@ double factorise() {
 }
 
 // Writes every number, then reads them all.
-double sweep() {
-  static std::array<double, sweep_length> values;
+double sweep(Work& work) {
+  auto& values = work.values;
   for (int i = 0; i < sweep_length; ++i) values[i] = i % 7;
   benchmark::ClobberMemory();  // or the two loops could become one without the memory
   std::array<double, 8> sums = {};
@@ -47,21 +55,38 @@ double sweep() {
   return sum;
 }
 
-double timed_pass() {
+Work own_work;
+
+double timed_pass(Work& work) {
   const auto start = std::chrono::steady_clock::now();
-  double checksum = noise_kernel_checksum();
+  double checksum = factorise(work) + sweep(work);
   benchmark::DoNotOptimize(checksum);
   return seconds_since(start);
 }
 
 }  // namespace
 
-double noise_kernel_checksum() { return factorise() + sweep(); }
+double noise_kernel_checksum() { return factorise(own_work) + sweep(own_work); }
 
 double run_noise_kernel() {
-  static const double first_touch_s = timed_pass();  // the pages come with the first pass
+  static const double first_touch_s = timed_pass(own_work);  // the pages come with the first pass
   benchmark::DoNotOptimize(first_touch_s);
-  return timed_pass();
+  return timed_pass(own_work);
+}
+
+double run_noise_kernel(int threads) {
+  std::barrier all_ready(threads);
+  std::vector<double> seconds(static_cast<std::size_t>(threads));
+  std::vector<std::jthread> workers;
+  for (double& own : seconds)
+    workers.emplace_back([&all_ready, &own] {
+      const std::unique_ptr<Work> work(new Work);
+      timed_pass(*work);
+      all_ready.arrive_and_wait();
+      own = timed_pass(*work);
+    });
+  workers.clear();  // joins
+  return *std::max_element(seconds.begin(), seconds.end());
 }
 
 NoiseSummary summarise_noise(std::vector<double> samples_s) {

@@ -14,6 +14,10 @@ namespace airybench {
 // Seconds of one pass. Allocates nothing. Not for several threads at once.
 double run_noise_kernel();
 
+// The same on so many threads at once, each with data of its own: seconds until the last has ended.
+// Over those of one: what frequency, shared caches and memory, or other work take from each.
+double run_noise_kernel(int threads);
+
 // The work itself; always the same number.
 double noise_kernel_checksum();
 

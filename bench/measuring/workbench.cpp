@@ -10,6 +10,7 @@
 
 #include "bench/cases/blank_record.hpp"
 #include "bench/heap/heap_probe.hpp"
+#include "bench/judging/moments_check.hpp"
 #include "bench/measuring/instruction_counter.hpp"
 #include "bench/measuring/memory_watch.hpp"
 #include "bench/measuring/record_notes.hpp"
@@ -20,6 +21,10 @@ namespace airybench {
 namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
+
+bool is_zero(const StressField& stress) {
+  return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
+}
 
 }  // namespace
 
@@ -52,9 +57,15 @@ const AssembledBlocks& Workbench::blocks(Blocks which) {
   return found->second;
 }
 
+bool Workbench::is_too_large_for_reference() const {
+  return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
+}
+
 double Workbench::reference_error_at_most() const { return options_.target_error / 10; }
 
 const Reference* Workbench::reference(int step) {
+  if (no_reference_.empty() && is_too_large_for_reference())
+    no_reference_ = fmt::format("no reference above n_phi = {}", largest_with_reference);
   if (references_.empty() && no_reference_.empty()) {
     const ActivityScope scope(board_, Activity::reference);
     try {
@@ -74,7 +85,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
   RunControl control;
-  control.deadline = Deadline::after(options_.timeout_s);
+  control.deadline = Deadline::after(run_limit_s(what, options_));
   control.histories = histories;
   control.threads = options_.threads;
   control.stop = options_.stop;
@@ -147,6 +158,9 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
   note(tuning.grid, record);
+  record.tuning_cut =
+      tuned.solution.status == Status::timeout ||
+      std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
   if (tuning.solve != nullptr) {
     choice.solve = tuning.solve;
   } else {  // every run says what became of it
@@ -194,7 +208,12 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
     if (options_.stop == Stop::paper || !has_answer(solution.status) ||
         solution.status == Status::ok || attempt == most_attempts || choice.tolerance <= tightest)
       return run;
-    record.tuning_s = record.tuning_s.value_or(0) + run.time_s;
+    const double searched_s = record.tuning_s.value_or(0) + run.time_s;
+    if (options_.tuning_budget_s && searched_s >= *options_.tuning_budget_s) {
+      record.tuning_cut = true;
+      return run;
+    }
+    record.tuning_s = searched_s;
     finished_with = choice.tolerance;
     // Errors follow the tolerance about linearly; a factor of 3 to be sure.
     const double factor = options_.target_error / estimate / 3;
@@ -210,8 +229,12 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
   if (solution.displacement.cols() == 0)
     return {solution.status, verify(system, solution, reference(step))};
   JudgedStep result = {solution.status, verify_displacement(system, solution)};
-  // Another's discrete law is not ours; how far it is from it, in N, is said.
-  if (solution.program) result.verification.natural_map_residual.reset();
+  if (solution.program) {
+    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    result.verification.natural_map_residual.reset();
+    // And no stress of its own is no reason to think that there is none.
+    result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
+  }
   return result;
 }
 
@@ -260,6 +283,11 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
     record.status_reason =
         fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
                     worst.name, worst.value, options_.target_error);
+  } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
+    record.status_reason = fmt::format(
+        "{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law and that its "
+        "stresses are those of its displacements are checked",
+        no_reference_, *record.error_estimate);
   } else if (!v.error_stress && !method.in_displacements && !problem_->given) {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
@@ -297,6 +325,8 @@ Workbench::Examination Workbench::examine(const Method& method,
   Solution& solution = run.solution;
   note(solution, record);
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
+  if (record.tuning_cut && record.status != Status::ok)
+    record.status_reason += "; the search was cut: see tuning_cut";
   if (options_.histories) note(solution.histories, record);
   if (solution.status == Status::timeout) {
     record.done_fraction = solution.done_fraction;

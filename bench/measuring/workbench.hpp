@@ -70,6 +70,7 @@ class Workbench {
     std::vector<JudgedStep> judged;
   };
   const AssembledBlocks& blocks(Blocks which);
+  bool is_too_large_for_reference() const;
   double reference_error_at_most() const;
   // Null when there is none; no_reference_ says why.
   const Reference* reference(int step = 0);

@@ -87,7 +87,7 @@ struct Stored {
   std::vector<int> p;  // where rows or columns begin; of triplets one index of each entry
   std::vector<int> i;
   Eigen::VectorXd x;
-  bool triplets = false;
+  enum class Form { rows, columns, triplets } form = Form::rows;
 };
 
 void check_indices(const FclibFile& file, const std::string& name, const std::vector<int>& indices,
@@ -99,20 +99,23 @@ void check_indices(const FclibFile& file, const std::string& name, const std::ve
 
 Stored read_entries(const FclibFile& file, const std::string& place, int m) {
   constexpr int compressed_rows = -2;
+  using enum Stored::Form;
   const int room = file.whole(place + "nzmax", 1, m * m);
-  const int form = file.whole(place + "nz", compressed_rows, room);
+  const int nz = file.whole(place + "nz", compressed_rows, room);
   Stored stored;
-  stored.triplets = form >= 0;
-  stored.p = file.wholes(place + "p", stored.triplets ? room : m + 1);
+  stored.form = nz >= 0 ? triplets : nz == compressed_rows ? rows : columns;
+  stored.p = file.wholes(place + "p", stored.form == triplets ? room : m + 1);
   stored.i = file.wholes(place + "i", room);
   stored.x = file.numbers(place + "x", room);
-  if (!stored.triplets && (stored.p.front() != 0 || !std::ranges::is_sorted(stored.p)))
-    file.fail(place + "p", "does not rise from 0", fmt::format("0 to at most {}", room));
-  if (!stored.triplets) check_indices(file, place + "p", stored.p, room);
-  const int entries = stored.triplets ? form : stored.p.back();
-  if (stored.triplets) {
+  int entries = nz;
+  if (stored.form == triplets) {
     stored.p.resize(static_cast<std::size_t>(entries));
     check_indices(file, place + "p", stored.p, m - 1);
+  } else {
+    if (stored.p.front() != 0 || !std::ranges::is_sorted(stored.p))
+      file.fail(place + "p", "does not rise from 0", fmt::format("0 to at most {}", room));
+    check_indices(file, place + "p", stored.p, room);
+    entries = stored.p.back();
   }
   stored.i.resize(static_cast<std::size_t>(entries));
   check_indices(file, place + "i", stored.i, m - 1);
@@ -125,17 +128,19 @@ Eigen::MatrixXd read_matrix(const FclibFile& file, const std::string& place) {
   file.whole(place + "n", m, m);
   const Stored stored = read_entries(file, place, m);
   Eigen::MatrixXd W = Eigen::MatrixXd::Zero(m, m);
-  if (stored.triplets) {
+  using enum Stored::Form;
+  if (stored.form == triplets) {
     for (std::size_t k = 0; k < stored.i.size(); ++k) W(stored.p[k], stored.i[k]) += stored.x(k);
-  } else {
-    for (int row = 0; row < m; ++row)
-      for (int k = stored.p[row]; k < stored.p[row + 1]; ++k) W(row, stored.i[k]) += stored.x(k);
+    return W;
   }
+  for (int line = 0; line < m; ++line)
+    for (int k = stored.p[line]; k < stored.p[line + 1]; ++k)
+      (stored.form == rows ? W(line, stored.i[k]) : W(stored.i[k], line)) += stored.x(k);
   return W;
 }
 
 void check_law(const FclibFile& file, const GivenContact& given) {
-  constexpr double rounding = 1e-8;
+  constexpr double rounding = 1e-5;  // of programs that write few digits
   const Eigen::VectorXd diagonal = given.D.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal(i) > 0))

@@ -1,7 +1,7 @@
 // Contact problems in FCLIB's format (fclib_file.hpp) from whatever program: /fclib_local with
-// spacedim 2. W may be stored in compressed rows (nz = −2) or columns (−1) or as triplets; it is
-// symmetric, so rows and columns need not be told apart. Read with libhdf5 alone: FCLIB's own
-// library ends the process over a bad file.
+// spacedim 2. W may be stored in compressed rows (nz = −2) or columns (−1) or as triplets. It is
+// symmetric but for rounding, which is left in it. Read with libhdf5 alone: FCLIB's own library
+// ends the process over a bad file.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/statistics/bootstrap.hpp"
+#include "bench/statistics/median_interval.hpp"
 #include "bench/statistics/robust.hpp"
 
 namespace airybench {
@@ -27,9 +28,15 @@ void summarise_times(Record& r) {
   const Interval interval = samples.size() > 1 ? bootstrap_median(samples) : Interval{};
   r.time_low_s = interval.low > 0 ? std::optional(interval.low) : std::nullopt;
   r.time_high_s = interval.low > 0 ? std::optional(interval.high) : std::nullopt;
+  const std::optional<Interval> ordered = median_interval(samples);
+  r.time_ci_low_s = ordered ? std::optional(ordered->low) : std::nullopt;
+  r.time_ci_high_s = ordered ? std::optional(ordered->high) : std::nullopt;
+  const std::optional<double> uncertainty = median_uncertainty(samples);
+  r.precision_reached = r.precision && uncertainty && *uncertainty <= *r.precision;
   r.assembly_s = median_of(r.assembly_samples_s);
   r.program_s = median_of(r.program_samples_s);
   r.noise_kernel_s = median_of(r.noise_kernel_samples_s);
+  r.busy_kernel_s = median_of(r.busy_kernel_samples_s);
 }
 
 // A stage's median is over the runs that have it.

@@ -7,12 +7,21 @@
 #include <cmath>
 #include <set>
 
+#include "bench/statistics/median_interval.hpp"
 #include "support/seconds_since.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
 
 namespace {
+
+std::string imprecise_line(const Record& r) {
+  const std::optional<double> uncertainty = median_uncertainty(r.samples_s);
+  return fmt::format("{}: time known to ± {}, not {:g} %, after {} repetitions\n",
+                     name_of(r).text(),
+                     uncertainty ? fmt::format("{:.2g} %", 100 * *uncertainty) : "?",
+                     100 * *r.precision, r.samples_s.size());
+}
 
 // Of the table at the end; shown where a record has the field.
 struct Column {
@@ -81,6 +90,8 @@ std::string results_table(const std::vector<Record>& records) {
     for (const Column& column : columns) rows.back().push_back(column.text(r));
   }
   std::string table = aligned_table(rows, 1);
+  for (const Record& r : records)
+    if (r.precision && !r.precision_reached && r.time_s) table += imprecise_line(r);
   std::set<std::string> said;  // the same of every method on a mesh
   for (const Record& r : records)
     if (r.status != Status::ok)

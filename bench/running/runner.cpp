@@ -6,7 +6,6 @@
 #include <chrono>
 #include <iostream>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "bench/cases/blank_record.hpp"
@@ -15,6 +14,7 @@
 #include "bench/output/record_files.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/running/progress.hpp"
+#include "bench/running/repetitions.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -34,7 +34,7 @@ class SceneRunner {
     throw_if_interrupted();
     const auto start = std::chrono::steady_clock::now();
     if (!records_[k]) {
-      note_noise(noise_before_[k]);
+      noise_before_[k] = noise_beside(k);
       records_[k] = scene_.examine(k);
     }
     Record& record = *records_[k];
@@ -53,8 +53,8 @@ class SceneRunner {
     const std::size_t k = index_of(case_name);
     Record& record = *records_[k];
     scene_.end(k);
-    record.noise_kernel_samples_s = noise_before_[k];
-    note_noise(record.noise_kernel_samples_s);
+    note(noise_before_[k], record);
+    note(noise_beside(k), record);
     record.wall_s = wall_s_[k];
     summarise(record);
     finished_.insert(k);
@@ -82,18 +82,34 @@ class SceneRunner {
   }
   // The time of one repetition. A long case has its only one from its detail run.
   double next_sample(std::size_t k, Record& record, benchmark::State& state) {
-    const double so_far = std::accumulate(record.samples_s.begin(), record.samples_s.end(), 0.0);
-    if (record.samples_s.empty() || (!record.measured_once && so_far < options_.long_case_s)) {
+    if (is_repeated(record, options_)) {
       const TimedRun run = scene_.measure_time(k);
       add_run(run, record);
       return run.time_s;
     }
     const bool first = record.measured_once && shown_once_.insert(k).second;
-    if (!first) state.SkipWithError("not repeated: a long case");
+    if (!first) state.SkipWithError("not repeated: a long case, or precise enough");
     return record.samples_s.back();
   }
-  static void note_noise(std::vector<double>& samples) {
-    for (int i = 0; i < 3; ++i) samples.push_back(run_noise_kernel());
+  // Times of the noise kernel on one thread, and on the case's where these are more.
+  struct Noise {
+    std::vector<double> alone, busy;
+  };
+  Noise noise_beside(std::size_t k) const {
+    const int threads = cases_[k]->knob.threads.value_or(options_.threads);
+    Noise noise;
+    for (int i = 0; i < 3; ++i) {
+      noise.alone.push_back(run_noise_kernel());
+      if (threads > 1) noise.busy.push_back(run_noise_kernel(threads));
+    }
+    return noise;
+  }
+  static void note(const Noise& noise, Record& record) {
+    const auto append = [](const std::vector<double>& more, std::vector<double>& samples) {
+      samples.insert(samples.end(), more.begin(), more.end());
+    };
+    append(noise.alone, record.noise_kernel_samples_s);
+    append(noise.busy, record.busy_kernel_samples_s);
   }
   std::size_t index_of(const std::string& case_name) const {
     for (std::size_t k = 0; k < cases_.size(); ++k)
@@ -107,7 +123,7 @@ class SceneRunner {
   Progress& progress_;
   IsolatedScene scene_{cases_, options_};
   std::vector<std::optional<Record>> records_;
-  std::map<std::size_t, std::vector<double>> noise_before_;
+  std::map<std::size_t, Noise> noise_before_;
   std::map<std::size_t, double> wall_s_;
   std::set<std::size_t> finished_;
   std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
@@ -154,7 +170,7 @@ void run_scene(const std::vector<const Case*>& cases, const Options& options, Sc
                                  [&run, k](benchmark::State& state) { run.measure(k, state); })
         ->UseManualTime()
         ->Iterations(1)
-        ->Repetitions(options.repetitions)
+        ->Repetitions(most_repetitions(options))
         ->Unit(benchmark::kMillisecond);
   Reporter reporter(run);
   try {

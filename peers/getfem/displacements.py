@@ -80,11 +80,13 @@ def solve(problem, of_coefficients):
     law = contact(problem, sides, held, of_coefficients)
     if law[0]:
         add_contact(model, size, *law)
+    model.assembly("build_rhs")
+    small = 1e-8 * np.abs(model.rhs()).sum()  # of the residual's sum, which is an absolute one
     steps, converged = 0, False
     for part in (10, 100, 1000):  # too large an r, or the default line search, and it may cycle
         model.set_variable("r", [shear_modulus / part])
         model.to_variables(np.zeros(model.nbdof()))
-        more, converged = model.solve("max_iter", 100, "max_res", 1e-9, "lsolver", "mumps",
+        more, converged = model.solve("max_iter", 100, "max_res", small, "lsolver", "mumps",
                                       "lsearch", "simplest")
         steps += more
         if converged:

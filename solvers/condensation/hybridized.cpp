@@ -16,9 +16,10 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
   visit_stresses(problem, system, u, [&](int t, const HybridStress<double>& of_triangle) {
     answer.stress[t] = Eigen::Map<const ElementStress>(of_triangle.stress);
     unbalanced.defect_energy += std::max(0.0, of_triangle.defect_energy);
+    const std::array<int, 12> unknowns = element_unknowns(problem, system.unknown, t);
     for (int k = 0; k < 12; ++k) {
       unbalanced.largest = std::max(unbalanced.largest, std::abs(of_triangle.forces[k]));
-      const int unknown = system.K.unknown[t][k];
+      const int unknown = unknowns[k];
       if (unknown == prescribed_unknown) continue;
       unbalanced.r(unknown) -= of_triangle.forces[k];
       unbalanced.defect(unknown) -= of_triangle.defect[k];

@@ -58,7 +58,7 @@ StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<S
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u);
 
 // Stresses of u, and how far each is from what its edges' displacements ask of it, g_e of
-// hybrid_element.hpp.
+// hybrid_element.hpp. K is not asked for.
 struct HybridizedAnswer {
   StressField stress;
   UnbalancedForces unbalanced;  // by the stresses and the tractions on Γ_F; without F_C

@@ -1,6 +1,7 @@
 // CONDENSED: the contact law alone, of a problem that came condensed.
 #include "solvers/contact/condensed.hpp"
-#include "solvers/methods.hpp"
+
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

@@ -11,7 +11,8 @@ namespace airybench::holes_command_test {
 namespace {
 
 const std::string why =
-    "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, P2)";
+    "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "
+    "HYBRID:CG, P2)";
 
 class HolesCommand : public ::testing::Test {
  protected:

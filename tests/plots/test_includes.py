@@ -36,7 +36,7 @@ ROOMS = {
     "bench/adapting": ["bench/isolation", "bench/measuring", "bench/judging", "bench/cases",
                        "bench/heap", "bench/records", "solvers", "assembly", "mesh", "support"],
     "bench/running": ["bench/isolation", "bench/measuring", "bench/cases", "bench/output",
-                      "bench/records", "support"],
+                      "bench/records", "bench/statistics", "support"],
     "bench/commands": ["bench/adapting", "bench/running", "bench/isolation", "bench/measuring",
                        "bench/problems", "bench/external", "bench/cases",
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
@@ -47,7 +47,8 @@ ROOMS = {
 }
 
 # Inside solvers/: what a folder may use besides itself and base; "table": the files of no folder.
-PIECES = ["direct", "preconditioners", "krylov", "contact", "condensation", "uzawa", "displacement"]
+PIECES = ["direct", "preconditioners", "krylov", "contact", "condensation", "uzawa", "displacement",
+          "two_level"]
 FOLDERS_OF_SOLVERS = {
     "base": [],
     "direct": [],
@@ -57,6 +58,7 @@ FOLDERS_OF_SOLVERS = {
     "condensation": ["direct", "preconditioners", "krylov", "contact"],
     "uzawa": ["direct", "contact", "condensation"],
     "displacement": [],
+    "two_level": ["direct", "krylov", "contact", "condensation"],
     "loading": ["contact"],
     "names": ["preconditioners", "condensation"],
     "methods": [*PIECES, "names"],

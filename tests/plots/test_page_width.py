@@ -36,6 +36,10 @@ def of_all_kinds() -> list[dict]:
     rows += [made_up.case("Mesh3", method, study="load-steps", scene=f"steps_{n:02d}",
                           load_steps=n, time_s=0.1 * k + 0.01 * n) for n in (1, 5, 20)
              for k, method in enumerate(("3STEPD", "ALM"))]
+    rows += [made_up.case(f"Mesh{k}", method, study="scaling", threads=p, knob="threads", knob_value=p,
+                          time_s=0.1 * k / (1 + 0.3 * m * (p - 1)))
+             for k in (4, 5, 6, 7) for p in (1, 2, 4, 6)
+             for m, method in enumerate(("3STEPD", "BLIND", "SDTIC6"))]
     rows += [made_up.case(f"Mesh{k}+adapt{level}", method, study="adapted", n_phi=900 * 2**level,
                           error_discretisation=0.1, condition_estimate=1e9)
              for k in (0, 4) for level in range(4) for method in ("HYBRID", "3STEPD:CHOLMOD")]

@@ -105,9 +105,9 @@ class PaperFiguresTest(unittest.TestCase):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
-                 for kind in ("svg", "png", "csv")} | {"table1.md"}
+                 for kind in ("svg", "png", "csv")} | {"table1.md", "measured.md"}
         self.assertEqual({path.name for path in self.figures.iterdir()}, names)
-        self.assertEqual(out.count("\n"), 10)
+        self.assertEqual(out.count("\n"), 11)
         self.assertEqual(out.count("that all of them have; needs 2 and 3"), 2)
         self.assertIn("all_methods: left out: no method has two sizes\n", out)
         for name in (name for name in names if name.endswith(("svg", "png"))):

@@ -96,8 +96,8 @@ class StudyFiguresTest(StudiesTest):
                  "convergence", "stability_Mesh0", "all_methods", "profiles",
                  "profiles_stability"}
         self.assertEqual({path.stem for path in folder.iterdir()},
-                         names | {"figure4", "figure5", "table1"})
-        self.assertEqual(out.count("\n"), len(names) + 4)  # figure3 is left out
+                         names | {"figure4", "figure5", "table1", "measured", "budget"})
+        self.assertEqual(out.count("\n"), len(names) + 6)  # figure3 is left out
         for path in (folder / f"{name}.png" for name in names):
             data = path.read_bytes()
             self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cblas.h>
+#include <array>
 #include <limits>
 
 #include "tests/support/krylov_checks.hpp"
@@ -220,6 +222,17 @@ TEST(RightHandSidesInParallel, OneTimeoutSumsUpAllRangesAndAnyOtherFailureWins) 
                                throw TimeoutReached("y");
                              }),
                  Breakdown);
+}
+
+// Threads of BLAS and ours are not multiplied: beside ours BLAS has one each.
+TEST(RightHandSidesInParallel, LeaveBlasOneThreadEach) {
+  const int before = openblas_get_num_threads();
+  openblas_set_num_threads(2);
+  std::array<int, 2> seen = {};
+  in_parallel(2, 2, [&](int begin, int) { seen[begin] = openblas_get_num_threads(); });
+  EXPECT_EQ(seen, (std::array<int, 2>{1, 1}));
+  EXPECT_EQ(openblas_get_num_threads(), 2);
+  openblas_set_num_threads(before);
 }
 
 }  // namespace

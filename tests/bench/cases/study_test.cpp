@@ -8,6 +8,7 @@
 #include <set>
 
 #include "assembly/scene.hpp"
+#include "bench/cases/blank_record.hpp"
 #include "bench/cases/scene_file.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "bench/output/record_files.hpp"
@@ -82,6 +83,29 @@ TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
     ASSERT_TRUE(solution.linear_iterations) << point.knob.name;
     EXPECT_GT(*solution.linear_iterations, before) << point.knob.name;
     before = *solution.linear_iterations;
+  }
+}
+
+// Each number of threads is a case that says so; iterative methods are tightened as ever.
+TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases = plan_cases(scenes, select_methods("HYBRID,SDTIC6"), Study::scaling,
+                                Stop::target, ContactSolver::newton, {1, 2, 4});
+  ASSERT_EQ(cases.size(), 6u);
+  EXPECT_EQ(cases[1].name().text(), "Mesh0/default/SDTIC6/study=scaling/threads=2");
+  EXPECT_TRUE(cases[0].method.is_tightened());
+  for (const Case& c : cases) {
+    EXPECT_TRUE(case_name_of(c.name().text())) << c.name().text();
+    EXPECT_EQ(blank_record(c, Options()).threads, c.knob.value);
+    int threads = 0;
+    Method seen = c.method;
+    seen.solve = [&threads](const DualSystem&, const RunControl& control) {
+      threads = control.threads;
+      return Solution();
+    };
+    const TurnedMethod turned = scaling_points(seen, {*c.knob.threads}).front();
+    turned.method.solve(DualSystem(), RunControl());
+    EXPECT_EQ(threads, c.knob.threads);
   }
 }
 

@@ -25,6 +25,12 @@ TEST(NoiseKernel, DoesTheSameWorkEveryTimeAndAllocatesNothing) {
   EXPECT_GT(seconds, 0);
 }
 
+TEST(NoiseKernel, OnSeveralThreadsEndsWithTheLastAndKeepsNothing) {
+  const std::int64_t before = heap::live_bytes();
+  EXPECT_GT(run_noise_kernel(3), 0);
+  EXPECT_LT(heap::live_bytes(), before + (1 << 20));  // threads keep a little of their own
+}
+
 TEST(NoiseKernel, SummaryIsMedianAndDeviation) {
   const NoiseSummary summary = summarise_noise({4, 2, 3, 100, 1});
   EXPECT_EQ(summary.median_s, 3);
@@ -65,6 +71,7 @@ TEST(MachineWarnings, EachCauseHasItsLine) {
   };
   expect(line_of([](MachineState& s) { s.governor = "powersave"; }), "governor powersave");
   expect(line_of([](MachineState& s) { s.load = 0.9; }), "load 0.90 on 4 CPUs");
+  expect(line_of([](MachineState& s) { s.threads = 5; }), "--threads=5: more than the 4 CPUs");
   expect(line_of([](MachineState& s) { s.noise = 0.12; }), "scatter by 12.0 %");
   expect(line_of([](MachineState& s) { s.repetitions = 4; }), "--repetitions=4");
   expect(line_of([](MachineState& s) { s.heap_probe = false; }), "heap is not counted");

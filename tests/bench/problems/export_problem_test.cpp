@@ -86,14 +86,15 @@ TEST_F(ExportProblemCommand, AFullDiskLeavesNothing) {
   EXPECT_EQ(entries(), there);
 }
 
-TEST_F(ExportProblemCommand, ABodyWithAHoleHasOnlyTheCondensedProblem) {
+TEST_F(ExportProblemCommand, ABodyWithAHoleHasNoAirySystem) {
   write_mesh("plate.msh", testing::small_plate(2));
   const CommandResult result = run("--mesh=plate.msh --format=matrix-market --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("note: only the condensed problem: a body with 1 hole needs a "
-                             "multi-valued Airy function\n",
-                             0),
-            0u)
+  EXPECT_EQ(
+      result.out.rfind("note: only the body and the condensed problem: a body with 1 hole needs a "
+                       "multi-valued Airy function\n",
+                       0),
+      0u)
       << result.out;
   const Json plate = description("o");
   EXPECT_TRUE(has_array(plate, "D"));
@@ -101,11 +102,11 @@ TEST_F(ExportProblemCommand, ABodyWithAHoleHasOnlyTheCondensedProblem) {
   EXPECT_FALSE(std::filesystem::exists(bench_.path("o/S.mtx")));
 }
 
-TEST_F(ExportProblemCommand, WithoutContactThereIsOnlyTheAirySystem) {
+TEST_F(ExportProblemCommand, WithoutContactThereIsOnlyTheAirySystemAndTheBody) {
   testing::write_text(bench_.path("free.json"), R"({"mesh": {"keep_contact_edges": 0}})");
   const CommandResult result = run("--mesh=Mesh0 --scene=free.json --format=matrix-market --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.out.rfind("note: only the Airy system: there is no contact\n", 0), 0u);
+  EXPECT_EQ(result.out.rfind("note: no condensed problem: there is no contact\n", 0), 0u);
   const Json free = description("o");
   EXPECT_TRUE(has_array(free, "S"));
   for (const char* name : {"C_C", "D", "mu"}) EXPECT_FALSE(has_array(free, name)) << name;

@@ -1,12 +1,15 @@
 // The statistics behind comparisons, against published tables and figures worked out by hand.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 #include <random>
 
 #include "bench/statistics/bootstrap.hpp"
 #include "bench/statistics/mann_whitney.hpp"
+#include "bench/statistics/median_interval.hpp"
 #include "bench/statistics/multiple_testing.hpp"
 #include "bench/statistics/robust.hpp"
 
@@ -32,6 +35,46 @@ TEST(Robust, MedianAndItsDeviation) {
   EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
   EXPECT_EQ(median_absolute_deviation({1, 2, 3, 4, 100}), 1);
   EXPECT_NEAR(robust_standard_deviation({1, 2, 3, 4, 100}), 1.482602, 1e-6);
+}
+
+// Le Boudec, Tab. A.1, where it is symmetric: ranks j and k of n sorted samples.
+TEST(MedianInterval, HasTheRanksOfThePublishedTable) {
+  for (const auto& [n, j, k] : std::vector<std::array<int, 3>>{
+           {6, 1, 6}, {9, 2, 8}, {12, 3, 10}, {20, 6, 15}, {30, 10, 21}, {70, 27, 44}}) {
+    std::vector<double> samples(n);
+    std::iota(samples.begin(), samples.end(), 1.0);
+    std::shuffle(samples.begin(), samples.end(), std::mt19937(1));
+    const std::optional<Interval> interval = median_interval(samples);
+    ASSERT_TRUE(interval) << n;
+    EXPECT_EQ(interval->low, j) << n;
+    EXPECT_EQ(interval->high, k) << n;
+  }
+}
+
+// Of any number of samples: P(B <= j - 1) is at most 2.5 %, P(B <= j) more.
+TEST(MedianInterval, IsTheNarrowestThatHolds) {
+  EXPECT_FALSE(median_interval({}));
+  EXPECT_FALSE(median_interval({1, 2, 3, 4, 5}));
+  for (int n = 6; n <= 1000; ++n) {
+    std::vector<double> samples(n);
+    std::iota(samples.begin(), samples.end(), 1.0);
+    const Interval interval = *median_interval(samples);
+    double of_outcome = std::pow(0.5, n), below = 0;  // P(B = i), P(B <= i)
+    for (int i = 0; i < interval.low; ++i) {
+      below += of_outcome;
+      of_outcome *= static_cast<double>(n - i) / (i + 1);
+    }
+    EXPECT_LE(below, 0.025) << n;
+    EXPECT_GT(below + of_outcome, 0.025) << n;
+    EXPECT_EQ(interval.high, n + 1 - interval.low) << n;
+  }
+}
+
+TEST(MedianInterval, UncertaintyIsOfTheFartherEnd) {
+  EXPECT_FALSE(median_uncertainty({1, 1, 1, 1, 1}));
+  EXPECT_EQ(*median_uncertainty({1, 1, 1, 1, 1, 1}), 0);
+  EXPECT_DOUBLE_EQ(*median_uncertainty({0.9, 1, 1, 1, 1, 1.5}), 0.5);
+  EXPECT_DOUBLE_EQ(*median_uncertainty({0.6, 1, 1, 1, 1, 1.1}), 0.4);
 }
 
 struct TableEntry {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <thread>
 #include <vector>
 
 #include "bench/records/json.hpp"
@@ -63,6 +64,55 @@ TEST_F(StudyCommand, ErrorHasAPointForEveryValueOfTheKnob) {
     }
   }
   EXPECT_EQ(tolerances.size() + 1, records().size());
+}
+
+// A budget limits solves, not the search for parameters; figures take it from the context.
+TEST_F(StudyCommand, BudgetsOfAnErrorStudyAreInItsContext) {
+  ASSERT_NE(
+      bench("--study=error --mesh=Mesh0 --method=HYBRID --repetitions=1 --budget=20,5 --out=o"), 2)
+      << content("err.txt");
+  for (const Json& record : records()) {
+    EXPECT_EQ(record["context"]["budgets_s"], "5,20");
+    EXPECT_EQ(record["context"]["timeout_s"], "40");
+    EXPECT_EQ(record["tuning_budget_s"], 900);
+  }
+}
+
+TEST_F(StudyCommand, ScalingIsACaseForEveryNumberOfThreads) {
+  const bool two = std::thread::hardware_concurrency() > 1;
+  ASSERT_EQ(bench("--study=scaling --mesh=Mesh0 --method=HYBRID,3STEPD --repetitions=2 --out=o "
+                  "--threads=" +
+                  std::string(two ? "2" : "1")),
+            0)
+      << content("err.txt");
+  const auto all = records();
+  ASSERT_EQ(all.size(), two ? 4u : 2u);
+  for (const Json& record : all) {
+    EXPECT_EQ(record["knob"], "threads");
+    EXPECT_EQ(record["knob_value"], record["threads"]);
+    EXPECT_EQ(record["context"]["threads"], two ? "1,2" : "1");
+    EXPECT_EQ(record["noise_kernel_samples_s"].size(), 6u);
+    EXPECT_EQ(record["busy_kernel_samples_s"].size(), record["threads"] == 1 ? 0u : 6u);
+  }
+  EXPECT_EQ(bench("replay o:Mesh0/default/HYBRID/study=scaling/threads=1 --out=r"), 0)
+      << content("err.txt");
+}
+
+// What runs on fewer processors than threads has no efficiency.
+TEST_F(StudyCommand, ScalingTakesNoMoreThreadsThanProcessors) {
+  ASSERT_LT(std::thread::hardware_concurrency(), 5000u);
+  for (const char* threads : {"1,5000", "0", "1,x", "1,,2", "2.0"}) {
+    EXPECT_EQ(bench("--study=scaling --mesh=Mesh0 --threads=" + std::string(threads)), 2);
+    EXPECT_NE(content("err.txt").find("--threads: " + std::string(threads) +
+                                      " (allowed: whole numbers from 1 to "),
+              std::string::npos)
+        << content("err.txt");
+  }
+  EXPECT_EQ(bench("--mesh=Mesh0 --threads=1,2"), 2);
+  EXPECT_NE(content("err.txt").find("--threads: 1,2 (allowed: a whole number from 1 to 1024; a "
+                                    "list with --study=scaling)"),
+            std::string::npos)
+      << content("err.txt");
 }
 
 TEST_F(StudyCommand, AdaptedIsTheMethodsOnMeshesThatReachAnError) {

@@ -50,7 +50,7 @@ Campaign campaign() {
 // turn.
 std::vector<Method> methods(int number) {
   static const std::vector<Method> direct =
-      select_methods("3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,BLIND:SKY,HYBRID,P2");
+      select_methods("3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,BLIND:SKY,HYBRID,HYBRID:CG,P2");
   static const std::vector<Method> iterative = select_methods(
       "SSKY,ALM:r=20,rho=20,3STEPCG:DTIC6,SYMMLQ:DTIC6,3STEPCG:DTIC3,SDTIC3,3STEPCG:FLIC2,"
       "SYMMLQ:FLIC5,3STEPD:REFINED,ALM:AUTO");

@@ -1,0 +1,98 @@
+"""The least error of every method with a solve of at most so much time, from the points of an error study.
+
+Of a method's cases on a mesh, whatever its knob (tolerance, iterations; a direct method has one case):
+    e(t) = min { max(error_stress, error_force) : time_s <= t }.
+The best point is known only afterwards, from the verifier; a user would have to find it.
+"""
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from figure_table import csv_of
+from figure_words import short
+from record_keys import POSITIVE, Row
+from selection import by_mesh, grouped, of_scene
+from study_parts import order, seconds
+
+STUDIES = ("error", "")  # ordinary cases in the folder are points too
+DECADES = 6  # at most, of budgets that nobody has named
+COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_stress", "error_force")
+
+
+@dataclass(frozen=True)
+class Best:
+    """Of a method on a mesh within a time."""
+
+    budget_s: float
+    cases: list[Row]  # of the method, all: at least one
+
+    @property
+    def row(self) -> Row | None:
+        within = [row for row in self.cases if is_point(row) and row.time_s <= self.budget_s]
+        return min(within, key=lambda row: (error_of(row), row.time_s), default=None)
+
+
+def is_point(row: Row) -> bool:
+    """Verified and timed."""
+    return bool(row.time_s) and None not in (row.error_stress, row.error_force)
+
+
+def error_of(row: Row) -> float:
+    return max(row.error_stress, row.error_force)
+
+
+def cases_of(rows: list[Row]) -> list[Row]:
+    """Of stress methods and one scene; none without an error study that has a point."""
+    own = of_scene([row for row in rows if row.study in STUDIES and not row.in_displacements])
+    return own if any(row.study == "error" and is_point(row) for row in own) else []
+
+
+def budgets_of(cases: list[Row]) -> list[float]:
+    """Those that the runs were told (--budget); else the powers of ten among the times."""
+    words = {word for row in cases for word in (row.context or {}).get("budgets_s", "").split(",")}
+    told = sorted(filter(POSITIVE.accepts, map(POSITIVE.of_text, words)))
+    if told:
+        return told
+    times = [row.time_s for row in cases if is_point(row)]
+    low, high = math.floor(math.log10(min(times))) + 1, math.ceil(math.log10(max(times)))
+    return [10.0**k for k in range(low, max(high, low) + 1)][-DECADES:]
+
+
+def best_of(cases: list[Row]) -> list[Best]:
+    """By mesh, method, budget."""
+    return [Best(budget, own) for of_mesh in by_mesh(cases).values()
+            for own in grouped(sorted(of_mesh, key=order), lambda row: row.method).values()
+            for budget in budgets_of(cases)]
+
+
+def csv_table(cases: list[Row]) -> str:
+    return csv_of(best_of(cases),
+                  *((name, lambda best, name=name: getattr(best.cases[0], name))
+                    for name in ("mesh", "n_phi", "scene", "method")),
+                  "budget_s", ("error", lambda best: best.row and error_of(best.row)),
+                  *((name, lambda best, name=name: best.row and getattr(best.row, name))
+                    for name in COLUMNS))
+
+
+def setting(row: Row) -> str:
+    if row.knob:
+        return f", {row.knob} {row.knob_value or 0:g}"
+    return ", paper's stop" if row.iterative and row.stop == "paper" else ""
+
+
+def cell(best: Best) -> str:
+    return f"{short(error_of(best.row))}{setting(best.row)}" if best.row else "–"
+
+
+def markdown(cases: list[Row]) -> str:
+    lines = ["# The least error within a time", "",
+             f"Scene {cases[0].scene}. The larger of the relative errors of stresses and contact "
+             "forces, with a solve of at most so long (median); choosing parameters is not in it, and "
+             "which point is the best is known only afterwards. –: none is so fast.", ""]
+    budgets = budgets_of(cases)
+    for mesh, own in grouped(best_of(cases), lambda best: best.cases[0].mesh).items():
+        lines += [f"| {mesh} | {' | '.join(map(seconds, budgets))} |", "|---" * (len(budgets) + 1) + "|"]
+        lines += [f"| {method} | {' | '.join(map(cell, bests))} |" for method, bests in
+                  grouped(own, lambda best: best.cases[0].method).items()] + [""]
+    return "\n".join(lines)

@@ -1,0 +1,118 @@
+// HYBRID:CG: hybridized equilibrium elements, iteratively: two levels, active sets on K itself.
+#include <memory>
+#include <sstream>
+
+#include "assembly/load_scale.hpp"
+#include "solvers/base/method.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+#include "solvers/direct/factor_counts.hpp"
+#include "solvers/two_level/rows_check.hpp"
+
+namespace airybench {
+namespace {
+
+struct KrylovBody {
+  HybridizedSystem system;
+  EdgeMatrix matrix;
+};
+
+void note_rows(const RowsResult& rows, const RunControl& control, Solution& solution) {
+  solution.status = Status::ok;
+  solution.message.clear();
+  solution.linear_iterations = rows.iterations;
+  if (control.histories)
+    solution.histories.push_back({"relative error of the linear system per step", rows.history});
+  if (rows.converged) return;
+  std::ostringstream message;
+  message << "active sets on the hybridized matrix: natural map residual "
+          << rows.natural_map_residual << ", linear error " << rows.linear_error << " after "
+          << rows.steps << " active sets and " << rows.iterations
+          << " linear iterations (tolerance " << control.tolerance << ")";
+  solution.status = Status::not_converged;
+  solution.message = message.str();
+}
+
+void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {
+  solution.parameters = std::string("coarse=") +
+                        (coarse.kind() == CoarseKind::linear ? "linear" : "per-edge") + ", " +
+                        std::to_string(coarse.unknowns()) + " unknowns";
+}
+
+// K is factorised nowhere: what is left of it is `matrix`.
+TwoLevelPreconditioner make_two_levels(const DualSystem& airy, const RunControl& control,
+                                       KrylovBody& body, Solution& solution) {
+  const Problem& problem = *airy.problem;
+  std::unique_ptr<CoarseDisplacements> coarse;
+  run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
+    body.system = assemble_hybridized(problem, airy.contact);
+    body.matrix = make_edge_matrix(problem, body.system);
+    coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
+                                                   coarse_kind_for(problem));
+  });
+  control.deadline.check("the assembly of the hybridized system");
+  coarse->factorise(problem, body.system, body.matrix, control.deadline, solution.times);
+  body.system.K = {};
+  count_factor(coarse->factor(), solution);
+  note_parameters(*coarse, solution);
+  const OwnerScope scope(MemoryOwner::preconditioner);
+  return TwoLevelPreconditioner(body.matrix, std::move(coarse));
+}
+
+void count_storage(const KrylovBody& body, const TwoLevelPreconditioner& M, const RowsResult& rows,
+                   Solution& solution) {
+  solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
+  solution.storage[MemoryOwner::preconditioner] = M.bytes();
+  solution.storage[MemoryOwner::iteration] = gmres_bytes(body.matrix.slots(), rows.most_at_once);
+}
+
+Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
+  const Problem& problem = *airy.problem;
+  const bool has_contact = airy.contact.count > 0;
+  Solution solution;
+  KrylovBody body;
+  TwoLevelPreconditioner M = make_two_levels(airy, control, body, solution);
+  const SlotSystem slots(problem, airy.contact, body.system, body.matrix);
+  const RowsResult rows = run_stage(
+      solution.times, has_contact ? Stage::contact : Stage::recover, MemoryOwner::iteration,
+      [&] { return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control); });
+  note_rows(rows, control, solution);
+  if (has_contact) {
+    solution.contact_iterations = rows.sweeps;
+    solution.newton_steps = rows.steps;
+  }
+  count_storage(body, M, rows, solution);
+  HybridizedAnswer answer;
+  run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
+    solution.F_C = project_on_coulomb(airy.contact, rows.F_C);
+    const Eigen::VectorXd u =
+        from_slots(body.matrix, body.system.unknown, rows.u, body.system.b.size());
+    solution.contact_displacement = u.tail(body.system.n_c);
+    answer = recover_stresses(problem, body.system, u);
+    solution.stress = std::move(answer.stress);
+    solution.edge_moments = edge_moments(problem, body.system.unknown, body.system.displacement, u);
+    answer.unbalanced.r.tail(body.system.n_c) += solution.F_C;
+  });
+  if (!rows.converged) return solution;  // the check's own solves would not end either
+  run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
+    check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws, M, control,
+                      solution);
+  });
+  return solution;
+}
+
+}  // namespace
+
+Method hybrid_cg() {
+  return {.name = "HYBRID:CG",
+          .family = "HYBRID:CG",
+          .summary = "hybridized equilibrium elements, two-level Krylov iteration, active sets",
+          .blocks = Blocks::contact_points,
+          .stages = {Stage::precondition, Stage::order, Stage::factor, Stage::contact,
+                     Stage::recover, Stage::check},
+          .solve = solve_hybridized_cg,
+          .first_tolerance = 1e-3,
+          .paper_tolerance = 1e-6,
+          .knob = AccuracyKnob::krylov_tolerance};
+}
+
+}  // namespace airybench

@@ -1,0 +1,110 @@
+#include "solvers/two_level/edge_matrix.hpp"
+
+#include <algorithm>
+
+namespace airybench {
+namespace {
+
+std::vector<int> blocks_as_met(const Problem& problem) {
+  std::vector<int> block(static_cast<std::size_t>(problem.edges.count()), -1);
+  int next = 0;
+  for (const auto& edges : problem.edges.of_triangle)
+    for (const int edge : edges)
+      if (block[edge] < 0) block[edge] = next++;
+  return block;
+}
+
+Eigen::Matrix<double, 12, 12> whole_element(const ElementMatrices& K, int t) {
+  Eigen::Matrix<double, 12, 12> whole;
+  const double* entry = K.lower[t].data();
+  for (int j = 0; j < 12; ++j)
+    for (int i = j; i < 12; ++i) whole(i, j) = whole(j, i) = *entry++;
+  return whole;
+}
+
+}  // namespace
+
+EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& system) {
+  EdgeMatrix K;
+  K.block_of_edge = blocks_as_met(problem);
+  const auto edges = K.block_of_edge.size();
+  const auto& of_triangle = problem.edges.of_triangle;
+  K.start.assign(edges + 1, 0);
+  const auto visit_pairs = [&](std::size_t t, auto visit) {
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        const int row = K.block_of_edge[of_triangle[t][k]],
+                  column = K.block_of_edge[of_triangle[t][l]];
+        if (column < row) visit(k, l, row, column);
+      }
+  };
+  for (std::size_t t = 0; t < of_triangle.size(); ++t)
+    visit_pairs(t, [&](int, int, int row, int) { ++K.start[row + 1]; });
+  for (std::size_t row = 0; row < edges; ++row) K.start[row + 1] += K.start[row];
+  K.column.resize(static_cast<std::size_t>(K.start.back()));
+  K.left.resize(K.column.size());
+  K.diagonal.assign(edges, Eigen::Matrix4d::Zero());
+  std::vector<int> next(K.start.begin(), K.start.end() - 1);
+  for (std::size_t t = 0; t < of_triangle.size(); ++t) {
+    const Eigen::Matrix<double, 12, 12> K_e = whole_element(system.K, static_cast<int>(t));
+    for (int k = 0; k < 3; ++k)
+      K.diagonal[K.block_of_edge[of_triangle[t][k]]] += K_e.block<4, 4>(4 * k, 4 * k);
+    visit_pairs(t, [&](int k, int l, int row, int column) {
+      K.column[next[row]] = column;
+      K.left[next[row]++] = K_e.block<4, 4>(4 * k, 4 * l);
+    });
+  }
+  return K;
+}
+
+void EdgeMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
+  y.setZero(slots());
+  for (int i = 0; i < blocks(); ++i) {
+    const Eigen::Vector4d own = x.segment<4>(4 * static_cast<Eigen::Index>(i));
+    Eigen::Vector4d sum = diagonal[i] * own;
+    for (int k = start[i]; k < start[i + 1]; ++k) {
+      const Eigen::Index j = 4 * static_cast<Eigen::Index>(column[k]);
+      sum.noalias() += left[k] * x.segment<4>(j);
+      y.segment<4>(j).noalias() += left[k].transpose() * own;
+    }
+    y.segment<4>(4 * static_cast<Eigen::Index>(i)) += sum;
+  }
+}
+
+std::vector<Eigen::Index> prescribed_slots(const EdgeMatrix& K, const EdgeUnknowns& unknown) {
+  std::vector<Eigen::Index> prescribed;
+  for (std::size_t edge = 0; edge < unknown.size(); ++edge)
+    for (int i = 0; i < 4; ++i)
+      if (unknown[edge][i] == prescribed_unknown)
+        prescribed.push_back(4 * static_cast<Eigen::Index>(K.block_of_edge[edge]) + i);
+  return prescribed;
+}
+
+Eigen::VectorXd prescribed_in_slots(const EdgeMatrix& K, const HybridizedSystem& system) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(K.slots());
+  for (std::size_t edge = 0; edge < system.displacement.size(); ++edge)
+    x.segment<4>(4 * static_cast<Eigen::Index>(K.block_of_edge[edge])) = system.displacement[edge];
+  return x;
+}
+
+Eigen::VectorXd to_slots(const EdgeMatrix& K, const EdgeUnknowns& unknown,
+                         const Eigen::VectorXd& u) {
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(K.slots());
+  for (std::size_t edge = 0; edge < unknown.size(); ++edge)
+    for (int i = 0; i < 4; ++i)
+      if (unknown[edge][i] != prescribed_unknown)
+        x(4 * static_cast<Eigen::Index>(K.block_of_edge[edge]) + i) = u(unknown[edge][i]);
+  return x;
+}
+
+Eigen::VectorXd from_slots(const EdgeMatrix& K, const EdgeUnknowns& unknown,
+                           const Eigen::VectorXd& x, Eigen::Index unknowns) {
+  Eigen::VectorXd u(unknowns);
+  for (std::size_t edge = 0; edge < unknown.size(); ++edge)
+    for (int i = 0; i < 4; ++i)
+      if (unknown[edge][i] != prescribed_unknown)
+        u(unknown[edge][i]) = x(4 * static_cast<Eigen::Index>(K.block_of_edge[edge]) + i);
+  return u;
+}
+
+}  // namespace airybench

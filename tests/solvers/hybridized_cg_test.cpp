@@ -1,0 +1,213 @@
+// HYBRID:CG against HYBRID, the same discrete problem by a factor; how its iterations grow.
+#include <gtest/gtest.h>
+
+#include "assembly/scene.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/refinement.hpp"
+#include "solvers/contact/condensed.hpp"
+#include "solvers/krylov/gmres.hpp"
+#include "solvers/methods.hpp"
+#include "solvers/two_level/preconditioner.hpp"
+#include "tests/support/named_scenes.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/random_scenes.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::hybridized_cg_test {
+namespace {
+
+using testing::small_rack;
+using testing::small_tooth;
+
+std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh) {
+  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+}
+
+Solution solve(const char* method, const std::shared_ptr<const Problem>& problem,
+               const RunControl& control = {}) {
+  return run(select_methods(method).front(), assemble(problem, Blocks::contact_points), control);
+}
+
+// As the harness begins with it.
+RunControl first_control() {
+  RunControl control;
+  control.tolerance = select_methods("HYBRID:CG").front().first_tolerance * control.target_error;
+  return control;
+}
+
+// The larger of the relative errors in stress and force, energy norms, HYBRID being right to 1e-10.
+double true_error(const Problem& problem, const Solution& solution, const Solution& exact) {
+  const ContactPoints contact =
+      assemble(std::make_shared<const Problem>(problem), Blocks::contact_points).contact;
+  const HybridizedSystem system = assemble_hybridized(problem, contact);
+  StiffnessFactor factor;
+  factor.cholesky.analyse(system.K, system.n_c);
+  factor.cholesky.factor(system.K);
+  factor.y = factor.cholesky.forward(system.b);
+  const Eigen::MatrixXd D = condense(factor).D;
+  const double stress = std::sqrt(stress_norm_squared(problem, exact.stress)),
+               force = D_norm(D, exact.F_C);
+  const double off = stress_distance(problem, solution.stress, exact.stress),
+               force_off = D_norm(D, solution.F_C - exact.F_C);
+  return std::max(stress > 0 ? off / stress : off, force > 0 ? force_off / force : force_off);
+}
+
+testing::NamedScenes scenes() {
+  return testing::named_scenes({
+      {"default", [](Scene&) {}},
+      {"frictionless", [](Scene& s) { s.friction = 0; }},
+      {"mu = 1", [](Scene& s) { s.friction = 1; }},
+      {"mu = 3, sheared",
+       [](Scene& s) {
+         s.friction = 3;
+         s.displacement_mm = {0.01, 0.03};
+         s.crown_radius_mm = 200;
+       }},
+      {"plane stress", [](Scene& s) { s.plane = Plane::stress; }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"flat face", [](Scene& s) { s.crown_radius_mm.reset(); }},
+      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
+      {"nearly incompressible", [](Scene& s) { s.material.poisson = 0.4999; }},
+      {"nothing touches", [](Scene& s) { s.clearance_mm = 1; }},
+  });
+}
+
+TEST(HybridizedCg, AgreesWithHybridAndItsEstimateIsHonest) {
+  std::vector<Mesh> meshes = {small_tooth(8, 6), small_rack(2, 4, 3)};
+  for (const char* name : {"Mesh0", "Mesh1", "Mesh2"})
+    meshes.push_back(read_msh(testing::mesh_file(name)));
+  for (const Mesh& mesh : meshes)
+    for (const auto& [name, scene] : scenes()) {
+      const auto problem = posed(scene, mesh);
+      const Solution exact = solve("HYBRID", problem),
+                     solution = solve("HYBRID:CG", problem, first_control());
+      ASSERT_EQ(exact.status, Status::ok) << mesh.name << ' ' << name;
+      ASSERT_EQ(solution.status, Status::ok) << mesh.name << ' ' << name << solution.message;
+      const double error = true_error(*problem, solution, exact);
+      EXPECT_LE(error, 1e-6) << mesh.name << ' ' << name;
+      EXPECT_LE(error, std::max(1e-9, *solution.error_estimate)) << mesh.name << ' ' << name;
+    }
+}
+
+// To 1e-8, those of its check counted.
+TEST(HybridizedCg, ItsIterationsDoNotGrowWithTheMesh) {
+  RunControl control;
+  control.tolerance = 1e-8;
+  for (const auto& [poisson, most] : {std::pair{0.3, 40}, {0.4999, 65}}) {
+    Scene scene;
+    scene.material.poisson = poisson;
+    scene.friction = 0;
+    scene.clearance_mm = 1;  // one linear system
+    scene.body_force_N_per_mm3 = {3, -1};
+    Mesh mesh = read_msh(testing::mesh_file("Mesh0"));
+    std::vector<std::int64_t> counts;
+    for (int level = 0; level < 4; ++level, mesh = uniformly_refined(mesh)) {
+      const Solution solution = solve("HYBRID:CG", posed(scene, mesh), control);
+      ASSERT_EQ(solution.status, Status::ok) << solution.message;
+      counts.push_back(*solution.linear_iterations);
+      EXPECT_LE(counts.back(), most) << poisson << " at level " << level;
+    }
+    EXPECT_LE(counts[3], counts[1] + 8) << poisson;
+  }
+}
+
+TEST(HybridizedCg, WithContactItTakesAFewOfThem) {
+  Mesh mesh = small_tooth(16, 12);
+  for (int level = 0; level < 3; ++level, mesh = uniformly_refined(mesh)) {
+    const Solution solution = solve("HYBRID:CG", posed({}, mesh), first_control());
+    ASSERT_EQ(solution.status, Status::ok) << solution.message;
+    EXPECT_LE(*solution.linear_iterations, 120) << level;
+  }
+}
+
+TEST(HybridizedCg, SaysWhichCoarseDisplacementsItChose) {
+  Scene scene;
+  EXPECT_TRUE(
+      solve("HYBRID:CG", posed(scene, small_tooth(4, 4))).parameters.starts_with("coarse=linear"));
+  scene.material.poisson = 0.49;
+  EXPECT_TRUE(solve("HYBRID:CG", posed(scene, small_tooth(4, 4)))
+                  .parameters.starts_with("coarse=per-edge"));
+}
+
+// Ok and right, or honestly not ok.
+TEST(HybridizedCg, RandomScenesAreSolvedOrItSaysThatTheyAreNot) {
+  constexpr int scenes_tried = 60;
+  const Mesh mesh = small_tooth(8, 6);
+  int posed_scenes = 0, solved = 0;
+  for (int number = 0; number < scenes_tried; ++number) {
+    const Scene scene = testing::random_scene(19, number);
+    std::shared_ptr<const Problem> problem;
+    try {
+      problem = posed(scene, mesh);
+    } catch (const InputError&) {
+      continue;
+    }
+    const Solution exact = solve("HYBRID", problem);
+    if (exact.status != Status::ok) continue;
+    ++posed_scenes;
+    const Solution solution = solve("HYBRID:CG", problem, first_control());
+    if (solution.status != Status::ok) continue;
+    ++solved;
+    const double size = std::sqrt(stress_norm_squared(*problem, exact.stress));
+    if (size < 1e-6 || exact.F_C.norm() < 1e-6) continue;  // relative to the loads
+    EXPECT_LE(true_error(*problem, solution, exact), 1e-5) << number << ": " << scene.about;
+  }
+  EXPECT_GE(solved, posed_scenes * 9 / 10) << posed_scenes;
+}
+
+TEST(TwoLevels, AreSymmetricAndAboveTheStiffness) {
+  Mesh mesh = small_tooth(4, 3);
+  for (const CoarseKind kind : {CoarseKind::linear, CoarseKind::per_edge}) {
+    const DualSystem airy = assemble(posed({}, mesh), Blocks::contact_points);
+    const HybridizedSystem system = assemble_hybridized(*airy.problem, airy.contact);
+    const EdgeMatrix K = make_edge_matrix(*airy.problem, system);
+    auto coarse = std::make_unique<CoarseDisplacements>(*airy.problem, airy.contact, K, kind);
+    StageTimes times;
+    coarse->factorise(*airy.problem, system, K, {}, times);
+    TwoLevelPreconditioner M(K, std::move(coarse));
+    const std::vector<Eigen::Index> held = prescribed_slots(K, system.unknown);
+    M.hold(held);
+    std::srand(7);
+    const auto random = [&] {
+      Eigen::VectorXd x = Eigen::VectorXd::Random(K.slots());
+      for (const Eigen::Index slot : held) x(slot) = 0;
+      return x;
+    };
+    for (int i = 0; i < 20; ++i) {
+      const Eigen::VectorXd a = random(), b = random();
+      Eigen::VectorXd Ma, Mb, Ka, MKa;
+      M.apply(a, Ma);
+      M.apply(b, Mb);
+      EXPECT_NEAR(a.dot(Mb), b.dot(Ma), 1e-9 * std::sqrt(a.dot(Ma) * b.dot(Mb)));
+      K.multiply(a, Ka);
+      for (const Eigen::Index slot : held) Ka(slot) = 0;
+      M.apply(Ka, MKa);
+      EXPECT_LE(Ka.dot(MKa), a.dot(Ka) * (1 + 1e-9));
+      EXPECT_GT(Ka.dot(MKa), 0.02 * a.dot(Ka));
+    }
+  }
+}
+
+TEST(Gmres, SolvesANonsymmetricSystemInAsManyStepsAsItHasRows) {
+  constexpr int n = 12;
+  std::srand(3);
+  const Eigen::MatrixXd A = 4 * Eigen::MatrixXd::Identity(n, n) + Eigen::MatrixXd::Random(n, n);
+  const Eigen::VectorXd r = Eigen::VectorXd::Random(n), m = r.cwiseAbs() + Eigen::VectorXd::Ones(n);
+  Eigen::VectorXd x;
+  const GmresResult result =
+      solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
+                     [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v.cwiseQuotient(m); },
+                     r, {.tolerance = 1e-12}, {}, x);
+  EXPECT_LE(result.iterations, n);
+  EXPECT_LT((A * x - r).norm(), 1e-10 * r.norm());
+  EXPECT_THROW(solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
+                              [](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v * NAN; }, r,
+                              {}, {}, x),
+               Breakdown);
+}
+
+}  // namespace
+}  // namespace airybench::hybridized_cg_test
