@@ -57,19 +57,29 @@ def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
     return pd.DataFrame(columns, dtype=object)
 
 
+def is_without_body(item: object) -> bool:
+    """A contact problem of bench --problem."""
+    return (isinstance(item, dict) and item.get("scene") == "fclib"
+            and item.get("n_phi") in (None, "") and item.get("n_c") not in (None, ""))
+
+
 def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
     """results.csv or records.jsonl, a line per case, with `line`, `body` and `look`. Keys that Row
-    does not know are passed over."""
+    does not know are passed over, and so are contact problems, which no figure shows."""
     items, header = read_csv(path, needed) if path.suffix == ".csv" else (read_lines(path), None)
     if not items:
         raise RecordsError(f"{path}: no rows; expected {path.name} of bench")
-    first = 1 if header is None else 2
+    lines = [line for line, item in enumerate(items, 1 if header is None else 2)
+             if not is_without_body(item)]
+    items = [item for item in items if not is_without_body(item)]
+    if not items:
+        raise RecordsError(f"{path}: only contact problems without a body; expected a body's cases")
 
     def place(k: int) -> str:
-        return f"{path}:{k + first}"
+        return f"{path}:{lines[k]}"
 
     table = checked(items, KEYS, needed, place, text=header is not None)
-    table.insert(0, "line", range(first, first + len(table)))
+    table.insert(0, "line", lines)
     for study, names in OF_STUDY.items():
         for k in table.index[table.study == study]:
             missing = [name for name in names if header and name not in header]

@@ -95,8 +95,9 @@ void check_placeholders(const Reader& file, const std::vector<std::string>& comm
                                                      "{tolerance}", "{time_limit_s}"};
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {
-      const std::string_view rest = std::string_view(word).substr(open);
-      if (std::ranges::none_of(known, [&](auto place) { return rest.starts_with(place); }))
+      const std::size_t end = word.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", open + 1);
+      if (end == word.npos || end == open + 1 || word[end] != '}') continue;  // other braces
+      if (std::ranges::find(known, word.substr(open, end + 1 - open)) == known.end())
         file.fail("command", word, fmt::format("{}", fmt::join(known, ", ")));
     }
 }

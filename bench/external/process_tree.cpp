@@ -87,9 +87,7 @@ class Guardian {
   ProcessTreeEnd run() {
     const auto start = std::chrono::steady_clock::now();
     if (!begin()) return end_;
-    while (!has_ended_) {
-      const timespec look = until_next_look(seconds_since(start));
-      sigtimedwait(&waited_for_, nullptr, &look);
+    for (;;) {  // the first look at once: it may be short
       std::int64_t bytes = 0;
       for (const pid_t process : descendants(getpid())) bytes += resident_peak_bytes(process);
       end_.peak_bytes = std::max(end_.peak_bytes, bytes);
@@ -98,6 +96,8 @@ class Guardian {
       end_.timed_out = seconds_since(start) > limits_.time_s;
       end_.over_memory = limits_.memory_bytes && bytes > *limits_.memory_bytes;
       if (getppid() != parent_ || end_.timed_out || end_.over_memory) break;
+      const timespec look = until_next_look(seconds_since(start));
+      sigtimedwait(&waited_for_, nullptr, &look);
     }
     end_.wall_s = seconds_since(start);
     end_all();

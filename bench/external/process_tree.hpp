@@ -7,7 +7,7 @@
 //
 // Memory is the sum of the resident peaks (VmHWM) of the processes that are alive at once, its
 // largest value at any look: of one process its own peak, but for what it added since the last
-// look; of several no less than what they had together.
+// look; of several no less than what they had together. 0: it was too short to be seen.
 #pragma once
 
 #include <cstdint>

@@ -122,7 +122,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   result.time_s = seconds_since(start) - watched_s;
   if (const auto& program = result.solution.program) {  // its memory is not in our heap
     result.time_s -= program->not_solve_s;
-    result.peak_rss_bytes = program->peak_bytes;
+    if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
     return result;
   }
   if (counter) result.instructions = counter->count();

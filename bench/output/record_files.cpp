@@ -101,7 +101,7 @@ std::optional<Record> RecordFiles::finished(const Record& blank) const {
   const auto found = finished_.find(name);
   if (found == finished_.end()) return {};
   const RecordLine& line = lines_[found->second];
-  for (const char* key : {"mesh_sha256", "scene_definition"})
+  for (const char* key : {"mesh_sha256", "scene_definition", "program"})
     if (field_named(key).value(line.record) != field_named(key).value(blank))
       throw FileError(fmt::format("{}: {}: another than now, for {}", line.place, key, name));
   return line.record;

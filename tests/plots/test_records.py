@@ -70,6 +70,13 @@ class ReaderTest(RecordsTest):
         made_up.write_lines(self.lines, [made_up.record(case("Mesh1", "3STEPD"))])
         self.assertEqual(list(records.read_run(self.results).mesh), ["Mesh1"])
 
+    def test_contact_problems_without_a_body_are_passed_over(self) -> None:
+        problem = case("pile", "CONDENSED") | {"scene": "fclib", "n_phi": "", "n_f": "", "n_c": 40}
+        rows = self.read([problem, case("Mesh0", "3STEPD")])
+        self.assertEqual([("Mesh0", 3)], [(row.mesh, row.line) for row in rows])
+        made_up.write(self.csv, [problem])
+        self.assert_refused(f"{self.csv}: only contact problems without a body")
+
     def test_values_that_cannot_be(self) -> None:
         self.refuse_cell("stop", "soon", "one of target, paper")
         self.refuse_cell("status", "fine", "one of ok, inaccurate, unstressed, not_converged")

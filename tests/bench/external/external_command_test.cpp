@@ -1,0 +1,242 @@
+// Other people's programs through the bench command: honest ones, on all kinds of scenes, and wrong
+// declarations.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/bench/external/programs.hpp"
+#include "tests/support/background_run.hpp"
+
+namespace airybench::external_command_test {
+namespace {
+
+class ExternalCommand : public testing::ExternalPrograms {
+ protected:
+  void declare_honest() const {
+    write("right/answer.json",
+          R"({"status": "ok", "time_s": 2e-6, "stages": {"contact": 1e-6}, "contact_iterations": 7,
+              "parameters": "none"})");
+    for (const char* reads : {"airy", "condensed", "body"})
+      declare(reads, reads, "cp right/* $2; sleep 0.1",
+              {{"version", {"echo", std::string(reads) + " 1.0"}}});
+  }
+};
+
+TEST_F(ExternalCommand, AnHonestAnswerIsOkWithItsOwnNumbers) {
+  write_right();
+  declare_honest();
+  const auto records = records_of("--histories", 0);
+  ASSERT_EQ(records.size(), 3u);
+  for (const auto& [name, r] : records) {
+    SCOPED_TRACE(name);
+    EXPECT_EQ(r["status"], "ok") << r["status_reason"];
+    EXPECT_EQ(r["family"], "EXTERNAL");
+    EXPECT_EQ(r["program"], name + " 1.0");
+    EXPECT_GT(r["program_s"], r["time_s"].get<double>() / 1e6);
+    EXPECT_GT(r["peak_rss_bytes"], 0);
+    EXPECT_TRUE(r["peak_heap_bytes"].is_null());
+    EXPECT_TRUE(r["stage_contact_s"].is_number());
+    EXPECT_EQ(r["parameters"], "none");
+    EXPECT_EQ(r["contact_iterations"], 7);
+    EXPECT_EQ(r["in_displacements"], name == "body");
+    EXPECT_EQ(r["error_force"].is_null(), name == "body");
+  }
+}
+
+TEST_F(ExternalCommand, ScenesWithoutFrictionAndWithoutContact) {
+  for (const char* text : {R"({"friction": 0})", R"({"mesh": {"keep_contact_edges": 0},
+                               "boundary": {"force": {"pressure_MPa": 3}}})"}) {
+    SCOPED_TRACE(text);
+    write("scenes/scene.json", text);
+    write_right(read_scene_file(bench_.path("scenes/scene.json")).scene);
+    declare_honest();
+    const bool contact = std::string_view(text).find("keep") == std::string_view::npos;
+    const auto records = records_of("--scene=scenes/scene.json", 0);
+    for (const auto& [name, r] : records) {
+      const bool skipped = name == "condensed" && !contact;
+      EXPECT_EQ(r["status"], skipped ? "skipped" : "ok") << name << r["status_reason"];
+      EXPECT_EQ(r["status_reason"] == "no contact boundary: nothing is left for the program",
+                skipped);
+    }
+  }
+}
+
+TEST_F(ExternalCommand, PathsOfLoadStepsAreSkipped) {
+  declare_honest();
+  write("scenes/path.json", R"({"load_steps": 2})");
+  const auto records = records_of("--scene=scenes/path.json", 0);
+  ASSERT_EQ(records.size(), 3u);
+  for (const auto& [name, r] : records) {
+    EXPECT_EQ(r["status"], "skipped") << name;
+    EXPECT_EQ(r["status_reason"], "a path of load steps: other programs are asked for one");
+  }
+}
+
+TEST_F(ExternalCommand, WhatIsHandedOver) {
+  write_right();
+  const std::string script =
+      "test -s $1/problem.json || exit 3; rmdir $2 && mkdir $2 || exit 4; "
+      "ls $1/F_C.mtx && exit 5; cp right/* $2; "  // the answer is not given away
+      "echo \"$3 $4 $5 $OMP_NUM_THREADS\" > said";
+  const auto with_last = [&](const char* word) {
+    declare("one", "condensed", script,
+            {{"command",
+              {"sh", "-c", script, "sh", "{input}", "{output}", "{threads}", "{threads}{threads}",
+               word}}});
+  };
+  with_last("{braces}");
+  EXPECT_EQ(records_of("--threads=1", 2).size(), 0u);
+  with_last("{} {\"a\": 1} {threads");
+  const auto records = records_of("--threads=1", 0);
+  EXPECT_EQ(records.at("one")["status"], "ok") << records.at("one")["status_reason"];
+  EXPECT_EQ(bench_.content("said"), "1 11 {} {\"a\": 1} {threads 1\n");
+}
+
+// TMPDIR may be relative, or look like a placeholder.
+TEST_F(ExternalCommand, FoldersOfAllKinds) {
+  write_right();
+  for (const char* folder : {"tmp", "t m ü p", "{input}", "{output}{threads}"}) {
+    SCOPED_TRACE(folder);
+    std::filesystem::create_directories(bench_.path(folder) / "of it");
+    const Json declaration = {{"name", "one"},
+                              {"reads", "condensed"},
+                              {"format", "matrix-market"},
+                              {"returns", "contact_forces"},
+                              {"command", {"./a program", "{output}", "{input}"}}};
+    write(std::string(folder) + "/of it/ö, ne.json", declaration.dump());
+    const auto program = std::string(folder) + "/of it/a program";
+    write(program, "#!/bin/sh\ntest -d \"$2\" && cp ../../right/* \"$1\"\n");
+    std::filesystem::permissions(bench_.path(program), std::filesystem::perms::owner_all);
+    const std::string list = std::string(folder) + "/of it/ö\\, ne.json";
+    const auto result = bench_.run(
+        "--external='" + list + "' --method='EXTERNAL:*' --mesh=Mesh0 --repetitions=1 --out=o",
+        "export TMPDIR='" + std::string(folder) + "'; ");
+    EXPECT_EQ(result.code, 0) << result.err << result.out;
+    std::filesystem::remove_all(bench_.path(folder) / "of it");
+    EXPECT_TRUE(std::filesystem::is_empty(bench_.path(folder)));  // nothing is left
+  }
+}
+
+TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
+  declare_honest();
+  write_right();
+  std::filesystem::remove(bench_.path("airy.json"));
+  std::filesystem::remove(bench_.path("body.json"));
+  declare("condensed", "condensed", "cp right/* $2");
+  const auto result =
+      bench_.run("--external=condensed.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
+                 "export TMPDIR=/none; ");
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(bench_.records().at(0)["status"], "machine_fault");
+  EXPECT_EQ(bench_.records().at(0)["status_reason"],
+            "TMPDIR: /none: no folder can be made there: No such file or directory");
+}
+
+TEST_F(ExternalCommand, ItIsListedAndReplayRefusesIt) {
+  write_right();
+  declare_honest();
+  records_of("", 0);
+  EXPECT_NE(bench_.run("--list --external=airy.json").out.find("EXTERNAL:airy"), std::string::npos);
+  const auto result = bench_.run("replay o:Mesh0/default/EXTERNAL:airy");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "bench: o:Mesh0/default/EXTERNAL:airy: EXTERNAL:airy is another program (allowed: "
+            "bench's own methods)\n");
+}
+
+TEST_F(ExternalCommand, ResumeTakesNoRecordsOfAnotherVersion) {
+  write_right();
+  declare("one", "condensed", "cp right/* $2", {{"version", {"echo", "2"}}});
+  records_of("", 0);
+  EXPECT_EQ(records_of("--resume", 0).size(), 1u);
+  declare("one", "condensed", "cp right/* $2", {{"version", {"echo", "3"}}});
+  records_of("--resume", 2);
+  EXPECT_EQ(
+      bench_.content("err.txt"),
+      "bench: o/records.jsonl:1: program: another than now, for Mesh0/default/EXTERNAL:one\n");
+}
+
+TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
+  write_right();
+  std::filesystem::create_directories(bench_.path("tmp"));
+  declare("one", "condensed",
+          "sleep 1000 & setsid sleep 1000 & echo $! > orphan; echo $$ > new; mv new pid; wait");
+  setenv("TMPDIR", bench_.path("tmp").c_str(), 1);
+  testing::BackgroundRun run(bench_,
+                             "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o");
+  unsetenv("TMPDIR");
+  testing::wait_for([&] { return std::filesystem::exists(bench_.path("pid")); });
+  const int status = run.end(SIGINT);
+  EXPECT_TRUE(WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == 130);
+  for (const char* file : {"pid", "orphan"})
+    testing::wait_for([&] { return kill(std::stoi(bench_.content(file)), 0) != 0; });
+  testing::wait_for([&] { return std::filesystem::is_empty(bench_.path("tmp")); });
+}
+
+TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
+  const Json right = {{"name", "one"},
+                      {"reads", "condensed"},
+                      {"format", "matrix-market"},
+                      {"returns", "contact_forces"},
+                      {"command", {"true", "{output}"}}};
+  const auto refused = [&](const std::string& text, const std::string& line) {
+    SCOPED_TRACE(line);
+    write("one.json", text);
+    const auto result = bench_.run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err.rfind("bench: one.json: " + line, 0), 0u) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  };
+  const auto with = [&](const Json& change) {
+    Json json = right;
+    json.update(change);
+    return json.dump();
+  };
+  const auto without = [&](const char* key) {
+    Json json = right;
+    json.erase(key);
+    return json.dump();
+  };
+  refused("", "parse error");
+  refused("[1]", "the file: [1] (allowed: a JSON object)");
+  refused(std::string(100'000, '['), "parse error at byte 33: nested more than 32 deep");
+  refused(with({{"colour", 1}}), "colour: unknown key (allowed: name, summary, reads, ");
+  refused(without("name"), "name: is missing (allowed: a text)");
+  refused(with({{"name", ""}}), "name: \"\" (allowed: a text)");
+  refused(with({{"name", "a,b"}}), "name: \"a,b\" (allowed: letters, digits, '-', '_' and '.')");
+  refused(with({{"name", "../a"}}), "name: \"../a\" (allowed: letters");
+  refused(with({{"summary", 3}}), "summary: 3 (allowed: a text)");
+  refused(without("reads"), "reads: is missing (allowed: airy, body, condensed)");
+  refused(with({{"reads", "mind"}}), "reads: \"mind\" (allowed: airy, body, condensed)");
+  refused(with({{"returns", "airy_function"}}),
+          "returns: \"airy_function\" (allowed: contact_forces, as it reads condensed)");
+  refused(with({{"format", "xml"}}), "format: \"xml\" (allowed: matrix-market");
+  refused(with({{"reads", "airy"}, {"returns", "airy_function"}, {"format", "fclib"}}),
+          "format: \"fclib\" (allowed: matrix-market");
+  refused(without("command"), "command: is missing (allowed: a list of texts, the program first)");
+  for (const Json& command :
+       {Json("true"), Json::array(), Json::array({"", "a"}), Json::array({"true", 1})})
+    refused(with({{"command", command}}), "command: " + command.dump() + " (allowed: a list of ");
+  refused(with({{"command", {"true", "{outpt}"}}}), "command: \"{outpt}\" (allowed: {input}, ");
+  refused(with({{"first_tolerance", 0}}), "first_tolerance: 0 (allowed: a number > 0)");
+  refused(with({{"first_tolerance", 0.1}}),
+          "first_tolerance: 0.1 (allowed: with {tolerance} in the command)");
+  refused(with({{"version", {"false", "it"}}}), "version: false it: ended with exit code 1\n");
+  refused(with({{"version", {"true"}}}), "version: true: ended with exit code 0\n");
+  refused(with({{"version", {"no-such-program"}}}),
+          "version: no-such-program: cannot be started: No such file or directory\n");
+}
+
+TEST_F(ExternalCommand, TwoOfOneNameAreRefused) {
+  declare("one", "airy", "exit 1");
+  std::filesystem::copy(bench_.path("one.json"), bench_.path("two.json"));
+  const auto result = bench_.run("--external=one.json,two.json --method='EXTERNAL:*' --mesh=Mesh0");
+  EXPECT_EQ(result.code, 2);
+  EXPECT_EQ(result.err,
+            "bench: --external: two.json: another file declares EXTERNAL:one (allowed: one)\n");
+  EXPECT_EQ(bench_.run("--external=none.json --mesh=Mesh0").err,
+            "bench: none.json: cannot be opened: No such file or directory\n");
+}
+
+}  // namespace
+}  // namespace airybench::external_command_test

@@ -1,0 +1,267 @@
+// Contact problems in FCLIB's format: our own export back again, other storages, and wrong files.
+#include "bench/problems/fclib_reader.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+
+#include "assembly/scene.hpp"
+#include "bench/judging/verifier.hpp"
+#include "bench/problems/hdf5_handle.hpp"
+#include "bench/problems/problem_files.hpp"
+#include "solvers/methods.hpp"
+#include "support/errors.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::fclib_reader_test {
+namespace {
+
+// A dataset's name to its values, whole or not; sorted, so that groups are made in turn.
+struct Values {
+  std::vector<double> numbers;
+  bool whole = false;
+};
+using Contents = std::map<std::string, Values>;
+
+Values whole(std::vector<double> numbers) { return {std::move(numbers), true}; }
+
+enum class Storage { rows, columns, triplets };
+
+// The entries of W that are not zero; triplets of a small one twice, by halves.
+Contents contents_of(const GivenContact& problem, Storage storage) {
+  const int m = static_cast<int>(problem.b.size());
+  std::vector<double> p = {0}, i, x;
+  if (storage == Storage::triplets) p.clear();
+  for (int row = 0; row < m; ++row) {
+    for (int column = 0; column < m; ++column) {
+      if (problem.D(row, column) == 0) continue;
+      const int times = storage == Storage::triplets && m == 4 ? 2 : 1;
+      for (int k = 0; k < times; ++k) {
+        if (storage == Storage::triplets) p.push_back(row);
+        i.push_back(column);
+        x.push_back(problem.D(row, column) / times);
+      }
+    }
+    if (storage != Storage::triplets) p.push_back(static_cast<double>(i.size()));
+  }
+  const double entries = static_cast<double>(i.size());
+  const double form = storage == Storage::rows ? -2 : storage == Storage::columns ? -1 : entries;
+  return {{"/fclib_local/spacedim", whole({2})},
+          {"/fclib_local/W/m", whole({static_cast<double>(m)})},
+          {"/fclib_local/W/n", whole({static_cast<double>(m)})},
+          {"/fclib_local/W/nz", whole({form})},
+          {"/fclib_local/W/nzmax", whole({entries})},
+          {"/fclib_local/W/p", whole(p)},
+          {"/fclib_local/W/i", whole(i)},
+          {"/fclib_local/W/x", {x}},
+          {"/fclib_local/vectors/q", {{problem.b.begin(), problem.b.end()}}},
+          {"/fclib_local/vectors/mu", {problem.friction}}};
+}
+
+void write(const std::filesystem::path& path, const Contents& contents) {
+  const Handle file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links, 1);
+  for (const auto& [name, values] : contents) {
+    const hsize_t size = values.numbers.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const Handle set(H5Dcreate2(file, name.c_str(), values.whole ? H5T_STD_I32LE : H5T_IEEE_F64LE,
+                                space, links, H5P_DEFAULT, H5P_DEFAULT),
+                     H5Dclose);
+    H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.numbers.data());
+  }
+}
+
+GivenContact small_problem() {
+  GivenContact problem;
+  problem.D = Eigen::Vector4d(2, 3, 4, 5).asDiagonal();
+  problem.D(0, 2) = problem.D(2, 0) = 0.5;
+  problem.b = Eigen::Vector4d(-1, 0.5, 2, -0.25);
+  problem.friction = {0.3, 0};
+  return problem;
+}
+
+Solution solved(std::shared_ptr<const GivenContact> given) {
+  Problem problem;
+  problem.given = std::move(given);
+  const DualSystem system =
+      assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points);
+  return run(condensed_contact(), system, {});
+}
+
+class FclibReader : public ::testing::Test {
+ protected:
+  std::shared_ptr<const GivenContact> read(const Contents& contents) const {
+    write(file(), contents);
+    return read_fclib(file());
+  }
+  std::filesystem::path file() const { return bench_.path("p.hdf5"); }
+  void refused(const Contents& contents, const std::string& message) const {
+    SCOPED_TRACE(message);
+    try {
+      read(contents);
+      ADD_FAILURE() << "it was read";
+    } catch (const FileError& why) {
+      EXPECT_EQ(why.what(), file().string() + ": " + message);
+    }
+  }
+  const testing::BenchCommand bench_;
+};
+
+TEST_F(FclibReader, ReadsAllStorages) {
+  const GivenContact problem = small_problem();
+  for (const Storage storage : {Storage::rows, Storage::columns, Storage::triplets}) {
+    const auto found = read(contents_of(problem, storage));
+    EXPECT_EQ(found->D, problem.D);
+    EXPECT_EQ(found->b, problem.b);
+    EXPECT_EQ(found->friction, problem.friction);
+  }
+}
+
+TEST_F(FclibReader, OurOwnExportHasTheForcesOfTheBody) {
+  for (const double friction : {0.3, 0.0}) {
+    Scene scene;
+    scene.friction = friction;
+    const auto problem =
+        std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
+    const Solution of_body =
+        run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
+    PosedScene posed;
+    posed.problem = problem;
+    const ProblemFiles exported = problem_files(posed, "fclib");
+    testing::write_text(file(), exported.files.at("problem.hdf5"));
+    const auto given = read_fclib(file());
+    Eigen::VectorXd F = solved(given).F_C;
+    for (const Storage storage : {Storage::columns, Storage::triplets})
+      EXPECT_EQ(solved(read(contents_of(*given, storage))).F_C, F);
+    if (friction == 0) {
+      EXPECT_EQ(F(Eigen::seq(1, Eigen::last, 2)).norm(), 0);
+      F = Eigen::VectorXd(F(Eigen::seq(0, Eigen::last, 2)));
+    }
+    EXPECT_LT((F - of_body.F_C).norm(), 1e-9 * of_body.F_C.norm());
+  }
+}
+
+TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
+  const auto with = [&](const std::string& name, const Values& values) {
+    Contents contents = contents_of(small_problem(), Storage::rows);
+    contents["/fclib_local/" + name] = values;
+    return contents;
+  };
+  const auto of = [](const std::function<void(GivenContact&)>& change,
+                     Storage storage = Storage::rows) {
+    GivenContact problem = small_problem();
+    change(problem);
+    return contents_of(problem, storage);
+  };
+  refused({}, "/fclib_local: is missing (allowed: a condensed (local) problem)");
+  refused(
+      {{"/fclib_global/spacedim", whole({2})}},
+      "/fclib_local: is missing, there is /fclib_global (allowed: a condensed (local) problem)");
+  refused(with("spacedim", whole({3})), "/fclib_local/spacedim: 3 (allowed: 2)");
+  refused(with("W/m", whole({3})),
+          "/fclib_local/W/m: 3 (allowed: an even number: two per contact)");
+  refused(with("W/m", whole({-4})),
+          "/fclib_local/W/m: -4 (allowed: a whole number from 2 to 20000)");
+  refused(with("W/m", {{4}}),
+          "/fclib_local/W/m: values of another kind (allowed: 1 whole numbers)");
+  refused(with("W/n", whole({6})), "/fclib_local/W/n: 6 (allowed: 4)");
+  refused(with("W/nz", whole({-3})),
+          "/fclib_local/W/nz: -3 (allowed: a whole number from -2 to 6)");
+  refused(with("W/nzmax", whole({17})),
+          "/fclib_local/W/nzmax: 17 (allowed: a whole number from 1 to 16)");
+  refused(with("W/p", whole({0, 1})), "/fclib_local/W/p: 2 values (allowed: 5 whole numbers)");
+  refused(with("W/p", whole({0, 3, 2, 5, 6})),
+          "/fclib_local/W/p: does not rise from 0 (allowed: 0 to at most 6)");
+  refused(with("W/p", whole({0, 2, 3, 5, 7})), "/fclib_local/W/p: [4] is 7 (allowed: 0 to 6)");
+  refused(with("W/i", whole({0, 2, 1, 0, 2, 4})), "/fclib_local/W/i: [5] is 4 (allowed: 0 to 3)");
+  refused(with("W/i", whole({0, -1, 1, 0, 2, 3})), "/fclib_local/W/i: [1] is -1 (allowed: 0 to 3)");
+  refused(with("vectors/mu", {{0.3, -0.1}}),
+          "/fclib_local/vectors/mu: [1] is -0.1 (allowed: at least 0)");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  refused(with("vectors/mu", {{nan, 0}}),
+          "/fclib_local/vectors/mu: [0] is nan (allowed: finite numbers)");
+  refused(with("vectors/q", {{0, 0, 1 / 0.0, 0}}),
+          "/fclib_local/vectors/q: [2] is inf (allowed: finite numbers)");
+  refused(with("vectors/mu", {{0.3}}), "/fclib_local/vectors/mu: 1 values (allowed: 2 numbers)");
+  refused(with("vectors/s", {{0}}), "/fclib_local/vectors/s: equality constraints (allowed: none)");
+  refused(with("V/m", whole({0})), "/fclib_local/V: equality constraints (allowed: none)");
+  refused(of([](GivenContact& p) { p.D(0, 2) = 0.6; }),
+          "/fclib_local/W: differs from its transpose by 0.1 (allowed: a symmetric matrix)");
+  refused(of([](GivenContact& p) { p.D(3, 3) = 0; }, Storage::triplets),
+          "/fclib_local/W: diagonal entry 3 is 0 (allowed: > 0)");
+  for (const auto& [name, values] : contents_of(small_problem(), Storage::rows)) {
+    Contents contents = contents_of(small_problem(), Storage::rows);
+    contents.erase(name);
+    const std::string what = values.whole ? "whole numbers" : "numbers";
+    const std::size_t count = name.ends_with("spacedim") ? 1 : values.numbers.size();
+    refused(contents, fmt::format("{}: is missing (allowed: {} {})", name, count, what));
+    contents[name + "/group"] = whole({1});
+    refused(contents, fmt::format("{}: is no dataset (allowed: {} {})", name, count, what));
+  }
+}
+
+TEST_F(FclibReader, WhatIsNoHdf5IsRefused) {
+  write(file(), contents_of(small_problem(), Storage::rows));
+  const std::string bytes = testing::text_of(file());
+  for (const std::string& text : {std::string(), std::string("text"), bytes.substr(0, 700)}) {
+    testing::write_text(file(), text);
+    const auto result = bench_.run("--problem=p.hdf5");
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err, "bench: p.hdf5: cannot be opened (allowed: an HDF5 file)\n");
+  }
+  EXPECT_EQ(bench_.run("--problem=none.hdf5").err,
+            "bench: none.hdf5: cannot be opened: no such file\n");
+}
+
+TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
+  write(file(), contents_of(small_problem(), Storage::rows));
+  const std::string bytes = testing::text_of(file());
+  std::mt19937 random(1);
+  int refusals = 0;
+  for (int k = 0; k < 500; ++k) {
+    std::string damaged = bytes;
+    const int flips = 1 + static_cast<int>(random() % 4);
+    for (int flip = 0; flip < flips; ++flip)
+      damaged[random() % damaged.size()] ^= static_cast<char>(1 + random() % 255);
+    testing::write_text(file(), damaged);
+    try {
+      const auto problem = read_fclib(file());
+      EXPECT_EQ(problem->D.rows(), problem->b.size());
+    } catch (const FileError& why) {
+      EXPECT_EQ(std::string(why.what()).find('\n'), std::string::npos);
+      ++refusals;
+    }
+  }
+  EXPECT_GT(refusals, 50);
+  EXPECT_LT(refusals, 500);
+}
+
+// One contact, by hand: W = I, q = (−1, 0.5), μ = 0.5, r = (2, 0): u = r + q = (1, 0.5), û = (1.25,
+// 0.5), r − û = (0.75, −0.5) is outside of the cone: nearest n = (0.75 + 0.25)/1.25 = 0.8, t =
+// −0.4; the difference to r is (1.2, 0.4); the largest of ‖r‖ = 2, ‖u‖ and ‖q‖ is 2.
+TEST(SiconosError, OfOneContactByHand) {
+  const auto given = std::make_shared<GivenContact>();
+  given->D = Eigen::Matrix2d::Identity();
+  given->b = Eigen::Vector2d(-1, 0.5);
+  given->friction = {0.5};
+  const Solution exact = solved(given);
+  ASSERT_EQ(exact.status, Status::ok);
+  EXPECT_LT((exact.F_C - Eigen::Vector2d(-1, 0.5)).norm(), 1e-12);  // slip: |t| = μ n
+  Problem problem;
+  problem.given = given;
+  const DualSystem system =
+      assemble(std::make_shared<const Problem>(problem), Blocks::contact_points);
+  EXPECT_LT(verify_given_contact(system, exact).siconos_error.value(), 1e-12);
+  Solution wrong = exact;
+  wrong.F_C = Eigen::Vector2d(-2, 0);
+  EXPECT_NEAR(verify_given_contact(system, wrong).siconos_error.value(), std::sqrt(1.6) / 2, 1e-14);
+}
+
+}  // namespace
+}  // namespace airybench::fclib_reader_test

@@ -1,0 +1,97 @@
+// `bench --problem` from outside, and what other commands do with its records.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::given_problem_command_test {
+namespace {
+
+class GivenProblemCommand : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(bench_.run("export-problem --mesh=Mesh0 --format=fclib --out=fclib").code, 0);
+  }
+  testing::CommandResult run(const std::string& arguments) const {
+    return bench_.run("--problem=fclib/problem.hdf5 --repetitions=1 --out=o " + arguments);
+  }
+  void refused(const std::string& arguments, const std::string& beginning) const {
+    const auto result = bench_.run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_EQ(result.err.rfind("bench: " + beginning, 0), 0u) << result.err;
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+  }
+  const testing::BenchCommand bench_;
+};
+
+TEST_F(GivenProblemCommand, AllContactSolversAgree) {
+  ASSERT_EQ(run("").code, 0);
+  const std::vector<Json> records = bench_.records();
+  ASSERT_EQ(records.size(), 4u);
+  for (const Json& record : records) {
+    SCOPED_TRACE(record["contact_solver"]);
+    EXPECT_EQ(record["status"], "ok");
+    EXPECT_TRUE(record["n_phi"].is_null());
+    EXPECT_EQ(record["n_c"], 40);
+    EXPECT_LT(record["natural_map_residual"], 1e-8);
+    EXPECT_LT(record["siconos_error"], 1e-8);
+    for (const char* count : {"n_open", "n_stick", "n_slip"})
+      EXPECT_EQ(record[count], records[0][count]) << count;
+    const auto resultant = record["normal_resultant_N"].get<double>(),
+               expected = records[0]["normal_resultant_N"].get<double>();
+    EXPECT_NEAR(resultant, expected, 1e-8 * std::abs(expected));
+  }
+}
+
+TEST_F(GivenProblemCommand, MethodsOfBodiesAreSkipped) {
+  ASSERT_EQ(run("--method=HYBRID,CONDENSED --contact=newton").code, 0);
+  const std::vector<Json> records = bench_.records();
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0]["status"], "skipped");
+  EXPECT_EQ(records[0]["status_reason"], "the problem has no body");
+  EXPECT_EQ(records[1]["status"], "ok");
+}
+
+TEST_F(GivenProblemCommand, NoPictureIsOffered) {
+  EXPECT_EQ(run("--method=HYBRID").out.find("--fields"), std::string::npos);
+}
+
+TEST_F(GivenProblemCommand, PlansAreShown) {
+  const auto dry = run("--dry-run");
+  EXPECT_EQ(dry.code, 0);
+  EXPECT_NE(dry.out.find("the run: about 0 "), std::string::npos) << dry.out;
+  const auto explained = run("--explain");
+  EXPECT_NE(explained.out.find("[1/4] problem/fclib/CONDENSED  n_c 40\n"), std::string::npos)
+      << explained.out;
+}
+
+TEST_F(GivenProblemCommand, WrongUseIsRefused) {
+  const std::string problem = "--problem=fclib/problem.hdf5 ";
+  refused(problem + "--method=NONE", "no method matches 'NONE' (valid: ");
+  for (const char* option :
+       {"--mesh=Mesh0", "--scene=a.json", "--figure=3", "--study=error", "--adapt=1%", "--fields"})
+    refused(problem + option, std::string(option).substr(0, std::string(option).find('=')) +
+                                  ": not with --problem, which has no body");
+  refused("--problem=fclib/problem.hdf5,fclib/problem.hdf5", "--problem: fclib/problem.hdf5 (allo");
+  refused("--problem=fclib", "fclib: cannot be opened: no such file");
+  refused("--problem=fclib/problem.json", "fclib/problem.json: cannot be opened (allowed: an HDF5");
+  refused("--problem='none*.hdf5'", "none*.hdf5: cannot be opened: no such file");
+}
+
+TEST_F(GivenProblemCommand, OtherCommandsTakeItsRecords) {
+  ASSERT_EQ(run("").code, 0);
+  EXPECT_EQ(run("--resume").code, 0);
+  for (const char* arguments :
+       {"claims o", "compare o o", "merge o --out=merged", "export o --format=csv",
+        "export o --format=junit", "export o --format=google-benchmark",
+        "export o --format=github-action", "export o --format=bencher"})
+    EXPECT_EQ(bench_.run(arguments).code, 0) << arguments << ": " << bench_.content("err.txt");
+  const auto replayed = bench_.run("replay o:1");
+  EXPECT_EQ(replayed.code, 2);
+  EXPECT_EQ(replayed.err,
+            "bench: o:1: a contact problem of --problem (allowed: cases with a mesh)\n");
+}
+
+}  // namespace
+}  // namespace airybench::given_problem_command_test
