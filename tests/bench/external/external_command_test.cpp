@@ -30,7 +30,7 @@ TEST_F(ExternalCommand, AnHonestAnswerIsOkWithItsOwnNumbers) {
   for (const auto& [name, r] : records) {
     SCOPED_TRACE(name);
     EXPECT_EQ(r["status"], "ok") << r["status_reason"];
-    EXPECT_EQ(r["family"], "EXTERNAL");
+    EXPECT_EQ(r["family"], "EXTERNAL:" + name);
     EXPECT_EQ(r["program"], name + " 1.0");
     EXPECT_GT(r["program_s"], r["time_s"].get<double>() / 1e6);
     EXPECT_GT(r["peak_rss_bytes"], 0);
