@@ -10,13 +10,12 @@
 namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
-  MeshSizes sizes = mesh_sizes(problem.mesh);
   if (problem.given) {
-    sizes = {};
+    MeshSizes sizes;
     sizes.n_c = static_cast<int>(problem.given->b.size());
-    sizes.contact_edges = sizes.n_c / 4;
     return sizes;
   }
+  MeshSizes sizes = mesh_sizes(problem.mesh);
   if (!problem.has_friction()) {
     sizes.n_f += sizes.n_c / 2;
     sizes.n_c -= sizes.n_c / 2;

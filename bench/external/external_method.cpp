@@ -99,6 +99,14 @@ class ProgramSolve {
     work_.reset();
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
+  // The same of a program that solves all of it: its word and its stages.
+  Solution take_over(const RunControl& control) {
+    end_handing_over();
+    Solution solution;
+    note(control, solution);
+    for (const auto& [stage, seconds] : answer_.stages) solution.times[stage] = seconds;
+    return solution;
+  }
 
   // Its word.
   void note(const RunControl& control, Solution& solution) const {
@@ -148,11 +156,10 @@ Solution solve_airy(const Caller& caller, const DualSystem& system, const RunCon
   ProgramSolve program(
       caller, [&] { return airy_files(system, caller.declaration.format); }, control);
   const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
-  Solution solution;
-  if (system.n_c() > 0) solution.F_C = program.array("F_C.mtx", system.n_c(), 1);
-  program.end_handing_over();
-  program.note(control, solution);
-  for (const auto& [stage, seconds] : program.answer().stages) solution.times[stage] = seconds;
+  Eigen::VectorXd F_C;
+  if (system.n_c() > 0) F_C = program.array("F_C.mtx", system.n_c(), 1);
+  Solution solution = program.take_over(control);
+  solution.F_C = std::move(F_C);
   const StageTimer timer(solution.times, Stage::recover);
   solution.phi = airy_function(system, x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
@@ -179,10 +186,7 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
       caller, [&] { return body_files(problem, caller.declaration.format); }, control);
   const Eigen::MatrixXd values =
       program.array("displacement_mm.mtx", displacement_nodes(problem), 2);
-  program.end_handing_over();
-  Solution solution;
-  program.note(control, solution);
-  for (const auto& [stage, seconds] : program.answer().stages) solution.times[stage] = seconds;
+  Solution solution = program.take_over(control);
   const StageTimer timer(solution.times, Stage::recover);
   solution.displacement = displacement_of(problem, values);
   solution.stress = stress_of_displacement(problem, solution.displacement);
@@ -198,10 +202,9 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
   return F(Eigen::seqN(0, contact.count, 2));
 }
 
-Solution solve_contact_law(const Caller& caller, const DualSystem& system,
+// solve: of the method whose contact law it is.
+Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualSystem& system,
                            const RunControl& given) {
-  static const Solve of_body = select_methods("HYBRID").front().solve,
-                     of_given_contact = condensed_contact().solve;
   std::optional<ProgramSolve> program;
   RunControl control = given;
   control.contact_by = [&](const CondensedSystem& condensed, const ContactPoints& contact,
@@ -220,8 +223,7 @@ Solution solve_contact_law(const Caller& caller, const DualSystem& system,
     program->end_handing_over();
     return result;
   };
-  Solution solution =
-      system.problem->given ? of_given_contact(system, control) : of_body(system, control);
+  Solution solution = solve(system, control);
   if (!program) return solution;
   const std::optional<std::int64_t> linear = solution.linear_iterations;
   if (has_answer(solution.status)) program->note(given, solution);
@@ -254,8 +256,9 @@ Method external_method(const Declaration& declaration,
     case Declaration::Reads::condensed:
       method = select_methods("HYBRID").front();
       method.takes = Method::Takes::both;
-      solve = [caller](const DualSystem& s, const RunControl& c) {
-        return solve_contact_law(caller, s, c);
+      solve = [caller, of_body = method.solve, of_given = condensed_contact().solve](
+                  const DualSystem& s, const RunControl& c) {
+        return solve_contact_law(caller, s.problem->given ? of_given : of_body, s, c);
       };
       break;
   }

@@ -34,9 +34,8 @@ struct IterationHistory {
 
 // Of a solve that was another program's.
 struct ProgramRun {
-  double wall_s = 0;  // from its start to its end
-  double not_solve_s =
-      0;  // of our clock's time: its start-up, files; what its own clock leaves out
+  double wall_s = 0;            // from its start to its end
+  double not_solve_s = 0;       // of our time what its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and all that it started
 };
 

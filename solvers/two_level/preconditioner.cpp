@@ -45,35 +45,26 @@ void TwoLevelPreconditioner::hold(const std::vector<Eigen::Index>& held) {
   coarse_->hold(of_block);
 }
 
+void TwoLevelPreconditioner::relax(int i, const Eigen::VectorXd& r, Eigen::VectorXd& x) {
+  const auto rows_of = [](int block) { return 4 * static_cast<Eigen::Index>(block); };
+  Eigen::Vector4d load = r.segment<4>(rows_of(i));
+  for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
+    load.noalias() -= K_.left[k] * x.segment<4>(rows_of(K_.column[k]));
+  const Eigen::Vector4d own = inverse_[i] * load;
+  x.segment<4>(rows_of(i)) = own;
+  for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
+    rest_.segment<4>(rows_of(K_.column[k])).noalias() -= K_.left[k].transpose() * own;
+}
+
 void TwoLevelPreconditioner::sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
   x.resize(r.size());
   rest_.setZero(r.size());
-  for (int i = 0; i < K_.blocks(); ++i) {
-    const Eigen::Index at = 4 * static_cast<Eigen::Index>(i);
-    Eigen::Vector4d load = r.segment<4>(at);
-    for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
-      load.noalias() -= K_.left[k] * x.segment<4>(4 * static_cast<Eigen::Index>(K_.column[k]));
-    const Eigen::Vector4d own = inverse_[i] * load;
-    x.segment<4>(at) = own;
-    for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
-      rest_.segment<4>(4 * static_cast<Eigen::Index>(K_.column[k])).noalias() -=
-          K_.left[k].transpose() * own;
-  }
+  for (int i = 0; i < K_.blocks(); ++i) relax(i, r, x);
 }
 
 void TwoLevelPreconditioner::sweep_backward(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
   rest_ = r;
-  for (int i = K_.blocks(); i-- > 0;) {
-    const Eigen::Index at = 4 * static_cast<Eigen::Index>(i);
-    Eigen::Vector4d load = rest_.segment<4>(at);
-    for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
-      load.noalias() -= K_.left[k] * x.segment<4>(4 * static_cast<Eigen::Index>(K_.column[k]));
-    const Eigen::Vector4d own = inverse_[i] * load;
-    x.segment<4>(at) = own;
-    for (int k = K_.start[i]; k < K_.start[i + 1]; ++k)
-      rest_.segment<4>(4 * static_cast<Eigen::Index>(K_.column[k])).noalias() -=
-          K_.left[k].transpose() * own;
-  }
+  for (int i = K_.blocks(); i-- > 0;) relax(i, rest_, x);
 }
 
 void TwoLevelPreconditioner::apply(const Eigen::VectorXd& r, Eigen::VectorXd& x) {

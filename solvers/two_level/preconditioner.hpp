@@ -27,6 +27,8 @@ class TwoLevelPreconditioner {
   std::size_t bytes() const;
 
  private:
+  // x_i = K_ii⁻¹ (r_i − Σ K_ij x_j) over the blocks j before i, whose rest_ loses K_ji x_i.
+  void relax(int i, const Eigen::VectorXd& r, Eigen::VectorXd& x);
   void sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x);  // rest_ = r − K x
   void sweep_backward(const Eigen::VectorXd& r, Eigen::VectorXd& x);
 
