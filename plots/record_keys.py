@@ -152,6 +152,7 @@ class Row:
     tuning_budget_s: float | None = key(NOT_NEGATIVE)
     tuning_cut: bool = key(FLAG)                  # the search ended for lack of time
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
+    peak_rss_bytes: float | None = key(POSITIVE)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)
     memory_counts_differ: bool = key(FLAG)
@@ -165,6 +166,7 @@ class Row:
     target_error: float | None = key(POSITIVE)
     error_stress: float | None = key(NOT_NEGATIVE)
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
+    error_estimate: float | None = key(NOT_NEGATIVE)  # its own
     reference_error: float | None = key(NOT_NEGATIVE)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)
