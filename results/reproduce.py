@@ -243,8 +243,8 @@ def records_of(folder: Path) -> list[dict]:
 
 def summary(shop: Workshop, parts: list[Part]) -> Iterator[str]:
     """A table: what was measured, when, how it ended, with which revision."""
-    yield "| part | shows | cases | ended | begun | revision |"
-    yield "|---|---|---|---|---|---|"
+    yield "| part | shows | cases | ended | noisy | begun | revision |"
+    yield "|---|---|---|---|---|---|---|"
     for part in parts:
         records = records_of(shop.folder(part))
         if not records:
@@ -255,6 +255,7 @@ def summary(shop: Workshop, parts: list[Part]) -> Iterator[str]:
                      for context in contexts}
         yield (f"| [{part.name}]({part.name}) | {part.shows} | {len(records)} | "
                f"{', '.join(f'{n} {status}' for status, n in ended.most_common())} | "
+               f"{sum(bool(record.get('noisy')) for record in records)} | "
                f"{min(context['date'] for context in contexts)} | {', '.join(sorted(revisions))} |")
 
 
