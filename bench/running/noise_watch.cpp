@@ -22,6 +22,8 @@ constexpr double long_ago_s = 1;
 constexpr double until_idle_threads_sleep_s = 0.1;  // those of BLAS, in the case's process
 constexpr int most_looks = 10;
 constexpr double between_looks_s = 0.2;
+// All waiting together, beyond so many seconds: of the run's time so far.
+constexpr double most_waiting_share = 0.1, free_waiting_s = 10;
 
 bool is_judged(const Record& r) { return r.retry_noisy && r.noise_share && r.time_s; }
 
@@ -86,7 +88,9 @@ void NoiseWatch::wait_for_quiet() {
     const std::vector<double> passes_s = {machine_.loop(1), machine_.loop(1), machine_.loop(1)};
     level_.add(passes_s);
     if (noise_beside(passes_s) <= *most_noise_) return;
+    if (waited_s_ > free_waiting_s + most_waiting_share * seconds_since(start_)) return;
     machine_.pause(between_looks_s);
+    waited_s_ += between_looks_s;
   }
 }
 

@@ -65,7 +65,8 @@ class NoiseWatch {
   void add_passes(int count, int threads, Record& record);
   // The last pass was a second ago or more: asked before each timed run.
   bool is_due() const;
-  // Waits, two seconds at most, until the loop is quiet.
+  // Waits until the loop is quiet: two seconds at most, and all together ten seconds and a tenth of
+  // the run's time.
   void wait_for_quiet();
 
   // Of the passes and samples that the record has now.
@@ -82,7 +83,8 @@ class NoiseWatch {
   std::optional<double> most_noise_;
   Machine machine_;
   QuietLevel level_;
-  std::chrono::steady_clock::time_point last_pass_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_pass_;
+  double waited_s_ = 0;
 };
 
 // Records of this run that passed as quiet, before the machine became quieter by so much that they

@@ -102,6 +102,8 @@ TEST(NoiseWatch, WaitsForQuietButNotForever) {
   made_up.pace_s = 2;
   watch.wait_for_quiet();
   EXPECT_EQ(made_up.pauses, 12);
+  for (int i = 0; i < 100; ++i) watch.wait_for_quiet();
+  EXPECT_LT(made_up.pauses, 500);  // of a thousand: it gives up waiting
 }
 
 TEST(NoiseWatch, LearnsFromRecordsThatAreThere) {
