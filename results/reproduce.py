@@ -31,7 +31,7 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parent
 FORECAST = re.compile(r"^the run: about (.+?)(?:,|;)", re.MULTILINE)
 SECONDS = {"h": 3600, "min": 60, "s": 1, "ms": 1e-3, "µs": 1e-6}
-KEPT = ("meshes",)  # of a run beside its records: what --adapt made
+KEPT = ("meshes", "programs")  # of a run beside its records: what --adapt made, logs of programs
 
 
 class Refused(Exception):
