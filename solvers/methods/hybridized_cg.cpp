@@ -45,7 +45,7 @@ TwoLevelPreconditioner make_two_levels(const DualSystem& airy, const RunControl&
   std::unique_ptr<CoarseDisplacements> coarse;
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body.system = assemble_hybridized(problem, airy.contact);
-    body.matrix = make_edge_matrix(problem, body.system);
+    body.matrix = make_edge_matrix(problem, body.system, control.threads);
     coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
                                                    coarse_kind_for(problem));
   });
@@ -62,7 +62,7 @@ void count_storage(const KrylovBody& body, const TwoLevelPreconditioner& M, cons
                    Solution& solution) {
   solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
   solution.storage[MemoryOwner::preconditioner] = M.bytes();
-  solution.storage[MemoryOwner::iteration] = gmres_bytes(body.matrix.slots(), rows.most_at_once);
+  solution.storage[MemoryOwner::iteration] = rows.bytes;
 }
 
 Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
@@ -92,11 +92,13 @@ Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) 
     solution.edge_moments = edge_moments(problem, body.system.unknown, body.system.displacement, u);
     answer.unbalanced.r.tail(body.system.n_c) += solution.F_C;
   });
+  solution.iteration_times = M.times();
   if (!rows.converged) return solution;  // the check's own solves would not end either
   run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
     check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws, M, control,
                       solution);
   });
+  solution.iteration_times = M.times();
   return solution;
 }
 
