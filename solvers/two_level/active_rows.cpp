@@ -28,8 +28,9 @@ std::vector<PointLaw> laws_of(const ContactPoints& contact, const Eigen::VectorX
 }
 
 // The laws that points begin with: those of the coarse contact problem.
-std::vector<PointLaw> first_laws(const SlotSystem& s, const TwoLevelPreconditioner& M,
+std::vector<PointLaw> first_laws(const SlotSystem& s, TwoLevelPreconditioner& M,
                                  const RunControl& control, RowsResult& result) {
+  M.hold(s.prescribed);
   std::vector<PointLaw> laws(static_cast<std::size_t>(s.contact.count));
   const CoarseContact coarse = M.coarse().contact_problem(s.contact, s.b);
   if (coarse.points.count == 0) return laws;

@@ -123,6 +123,26 @@ TEST(HybridizedCg, WithContactItTakesAFewOfThem) {
   }
 }
 
+// Pieces of edges, and sums, are the same for any number of threads.
+TEST(HybridizedCg, ThreadsDoNotChangeTheAnswer) {
+  Mesh mesh = small_tooth(16, 12);
+  for (int level = 0; level < 3; ++level) mesh = uniformly_refined(mesh);
+  const auto problem = posed({}, mesh);
+  const Solution alone = solve("HYBRID:CG", problem, first_control());
+  ASSERT_EQ(alone.status, Status::ok) << alone.message;
+  for (const int threads : {2, 3}) {
+    RunControl control = first_control();
+    control.threads = threads;
+    const Solution together = solve("HYBRID:CG", problem, control);
+    ASSERT_EQ(together.status, Status::ok) << together.message;
+    EXPECT_EQ(together.linear_iterations, alone.linear_iterations) << threads;
+    EXPECT_LT((together.F_C - alone.F_C).norm(), 1e-9 * alone.F_C.norm()) << threads;
+    EXPECT_LT(stress_distance(*problem, together.stress, alone.stress),
+              1e-9 * std::sqrt(stress_norm_squared(*problem, alone.stress)))
+        << threads;
+  }
+}
+
 TEST(HybridizedCg, SaysWhichCoarseDisplacementsItChose) {
   Scene scene;
   EXPECT_TRUE(
