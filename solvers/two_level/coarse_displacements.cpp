@@ -363,7 +363,8 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
 
 std::size_t CoarseDisplacements::bytes() const {
   return factor_.bytes() +
-         static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) * sizeof(double) +
+         static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) *
+             sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
          block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +
          boundary_.size() * sizeof(BoundaryBlock);

@@ -20,8 +20,7 @@ struct Correction {
 Correction solve_under(const SlotSystem& slots, const std::vector<PointLaw>& laws,
                        const Eigen::VectorXd& load, TwoLevelPreconditioner& M,
                        const Deadline& deadline) {
-  const GmresOptions digits{
-      .tolerance = 0.02, .most_iterations = 20, .threads = slots.K.threads};
+  const GmresOptions digits{.tolerance = 0.02, .most_iterations = 20, .threads = slots.K.threads};
   LinearisedContact linearised(slots, M);
   linearised.set(laws);
   Correction correction;

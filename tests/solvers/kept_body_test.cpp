@@ -142,8 +142,7 @@ TEST(KeptBodies, OfHybridCgAreItsPreconditioner) {
       Scene other = scene;
       if (friction == 0) other.friction = 0;
       set_load_case(system, posed(other));
-      const Solution again = run(first.solve_again, system, {}),
-                     alone = run(method, system, {}),
+      const Solution again = run(first.solve_again, system, {}), alone = run(method, system, {}),
                      exact = run(select_methods("HYBRID").front(), system, {});
       ASSERT_EQ(again.status, Status::ok) << name << ": " << again.message;
       EXPECT_LT((again.F_C - exact.F_C).norm(), 1e-7 * exact.F_C.norm()) << name;
