@@ -163,7 +163,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--contact", contact,
                  "what solves the condensed contact problem: newton (active sets after a few "
                  "sweeps), gauss-seidel (as the paper has it), anderson (the same, accelerated) or "
-                 "admm")
+                 "admm; ALM and HYBRID:CG condense none, and have their own")
       ->check(CLI::IsMember(names_of(all_contact_solvers)))
       ->capture_default_str();
   add_whole(

@@ -39,6 +39,13 @@ struct ProgramRun {
   std::int64_t peak_bytes = 0;  // resident, of it and all that it started
 };
 
+// Wall clock of an iteration's pieces, in whatever stage it ran.
+struct IterationTimes {
+  double matrix_s = 0;    // products with the matrix
+  double smoother_s = 0;  // sweeps of its preconditioner
+  double coarse_s = 0;    // its coarse problem, and what goes to it and back
+};
+
 // The defaults are those of a method that never ran.
 struct Solution {
   Status status = Status::crashed;
@@ -69,6 +76,7 @@ struct Solution {
   std::optional<int> contact_iterations;          // of the contact solver; Newton's: its sweeps
   std::optional<int> newton_steps;                // active sets of the contact law
   std::optional<int> uzawa_iterations;
+  std::optional<IterationTimes> iteration_times;  // two levels only
   std::vector<IterationHistory> histories;
   std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
   std::optional<double> done_fraction, error_so_far;  // on timeout, where known
