@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "bench/external/npy_array.hpp"
 #include "bench/records/json.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -112,6 +113,10 @@ Answer read_answer(const std::filesystem::path& folder) {
 
 Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::string& name,
                            Eigen::Index rows, Eigen::Index columns) {
+  std::error_code error;
+  if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
+      std::filesystem::is_regular_file(folder / binary, error))
+    return read_npy(folder, binary, rows, columns);
   std::istringstream file(text_of(folder, name));
   std::string line;
   int number = 0;
