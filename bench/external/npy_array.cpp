@@ -27,11 +27,12 @@ Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string&
   const std::string shape = fmt::format("{}, {}", rows, columns);
   if (!file || !std::regex_match(header, found, form) ||
       found[2].str() + ", " + (found[3].length() > 0 ? found[3].str() : "1") != shape)
-    throw FileError(fmt::format("{}: {} (allowed: '<f8', shape ({}))", name,
-                                shortened(header, 100), shape));
+    throw FileError(
+        fmt::format("{}: {} (allowed: '<f8', shape ({}))", name, shortened(header, 100), shape));
   const auto read_into = [&](auto values) {
-    file.read(reinterpret_cast<char*>(values.data()),
-              static_cast<std::streamsize>(static_cast<std::size_t>(values.size()) * sizeof(double)));
+    file.read(
+        reinterpret_cast<char*>(values.data()),
+        static_cast<std::streamsize>(static_cast<std::size_t>(values.size()) * sizeof(double)));
     if (!file || file.peek() != std::ifstream::traits_type::eof())
       throw FileError(fmt::format("{}: its length (allowed: {} numbers)", name, values.size()));
     return values;

@@ -17,8 +17,7 @@ std::vector<PointLaw> first_laws(const ContactPoints& contact) {
   for (int p = 0; p < contact.count; ++p) {
     laws[p].closed = contact.gap.size() > 0 && contact.gap(contact.components * p) < 0;
     laws[p].sticks = laws[p].closed && contact.components == 2 && contact.friction_at(p) > 0;
-    if (laws[p].closed && contact.components == 2 && !laws[p].sticks)
-      laws[p].ratio = 0;
+    if (laws[p].closed && contact.components == 2 && !laws[p].sticks) laws[p].ratio = 0;
   }
   return laws;
 }
@@ -86,6 +85,10 @@ class ActiveSets {
     check(VecWAXPY(unbalanced_, -1, product_, system_.b()));
   }
 
+  double relative_linear_error(double norm) const {
+    return relative_error(preconditioned_condition * norm, size_ > 0 ? size_ : scale_, scale_);
+  }
+
   // Until the linear error is below the target, or no longer falls; false: the method broke down.
   bool solve_linear(double target) {
     constexpr int most_cycles = 20;
@@ -95,9 +98,7 @@ class ActiveSets {
     for (int cycle = 0; cycle < most_cycles; ++cycle) {
       check(VecCopy(unbalanced_, r));
       system_.reduce(r);
-      const double norm = solver_.norm(r);
-      now_.linear_error =
-          relative_error(preconditioned_condition * norm, size_ > 0 ? size_ : scale_, scale_);
+      now_.linear_error = relative_linear_error(solver_.norm(r));
       if (!std::isfinite(now_.linear_error)) return false;
       if (now_.linear_error <= target || now_.linear_error > before / 2) break;
       before = now_.linear_error;
@@ -109,6 +110,9 @@ class ActiveSets {
       if (linear.broke_down) return false;
       check(VecAXPY(now_.u, 1, correction_));
       measure();
+      if (target <= tolerance_) continue;  // measured, not believed
+      now_.linear_error *= linear.reduction;
+      if (now_.linear_error <= target) break;
     }
     return true;
   }
@@ -166,8 +170,7 @@ Correction solve_under(EdgeSystem& system, LinearSolver& solver, const std::vect
   check(VecDot(correction.x, product, &energy));
   check(VecWAXPY(r, -1, product, load));
   system.reduce(r);
-  correction.norm =
-      std::sqrt(std::max(0.0, energy)) + preconditioned_condition * solver.norm(r);
+  correction.norm = std::sqrt(std::max(0.0, energy)) + preconditioned_condition * solver.norm(r);
   return correction;
 }
 
@@ -215,9 +218,9 @@ double estimate_error(EdgeSystem& system, LinearSolver& solver, double scale,
   const Correction held = solve_under(system, solver, open, r, answer);
   const Eigen::VectorXd u_C = answer.u_C + system.of_contact(held.x);
   const double map = natural_map(contact, part.compliance, answer.F_C, u_C).norm();
-  return std::max({estimate,
-                   relative_error(safety * (under_laws.norm + held.norm), solver.norm(forces), scale),
-                   relative_error(2 * map, answer.F_C.norm(), 1)});
+  return std::max(
+      {estimate, relative_error(safety * (under_laws.norm + held.norm), solver.norm(forces), scale),
+       relative_error(2 * map, answer.F_C.norm(), 1)});
 }
 
 }  // namespace airybench

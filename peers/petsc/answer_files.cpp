@@ -50,11 +50,13 @@ EdgeDisplacements gather_displacements(const EdgeSystem& system, Vec u) {
     const Eigen::Vector4d w = moments.col(edge);
     const Eigen::Vector2d at_low = w.head<2>() + (2 * a + b) / 3,
                           at_high = w.tail<2>() + (a + 2 * b) / 3;
-    own.push_back({part.mesh.edges.input[edge], {at_low.x(), at_low.y(), at_high.x(), at_high.y()}});
+    own.push_back(
+        {part.mesh.edges.input[edge], {at_low.x(), at_low.y(), at_high.x(), at_high.y()}});
   }
   const std::vector<OfEdge> all = exchanged(own, std::vector<int>(own.size(), 0));
   EdgeDisplacements result(4, static_cast<Eigen::Index>(all.size()));
-  for (const OfEdge& of : all) result.col(of.edge) = Eigen::Map<const Eigen::Vector4d>(of.moments.data());
+  for (const OfEdge& of : all)
+    result.col(of.edge) = Eigen::Map<const Eigen::Vector4d>(of.moments.data());
   return result;
 }
 
@@ -92,8 +94,8 @@ void write_answer(const std::filesystem::path& folder, const EdgeDisplacements& 
                     " \"message\": \"{}\",\n"
                     " \"parameters\": \"ranks={}, coarse={}, {} unknowns, at most {} iterations at "
                     "once\"}}\n",
-                    said.converged ? "ok" : "not_converged", said.time_s, stages,
-                    answer.iterations, answer.steps,
+                    said.converged ? "ok" : "not_converged", said.time_s, stages, answer.iterations,
+                    answer.steps,
                     said.converged ? fmt::format(" \"error_estimate\": {},", said.estimate) : "",
                     said.converged ? "" : message, rank_count(), said.coarse, said.coarse_unknowns,
                     answer.most_in_a_step));

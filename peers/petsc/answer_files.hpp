@@ -9,8 +9,8 @@
 
 namespace airybench {
 
-// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; of u, with the rigid
-// motion; mm.
+// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; of u, with the
+// rigid motion; mm.
 using EdgeDisplacements = Eigen::Matrix4Xd;
 EdgeDisplacements gather_displacements(const EdgeSystem& system, Vec u);
 

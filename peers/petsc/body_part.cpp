@@ -38,7 +38,8 @@ struct AlongEdge {
 // The quadratic with these values at 0, 1/2 and 1; at these three places they themselves.
 template <typename Value>
 Value quadratic(double s, const Value& start, const Value& middle, const Value& end) {
-  return Value(start * ((1 - s) * (1 - 2 * s)) + middle * (4 * s * (1 - s)) + end * (s * (2 * s - 1)));
+  return Value(start * ((1 - s) * (1 - 2 * s)) + middle * (4 * s * (1 - s)) +
+               end * (s * (2 * s - 1)));
 }
 
 // Loads on the rows of a boundary; arrays and places are shared by all functions.
@@ -59,8 +60,8 @@ Loads loads_of(const std::shared_ptr<const GivenData>& given, const Eigen::Vecto
   if (!arrays.u0_mm.isZero(0))
     loads.displacement_mm = [given](const Eigen::Vector2d& x, int of) {
       const Eigen::RowVectorXd u = given->arrays->u0_mm.row(given->row[of]);
-      return Eigen::Vector2d(quadratic<Eigen::RowVector2d>(
-          given->place(x, of), u.segment<2>(0), u.segment<2>(2), u.segment<2>(4)));
+      return Eigen::Vector2d(quadratic<Eigen::RowVector2d>(given->place(x, of), u.segment<2>(0),
+                                                           u.segment<2>(2), u.segment<2>(4)));
     };
   if (!arrays.traction_MPa.isZero(0))
     loads.traction_MPa = [given](const Eigen::Vector2d& x, const Eigen::Vector2d&, int of) {
@@ -128,8 +129,7 @@ void number_local_edges(const MeshPart& mesh, MeshEdges& edges) {
   edges.vertices.resize(mesh.edges.input.size());
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (int k = 0; k < 3; ++k) {
-      const auto [low, high] =
-          std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
+      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
       edges.vertices[mesh.edges_of_triangle[t][k]] = {low, high};
     }
 }
@@ -213,8 +213,8 @@ BodyPart make_body_part(MeshPart mesh, NpzSlices& file) {
     for (Eigen::Index row = 0; row < arrays->edges.rows(); ++row) {
       Ends ends;
       for (int k = 0; k < 2; ++k)
-        ends[k] = static_cast<int>(
-            std::ranges::lower_bound(vertices, arrays->edges(row, k)) - vertices.begin());
+        ends[k] = static_cast<int>(std::ranges::lower_bound(vertices, arrays->edges(row, k)) -
+                                   vertices.begin());
       whole.boundary.push_back({ends, role_at(*arrays, row)});
       all_rows.push_back(static_cast<int>(row));
     }
@@ -243,8 +243,7 @@ BodyPart make_body_part(MeshPart mesh, NpzSlices& file) {
   });
   whole.vertices = places_of(vertices, mesh);
   MeshEdges edges = std::move(part.problem.edges);
-  part.problem =
-      with_boundary(std::move(local), compliance, arrays, part.row_of_part, body_force);
+  part.problem = with_boundary(std::move(local), compliance, arrays, part.row_of_part, body_force);
   part.problem.edges = std::move(edges);
   part.boundary =
       with_boundary(std::move(whole), std::move(compliance), arrays, all_rows, body_force);

@@ -2,8 +2,8 @@
 // the square root of the body.
 //
 // The part's vertices keep the order of their numbers in the file, so that edges keep their
-// direction. Its boundary has rows for those edges of the whole boundary that the part has, and none
-// for edges that it shares with other parts.
+// direction. Its boundary has rows for those edges of the whole boundary that the part has, and
+// none for edges that it shares with other parts.
 #pragma once
 
 #include "assembly/dual_system.hpp"
@@ -17,7 +17,7 @@ struct BodyPart {
   Problem problem;
   // Without triangles and edges, but the vertices of the boundary only: every row of it.
   Problem boundary;
-  std::vector<int> row_of_part;      // row of problem.mesh.boundary → row of boundary.mesh.boundary
+  std::vector<int> row_of_part;  // row of problem.mesh.boundary → row of boundary.mesh.boundary
   std::vector<int> boundary_vertex;  // local vertex of the part → vertex of `boundary`, or −1
   ContactPoints contact;             // of the whole boundary
   Eigen::VectorXd compliance;        // rough, of every row of F_C

@@ -60,8 +60,7 @@ CoarseSpace::CoarseSpace(const BodyPart& part, CoarseKind kind) : part_(part), k
     boundary_node_of_ = part.boundary_vertex;
   else
     for (std::size_t edge = 0; edge < row_of_edge_.size(); ++edge)
-      if (row_of_edge_[edge] >= 0)
-        boundary_node_of_[edge] = part.row_of_part[row_of_edge_[edge]];
+      if (row_of_edge_[edge] >= 0) boundary_node_of_[edge] = part.row_of_part[row_of_edge_[edge]];
   find_boundary_nodes();
 
   std::vector<Pair> pairs;
@@ -131,6 +130,9 @@ void CoarseSpace::find_boundary_nodes() {
     });
   }
   for (Node& node : boundary_nodes_) node.held = node.prescribed;
+  held_by_matrix_.resize(boundary_nodes_.size());
+  check(PetscOptionsGetReal(nullptr, nullptr, "-coarse_share_of_changes", &share_of_changes_,
+                            nullptr));
 }
 
 // An edge's slots by the components of its nodes; local nodes in ends, the second −1 of one alone.
@@ -154,7 +156,8 @@ Eigen::Matrix4d CoarseSpace::edge_rows(int edge, std::array<int, 2>& ends) const
         directions << frame.normal.transpose(), frame.tangent.transpose();
       }
       rows.block<2, 2>(2 * end, 2 * n) =
-          weights[end][n] * (node == nullptr ? directions : Eigen::Matrix2d(directions * node->frame));
+          weights[end][n] *
+          (node == nullptr ? directions : Eigen::Matrix2d(directions * node->frame));
     }
   }
   if (row >= 0) {
@@ -278,8 +281,8 @@ void CoarseSpace::add_near_nullspace() {
       x = (part_.mesh.vertices_mm[a] + part_.mesh.vertices_mm[b]) / 2;
     }
     const Node* of = node_at(node);
-    const std::array<Eigen::Vector2d, 3> motion = {Eigen::Vector2d::UnitX(),
-                                                   Eigen::Vector2d::UnitY(), {-x.y(), x.x()}};
+    const std::array<Eigen::Vector2d, 3> motion = {
+        Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY(), {-x.y(), x.x()}};
     for (int m = 0; m < 3; ++m) {
       const Eigen::Vector2d own =
           of == nullptr ? motion[m] : Eigen::Vector2d(of->frame.transpose() * motion[m]);
@@ -303,7 +306,6 @@ void CoarseSpace::add_near_nullspace() {
 }
 
 bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
-  const std::vector<Node> before = boundary_nodes_;
   for (Node& node : boundary_nodes_) node.held = node.prescribed;
   const ContactPoints& contact = part_.contact;
   for (int p = 0; p < contact.count; p += 2)
@@ -321,8 +323,7 @@ bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
   for (std::size_t row = 0; row < part_.row_of_part.size(); ++row) {
     const int p = first_point[part_.row_of_part[row]];
     if (p < 0) continue;
-    const PetscInt slot =
-        4 * (edges.global[part_.problem.edges.of_boundary[row]] - edges.begin);
+    const PetscInt slot = 4 * (edges.global[part_.problem.edges.of_boundary[row]] - edges.begin);
     for (int end = 0; end < 2; ++end) {
       if (laws[p + end].closed) held_.fine.push_back(slot + 2 * end);
       if (laws[p + end].sticks) held_.fine.push_back(slot + 2 * end + 1);
@@ -337,10 +338,15 @@ bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
         held_.coarse.push_back(rows.back() - 2 * coarse.begin);
       }
   }
-  const bool changed = !std::ranges::equal(
-      before, boundary_nodes_, [](const Node& a, const Node& b) { return a.held == b.held; });
-  if (!changed && part_.contact.count > 0 && matrix_is_held_) return false;
+  // The matrix may hold a few nodes too many or too few: that costs an iteration, it anew several.
+  std::size_t changes = 0;
+  for (std::size_t k = 0; k < boundary_nodes_.size(); ++k)
+    for (int i = 0; i < 2; ++i) changes += boundary_nodes_[k].held[i] != held_by_matrix_[k][i];
+  const auto few = static_cast<std::size_t>(share_of_changes_ * part_.contact.size());
+  if (matrix_is_held_ && changes <= few) return false;
   matrix_is_held_ = true;
+  for (std::size_t k = 0; k < boundary_nodes_.size(); ++k)
+    held_by_matrix_[k] = boundary_nodes_[k].held;
   check(MatCopy(matrix_, held_matrix_, SAME_NONZERO_PATTERN));
   OwnedVec diagonal;
   check(MatCreateVecs(matrix_, nullptr, diagonal.put()));

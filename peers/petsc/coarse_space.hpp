@@ -1,11 +1,11 @@
-// Coarse displacements v of nodes and their problem PᵀKP (solvers/two_level/coarse_displacements.hpp)
-// over the ranks:
+// Coarse displacements v of nodes and their problem PᵀKP
+// (solvers/two_level/coarse_displacements.hpp) over the ranks:
 //
 //   linear    a node per vertex:  ū_a = (2v_a + v_b)/3 along every edge
 //   per_edge  a node per edge:    ū_a = ū_b = v; does not lock near incompressibility
 //
-// Nodes on Γ_C and rollers have normal and tangential components. A component is held where the slots
-// of its edges are: P leaves it out, and in PᵀKP only its diagonal stays.
+// Nodes on Γ_C and rollers have normal and tangential components. A component is held where the
+// slots of its edges are: P leaves it out, and in PᵀKP only its diagonal stays.
 #pragma once
 
 #include "peers/petsc/edge_system.hpp"
@@ -29,8 +29,8 @@ class CoarseSpace {
   // Holds what these laws hold; collective. Whether that is other than before.
   bool set_laws(const std::vector<PointLaw>& laws);
 
-  Mat matrix() const { return held_matrix_; }     // PᵀKP
-  Mat prolongation() const { return shell_; }     // P
+  Mat matrix() const { return held_matrix_; }  // PᵀKP
+  Mat prolongation() const { return shell_; }  // P
   CoarseKind kind() const { return kind_; }
   PetscInt unknowns() const;
 
@@ -70,7 +70,9 @@ class CoarseSpace {
   std::vector<int> row_of_edge_;       // local edge → row of the part's boundary, or −1
   parallel::OwnedMat matrix_, held_matrix_, P_, shell_;
   Held held_;
+  std::vector<std::array<bool, 2>> held_by_matrix_;
   bool matrix_is_held_ = false;
+  PetscReal share_of_changes_ = 0.01;  // of the contact rows, that the matrix is not made anew for
 };
 
 }  // namespace airybench

@@ -20,9 +20,7 @@ struct Meeting {
 // Sides that meet are next to one another once they are sorted, their edge before them.
 std::vector<Meeting> meetings_of(std::vector<Side> sides, std::vector<int>& to,
                                  PetscInt triangles) {
-  std::ranges::sort(sides, {}, [](const Side& s) {
-    return std::array{s.low, s.high, s.triangle};
-  });
+  std::ranges::sort(sides, {}, [](const Side& s) { return std::array{s.low, s.high, s.triangle}; });
   std::vector<Meeting> found;
   for (std::size_t k = 0; k < sides.size();) {
     const Side& edge = sides[k];
@@ -172,7 +170,7 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<int>& vertices, const M
   std::vector<Eigen::Vector2d> places(vertices.size());
   for (const Place& place : exchanged(answers, back))  // vertices are sorted
     places[std::ranges::lower_bound(vertices, place.vertex) - vertices.begin()] = {place.x,
-                                                                                  place.y};
+                                                                                   place.y};
   return places;
 }
 

@@ -1,10 +1,12 @@
-// The mesh of an exported body, spread over the ranks: nobody has more of it than his own triangles.
+// The mesh of an exported body, spread over the ranks: nobody has more of it than his own
+// triangles.
 //
 //   slices    every rank reads as many rows of triangles, edges and vertices; who meets whom at an
 //             edge is found at the rank that has the edge's low vertex in its slice
 //   parts     the dual graph is partitioned (MatPartitioning: -mat_partitioning_type), triangles go
 //             where they belong
-//   numbers   edges and vertices of the parts: an entity belongs to the lowest rank that has it, and
+//   numbers   edges and vertices of the parts: an entity belongs to the lowest rank that has it,
+//   and
 //             the numbers of a rank follow one another, edges in the order in which triangles meet
 //             them
 #pragma once
@@ -24,20 +26,18 @@ struct SlicedTriangle {
 struct MeshSlices {
   PetscInt triangles = 0, edges = 0, vertices = 0;  // of all ranks
   std::vector<SlicedTriangle> own;
-  std::vector<int> body;              // of own
-  Eigen::MatrixXd vertices_mm;        // of the slice
+  std::vector<int> body;        // of own
+  Eigen::MatrixXd vertices_mm;  // of the slice
 };
 MeshSlices read_slices(NpzSlices& file);
 
 // Entities (vertices, edges) of a part.
 struct Numbering {
-  std::vector<int> input;        // local → the number that it has in the file
-  std::vector<PetscInt> global;  // local → its number among all ranks
-  std::vector<bool> shared;      // local → another rank has it, too
+  std::vector<int> input;         // local → the number that it has in the file
+  std::vector<PetscInt> global;   // local → its number among all ranks
+  std::vector<bool> shared;       // local → another rank has it, too
   PetscInt owned = 0, begin = 0;  // global numbers [begin, begin + owned) are of this rank
-  bool is_owned(int local) const {
-    return global[local] >= begin && global[local] < begin + owned;
-  }
+  bool is_owned(int local) const { return global[local] >= begin && global[local] < begin + owned; }
 };
 
 struct MeshPart {

@@ -120,8 +120,8 @@ void create_square_matrix(const Numbering& entities, int unknowns, const std::ve
   check(MatSetType(matrix, type));
   check(MatSetBlockSize(matrix, block_size));
   check(MatSetFromOptions(matrix));
-  check(MatXAIJSetPreallocation(matrix, block_size, in_row.data(), out_row.data(), nullptr,
-                                nullptr));
+  check(
+      MatXAIJSetPreallocation(matrix, block_size, in_row.data(), out_row.data(), nullptr, nullptr));
 }
 
 EdgeSystem::EdgeSystem(const BodyPart& part, const Visit& visit) : part_(part) {
@@ -184,7 +184,7 @@ void EdgeSystem::create_matrix() {
   check(PetscOptionsGetInt(nullptr, nullptr, "-stiffness_block_size", &block_size, nullptr));
   if (block_size != 4 && block_size != 2 && block_size != 1)
     throw OptionError("-stiffness_block_size " + std::to_string(block_size) +
-                       " (allowed: 1, 2, 4)");
+                      " (allowed: 1, 2, 4)");
   create_square_matrix(part_.mesh.edges, 4, pairs, MATBAIJ, static_cast<int>(block_size),
                        "stiffness_", A_);
   check(MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
@@ -201,8 +201,7 @@ std::array<PetscInt, 12> EdgeSystem::slots_of(int triangle) const {
   std::array<PetscInt, 12> slots;
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 4; ++i)
-      slots[4 * k + i] =
-          4 * part_.mesh.edges.global[part_.mesh.edges_of_triangle[triangle][k]] + i;
+      slots[4 * k + i] = 4 * part_.mesh.edges.global[part_.mesh.edges_of_triangle[triangle][k]] + i;
   return slots;
 }
 

@@ -1,5 +1,5 @@
-// The hybridized system over the ranks: K in 4×4 blocks over edges (solvers/two_level/edge_matrix.hpp),
-// four slots per edge, edges numbered as in MeshPart.
+// The hybridized system over the ranks: K in 4×4 blocks over edges
+// (solvers/two_level/edge_matrix.hpp), four slots per edge, edges numbered as in MeshPart.
 //
 //   A   K with the rows and columns of held slots empty but for the diagonal; the tangential row of
 //       a slipping point has ratio × its normal row taken from it

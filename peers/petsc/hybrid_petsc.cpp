@@ -1,9 +1,9 @@
-// hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of an
-// exported body (--format=npz) by hybridized equilibrium elements over the ranks of mpirun.
+// hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of
+// an exported body (--format=npz) by hybridized equilibrium elements over the ranks of mpirun.
 #include <sys/resource.h>
 
-#include <chrono>
 #include <charconv>
+#include <chrono>
 #include <cstring>
 #include <iostream>
 
@@ -54,9 +54,8 @@ double tolerance_in(const char* text) {
 void solve(const char* input, const char* output, const char* tolerance_text) {
   const double tolerance = tolerance_in(tolerance_text);
   std::unique_ptr<NpzSlices> file;
-  each_by_itself([&] {
-    file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz");
-  });
+  each_by_itself(
+      [&] { file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz"); });
   MeshSlices slices = read_slices(*file);
 
   Stages stages;
@@ -89,9 +88,7 @@ void solve(const char* input, const char* output, const char* tolerance_text) {
   said.estimate = estimate;
   said.stages = stages.spent();
   said.time_s = stages.total();
-  said.coarse = !coarse ? "none"
-                : coarse->kind() == CoarseKind::linear ? "linear"
-                                                       : "per-edge";
+  said.coarse = !coarse ? "none" : coarse->kind() == CoarseKind::linear ? "linear" : "per-edge";
   said.coarse_unknowns = coarse ? coarse->unknowns() : 0;
   write_answer(output, u, answer, said);
 }
@@ -117,7 +114,8 @@ int main(int count, char** words) {
   try {
     solve(words[1], words[2], words[3]);
   } catch (const std::exception& wrong) {
-    if (parallel::rank_here() == 0) std::cerr << "hybrid-petsc: " << wrong.what() << '\n' << std::flush;
+    if (parallel::rank_here() == 0)
+      std::cerr << "hybrid-petsc: " << wrong.what() << '\n' << std::flush;
     MPI_Abort(PETSC_COMM_WORLD, 3);
   }
   return PetscFinalize() == 0 ? 0 : 3;

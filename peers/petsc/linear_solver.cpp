@@ -44,6 +44,8 @@ void LinearSolver::set_laws(const std::vector<PointLaw>& laws) {
     check(KSPSetFromOptions(symmetric_));
     check(KSPSetPC(slipping_, pc));
     check(KSPSetFromOptions(slipping_));
+    for (const KSP ksp : {KSP(symmetric_), KSP(slipping_)})
+      check(KSPSetResidualHistory(ksp, nullptr, PETSC_DECIDE, PETSC_TRUE));
     set_up_ = true;
   } else if (coarse_changed) {
     KSP of_coarse = nullptr;
@@ -64,6 +66,13 @@ LinearSolver::Result LinearSolver::solve(Vec r, double tolerance, Vec x) {
   PetscInt iterations = 0;
   check(KSPGetIterationNumber(ksp, &iterations));
   result.iterations = static_cast<int>(iterations);
+  PetscReal first = 0, last = 0;
+  check(KSPGetResidualNorm(ksp, &last));
+  const PetscReal* history = nullptr;
+  PetscInt length = 0;
+  check(KSPGetResidualHistory(ksp, &history, &length));
+  if (length > 0) first = history[0];
+  if (first > 0) result.reduction = last / first;
   KSPConvergedReason reason;
   check(KSPGetConvergedReason(ksp, &reason));
   result.broke_down = reason < 0 && reason != KSP_DIVERGED_ITS;

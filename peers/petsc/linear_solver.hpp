@@ -1,6 +1,6 @@
-// A x = r by the Krylov method and the preconditioner of the options: KSP without a prefix where A is
-// symmetric, -slip_ksp_type where points slip. With -pc_type mg it has two levels, A and the coarse
-// displacements' PᵀKP, everything else as the options say (peers/petsc/*.options).
+// A x = r by the Krylov method and the preconditioner of the options: KSP without a prefix where A
+// is symmetric, -slip_ksp_type where points slip. With -pc_type mg it has two levels, A and the
+// coarse displacements' PᵀKP, everything else as the options say (peers/petsc/*.options).
 #pragma once
 
 #include "peers/petsc/coarse_space.hpp"
@@ -25,6 +25,7 @@ class LinearSolver {
 
   struct Result {
     int iterations = 0;
+    double reduction = 1;  // that was reached
     bool broke_down = false;
   };
   // Reduces r by the factor `tolerance`, in the norm of the method.

@@ -55,7 +55,8 @@ NpzSlices::NpzSlices(const std::filesystem::path& file)
   for (; entries > 0; --entries) {
     if (number_at<std::uint32_t>(at) != entry_signature) fail("its directory is damaged");
     const auto method = number_at<std::uint16_t>(at + 10);
-    const auto stored = number_at<std::uint32_t>(at + 20), whole = number_at<std::uint32_t>(at + 24);
+    const auto stored = number_at<std::uint32_t>(at + 20),
+               whole = number_at<std::uint32_t>(at + 24);
     const auto name_size = number_at<std::uint16_t>(at + 28),
                more = number_at<std::uint16_t>(at + 30), note = number_at<std::uint16_t>(at + 32);
     std::int64_t local = number_at<std::uint32_t>(at + 42);
@@ -68,8 +69,8 @@ NpzSlices::NpzSlices(const std::filesystem::path& file)
     if (!name.ends_with(".npy")) continue;
     name.resize(name.size() - 4);
     if (method != 0) fail(name + ": is compressed (allowed: stored as it is)");
-    const std::int64_t data = local + 30 + number_at<std::uint16_t>(local + 26) +
-                              number_at<std::uint16_t>(local + 28);
+    const std::int64_t data =
+        local + 30 + number_at<std::uint16_t>(local + 26) + number_at<std::uint16_t>(local + 28);
     arrays_[name] = header_at(name, data);
   }
 }
@@ -119,7 +120,7 @@ Eigen::MatrixX<Scalar> NpzSlices::slice(const std::string& name, std::int64_t be
     return values;
   }
   Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_rows(end - begin,
-                                                                                of.columns);
+                                                                                 of.columns);
   if (end > begin) read(by_rows.data(), begin * of.columns, by_rows.size());
   return by_rows;
 }

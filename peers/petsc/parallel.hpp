@@ -31,7 +31,8 @@ inline PetscErrorCode keep_what_is_said(MPI_Comm, int, const char* function, con
   return code;
 }
 
-// After an error of PETSc nothing of it can be used, not even to destroy objects: one line, the end.
+// After an error of PETSc nothing of it can be used, not even to destroy objects: one line, the
+// end.
 inline void check(PetscErrorCode error) {
   if (error == 0) return;
   std::cerr << "hybrid-petsc: PETSc: " << said_by_petsc() << '\n' << std::flush;
