@@ -45,6 +45,8 @@ struct Answer {
 
 // Both throw FileError: the file's name in the folder, place, value, what is allowed.
 Answer read_answer(const std::filesystem::path& folder);
+// The first MiB of log.txt; empty: there is none.
+std::string read_log(const std::filesystem::path& folder);
 // A dense matrix of that shape; its numbers may be anything that a double can be.
 Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::string& name,
                            Eigen::Index rows, Eigen::Index columns);

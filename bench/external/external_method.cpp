@@ -80,6 +80,7 @@ class ProgramSolve {
     run_.wall_s = end.wall_s;
     run_.peak_bytes = end.peak_bytes;
     if (end.exit_code != 0) throw NoAnswer(status_of_end(end), message_of(end, limit_s));
+    run_.log = read_log(output_);
     answer_ = read_answer(output_);
     if (!has_answer(answer_.status))
       throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);

@@ -149,8 +149,8 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
     rollers(row) = problem.is_roller(row) ? 1 : 0;
     friction(row) = problem.friction_at(row);
     if (role == BoundaryRole::contact)
-      for (const int end : {0, 1})
-        moment_normals.row(row).segment<2>(2 * end) = problem.frame_of_moment(row, end).normal;
+      for (const int k : {0, 1})
+        moment_normals.row(row).segment<2>(2 * k) = problem.frame_of_moment(row, k).normal;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector2d x = k == 0 ? a : k == 2 ? b : Eigen::Vector2d((a + b) / 2);
       const EdgeFrame frame = problem.frame_at_node(row, k);

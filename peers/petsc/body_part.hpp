@@ -21,7 +21,6 @@ struct BodyPart {
   std::vector<int> boundary_vertex;  // local vertex of the part → vertex of `boundary`, or −1
   ContactPoints contact;             // of the whole boundary
   Eigen::VectorXd compliance;        // rough, of every row of F_C
-  double diameter_mm = 0;
 };
 // A rank's own triangles; `file` has the boundary.
 BodyPart make_body_part(MeshPart mesh, NpzSlices& file);

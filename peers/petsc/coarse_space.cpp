@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "peers/petsc/rigid_modes.hpp"
+
 namespace airybench {
 namespace {
 
@@ -264,45 +266,21 @@ void CoarseSpace::end_assembly() {
   add_near_nullspace();
 }
 
-// The rigid motions of the plane at the nodes, along their components.
 void CoarseSpace::add_near_nullspace() {
   const Numbering& coarse = nodes();
-  std::array<Vec, 3> modes{};
-  for (Vec& mode : modes) check(MatCreateVecs(matrix_, nullptr, &mode));
-  std::array<PetscScalar*, 3> values{};
-  for (int m = 0; m < 3; ++m) check(VecGetArray(modes[m], &values[m]));
+  std::vector<FramedPoint> points(static_cast<std::size_t>(coarse.owned));
   for (int node = 0; node < static_cast<int>(coarse.input.size()); ++node) {
     if (!coarse.is_owned(node)) continue;
-    Eigen::Vector2d x = Eigen::Vector2d::Zero();
+    FramedPoint& point = points[coarse.global[node] - coarse.begin];
     if (kind_ == CoarseKind::linear) {
-      x = part_.mesh.vertices_mm[node];
+      point.x = part_.mesh.vertices_mm[node];
     } else {
       const auto [a, b] = part_.problem.edges.vertices[node];
-      x = (part_.mesh.vertices_mm[a] + part_.mesh.vertices_mm[b]) / 2;
+      point.x = (part_.mesh.vertices_mm[a] + part_.mesh.vertices_mm[b]) / 2;
     }
-    const Node* of = node_at(node);
-    const std::array<Eigen::Vector2d, 3> motion = {
-        Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY(), {-x.y(), x.x()}};
-    for (int m = 0; m < 3; ++m) {
-      const Eigen::Vector2d own =
-          of == nullptr ? motion[m] : Eigen::Vector2d(of->frame.transpose() * motion[m]);
-      for (int k = 0; k < 2; ++k) values[m][2 * (coarse.global[node] - coarse.begin) + k] = own(k);
-    }
+    if (const Node* of = node_at(node)) point.frame = of->frame;
   }
-  for (int m = 0; m < 3; ++m) check(VecRestoreArray(modes[m], &values[m]));
-  for (int m = 0; m < 3; ++m) {  // orthonormal
-    for (int before = 0; before < m; ++before) {
-      PetscScalar part = 0;
-      check(VecDot(modes[m], modes[before], &part));
-      check(VecAXPY(modes[m], -part, modes[before]));
-    }
-    check(VecNormalize(modes[m], nullptr));
-  }
-  MatNullSpace space = nullptr;
-  check(MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 3, modes.data(), &space));
-  check(MatSetNearNullSpace(held_matrix_, space));
-  check(MatNullSpaceDestroy(&space));
-  for (Vec& mode : modes) check(VecDestroy(&mode));
+  set_rigid_modes(held_matrix_, points);
 }
 
 bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {

@@ -188,6 +188,33 @@ void EdgeSystem::create_matrix() {
   create_square_matrix(part_.mesh.edges, 4, pairs, MATBAIJ, static_cast<int>(block_size),
                        "stiffness_", A_);
   check(MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_FALSE));
+  if (block_size == 2) set_rigid_modes(A_, points_of_slots());
+}
+
+// An affine displacement's moments are its values at an edge's third points.
+std::vector<FramedPoint> EdgeSystem::points_of_slots() const {
+  const Numbering& edges = part_.mesh.edges;
+  const Problem& problem = part_.problem;
+  std::vector<FramedPoint> points(static_cast<std::size_t>(2 * edges.owned));
+  const auto set = [&](int edge, int a, int b, int row) {
+    if (!edges.is_owned(edge)) return;
+    for (int end = 0; end < 2; ++end) {
+      FramedPoint& point = points[2 * (edges.global[edge] - edges.begin) + end];
+      const auto &own = part_.mesh.vertices_mm[end == 0 ? a : b],
+                 &other = part_.mesh.vertices_mm[end == 0 ? b : a];
+      point.x = (2 * own + other) / 3;
+      if (row < 0) continue;
+      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      point.frame << frame.normal, frame.tangent;
+    }
+  };
+  for (int edge = 0; edge < problem.edges.count(); ++edge)
+    set(edge, problem.edges.vertices[edge][0], problem.edges.vertices[edge][1], -1);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (problem.condition(row).in_frame)
+      set(problem.edges.of_boundary[row], problem.mesh.boundary[row].vertices[0],
+          problem.mesh.boundary[row].vertices[1], row);
+  return points;
 }
 
 OwnedVec EdgeSystem::new_vector() const {

@@ -12,6 +12,7 @@
 #include <functional>
 
 #include "peers/petsc/body_part.hpp"
+#include "peers/petsc/rigid_modes.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/point_laws.hpp"
 
@@ -60,6 +61,7 @@ class EdgeSystem {
   };
 
   void create_matrix();
+  std::vector<FramedPoint> points_of_slots() const;
   std::array<PetscInt, 12> slots_of(int triangle) const;
   void find_contact();
   void put_into_A(const ContactTriangle& of) const;
