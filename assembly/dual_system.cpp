@@ -2,6 +2,7 @@
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/flexibility.hpp"
+#include "assembly/row_order.hpp"
 #include "assembly/sparse_bytes.hpp"
 #include "assembly/stress_field.hpp"
 
@@ -108,7 +109,7 @@ void build_constraints(DualSystem& system) {
   const Loads& loads = problem.loads;
   ForceRows on_force, on_contact;
 
-  for_each_edge(system, BoundaryRole::force, [&](const EdgeFunctionals& edge) {
+  const auto add_in_axes = [&](const EdgeFunctionals& edge) {
     for (int k = 0; k < 2; ++k) {
       Eigen::Vector2d f = -particular_force(problem, edge, k);
       if (loads.traction_MPa)
@@ -116,7 +117,7 @@ void build_constraints(DualSystem& system) {
             edge.frame.length_mm / 2 * loads.traction_MPa(edge.end[k], edge.frame.normal, edge.row);
       for (int i = 0; i < 2; ++i) on_force.add(edge.forces.row(2 * k + i), edge.dofs, f(i));
     }
-  });
+  };
   const auto add_in_frame = [&](const EdgeFunctionals& edge) {
     const EdgeCondition condition = problem.condition(edge.row);
     if (!condition.in_frame) return;
@@ -133,8 +134,13 @@ void build_constraints(DualSystem& system) {
       }
     }
   };
-  for_each_edge(system, BoundaryRole::contact, add_in_frame);
-  for_each_edge(system, BoundaryRole::displacement, add_in_frame);
+  for_each_boundary_row(problem.mesh, [&](int row) {
+    const EdgeFunctionals edge = edge_functionals(system, row);
+    if (problem.mesh.boundary[row].role == BoundaryRole::force)
+      add_in_axes(edge);
+    else
+      add_in_frame(edge);
+  });
   on_force.store(system.C_F, system.dofs.count);
   on_contact.store(system.C_C, system.dofs.count);
   if (loads.traction_MPa || loads.has_body_force()) system.F = on_force.forces();

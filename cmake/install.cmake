@@ -31,7 +31,7 @@ install(DIRECTORY meshgen/meshes results docs/bodies DESTINATION ${data}
         PATTERN "figures" EXCLUDE)
 list(TRANSFORM studies_with_scenes PREPEND bench/scenes/)
 install(DIRECTORY ${studies_with_scenes} DESTINATION ${data}/scenes)
-install(FILES README.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: meshes, assembly, methods, and the verifier.
 set(rooms support mesh assembly solvers bench/judging)

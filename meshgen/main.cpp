@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "mesh/model_settings.hpp"
 #include "meshgen/commands.hpp"
 #include "support/data_folder.hpp"
 #include "support/standard_streams.hpp"
@@ -62,27 +63,15 @@ void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
 }
 
 void declare_convert(CLI::App& app, CLI::Option* convert, Arguments& a) {
-  const auto repeated = [&](const char* name, std::vector<std::string>& values, const char* type,
-                            const char* help) {
-    app.add_option(name, values, help)
-        ->allow_extra_args(false)
-        ->type_name(type)
+  const auto declare = [&](const airybench::ModelSetting& setting, auto& value) {
+    return app.add_option(setting.option, value, setting.help)
+        ->type_name(setting.type)
         ->needs(convert)
         ->group("With --convert");
   };
-  repeated(
-      "--role", a.roles, "NAME=ROLE",
-      "The model's physical curve NAME is displacement, force or contact, or one of these with "
-      "a name, force:top; of a CAD file NAME is a curve's number; repeatable");
-  repeated("--parameter", a.parameters, "NAME=NUMBER",
-           "In place of what a .geo's DefineConstant gives NAME; repeatable");
-  app.add_option(
-         "--mesh-size", a.mesh_size,
-         "The longest edge in mm, where the model asks for shorter ones they stay; or a part "
-         "of all of the model's sizes, 50%")
-      ->type_name("MM")
-      ->needs(convert)
-      ->group("With --convert");
+  declare(airybench::role_setting, a.roles)->allow_extra_args(false);
+  declare(airybench::parameter_setting, a.parameters)->allow_extra_args(false);
+  declare(airybench::mesh_size_setting, a.mesh_size);
 }
 
 void declare(CLI::App& app, Arguments& a) {

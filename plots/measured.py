@@ -157,6 +157,12 @@ def noise(rows: list[Row]) -> Iterator[str]:
         spread = np.median(np.abs(samples - middle)) / middle
         yield ("A fixed loop, timed beside every case, scattered by "
                f"{percent(spread)} (median absolute deviation over median of {len(samples)} times).")
+    for share in sorted({row.retry_noisy for row in rows if row.retry_noisy}):
+        own = [row for row in rows if row.retry_noisy == share and row.noise_attempts]
+        again = sum(row.noise_attempts > 1 for row in own)
+        yield (f"A case beside which that loop was slower or scattered by more than {percent(share)} was "
+               f"measured again, up to three times: {again} of {len(own)} were, and "
+               f"{sum(row.noisy for row in own)} never had a quiet attempt.")
     told = (NOT_NEGATIVE.of_text(word(row, "load_1min_at_start")) for row in rows)
     loads = list(filter(NOT_NEGATIVE.accepts, told))
     if loads:

@@ -144,10 +144,15 @@ class Row:
     noise_kernel_s: float | None = key(POSITIVE)  # a loop that is always the same, beside the case …
     busy_kernel_s: float | None = key(POSITIVE)   # … and on all threads at once
     noise_kernel_samples_s: list[float] | None = key(TIMES)  # in records.jsonl only, as samples_s
+    retry_noisy: float | None = key(SHARE)        # with more noise than that the case was measured again
+    noise_share: float | None = key(NOT_NEGATIVE)  # beside the attempt that was kept …
+    noise_attempts: int | None = key(COUNT)       # … of so many …
+    noisy: bool = key(FLAG)                       # … none of which was quiet
     tuning_s: float | None = key(NOT_NEGATIVE, needed=True)
     tuning_budget_s: float | None = key(NOT_NEGATIVE)
     tuning_cut: bool = key(FLAG)                  # the search ended for lack of time
     peak_heap_bytes: float | None = key(POSITIVE, needed=True)
+    peak_rss_bytes: float | None = key(POSITIVE)
     memory_count_ratio: float | None = key(NOT_NEGATIVE)
     memory_by_owner: dict | None = key(SPLIT)
     memory_counts_differ: bool = key(FLAG)
@@ -161,6 +166,7 @@ class Row:
     target_error: float | None = key(POSITIVE)
     error_stress: float | None = key(NOT_NEGATIVE)
     error_force: float | None = key(NOT_NEGATIVE, needed=True)
+    error_estimate: float | None = key(NOT_NEGATIVE)  # its own
     reference_error: float | None = key(NOT_NEGATIVE)
     error_discretisation: float | None = key(NOT_NEGATIVE)  # relative, of mesh and scene
     error_total: float | None = key(NOT_NEGATIVE)

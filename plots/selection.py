@@ -31,7 +31,7 @@ def by_body(rows: list[Row]) -> dict[str, list[Row]]:
 def kind_of(row: Row) -> str:
     """Of its mesh: a level of a loop, or as it was given."""
     return "adapted" if "+adapt" in row.mesh else \
-        "refined everywhere" if "+refined" in row.mesh else "as they are"
+        "refined everywhere" if "+refine" in row.mesh else "as they are"
 
 
 def scene_of(rows: list[Row]) -> str:

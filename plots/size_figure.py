@@ -55,9 +55,9 @@ def sized(rows: list[Row]) -> list[Row]:
             if row.mesh in sizes]
 
 
-def exponent(n_phi: list[int], values: list[float]) -> float | None:
-    """p of the power law value ~ n_phi^p by least squares of logarithms; needs three points."""
-    if len(values) < 3 or len(set(n_phi)) < 2:
+def exponent(n_phi: list[int], values: list[float], least: int = 3) -> float | None:
+    """p of the power law value ~ n_phi^p by least squares of logarithms; needs `least` points."""
+    if len(values) < least or len(set(n_phi)) < 2:
         return None
     return float(np.polyfit(np.log(n_phi), np.log(values), 1)[0])
 

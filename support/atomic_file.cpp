@@ -34,16 +34,21 @@ fs::path end_of_links(const fs::path& file) {
 
 // Opens a file that nobody could have put there before.
 int open_new(const fs::path& target, fs::path& beside) {
-  std::random_device chance;
   for (;;) {
-    beside = target;
-    beside += ".part" + std::to_string(chance()) + std::to_string(chance());
+    beside = name_beside(target);
     const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0 || errno != EEXIST) return descriptor;
   }
 }
 
 }  // namespace
+
+fs::path name_beside(const fs::path& target) {
+  std::random_device chance;
+  fs::path beside = target;
+  beside += ".part" + std::to_string(chance()) + std::to_string(chance());
+  return beside;
+}
 
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {

@@ -11,6 +11,8 @@ namespace airybench {
 // there is anything but a regular file; what was there is untouched then.
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
 
+// A name of chance in the same folder.
+std::filesystem::path name_beside(const std::filesystem::path& target);
 // All bytes, however often the kernel takes only a part. 0, or errno.
 int write_all(int descriptor, std::string_view bytes);
 // Is what is open the file of that name, not one that was removed or replaced since?

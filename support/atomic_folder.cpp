@@ -1,6 +1,5 @@
 #include "support/atomic_folder.hpp"
 
-#include <random>
 #include <system_error>
 
 #include "support/atomic_file.hpp"
@@ -19,12 +18,9 @@ namespace fs = std::filesystem;
 class FolderInTheMaking {
  public:
   explicit FolderInTheMaking(const fs::path& folder) {
-    std::random_device chance;
     std::error_code error;
-    do {
-      path_ = folder;
-      path_ += ".part" + std::to_string(chance()) + std::to_string(chance());
-    } while (!fs::create_directory(path_, error) && !error);
+    do path_ = name_beside(folder);
+    while (!fs::create_directory(path_, error) && !error);
     if (error) fail(folder, error);
   }
   ~FolderInTheMaking() {

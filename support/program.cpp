@@ -6,10 +6,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
+#include <cmath>
 #include <csignal>
 #include <system_error>
+
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
@@ -51,12 +56,18 @@ class Pipe {
   _exit(127);
 }
 
-// Until both are closed by all who write into them.
-void read_both(const Pipe& out, const Pipe& err, ProgramEnd& end) {
+// Until both are closed by all who write into them, or the time is over.
+void read_both(const Pipe& out, const Pipe& err, double time_limit_s, ProgramEnd& end) {
+  const auto start = std::chrono::steady_clock::now();
   std::array<pollfd, 2> ready = {{{out.read_end(), POLLIN, 0}, {err.read_end(), POLLIN, 0}}};
   const std::array<std::string*, 2> texts = {&end.out, &end.err};
   while (ready[0].fd >= 0 || ready[1].fd >= 0) {
-    if (poll(ready.data(), ready.size(), -1) < 0) continue;  // a signal
+    const double left_s = time_limit_s - seconds_since(start);
+    end.timed_out = left_s <= 0;
+    if (end.timed_out) return;
+    const double most_s = std::min(left_s, 1000.0);
+    if (poll(ready.data(), ready.size(), static_cast<int>(std::ceil(1000 * most_s))) < 0)
+      continue;  // a signal
     for (std::size_t k = 0; k < ready.size(); ++k) {
       if (ready[k].fd < 0 || ready[k].revents == 0) continue;
       std::array<char, 65536> buffer;
@@ -70,7 +81,7 @@ void read_both(const Pipe& out, const Pipe& err, ProgramEnd& end) {
 }  // namespace
 
 ProgramEnd run_program(const std::filesystem::path& program,
-                       const std::vector<std::string>& arguments) {
+                       const std::vector<std::string>& arguments, double time_limit_s) {
   std::vector<std::string> words = {program.string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;
@@ -83,7 +94,8 @@ ProgramEnd run_program(const std::filesystem::path& program,
   out.shut_write_end();
   err.shut_write_end();
   ProgramEnd end;
-  read_both(out, err, end);
+  read_both(out, err, time_limit_s, end);
+  if (end.timed_out) kill(child, SIGKILL);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -42,6 +42,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   describe(method, record);
   record.threads = options.threads;
   record.precision = options.precision;
+  record.retry_noisy = options.retry_noisy;
   record.tuning_budget_s = options.tuning_budget_s;
   record.stop = options.stop;
   record.study = name_of(options.study);

@@ -13,6 +13,7 @@ namespace airybench {
 namespace {
 
 constexpr const char* converter = "meshgen";
+constexpr double time_limit_s = 900;
 
 // What it says last, without its name.
 std::string complaint_of(const ProgramEnd& end) {
@@ -41,7 +42,11 @@ std::string mesh_text_of_model(const std::filesystem::path& model,
                     model.string(), converter));
   std::vector<std::string> arguments = {"--convert=" + model.string(), "--out=-"};
   arguments.insert(arguments.end(), settings.begin(), settings.end());
-  ProgramEnd end = run_program(*program, arguments);
+  ProgramEnd end = run_program(*program, arguments, time_limit_s);
+  if (end.timed_out)
+    throw FileError(fmt::format(
+        "{}: {} was ended after {} s (allowed: that long; {} --convert by itself has no limit)",
+        model.string(), converter, time_limit_s, converter));
   if (end.exit_code != 0) throw FileError(complaint_of(end));
   std::cerr << end.err;
   return std::move(end.out);

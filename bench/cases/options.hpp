@@ -38,9 +38,11 @@ struct Options {
   int repetitions = 5;
   std::optional<double> precision;  // repetitions go on until the median is known to this share …
   int max_repetitions = 1000;       // … at most so many
-  int threads = 1;                  // of the scaling study the most
-  std::vector<int> thread_counts = {1};            // of the scaling study, from 1 on
-  double timeout_s = 900;                          // per solve
+  std::optional<double> retry_noisy;     // a case beside which the calibration loop was off by more
+                                         // than this share is measured again
+  int threads = 1;                       // of the scaling study the most
+  std::vector<int> thread_counts = {1};  // of the scaling study, from 1 on
+  double timeout_s = 900;                // per solve
   std::optional<double> tuning_budget_s;           // of a case's search for parameters, tolerances
   std::vector<double> budgets_s;                   // of the error study: --budget
   double long_case_s = 30;                         // a longer solve is measured once

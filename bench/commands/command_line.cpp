@@ -9,6 +9,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "mesh/model_settings.hpp"
 #include "support/errors.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
@@ -68,24 +69,15 @@ CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, dou
 }
 
 void add_model_settings(CLI::App& app, std::vector<std::string>& settings) {
-  const auto add = [&](const std::string& name, const char* type, const char* description) {
-    const auto keep = [&settings, name](const std::vector<std::string>& values) {
-      for (const std::string& value : values) settings.push_back(name + "=" + value);
+  for (const ModelSetting& setting : model_settings) {
+    const auto keep = [&settings, &setting](const std::vector<std::string>& values) {
+      for (const std::string& value : values)
+        settings.push_back(fmt::format("{}={}", setting.option, value));
     };
-    app.add_option_function<std::vector<std::string>>(name, keep, description)
+    app.add_option_function<std::vector<std::string>>(setting.option, keep, setting.help)
         ->allow_extra_args(false)
-        ->type_name(type);
-  };
-  add("--role", "NAME=ROLE",
-      "a Gmsh model's physical curve NAME is displacement, force or contact, or one of these with "
-      "a "
-      "name, force:top; of a CAD file NAME is a curve's number; repeatable");
-  add("--parameter", "NAME=NUMBER",
-      "in place of what a .geo's DefineConstant gives NAME; repeatable");
-  add("--mesh-size", "MM",
-      "a model's longest edge in mm, where it asks for shorter ones they stay; or a part of all "
-      "its "
-      "sizes, 50%");
+        ->type_name(setting.type);
+  }
 }
 
 std::string shell_word(const std::string& word) {

@@ -163,7 +163,7 @@ Options parse_options(int argc, const char* const* argv) {
   app.add_option("--contact", contact,
                  "what solves the condensed contact problem: newton (active sets after a few "
                  "sweeps), gauss-seidel (as the paper has it), anderson (the same, accelerated) or "
-                 "admm")
+                 "admm; ALM and HYBRID:CG condense none, and have their own")
       ->check(CLI::IsMember(names_of(all_contact_solvers)))
       ->capture_default_str();
   add_whole(
@@ -182,6 +182,13 @@ Options parse_options(int argc, const char* const* argv) {
       [&](std::int64_t count) { options.max_repetitions = static_cast<int>(count); },
       "with --precision: the most timed runs of each case")
       ->needs(precise);
+  std::string noise;
+  CLI::Option* retries = app.add_flag(
+      "--retry-noisy", noise,
+      "measure a case again, up to three times, where the calibration loop beside it scattered or "
+      "was slower than on the quiet machine by more than this share (--retry-noisy=7%; default "
+      "5%); "
+      "the least noisy attempt is kept, and the record says how noisy it was");
   std::string threads = "1";
   CLI::Option* given_threads =
       app.add_option(
@@ -283,6 +290,7 @@ Options parse_options(int argc, const char* const* argv) {
   }
   options.study = study_of(study);
   if (precise->count() > 0) read_precision(precision, options);
+  if (retries->count() > 0) read_retry_noisy(noise, options);
   if (options.study == Study::adapted && adapt.empty()) {
     adapt = "1.5%,0.5%,0.15%";
     levels = "last";

@@ -53,6 +53,15 @@ void read_precision(const std::string& text, Options& options) {
                                  options.max_repetitions, least_repetitions(options)));
 }
 
+void read_retry_noisy(const std::string& text, Options& options) {
+  constexpr double most_noise = 0.05;  // as in machine_warnings()
+  options.retry_noisy = text == "true" ? most_noise : parse_percent(text);
+  if (!options.retry_noisy)
+    throw UsageError(
+        fmt::format("--retry-noisy: {} (allowed: above 0% and below 100%, as 5%, or no value)",
+                    shortened(text)));
+}
+
 void read_budgets(const std::string& text, bool has_timeout, Options& options) {
   if (options.study != Study::error)
     throw UsageError("--budget: only with --study=error, whose points it chooses from");

@@ -19,6 +19,9 @@ void read_threads(const std::string& text, bool is_given, Options& options);
 // --precision: a share, 2%. After --repetitions and --max-repetitions.
 void read_precision(const std::string& text, Options& options);
 
+// --retry-noisy: a share, 7%; without a value 5%.
+void read_retry_noisy(const std::string& text, Options& options);
+
 // --budget: seconds. Runs may take twice as long, unless there is a --timeout: a detail run takes
 // longer than a timed one. The search for parameters, which is in no time, keeps the limit that it
 // had.

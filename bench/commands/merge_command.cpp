@@ -20,6 +20,9 @@ The records must be of the same kind of machine (CPU model and number), of the s
 libraries, threads, tolerances and limits, and of one plan; each case may be there once, and every case of the plan must be
 there. What is refused is named, and nothing is written then.
 
+With --runs the folders are whole runs of different plans, which may differ in limits and repetitions, too; no case
+may be there twice.
+
 Exit status  0  joined
              2  refused, wrong usage, or records that cannot be read: one line on standard error
 
@@ -31,16 +34,20 @@ Example
 struct MergeOptions {
   std::vector<std::filesystem::path> folders;
   std::filesystem::path out;
-  bool incomplete = false;
+  bool incomplete = false, runs = false;
 };
 
 MergeOptions parse_merge(int argc, const char* const* argv) {
   MergeOptions options;
-  CLI::App app("Joins the shards of a run into one results folder.", "bench merge");
+  CLI::App app("Joins the shards of a run, or several runs, into one results folder.",
+               "bench merge");
   app.footer(merge_footer);
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
   app.add_option("--out", options.out, "folder of the whole")->required();
-  app.add_flag("--incomplete", options.incomplete, "also when cases of the plan are missing");
+  CLI::Option* incomplete =
+      app.add_flag("--incomplete", options.incomplete, "also when cases of the plan are missing");
+  app.add_flag("--runs", options.runs, "the folders are different runs, not shards of one")
+      ->excludes(incomplete);
   parse_command_line(app, argc, argv);
   return options;
 }
@@ -65,11 +72,10 @@ std::vector<RecordLine> read_all(const std::vector<std::filesystem::path>& folde
   return all;
 }
 
-void refuse_mixtures(const std::vector<RecordLine>& all) {
+void refuse_mixtures(const std::vector<RecordLine>& all, Sameness sameness) {
   const RecordLine& first = all.front();
   for (const RecordLine& other : all) {
-    const std::string differs =
-        differences(first.record.context, other.record.context, Sameness::same_sources);
+    const std::string differs = differences(first.record.context, other.record.context, sameness);
     if (!differs.empty())
       throw FileError(fmt::format("{} and {} do not mix: {}", first.place, other.place, differs));
   }
@@ -105,12 +111,8 @@ std::int64_t cases_planned(const RecordLine& line) {
   return *planned;
 }
 
-}  // namespace
-
-int merge_command(int argc, const char* const* argv) {
-  const MergeOptions options = parse_merge(argc, argv);
-  const std::vector<RecordLine> all = read_all(options.folders, options.out);
-  refuse_mixtures(all);
+// In the plan's order.
+std::vector<RecordLine> of_shards(const std::vector<RecordLine>& all, bool incomplete) {
   const std::map<std::int64_t, RecordLine> cases = by_number(all);
   // The same in all, or they would have been refused.
   const std::int64_t plan = cases_planned(all.front());
@@ -119,13 +121,36 @@ int merge_command(int argc, const char* const* argv) {
   for (std::int64_t number = 1; number <= plan; ++number)
     if (cases.count(number) == 0 && ++count <= 10)
       missing += fmt::format("{}{}", missing.empty() ? "" : ", ", number);
-  if (count > 0 && !options.incomplete)
+  if (count > 0 && !incomplete)
     throw FileError(
         fmt::format("{} of {} cases are missing: {}{} (go on with the shard by "
                     "--resume, or take --incomplete)",
                     count, plan, missing, count > 10 ? ", …" : ""));
   std::vector<RecordLine> lines;
   for (const auto& [number, line] : cases) lines.push_back(line);
+  return lines;
+}
+
+// As they are named.
+std::vector<RecordLine> of_runs(const std::vector<RecordLine>& all) {
+  std::map<std::string, std::string> place_of;
+  for (const RecordLine& line : all) {
+    const std::string name = name_of(line.record).text();
+    const auto [there, is_new] = place_of.emplace(name, line.place);
+    if (!is_new)
+      throw FileError(fmt::format("{} and {}: both are {}", there->second, line.place, name));
+  }
+  return all;
+}
+
+}  // namespace
+
+int merge_command(int argc, const char* const* argv) {
+  const MergeOptions options = parse_merge(argc, argv);
+  const std::vector<RecordLine> all = read_all(options.folders, options.out);
+  refuse_mixtures(all, options.runs ? Sameness::different_runs : Sameness::same_sources);
+  const std::vector<RecordLine> lines =
+      options.runs ? of_runs(all) : of_shards(all, options.incomplete);
   write_records(options.out, lines);
   fmt::print("{} records of {} folders in {}\n", lines.size(), options.folders.size(),
              options.out.string());

@@ -126,6 +126,7 @@ Options options_of(const Record& record, const Context& context, std::filesystem
     options.contact = *record.contact_solver;
   options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
   options.precision = record.precision;
+  options.retry_noisy = record.retry_noisy;
   options.tuning_budget_s = record.tuning_budget_s;
   options.max_repetitions =
       static_cast<int>(setting(context, "max_repetitions", options.max_repetitions));

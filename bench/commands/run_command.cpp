@@ -112,6 +112,10 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
   for (const std::string& warning :
        machine_warnings(machine_state(context, least_repetitions(options), spread)))
     fmt::print("note: {}\n", warning);
+  if (const int early = accepted_too_early(result.records); early > 0)
+    fmt::print(
+        "note: {} of {} cases passed as quiet before the machine became quieter than it had been\n",
+        early, result.records.size());
 }
 
 // Those asked for. By default the paper's, which leave out bodies with holes: for these also what

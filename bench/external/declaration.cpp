@@ -100,14 +100,13 @@ bool is_plain(const std::string& name) {
 }
 
 void check_placeholders(const Reader& file, const std::vector<std::string>& command) {
-  constexpr std::array<std::string_view, 5> known = {"{input}", "{output}", "{threads}",
-                                                     "{tolerance}", "{time_limit_s}"};
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {
       const std::size_t end = word.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", open + 1);
       if (end == word.npos || end == open + 1 || word[end] != '}') continue;  // other braces
-      if (std::ranges::find(known, word.substr(open, end + 1 - open)) == known.end())
-        file.fail("command", word, fmt::format("{}", fmt::join(known, ", ")));
+      const auto& all = placeholder::all;
+      if (std::ranges::find(all, word.substr(open, end + 1 - open)) == all.end())
+        file.fail("command", word, fmt::format("{}", fmt::join(all, ", ")));
     }
 }
 
@@ -162,7 +161,9 @@ Declaration read_declaration(const std::filesystem::path& file) {
   check_placeholders(reader, declaration.command);
   if (reader.has("first_tolerance")) {
     declaration.first_tolerance = reader.number("first_tolerance", "a number > 0");
-    const auto uses = [](const std::string& word) { return word.find("{tolerance}") != word.npos; };
+    const auto uses = [](const std::string& word) {
+      return word.find(placeholder::tolerance) != word.npos;
+    };
     if (std::ranges::none_of(declaration.command, uses))
       reader.fail("first_tolerance", declaration.first_tolerance,
                   "with {tolerance} in the command");

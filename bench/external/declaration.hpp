@@ -18,13 +18,23 @@
 // summary, version and first_tolerance may be left out.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "solvers/base/method.hpp"
 
 namespace airybench {
+
+// Of commands, filled in for each run.
+namespace placeholder {
+inline constexpr const char *input = "{input}", *output = "{output}", *threads = "{threads}",
+                            *tolerance = "{tolerance}", *time_limit_s = "{time_limit_s}";
+inline constexpr std::array<std::string_view, 5> all = {input, output, threads, tolerance,
+                                                        time_limit_s};
+}  // namespace placeholder
 
 struct Declaration {
   enum class Reads { airy, condensed, body };

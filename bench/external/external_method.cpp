@@ -63,11 +63,11 @@ class ProgramSolve {
     const std::string threads = std::to_string(control.threads);
     const Program program = {
         filled_in(declaration.command,
-                  {{"{input}", input},
-                   {"{output}", output_.string()},
-                   {"{threads}", threads},
-                   {"{tolerance}", fmt::format("{}", control.tolerance)},
-                   {"{time_limit_s}", fmt::format("{:.3f}", std::min(limit_s, 1e9))}}),
+                  {{placeholder::input, input},
+                   {placeholder::output, output_.string()},
+                   {placeholder::threads, threads},
+                   {placeholder::tolerance, fmt::format("{}", control.tolerance)},
+                   {placeholder::time_limit_s, fmt::format("{:.3f}", std::min(limit_s, 1e9))}}),
         declaration.folder,
         {{"OMP_NUM_THREADS", threads},
          {"OPENBLAS_NUM_THREADS", threads},

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -49,9 +50,15 @@ std::int64_t resident_peak_bytes(pid_t process) {
 }
 
 // The program's own process, up to its first instruction. An errno into the pipe: it has none.
-[[noreturn]] void become(const Program& program, int error_pipe, const sigset_t& signals) {
+[[noreturn]] void become(const Program& program, const ProcessLimits& limits, int error_pipe,
+                         const sigset_t& signals) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) std::signal(signal, SIG_DFL);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
+  rlimit file = {};
+  getrlimit(RLIMIT_FSIZE, &file);
+  file.rlim_max = std::min(file.rlim_max, static_cast<rlim_t>(limits.file_bytes));
+  file.rlim_cur = std::min(file.rlim_cur, file.rlim_max);
+  setrlimit(RLIMIT_FSIZE, &file);
   setsid();  // the terminal's signals are not for it
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int input = open("/dev/null", O_RDONLY);
@@ -114,7 +121,7 @@ class Guardian {
       return false;
     }
     program_pid_ = fork();
-    if (program_pid_ == 0) become(program_, errors[1], signals_before_);
+    if (program_pid_ == 0) become(program_, limits_, errors[1], signals_before_);
     end_.start_error = program_pid_ < 0 ? errno : 0;
     close(errors[1]);
     int error = 0;

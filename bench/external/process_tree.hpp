@@ -22,6 +22,8 @@ namespace airybench {
 struct ProcessLimits {
   double time_s = 0;
   std::optional<std::int64_t> memory_bytes = {};
+  // Of each file that it writes, what it prints included (RLIMIT_FSIZE): SIGXFSZ ends who goes on.
+  std::int64_t file_bytes = std::int64_t{4} << 30;
 };
 
 struct ProcessTreeEnd {

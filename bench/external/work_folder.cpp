@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -59,6 +60,7 @@ std::string how_it_ended(const ProcessTreeEnd& end, double limit_s) {
     return "cannot be started: " + std::generic_category().message(end.start_error);
   if (end.timed_out) return fmt::format("was ended after the limit of {:.3g} s", limit_s);
   if (end.over_memory) return "was ended: it passed the memory limit";
+  if (end.signal == SIGXFSZ) return "was ended by SIGXFSZ: a file that it wrote became too large";
   if (end.signal != 0) return fmt::format("was ended by SIG{}", sigabbrev_np(end.signal));
   return fmt::format("ended with exit code {}", end.exit_code);
 }

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "bench/cases/blank_record.hpp"
+#include "bench/cases/stages.hpp"
 #include "bench/isolation/scene_process.hpp"
 #include "bench/records/json.hpp"
 #include "support/seconds_since.hpp"
@@ -71,7 +72,7 @@ void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < cases_.size(); ++k)
-    if (blank_record(*cases_[k], options_).status != Status::skipped) prepare(k);
+    if (why_skipped(*cases_[k]->posed.problem, cases_[k]->method).empty()) prepare(k);
   prepared_ = true;
   preparation_s_ += seconds_since(start);
 }

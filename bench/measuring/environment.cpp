@@ -121,6 +121,7 @@ Context context_of_run(const Options& options) {
     context["precision"] = fmt::format("{}", *options.precision);
     context["max_repetitions"] = std::to_string(options.max_repetitions);
   }
+  if (options.retry_noisy) context["retry_noisy"] = fmt::format("{}", *options.retry_noisy);
   if (!options.adapt.empty()) {
     context["adapt"] = text_of(options.adapt);
     if (options.marking) context["marking"] = fmt::format("{}", *options.marking);

@@ -24,6 +24,11 @@ void note(const Solution& solution, Record& record) {
   record.contact_iterations = solution.contact_iterations;
   record.newton_steps = solution.newton_steps;
   record.uzawa_iterations = solution.uzawa_iterations;
+  if (const auto& times = solution.iteration_times) {
+    record.iteration_matrix_s = times->matrix_s;
+    record.iteration_smoother_s = times->smoother_s;
+    record.iteration_coarse_s = times->coarse_s;
+  }
   record.parameters = solution.parameters;
 }
 

@@ -1,5 +1,7 @@
 #include "bench/problems/known_rows.hpp"
 
+#include "assembly/row_order.hpp"
+
 namespace airybench {
 
 std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
@@ -16,10 +18,7 @@ std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
         if (condition.component[i] == known) rows.push_back({row, end, axes[i]});
     }
   };
-  for (const BoundaryRole role :
-       {BoundaryRole::force, BoundaryRole::contact, BoundaryRole::displacement})
-    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-      if (problem.mesh.boundary[row].role == role) add_edge(row);
+  for_each_boundary_row(problem.mesh, add_edge);
   return rows;
 }
 

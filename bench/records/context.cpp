@@ -10,6 +10,12 @@ namespace {
 // What may differ: when and where, and with how much beside it.
 const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host", "shard"};
 
+// What each run chooses for itself; none of it changes what a solve is.
+const std::set<std::string> of_the_run = {
+    "adapt",       "adapt_by",        "cases_planned", "interleaved",        "levels",
+    "long_case_s", "max_repetitions", "marking",       "memory_limit_bytes", "plan_sha256",
+    "precision",   "repetitions",     "retry_noisy",   "timeout_s"};
+
 constexpr int most_named = 6;
 
 std::string value_of(const Context& context, const std::string& key) {
@@ -32,7 +38,8 @@ std::string differences(const Context& a, const Context& b, Sameness sameness) {
   int count = 0;
   for (const std::string& key : keys) {
     if (of_the_moment.count(key) > 0) continue;
-    if (key == "program_sha256" && sameness == Sameness::same_sources && clean) continue;
+    if (sameness == Sameness::different_runs && of_the_run.count(key) > 0) continue;
+    if (key == "program_sha256" && sameness != Sameness::same_program && clean) continue;
     const std::string first = value_of(a, key), second = value_of(b, key);
     if (first != second && ++count <= most_named)
       text += fmt::format("{}{}: {} and {}", text.empty() ? "" : "; ", key, first, second);

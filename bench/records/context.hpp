@@ -13,8 +13,8 @@ std::string context_word(const Context& context, const std::string& key);  // ""
 
 // For going on with a run the program must be the same file; for joining shards, which other
 // machines' compilers may have built, it is enough that the sources are (unless they were changed
-// since the revision).
-enum class Sameness { same_program, same_sources };
+// since the revision). Different runs may also differ in their plan and limits.
+enum class Sameness { same_program, same_sources, different_runs };
 
 // In what two contexts differ that must not; empty: in nothing. One line: "threads: 1 and 2;
 // compiler: …".

@@ -23,6 +23,12 @@ std::string imprecise_line(const Record& r) {
                      100 * *r.precision, r.samples_s.size());
 }
 
+std::string noisy_line(const Record& r) {
+  return fmt::format("{}: noise {:.1f} % beside the least noisy of {} attempts, not {:g} %\n",
+                     name_of(r).text(), 100 * *r.noise_share, *r.noise_attempts,
+                     100 * *r.retry_noisy);
+}
+
 // Of the table at the end; shown where a record has the field.
 struct Column {
   const char* header;
@@ -92,6 +98,8 @@ std::string results_table(const std::vector<Record>& records) {
   std::string table = aligned_table(rows, 1);
   for (const Record& r : records)
     if (r.precision && !r.precision_reached && r.time_s) table += imprecise_line(r);
+  for (const Record& r : records)
+    if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) table += noisy_line(r);
   std::set<std::string> said;  // the same of every method on a mesh
   for (const Record& r : records)
     if (r.status != Status::ok)

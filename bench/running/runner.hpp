@@ -8,6 +8,7 @@
 #include "bench/cases/plan.hpp"
 #include "bench/records/context.hpp"
 #include "bench/records/record.hpp"
+#include "bench/running/noise_watch.hpp"
 
 namespace airybench {
 
@@ -29,6 +30,7 @@ struct RunResult {
 
 // Prints progress to standard error, writes the output folder. Throws UsageError (arguments for
 // Google Benchmark, no case), FileError, Interrupted; what was measured is on disk then.
-RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context);
+RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
+                    const Machine& machine = this_machine());
 
 }  // namespace airybench

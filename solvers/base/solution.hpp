@@ -40,6 +40,13 @@ struct ProgramRun {
   std::string log;              // what it left of itself for the reader
 };
 
+// Wall clock of an iteration's pieces, in whatever stage it ran.
+struct IterationTimes {
+  double matrix_s = 0;    // products with the matrix
+  double smoother_s = 0;  // sweeps of its preconditioner
+  double coarse_s = 0;    // its coarse problem, and what goes to it and back
+};
+
 // The defaults are those of a method that never ran.
 struct Solution {
   Status status = Status::crashed;
@@ -70,6 +77,7 @@ struct Solution {
   std::optional<int> contact_iterations;          // of the contact solver; Newton's: its sweeps
   std::optional<int> newton_steps;                // active sets of the contact law
   std::optional<int> uzawa_iterations;
+  std::optional<IterationTimes> iteration_times;  // two levels only
   std::vector<IterationHistory> histories;
   std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
   std::optional<double> done_fraction, error_so_far;  // on timeout, where known

@@ -73,6 +73,21 @@ class StageTimer {
   std::chrono::steady_clock::time_point start_;
 };
 
+// Adds the time from construction to destruction; no observer is told.
+class SecondsInto {
+ public:
+  explicit SecondsInto(double& seconds) : seconds_(seconds) {}
+  ~SecondsInto() {
+    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  SecondsInto(const SecondsInto&) = delete;
+  SecondsInto& operator=(const SecondsInto&) = delete;
+
+ private:
+  double& seconds_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
 // Runs one stage: on its clock, what it allocates on its owner's account.
 template <typename Work>
 auto run_stage(StageTimes& times, Stage stage, MemoryOwner owner, Work work) {

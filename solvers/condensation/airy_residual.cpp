@@ -4,6 +4,7 @@
 #include <random>
 
 #include "assembly/edge_forces.hpp"
+#include "assembly/row_order.hpp"
 
 namespace airybench {
 namespace {
@@ -97,7 +98,6 @@ void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
 // multipliers in r.
 void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answer,
                          const Eigen::VectorXd& F_C, LongSaddleVector& residual) {
-  const auto& boundary = system.problem->mesh.boundary;
   int row_F = 0, row_C = 0;
   const auto visit = [&](int row) {
     const EdgeCondition condition = system.problem->condition(row);
@@ -127,10 +127,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
     }
     add_displacements(system, edge, u, residual.x);
   };
-  using enum BoundaryRole;
-  for (const BoundaryRole role : {force, contact, displacement})
-    for (int row = 0; row < static_cast<int>(boundary.size()); ++row)
-      if (boundary[row].role == role) visit(row);
+  for_each_boundary_row(system.problem->mesh, visit);
 }
 
 }  // namespace

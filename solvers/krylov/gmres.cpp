@@ -1,7 +1,9 @@
 #include "solvers/krylov/gmres.hpp"
 
+#include <algorithm>
 #include <cmath>
-#include <vector>
+
+#include "solvers/base/parallel.hpp"
 
 namespace airybench {
 namespace {
@@ -41,62 +43,84 @@ class RotatedHessenberg {
   std::vector<double> c_, s_;
 };
 
+// Calls work(slice, first row, rows): slices, and strips of them that stay in a cache.
+constexpr int slices = 16;
+void visit_strips(int threads, Eigen::Index rows,
+                  const std::function<void(int, Eigen::Index, Eigen::Index)>& work) {
+  constexpr Eigen::Index strip = 8192, few = 200'000;
+  in_parallel(rows < few ? 1 : threads, slices, [&](int begin, int end) {
+    for (int slice = begin; slice < end; ++slice) {
+      const Eigen::Index last = rows * (slice + 1) / slices;
+      for (Eigen::Index first = rows * slice / slices; first < last; first += strip)
+        work(slice, first, std::min(strip, last - first));
+    }
+  });
+}
+
 }  // namespace
 
 GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eigen::VectorXd& r,
                            const GmresOptions& options, const Deadline& deadline,
-                           Eigen::VectorXd& x) {
+                           KrylovSpace& space, Eigen::VectorXd& x) {
   const OwnerScope scope(MemoryOwner::iteration);
   const int most = options.most_iterations;
-  x.setZero(r.size());
-  std::vector<Eigen::VectorXd> V = {r}, Z(1);
-  // The last of V, made a unit vector.
-  const auto normalise = [&] {
-    M_inverse(V.back(), Z.back());
-    const double squared = V.back().dot(Z.back());
+  auto& [Z, w] = space;
+  Eigen::VectorXd h = Eigen::VectorXd::Zero(most + 1);
+  Eigen::MatrixXd partial(most + 1, slices);
+  GmresResult result;
+
+  // Z_n = M⁻¹ w − Σ_{i<n} h_i Z_i, made a unit vector; returns its norm.
+  const auto add_vector = [&](int n) {
+    if (static_cast<int>(Z.size()) == n) Z.emplace_back();
+    M_inverse(w, Z[n]);
+    partial.setZero();
+    visit_strips(options.threads, w.size(), [&](int slice, Eigen::Index at, Eigen::Index count) {
+      auto z = Z[n].segment(at, count);
+      for (int i = 0; i < n; ++i) z.noalias() -= h(i) * Z[i].segment(at, count);
+      partial(0, slice) += w.segment(at, count).dot(z);
+    });
+    const double squared = partial.row(0).sum();
     if (!std::isfinite(squared)) throw Breakdown("GMRES: a vector is not finite");
     const double norm = std::sqrt(std::max(0.0, squared));
-    if (norm > 0) {
-      V.back() /= norm;
-      Z.back() /= norm;
-    }
+    if (norm > 0)
+      visit_strips(options.threads, w.size(), [&](int, Eigen::Index at, Eigen::Index count) {
+        Z[n].segment(at, count) /= norm;
+      });
     return norm;
   };
-  GmresResult result;
-  result.norm = normalise();
+  w = r;
+  result.norm = add_vector(0);
   if (result.norm == 0) {
     result.reduction = 0;
+    x.setZero(r.size());
     return result;
   }
   RotatedHessenberg least_squares(most, result.norm);
-  Eigen::VectorXd h(most + 1);
   const double end = std::max(options.tolerance, options.enough / result.norm);
   while (result.iterations < most && result.reduction > end) {
-    const int j = result.iterations;
-    Eigen::VectorXd w;
-    A(Z[j], w);
-    for (int i = 0; i <= j; ++i) {
-      h(i) = w.dot(Z[i]);
-      w.noalias() -= h(i) * V[i];
-    }
-    V.push_back(std::move(w));
-    Z.emplace_back();
-    const double next = normalise();
-    h(j + 1) = next;
-    result.reduction = least_squares.add(j, h) / result.norm;
-    ++result.iterations;
+    const int n = ++result.iterations;
+    A(Z[n - 1], w);
+    partial.setZero();
+    visit_strips(options.threads, w.size(), [&](int slice, Eigen::Index at, Eigen::Index count) {
+      for (int i = 0; i < n; ++i)
+        partial(i, slice) += w.segment(at, count).dot(Z[i].segment(at, count));
+    });
+    h.head(n) = partial.topRows(n).rowwise().sum();
+    h(n) = add_vector(n);
+    const double next = h(n);
+    result.reduction = least_squares.add(n - 1, h) / result.norm;
     if (!(next > 1e-15 * result.norm)) break;  // the space is exhausted
     deadline.check("GMRES");
   }
   const Eigen::VectorXd y = least_squares.solution(result.iterations);
-  for (int i = 0; i < result.iterations; ++i) x.noalias() += y(i) * Z[i];
+  x.resize(r.size());
+  visit_strips(options.threads, r.size(), [&](int, Eigen::Index at, Eigen::Index count) {
+    auto part = x.segment(at, count);
+    part.setZero();
+    for (int i = 0; i < result.iterations; ++i) part.noalias() += y(i) * Z[i].segment(at, count);
+  });
   if (!x.allFinite()) throw Breakdown("GMRES: the correction is not finite");
   return result;
-}
-
-std::size_t gmres_bytes(Eigen::Index rows, int iterations) {
-  return static_cast<std::size_t>(rows) * 2 * static_cast<std::size_t>(iterations + 1) *
-         sizeof(double);
 }
 
 }  // namespace airybench

@@ -4,12 +4,18 @@
 //   x in the span of Z = (M⁻¹ r, M⁻¹ A M⁻¹ r, …),  ‖r − A x‖_M⁻¹ minimal
 //
 // with A nonsymmetric, as long as it is near M. That norm is about the error's energy norm; ‖·‖₂ is
-// far from it near incompressibility. V = M Z is orthonormal in M⁻¹: two vectors per iteration, so
-// that a few digits are asked for at a time and the caller forms the residual anew.
+// far from it near incompressibility. V = M Z is orthonormal in M⁻¹, ZᵀV = I, and is not kept: with
+// w = A z_j and h = Zᵀ w,
+//
+//   z = M⁻¹ w − Z h,   ‖w − V h‖²_M⁻¹ = w·z,   z_{j+1} = z / √(w·z)
+//
+// one vector per iteration. That is classical Gram–Schmidt: a few digits are asked for at a time,
+// and the caller forms the residual anew.
 #pragma once
 
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
 #include "solvers/base/solution.hpp"
 
@@ -21,6 +27,16 @@ struct GmresOptions {
   double tolerance = 1e-3;  // ‖r − A x‖_M⁻¹ ≤ tolerance · ‖r‖_M⁻¹ …
   double enough = 0;        // … or ≤ this
   int most_iterations = 20;
+  int threads = 1;  // for its vectors; sums do not depend on how many
+};
+
+// Its vectors, kept from one solve to the next.
+struct KrylovSpace {
+  std::vector<Eigen::VectorXd> Z;
+  Eigen::VectorXd w;
+  std::size_t bytes() const {
+    return (Z.size() + 1) * static_cast<std::size_t>(w.size()) * sizeof(double);
+  }
 };
 
 struct GmresResult {
@@ -32,8 +48,6 @@ struct GmresResult {
 // Throws Breakdown where numbers are not finite, TimeoutReached.
 GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eigen::VectorXd& r,
                            const GmresOptions& options, const Deadline& deadline,
-                           Eigen::VectorXd& x);
-// Of its vectors.
-std::size_t gmres_bytes(Eigen::Index rows, int iterations);
+                           KrylovSpace& space, Eigen::VectorXd& x);
 
 }  // namespace airybench

@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "assembly/load_scale.hpp"
+#include "solvers/base/kept_body.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/direct/factor_counts.hpp"
@@ -14,6 +15,7 @@ namespace {
 struct KrylovBody {
   HybridizedSystem system;
   EdgeMatrix matrix;
+  std::unique_ptr<TwoLevelPreconditioner> two_levels;
 };
 
 void note_rows(const RowsResult& rows, const RunControl& control, Solution& solution) {
@@ -38,39 +40,39 @@ void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {
                         std::to_string(coarse.unknowns()) + " unknowns";
 }
 
-// K is factorised nowhere: what is left of it is `matrix`.
-TwoLevelPreconditioner make_two_levels(const DualSystem& airy, const RunControl& control,
-                                       KrylovBody& body, Solution& solution) {
+// K is factorised nowhere: what is left of it is `matrix`, unless other loads come.
+void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBody& body,
+                     Solution& solution) {
   const Problem& problem = *airy.problem;
   std::unique_ptr<CoarseDisplacements> coarse;
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body.system = assemble_hybridized(problem, airy.contact);
-    body.matrix = make_edge_matrix(problem, body.system);
+    body.matrix = make_edge_matrix(problem, body.system, control.threads);
     coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
                                                    coarse_kind_for(problem));
   });
   control.deadline.check("the assembly of the hybridized system");
   coarse->factorise(problem, body.system, body.matrix, control.deadline, solution.times);
-  body.system.K = {};
+  if (!control.keep_body) body.system.K = {};
   count_factor(coarse->factor(), solution);
-  note_parameters(*coarse, solution);
   const OwnerScope scope(MemoryOwner::preconditioner);
-  return TwoLevelPreconditioner(body.matrix, std::move(coarse));
+  body.two_levels = std::make_unique<TwoLevelPreconditioner>(body.matrix, std::move(coarse));
 }
 
-void count_storage(const KrylovBody& body, const TwoLevelPreconditioner& M, const RowsResult& rows,
-                   Solution& solution) {
+void count_storage(const KrylovBody& body, const RowsResult& rows, Solution& solution) {
   solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
-  solution.storage[MemoryOwner::preconditioner] = M.bytes();
-  solution.storage[MemoryOwner::iteration] = gmres_bytes(body.matrix.slots(), rows.most_at_once);
+  solution.storage[MemoryOwner::preconditioner] = body.two_levels->bytes();
+  solution.storage[MemoryOwner::iteration] = rows.bytes;
 }
 
-Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
+// What comes after the two levels.
+void finish_iteratively(const DualSystem& airy, const RunControl& control, KrylovBody& body,
+                        Solution& solution) {
   const Problem& problem = *airy.problem;
   const bool has_contact = airy.contact.count > 0;
-  Solution solution;
-  KrylovBody body;
-  TwoLevelPreconditioner M = make_two_levels(airy, control, body, solution);
+  TwoLevelPreconditioner& M = *body.two_levels;
+  note_parameters(M.coarse(), solution);
+  M.times() = {};
   const SlotSystem slots(problem, airy.contact, body.system, body.matrix);
   const RowsResult rows = run_stage(
       solution.times, has_contact ? Stage::contact : Stage::recover, MemoryOwner::iteration,
@@ -80,7 +82,7 @@ Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) 
     solution.contact_iterations = rows.sweeps;
     solution.newton_steps = rows.steps;
   }
-  count_storage(body, M, rows, solution);
+  count_storage(body, rows, solution);
   HybridizedAnswer answer;
   run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
     solution.F_C = project_on_coulomb(airy.contact, rows.F_C);
@@ -92,11 +94,28 @@ Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) 
     solution.edge_moments = edge_moments(problem, body.system.unknown, body.system.displacement, u);
     answer.unbalanced.r.tail(body.system.n_c) += solution.F_C;
   });
-  if (!rows.converged) return solution;  // the check's own solves would not end either
-  run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
-    check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws, M, control,
-                      solution);
-  });
+  if (rows.converged)  // else the check's own solves would not end either
+    run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
+      check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws, M,
+                        control, solution);
+    });
+  solution.iteration_times = M.times();
+}
+
+Solution solve_hybridized_cg(const DualSystem& airy, const RunControl& control) {
+  const auto body = std::make_shared<KrylovBody>();
+  Solution solution;
+  make_two_levels(airy, control, *body, solution);
+  finish_iteratively(airy, control, *body, solution);
+  if (control.keep_body)
+    solution.solve_again =
+        for_the_same_body(airy, [body](const DualSystem& load_case, const RunControl& again) {
+          Solution other;
+          run_stage(other.times, Stage::contact, MemoryOwner::system_matrix,
+                    [&] { set_load_case(*load_case.problem, body->system); });
+          finish_iteratively(load_case, again, *body, other);
+          return other;
+        });
   return solution;
 }
 

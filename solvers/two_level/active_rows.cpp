@@ -11,8 +11,9 @@ namespace airybench {
 namespace {
 
 // The laws that points begin with: those of the coarse contact problem.
-std::vector<PointLaw> first_laws(const SlotSystem& s, const TwoLevelPreconditioner& M,
+std::vector<PointLaw> first_laws(const SlotSystem& s, TwoLevelPreconditioner& M,
                                  const RunControl& control, RowsResult& result) {
+  M.hold(s.prescribed);
   std::vector<PointLaw> laws(static_cast<std::size_t>(s.contact.count));
   const CoarseContact coarse = M.coarse().contact_problem(s.contact, s.b);
   if (coarse.points.count == 0) return laws;
@@ -87,19 +88,21 @@ GmresResult LinearisedContact::solve(Eigen::VectorXd r, const GmresOptions& opti
   reduce(r);
   return solve_by_gmres(
       [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) {
+        const SecondsInto timer(M_.times().matrix_s);
         s_.K.multiply(v, y);
         reduce(y);
       },
       [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { M_.apply(v, y); }, r, options, deadline,
-      x);
+      space_, x);
 }
 
 namespace {
 
 // GMRES keeps so much of its basis at most.
 int iterations_at_once(Eigen::Index rows) {
-  constexpr std::size_t most_bytes = 2'500'000'000;
-  return std::clamp(static_cast<int>(most_bytes / gmres_bytes(rows, 0)), 12, 40);
+  constexpr std::size_t most_bytes = 2'000'000'000;
+  const std::size_t vectors = most_bytes / (static_cast<std::size_t>(rows) * sizeof(double));
+  return static_cast<int>(std::clamp(vectors, std::size_t{12}, std::size_t{40}));
 }
 
 class RowsNewton {
@@ -113,6 +116,13 @@ class RowsNewton {
   }
 
   RowsResult solve() {
+    RowsResult result = iterate();
+    result.bytes = linearised_.bytes();
+    return result;
+  }
+
+ private:
+  RowsResult iterate() {
     constexpr int most_steps = 100;
     double target = 1e-2;
     while (now_.steps < most_steps) {
@@ -127,14 +137,12 @@ class RowsNewton {
         target = control_.tolerance;
       }
     }
-    for (const auto count : {&RowsResult::steps, &RowsResult::sweeps, &RowsResult::most_at_once})
-      best_.*count = now_.*count;
+    for (const auto count : {&RowsResult::steps, &RowsResult::sweeps}) best_.*count = now_.*count;
     best_.iterations = now_.iterations;
     best_.history = std::move(now_.history);
     return best_;
   }
 
- private:
   void hold_laws() {
     if (now_.laws == held_laws_ && now_.steps > 0) return;
     linearised_.set(now_.laws);
@@ -157,11 +165,11 @@ class RowsNewton {
     constexpr int most_cycles = 50;
     for (int cycle = 0, idle = 0; cycle < most_cycles && idle < 2; ++cycle) {
       const double enough = target / two_level_condition * (size_ > 0 ? size_ : scale_);
-      const GmresOptions options{1e-8, enough / 2, iterations_at_once(unbalanced_.size())};
+      const GmresOptions options{1e-8, enough / 2, iterations_at_once(unbalanced_.size()),
+                                 s_.K.threads};
       const GmresResult linear =
           linearised_.solve(unbalanced_, options, control_.deadline, correction_);
       now_.iterations += linear.iterations;
-      now_.most_at_once = std::max(now_.most_at_once, linear.iterations);
       now_.u += correction_;
       measure();
       now_.linear_error =

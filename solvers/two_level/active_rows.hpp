@@ -46,12 +46,14 @@ class LinearisedContact {
   // x with  (reduced K) x ≈ reduced r.
   GmresResult solve(Eigen::VectorXd r, const GmresOptions& options, const Deadline& deadline,
                     Eigen::VectorXd& x);
+  std::size_t bytes() const { return space_.bytes(); }
 
  private:
   const SlotSystem& s_;
   TwoLevelPreconditioner& M_;
   std::vector<PointLaw> laws_;
   std::vector<Eigen::Index> held_;
+  KrylovSpace space_;
 };
 
 struct RowsResult {
@@ -63,7 +65,7 @@ struct RowsResult {
   double linear_error = 0;          // of u under its laws, relative in the energy norm, estimated
   int sweeps = 0, steps = 0;        // on the coarse contact problem; active sets
   std::int64_t iterations = 0;      // of GMRES
-  int most_at_once = 0;             // of them
+  std::size_t bytes = 0;            // of GMRES' vectors
   std::vector<double> history;      // linear_error
 };
 

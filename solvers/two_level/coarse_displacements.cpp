@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/direct/dense_cholesky.hpp"
-
 namespace airybench {
 namespace {
 
@@ -15,6 +13,18 @@ using Matrix2 = Eigen::Matrix2d;
 constexpr std::array<std::array<double, 2>, 2> weights_of(CoarseKind kind) {
   if (kind == CoarseKind::per_edge) return {{{1, 0}, {1, 0}}};
   return {{{2. / 3, 1. / 3}, {1. / 3, 2. / 3}}};
+}
+
+// Of L Lᵀ.
+Eigen::MatrixXd lower_of_product(const Eigen::MatrixXd& L) {
+  constexpr Eigen::Index width = 128;
+  const Eigen::Index n = L.rows();
+  Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index k = 0; k < n; k += width)
+    S.bottomRightCorner(n - k, n - k)
+        .selfadjointView<Eigen::Lower>()
+        .rankUpdate(L.block(k, k, n - k, std::min(width, n - k)));
+  return S;
 }
 
 }  // namespace
@@ -197,6 +207,7 @@ void CoarseDisplacements::factorise(const Problem& problem, const HybridizedSyst
   run_stage(times, Stage::factor, MemoryOwner::factor, [&] {
     factor_.factor(coarse, deadline);
     L_ = factor_.trailing_factor();
+    S_ = lower_of_product(L_);
   });
 }
 
@@ -220,8 +231,7 @@ void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
     if (free[i]) now.push_back(i);
   const bool all = now.size() == free.size();
   if (now != free_ && !all && !now.empty()) {
-    const Eigen::MatrixXd S = L_.triangularView<Eigen::Lower>() * L_.transpose();
-    on_free_.compute(S(now, now));
+    on_free_.compute(S_(now, now));
     if (on_free_.info() != Eigen::Success)
       throw Breakdown("the coarse problem of the contact rows is not positive definite");
   }
@@ -308,44 +318,53 @@ void CoarseDisplacements::correct(const Eigen::VectorXd& r, Eigen::VectorXd& x) 
 
 CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
                                                    const Eigen::VectorXd& b) const {
+  constexpr int most_points = 700;
   const int m = contact.components;
   CoarseContact coarse;
-  coarse.points.components = m;
-  coarse.points.count = 0;
-  std::vector<int> point_of_node(unknown_.size(), -1), rows, times;
-  for (const int node : node_of_point_) {
-    const NodeUnknowns& own = unknown_[node];
-    int& point = point_of_node[node];
-    if (point < 0 && own[0] >= 0 && own[1] >= 0) {
-      point = coarse.points.count++;
-      for (int k = 0; k < m; ++k) rows.push_back(own[k] - first_trailing_);
+  ContactPoints& points = coarse.points;
+  points.components = m;
+  std::vector<int> place(unknown_.size(), -1), met;  // of nodes along Γ_C, as points meet them
+  for (const int node : node_of_point_)
+    if (place[node] < 0 && std::ranges::min(unknown_[node]) >= 0) {
+      place[node] = static_cast<int>(met.size());
+      met.push_back(node);
     }
-    coarse.of_point.push_back(point);
-  }
-  if (coarse.points.count == 0) return coarse;
-  times.assign(static_cast<std::size_t>(coarse.points.count), 0);
-  if (m == 2) coarse.points.friction.assign(times.size(), 0);
-  if (contact.gap.size() > 0) coarse.points.gap.setZero(coarse.points.size());
+  const int in_group = 1 + (static_cast<int>(met.size()) - 1) / most_points;
+  points.count = (static_cast<int>(met.size()) + in_group - 1) / in_group;
+  for (const int node : node_of_point_)
+    coarse.of_point.push_back(place[node] < 0 ? -1 : place[node] / in_group);
+  if (points.count == 0) return coarse;
+
+  std::vector<double> nodes(static_cast<std::size_t>(points.count)), times = nodes;
+  for (std::size_t i = 0; i < met.size(); ++i) ++nodes[i / in_group];
   for (const int point : coarse.of_point)
     if (point >= 0) ++times[point];
+  if (m == 2) points.friction.assign(times.size(), 0);
+  if (contact.gap.size() > 0) points.gap.setZero(points.size());
   for (int p = 0; p < contact.count; ++p) {
     const int point = coarse.of_point[p];
     if (point < 0) continue;
-    if (m == 2) coarse.points.friction[point] += contact.friction_at(p) / times[point];
+    if (m == 2) points.friction[point] += contact.friction_at(p) / times[point];
     if (contact.gap.size() > 0)
-      coarse.points.gap.segment(m * point, m) += contact.gap.segment(m * p, m) / times[point];
+      points.gap.segment(m * point, m) += contact.gap.segment(m * p, m) / times[point];
   }
-  const Eigen::MatrixXd D = inverse_from_factor(L_);
-  const Eigen::VectorXd y = factor_.forward(restricted(b)).tail(L_.rows());
-  const Eigen::VectorXd unloaded = L_.triangularView<Eigen::Lower>().transpose().solve(y);
-  coarse.condensed.D = D(rows, rows);
-  coarse.condensed.G = -unloaded(rows);
+  // Columns: L⁻¹ N, N spreading a group's force evenly over its nodes.
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(L_.rows(), points.size());
+  for (std::size_t i = 0; i < met.size(); ++i)
+    for (int k = 0; k < m; ++k) {
+      const auto group = static_cast<int>(i) / in_group;
+      N(unknown_[met[i]][k] - first_trailing_, m * group + k) = 1 / nodes[group];
+    }
+  L_.triangularView<Eigen::Lower>().solveInPlace(N);
+  coarse.condensed.D.noalias() = N.transpose() * N;
+  coarse.condensed.G = -N.transpose() * factor_.forward(restricted(b)).tail(L_.rows());
   return coarse;
 }
 
 std::size_t CoarseDisplacements::bytes() const {
   return factor_.bytes() +
-         static_cast<std::size_t>(L_.size() + on_free_.rows() * on_free_.cols()) * sizeof(double) +
+         static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) *
+             sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
          block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +
          boundary_.size() * sizeof(BoundaryBlock);

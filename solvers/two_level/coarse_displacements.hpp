@@ -9,7 +9,7 @@
 // The first is a third of the second's size; the second does not lock near incompressibility.
 //
 // Nodes on Γ_C have normal and tangential components, and are the last unknowns: which of them are
-// held by closed contact rows changes, and costs a dense factorisation of the Schur complement on
+// held by closed contact rows changes, and costs a dense factorisation of the Schur complement S on
 // the free ones only (stiffness_condensation.hpp has the algebra).
 #pragma once
 
@@ -26,7 +26,8 @@ enum class CoarseKind { linear, per_edge };
 // per_edge where a body is nearly incompressible.
 CoarseKind coarse_kind_for(const Problem& problem);
 
-// The contact law on the coarse displacements: which one a contact point begins with.
+// The contact law on the coarse displacements, means over groups of neighbouring nodes where there
+// are many: which one a contact point begins with.
 struct CoarseContact {
   CondensedSystem condensed;
   ContactPoints points;       // the coarse ones
@@ -91,7 +92,7 @@ class CoarseDisplacements {
   std::vector<BoundaryBlock> boundary_;
   std::vector<int> node_of_point_;  // per contact point
   MultifrontalFactor factor_;
-  Eigen::MatrixXd L_;                    // of the Schur complement on the trailing unknowns
+  Eigen::MatrixXd L_, S_;                // of the trailing unknowns, lower triangles: S = L Lᵀ
   std::vector<int> free_;                // trailing unknowns that are not held, from the first on
   Eigen::LLT<Eigen::MatrixXd> on_free_;  // of the Schur complement on them
 };

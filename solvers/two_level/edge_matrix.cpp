@@ -2,16 +2,35 @@
 
 #include <algorithm>
 
+#include "solvers/base/parallel.hpp"
+
 namespace airybench {
 namespace {
 
-std::vector<int> blocks_as_met(const Problem& problem) {
-  std::vector<int> block(static_cast<std::size_t>(problem.edges.count()), -1);
+void number_blocks(const Problem& problem, EdgeMatrix& K) {
+  constexpr std::size_t smallest = 4000, most = 16;
+  constexpr int nowhere = -1, between = -2;
+  const auto& of_triangle = problem.edges.of_triangle;
+  const std::size_t triangles = of_triangle.size(),
+                    pieces = std::clamp(triangles / smallest, std::size_t{1}, most);
+  std::vector<int> piece_of(static_cast<std::size_t>(problem.edges.count()), nowhere);
+  for (std::size_t t = 0; t < triangles; ++t)
+    for (const int edge : of_triangle[t]) {
+      const auto own = static_cast<int>(t * pieces / triangles);
+      piece_of[edge] = piece_of[edge] == nowhere || piece_of[edge] == own ? own : between;
+    }
+  K.block_of_edge.assign(piece_of.size(), -1);
+  K.piece = {0};
   int next = 0;
-  for (const auto& edges : problem.edges.of_triangle)
-    for (const int edge : edges)
-      if (block[edge] < 0) block[edge] = next++;
-  return block;
+  const auto number = [&](int edge) {
+    if (K.block_of_edge[edge] < 0) K.block_of_edge[edge] = next++;
+  };
+  for (std::size_t t = 0; t < triangles; ++t) {
+    for (const int edge : of_triangle[t])
+      if (piece_of[edge] != between) number(edge);
+    if ((t + 1) * pieces / triangles > t * pieces / triangles) K.piece.push_back(next);
+  }
+  for (const auto& edges : of_triangle) std::ranges::for_each(edges, number);
 }
 
 Eigen::Matrix<double, 12, 12> whole_element(const ElementMatrices& K, int t) {
@@ -24,9 +43,10 @@ Eigen::Matrix<double, 12, 12> whole_element(const ElementMatrices& K, int t) {
 
 }  // namespace
 
-EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& system) {
+EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& system, int threads) {
   EdgeMatrix K;
-  K.block_of_edge = blocks_as_met(problem);
+  K.threads = threads;
+  number_blocks(problem, K);
   const auto edges = K.block_of_edge.size();
   const auto& of_triangle = problem.edges.of_triangle;
   K.start.assign(edges + 1, 0);
@@ -57,18 +77,30 @@ EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& syst
   return K;
 }
 
+void EdgeMatrix::visit_pieces(const std::function<void(int begin, int end)>& work) const {
+  in_parallel(threads, pieces(), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) work(piece[p], piece[p + 1]);
+  });
+}
+
 void EdgeMatrix::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
-  y.setZero(slots());
-  for (int i = 0; i < blocks(); ++i) {
-    const Eigen::Vector4d own = x.segment<4>(4 * static_cast<Eigen::Index>(i));
-    Eigen::Vector4d sum = diagonal[i] * own;
-    for (int k = start[i]; k < start[i + 1]; ++k) {
-      const Eigen::Index j = 4 * static_cast<Eigen::Index>(column[k]);
-      sum.noalias() += left[k] * x.segment<4>(j);
-      y.segment<4>(j).noalias() += left[k].transpose() * own;
+  y.resize(slots());
+  const auto add_rows = [&](int begin, int end) {
+    y.segment(4 * static_cast<Eigen::Index>(begin), 4 * static_cast<Eigen::Index>(end - begin))
+        .setZero();
+    for (int i = begin; i < end; ++i) {
+      const Eigen::Vector4d own = x.segment<4>(4 * static_cast<Eigen::Index>(i));
+      Eigen::Vector4d sum = diagonal[i] * own;
+      for (int k = start[i]; k < start[i + 1]; ++k) {
+        const Eigen::Index j = 4 * static_cast<Eigen::Index>(column[k]);
+        sum.noalias() += left[k] * x.segment<4>(j);
+        y.segment<4>(j).noalias() += left[k].transpose() * own;
+      }
+      y.segment<4>(4 * static_cast<Eigen::Index>(i)) += sum;
     }
-    y.segment<4>(4 * static_cast<Eigen::Index>(i)) += sum;
-  }
+  };
+  visit_pieces(add_rows);
+  add_rows(piece.back(), blocks());
 }
 
 std::vector<Eigen::Index> prescribed_slots(const EdgeMatrix& K, const EdgeUnknowns& unknown) {

@@ -57,19 +57,34 @@ void TwoLevelPreconditioner::relax(int i, const Eigen::VectorXd& r, Eigen::Vecto
 }
 
 void TwoLevelPreconditioner::sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
+  const SecondsInto timer(times_.smoother_s);
   x.resize(r.size());
-  rest_.setZero(r.size());
-  for (int i = 0; i < K_.blocks(); ++i) relax(i, r, x);
+  rest_.resize(r.size());
+  const auto relax_all = [&](int begin, int end) {
+    const Eigen::Index first = 4 * static_cast<Eigen::Index>(begin);
+    rest_.segment(first, 4 * static_cast<Eigen::Index>(end) - first).setZero();
+    for (int i = begin; i < end; ++i) relax(i, r, x);
+  };
+  K_.visit_pieces(relax_all);
+  relax_all(K_.piece.back(), K_.blocks());
 }
 
 void TwoLevelPreconditioner::sweep_backward(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
+  const SecondsInto timer(times_.smoother_s);
   rest_ = r;
-  for (int i = K_.blocks(); i-- > 0;) relax(i, rest_, x);
+  const auto relax_all = [&](int begin, int end) {
+    for (int i = end; i-- > begin;) relax(i, rest_, x);
+  };
+  relax_all(K_.piece.back(), K_.blocks());
+  K_.visit_pieces(relax_all);
 }
 
 void TwoLevelPreconditioner::apply(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
   sweep_forward(r, x);
-  coarse_->correct(rest_, x);
+  {
+    const SecondsInto timer(times_.coarse_s);
+    coarse_->correct(rest_, x);
+  }
   sweep_backward(r, x);
 }
 

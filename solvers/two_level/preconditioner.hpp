@@ -24,6 +24,7 @@ class TwoLevelPreconditioner {
   void hold(const std::vector<Eigen::Index>& held);
   void apply(const Eigen::VectorXd& r, Eigen::VectorXd& x);
   const CoarseDisplacements& coarse() const { return *coarse_; }
+  IterationTimes& times() { return times_; }
   std::size_t bytes() const;
 
  private:
@@ -37,6 +38,7 @@ class TwoLevelPreconditioner {
   std::vector<Eigen::Matrix4d> inverse_;  // of D on what is not held
   std::vector<Eigen::Index> held_;
   Eigen::VectorXd rest_;
+  IterationTimes times_;
 };
 
 }  // namespace airybench

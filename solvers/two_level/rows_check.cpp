@@ -20,7 +20,7 @@ struct Correction {
 Correction solve_under(const SlotSystem& slots, const std::vector<PointLaw>& laws,
                        const Eigen::VectorXd& load, TwoLevelPreconditioner& M,
                        const Deadline& deadline) {
-  constexpr GmresOptions digits{.tolerance = 0.02, .most_iterations = 20};
+  const GmresOptions digits{.tolerance = 0.02, .most_iterations = 20, .threads = slots.K.threads};
   LinearisedContact linearised(slots, M);
   linearised.set(laws);
   Correction correction;

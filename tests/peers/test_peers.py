@@ -3,7 +3,6 @@
     AIRYBENCH_BENCH=PATH /usr/bin/python3 test_peers.py FOLDER/NAME.json    exit 77: cannot run here
 """
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -15,10 +14,10 @@ from scipy.io import mmread
 from scipy.sparse import load_npz
 
 PROJECT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PROJECT / "peers"))
+sys.path[:0] = [str(PROJECT / "peers"), str(PROJECT / "tests/support")]
 import list as peers  # noqa: E402
+from exporting import BENCH, ExportingTest, difference  # noqa: E402
 
-BENCH = os.environ["AIRYBENCH_BENCH"]
 SCENES = {
     "default": {},
     "without friction": {"friction": 0},
@@ -34,11 +33,7 @@ FILES = {"airy_function": {"x.mtx", "F_C.mtx"}, "contact_forces": {"r.mtx"}, "di
 STAGES = {"order", "precondition", "factor", "condense", "contact", "recover", "check"}
 
 
-def difference(found: np.ndarray, expected: np.ndarray) -> float:
-    return np.linalg.norm(found - expected) / np.linalg.norm(expected)
-
-
-class PeerTest(unittest.TestCase):
+class PeerTest(ExportingTest):
     declaration: Path
 
     def setUp(self) -> None:
@@ -47,25 +42,11 @@ class PeerTest(unittest.TestCase):
         _, reason = peers.version(self.declaration.parent, self.peer["version"])
         if reason or not program.exists():
             self.skipTest(f"{self.peer['name']}: {reason or program} (./run peers)")
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def export(self, definition: dict, form: str) -> Path:
-        out = Path(tempfile.mkdtemp(dir=self.folder))
-        scene = self.folder / "scene.json"
-        scene.write_text(json.dumps(definition), encoding="utf-8")
-        ran = subprocess.run([BENCH, "export-problem", "--mesh=Mesh0", f"--scene={scene}",
-                              f"--format={form}", f"--out={out}"],
-                             capture_output=True, text=True, check=False)
-        if "this build is without" in ran.stderr:
-            self.skipTest(ran.stderr)
-        self.assertEqual((0, ""), (ran.returncode, ran.stderr))
-        return out
+        super().setUp()
 
     def answer(self, definition: dict) -> tuple[Path, dict]:
         folder = Path(tempfile.mkdtemp(dir=self.folder))
-        places = {"{input}": str(self.export(definition, self.peer["format"])),
+        places = {"{input}": str(self.export(self.peer["format"], definition)),
                   "{output}": str(folder), "{tolerance}": "1e-13", "{threads}": "2"}
         command = [places.get(word, word) for word in self.peer["command"]]
         ran = subprocess.run(command, cwd=self.declaration.parent, capture_output=True, text=True,
@@ -94,7 +75,7 @@ class PeerTest(unittest.TestCase):
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, _ = self.answer(definition)
-                problem = np.load(self.export(definition, "npz") / "problem.npz")
+                problem = np.load(self.export("npz", definition) / "problem.npz")
                 fclib = self.peer["format"] == "fclib"
                 forces = -mmread(folder / "r.mtx") if fclib else mmread(folder / "F_C.mtx")
                 without_friction = fclib and len(problem["F_C"]) == len(problem["mu"])
@@ -107,7 +88,7 @@ class PeerTest(unittest.TestCase):
         for name, definition in SCENES.items():
             with self.subTest(name):
                 folder, _ = self.answer(definition)
-                out = self.export(definition, "npz")
+                out = self.export("npz", definition)
                 S, C_F, C_C = (load_npz(out / f"{m}.npz").toarray() for m in ("S", "C_F", "C_C"))
                 p = np.load(out / "problem.npz")
                 x, F_C = (mmread(folder / f"{v}.mtx").ravel() for v in ("x", "F_C"))
@@ -133,7 +114,7 @@ class PeerTest(unittest.TestCase):
 
     def displacements_of_p2(self, definition: dict) -> tuple[np.ndarray, np.ndarray]:
         """Nodes, of every triangle three vertices and the middles of its edges, and their displacements."""
-        p = np.load(self.export(definition, "npz") / "problem.npz")
+        p = np.load(self.export("npz", definition) / "problem.npz")
         edge = {frozenset(ends): len(p["vertices_mm"]) + i for i, ends in enumerate(p["edges"].tolist())}
         nodes = [(a, b, c, edge[frozenset((a, b))], edge[frozenset((b, c))], edge[frozenset((c, a))])
                  for a, b, c in p["triangles"].tolist()]

@@ -76,6 +76,14 @@ class MeasuredTest(unittest.TestCase):
                    line("HYBRID") | {"noise_kernel_samples_s": [1.0, 0.9, 1.1]}],
                   "scattered by 5\u00a0% (median absolute deviation over median of 6 times)")
 
+    def test_what_was_noisy_was_measured_again(self) -> None:
+        asked = dict(retry_noisy=0.05)
+        self.says([line(**asked, noise_attempts=1, noise_share=0.01),
+                   line("HYBRID", **asked, noise_attempts=4, noise_share=0.2, noisy="true"),
+                   line("P2", **asked, status="timeout", outcome="timeout")],
+                  "by more than 5\u00a0% was measured again, up to three times: 1 of 2 were, and 1 never")
+        self.assertNotIn("measured again", self.said([line()]))
+
     def test_other_programs_have_clocks_of_their_own(self) -> None:
         self.says([line(), line("EXTERNAL:abacus", program="abacus 2.1")],
                   "In 1 case another program solved (abacus 2.1): its own clock")

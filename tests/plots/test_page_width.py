@@ -46,6 +46,13 @@ def of_all_kinds() -> list[dict]:
     rows += [made_up.case(f"Mesh0+adapt{level}", "HYBRID", n_phi=900 * 2**level, adapt_level=level,
                           adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level,
                           time_s=0.02 * 2**level) for level in range(4)]
+    rows += [made_up.case(mesh, "ALM:AUTO", stop=stop, time_s=time_s * slower, error_total=error)
+             for stop, slower in (("target", 5), ("paper", 1))
+             for mesh, time_s, error in (("Mesh0", 0.01, 0.04), ("Mesh1", 0.05, 0.02))]
+    rows += [made_up.case(f"Mesh3+refine{k}", method, n_phi=6287 * 4**k, time_s=0.01 * 5**k * m,
+                          peak_heap_bytes=2.0**23 * 4.2**k, linear_iterations=40 + k,
+                          error_stress="" if k == 4 else 1e-12, error_estimate=1e-8)
+             for k in range(1, 5) for m, method in enumerate(("HYBRID", "HYBRID:CG"), 1)]
     rows += [made_up.case(mesh, "3STEPD", study="contact", scene=scene, contact_solver=solver,
                           stage_contact_s=0.01, contact_iterations=20) for mesh in ("Mesh0", "Mesh1")
              for scene in ("default", "friction_10") for solver in ("newton", "admm")]

@@ -125,6 +125,35 @@ TEST(KeptBodies, OfTheAugmentedLagrangianAreItsFactor) {
   }
 }
 
+// Both levels are kept.
+TEST(KeptBodies, OfHybridCgAreItsPreconditioner) {
+  for (const double friction : {0.2, 0.0}) {
+    Scene first_scene;
+    first_scene.friction = friction;
+    DualSystem system = assemble(posed(first_scene), Blocks::contact_points);
+    RunControl control;
+    control.keep_body = true;
+    const Method method = select_methods("HYBRID:CG").front();
+    const Solution first = run(method, system, control);
+    ASSERT_EQ(first.status, Status::ok) << first.message;
+    ASSERT_TRUE(first.solve_again);
+    EXPECT_EQ(first.F_C, run(method, system, {}).F_C);
+    for (const auto& [name, scene] : load_cases()) {
+      Scene other = scene;
+      if (friction == 0) other.friction = 0;
+      set_load_case(system, posed(other));
+      const Solution again = run(first.solve_again, system, {}), alone = run(method, system, {}),
+                     exact = run(select_methods("HYBRID").front(), system, {});
+      ASSERT_EQ(again.status, Status::ok) << name << ": " << again.message;
+      EXPECT_LT((again.F_C - exact.F_C).norm(), 1e-7 * exact.F_C.norm()) << name;
+      EXPECT_LT(stress_distance(*system.problem, again.stress, exact.stress), 1e-6) << name;
+      EXPECT_EQ(again.linear_iterations, alone.linear_iterations) << name;
+      for (const Stage stage : {Stage::precondition, Stage::order, Stage::factor})
+        EXPECT_FALSE(again.times[stage]) << name << ": " << name_of(stage);
+    }
+  }
+}
+
 TEST(KeptBodies, AreNotThoseOfIterations) {
   const DualSystem system = assemble(posed({}));
   RunControl control;

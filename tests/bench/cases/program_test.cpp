@@ -7,7 +7,11 @@
 namespace airybench::program_test {
 namespace {
 
-ProgramEnd shell(const std::string& script) { return run_program("/bin/sh", {"-c", script}); }
+constexpr double patience_s = 600;
+
+ProgramEnd shell(const std::string& script, double time_limit_s = patience_s) {
+  return run_program("/bin/sh", {"-c", script}, time_limit_s);
+}
 
 TEST(Program, OutputAndExitCode) {
   const ProgramEnd end = shell("echo out; echo err >&2; exit 7");
@@ -30,7 +34,16 @@ TEST(Program, EndedByASignal) {
   EXPECT_EQ(end.exit_code, -1);
 }
 
-TEST(Program, ThatIsNotThere) { EXPECT_EQ(run_program("/nowhere/program", {}).exit_code, 127); }
+TEST(Program, IsEndedAtItsTimeLimit) {
+  const ProgramEnd end = shell("echo begun; exec sleep 1000", 0.5);
+  EXPECT_TRUE(end.timed_out);
+  EXPECT_EQ(end.signal, SIGKILL);
+  EXPECT_FALSE(shell("exit 0").timed_out);
+}
+
+TEST(Program, ThatIsNotThere) {
+  EXPECT_EQ(run_program("/nowhere/program", {}, patience_s).exit_code, 127);
+}
 
 TEST(Program, HasNoInput) { EXPECT_EQ(shell("cat").out, ""); }
 

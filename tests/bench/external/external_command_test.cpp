@@ -163,6 +163,19 @@ TEST_F(ExternalCommand, FoldersOfAllKinds) {
   }
 }
 
+TEST_F(ExternalCommand, EndlessOutputIsEnded) {
+  declare("one", "condensed", "exec yes");
+  const auto result = bench_.run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
+                                 "ulimit -f 20000; ");  // sooner than at our own limit
+  EXPECT_EQ(result.code, 1);
+  const Json record = bench_.records().at(0);
+  EXPECT_EQ(record["status"], "crashed");
+  const std::string reason = record["status_reason"];
+  EXPECT_NE(reason.find("one was ended by SIGXFSZ: a file that it wrote became too large: y"),
+            reason.npos)
+      << reason;
+}
+
 TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
   declare_honest();
   write_right();

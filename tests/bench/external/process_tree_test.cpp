@@ -108,6 +108,15 @@ TEST_F(ProcessTree, TheMemoryLimitEndsAll) {
   expect_nobody_is_left();
 }
 
+TEST_F(ProcessTree, WhatItPrintsAndWritesIsLimited) {
+  ProcessLimits limits = {patience_s};
+  limits.file_bytes = 1 << 20;
+  EXPECT_EQ(run("exec yes", limits).signal, SIGXFSZ);
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "printed"), 1u << 20);
+  EXPECT_EQ(run("exec dd if=/dev/zero of=file bs=1M count=3", limits).signal, SIGXFSZ);
+  EXPECT_EQ(run("head -c 1M /dev/zero >file", limits).exit_code, 0);
+}
+
 TEST_F(ProcessTree, MemoryIsThatOfTheLargestMoment) {
   const ProcessTreeEnd end =
       run("dd if=/dev/zero of=/dev/null bs=200M count=10", {patience_s, std::int64_t{1} << 30});

@@ -15,6 +15,7 @@
 #include "bench/isolation/scene_process.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/running/runner.hpp"
+#include "mesh/refinement.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -153,6 +154,75 @@ TEST_F(Isolation, MemoryWithoutEndIsEnded) {
     }));
     EXPECT_EQ(record.status, Status::out_of_memory) << bytes;
     EXPECT_NE(record.status_reason.find("limit"), std::string::npos) << record.status_reason;
+  }
+}
+
+// An iterative method on a body of a size that takes it a while, and on a small one.
+class IsolationAtSize : public Isolation {
+ protected:
+  IsolationAtSize() {
+    Mesh mesh = testing::small_tooth(16, 12);
+    for (int level = 0; level < 3; ++level) mesh = uniformly_refined(mesh);
+    mesh.name = "large";
+    large_.scene_name = "default";
+    large_.problem = std::make_shared<const Problem>(pose(Scene{}, std::move(mesh)));
+    options_.repetitions = 1;
+  }
+  // Of the large body; the small one is solved after it.
+  Record run_large(const Method& method) {
+    const std::vector<Record> records =
+        run_cases(plan_cases({large_, posed_}, {method}), options_, {}).records;
+    EXPECT_EQ(records.size(), 2u);
+    EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
+    EXPECT_GT(records.front().n_phi, 50'000);
+    EXPECT_EQ(records.front().method, method.name);
+    EXPECT_TRUE(records.front().samples_s.empty());
+    EXPECT_FALSE(records.front().status_reason.empty());
+    return records.front();
+  }
+  const Method method_ = select_methods("HYBRID:CG").front();
+  PosedScene large_;
+};
+
+TEST_F(IsolationAtSize, AMemoryLimitIsARecord) {
+  if (!heap::is_active()) return;
+  for (const int MiB : {16, 48}) {
+    options_.memory_limit_bytes = std::int64_t{MiB} << 20;
+    const Record record = run_large(method_);
+    EXPECT_EQ(record.status, Status::out_of_memory) << MiB;
+    EXPECT_NE(record.status_reason.find("limit"), std::string::npos) << record.status_reason;
+  }
+}
+
+TEST_F(IsolationAtSize, ATimeLimitInItsIterationsIsARecord) {
+  // Time is up in the first of its stages that takes any.
+  options_.timeout_s = 0.1;
+  const Record record = run_large(method_);
+  EXPECT_EQ(record.status, Status::timeout);
+  EXPECT_NE(record.status_reason.find("time limit"), std::string::npos) << record.status_reason;
+}
+
+TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
+  struct KillsAtTheEnd : StageObserver {
+    Stage stage;
+    explicit KillsAtTheEnd(Stage of) : stage(of) {}
+    void begins(Stage) override {}
+    void ends(Stage of) override {
+      if (of == stage) die_of(SIGKILL);
+    }
+  };
+  for (const Stage stage : {Stage::precondition, Stage::contact, Stage::check}) {
+    Method killed = method_;
+    killed.solve = [this, stage](const DualSystem& system, const RunControl& control) {
+      KillsAtTheEnd killer(stage);
+      const bool is_large = system.contact.count > 100;
+      const ObservedStages scope(is_large ? &killer : nullptr);
+      return method_.solve(system, control);
+    };
+    const Record record = run_large(killed);
+    EXPECT_EQ(record.status, oom_kills() ? Status::machine_fault : Status::out_of_memory);
+    EXPECT_EQ(record.signal, "SIGKILL");
+    EXPECT_EQ(record.ended_in, "detail run, " + std::string(name_of(stage)));
   }
 }
 

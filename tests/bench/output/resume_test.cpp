@@ -232,6 +232,30 @@ TEST(Shards, JoinToTheWhole) {
   refused("part1 other part3", "do not mix: plan_sha256: ");
 }
 
+TEST(Runs, OfDifferentPlansJoinInTheirOrder) {
+  const BenchCommand bench;
+  const std::string hybrid = "--mesh=Mesh0 --method=HYBRID --repetitions=1 ";
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=P2,3STEPD --repetitions=2 --out=a").code, 0);
+  ASSERT_EQ(bench.run(hybrid + "--timeout=60 --out=b").code, 0);
+  const CommandResult joined = bench.run("merge --runs b a --out=joined");
+  EXPECT_EQ(joined.code, 0) << joined.err;
+  std::vector<std::string> methods;
+  for (const Json& record : bench.records("joined")) methods.push_back(record["method"]);
+  EXPECT_EQ(methods, (std::vector<std::string>{"HYBRID", "3STEPD", "P2"}));
+
+  const auto refused = [&](const std::string& arguments, const std::string& why) {
+    const CommandResult result = bench.run("merge " + arguments + " --out=no");
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(bench.path("no")));
+  };
+  refused("a b", "do not mix: ");
+  refused("--runs a b a", "both are Mesh0/default/3STEPD");
+  refused("--runs --incomplete a b", "--incomplete");
+  ASSERT_EQ(bench.run(hybrid + "--target-error=1e-5 --out=c").code, 0);
+  refused("--runs a c", "do not mix: target_error: 1e-06 and 1e-05");
+}
+
 TEST(Shards, AreRefusedWhenTheyAreNone) {
   const BenchCommand bench;
   for (const char* shard : {"0/3", "4/3", "1", "1/", "/2", "1/2/3", "-1/2", "one/two"}) {

@@ -7,7 +7,6 @@ import json
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
@@ -16,10 +15,10 @@ from scipy.io import mmread
 from scipy.sparse import load_npz
 
 PROJECT = Path(__file__).resolve().parents[3]
-sys.path.insert(0, str(PROJECT / "peers/scipy"))
+sys.path[:0] = [str(PROJECT / "peers/scipy"), str(PROJECT / "tests/support")]
 import solve_problem  # noqa: E402
+from exporting import BENCH, ExportingTest, difference  # noqa: E402
 
-BENCH = os.environ["AIRYBENCH_BENCH"]
 READ_FCLIB = os.environ.get("AIRYBENCH_READ_FCLIB")
 SADDLE_SYSTEM = ("S", "C_F", "C_C", "q", "F", "F0")
 FORMATS = ("matrix-market", "npz", "fclib")
@@ -35,31 +34,7 @@ SCENES = {
 }
 
 
-def difference(found: np.ndarray, expected: np.ndarray) -> float:
-    return np.linalg.norm(found - expected) / np.linalg.norm(expected)
-
-
-class ExportedProblems(unittest.TestCase):
-    def setUp(self) -> None:
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def scene(self, definition: dict) -> Path:
-        file = self.folder / "scene.json"
-        file.write_text(json.dumps(definition), encoding="utf-8")
-        return file
-
-    def export(self, file_format: str, definition: dict, mesh: str = "Mesh0") -> Path:
-        out = Path(tempfile.mkdtemp(dir=self.folder))
-        ran = subprocess.run([BENCH, "export-problem", f"--mesh={mesh}", f"--format={file_format}",
-                              f"--scene={self.scene(definition)}", f"--out={out}"],
-                             capture_output=True, text=True, check=False)
-        if "this build is without" in ran.stderr:
-            self.skipTest(ran.stderr)
-        self.assertEqual((0, ""), (ran.returncode, ran.stderr))
-        return out
-
+class ExportedProblems(ExportingTest):
     def hybrid_forces(self, definition: dict, mesh: str = "Mesh0") -> np.ndarray:
         """F_n, F_t of every contact point, as a run of the method gives them."""
         out = self.folder / "run"
