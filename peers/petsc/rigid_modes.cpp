@@ -13,8 +13,8 @@ void set_rigid_modes(Mat matrix, const std::vector<FramedPoint>& points) {
     PetscScalar* values = nullptr;
     check(VecGetArray(modes[m], &values));
     for (const auto& [x, frame] : points) {
-      const std::array<Eigen::Vector2d, 3> motion = {Eigen::Vector2d::UnitX(),
-                                                     Eigen::Vector2d::UnitY(), {-x.y(), x.x()}};
+      const std::array<Eigen::Vector2d, 3> motion = {
+          Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY(), {-x.y(), x.x()}};
       const Eigen::Vector2d own = frame.transpose() * motion[m];
       *values++ = own.x();
       *values++ = own.y();

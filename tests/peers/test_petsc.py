@@ -80,10 +80,10 @@ class PetscTest(unittest.TestCase):
                         f"--external={copier}", f"--out={self.folder / 'copies'}"], check=False, capture_output=True)
         return kept
 
-    def solve(self, problem: Path, ranks: int, *words: str, tolerance: str = "1e-12") -> tuple[Path, dict]:
+    def solve(self, problem: Path, ranks: int, options: str = "two-level-gamg", tolerance: str = "1e-11") -> tuple[Path, dict]:
         out = Path(tempfile.mkdtemp(dir=self.folder))
         ran = subprocess.run([PEER / "over_ranks.sh", str(ranks), out, PROGRAM, problem, out, tolerance,
-                              "-options_file", PEER / "two-level-gamg.options", *words],
+                              "-options_file", PEER / f"{options}.options"],
                              capture_output=True, text=True, check=False)
         self.assertEqual(0, ran.returncode, ran.stderr)
         return out, json.loads((out / "answer.json").read_text(encoding="utf-8"))
@@ -117,11 +117,11 @@ class PetscTest(unittest.TestCase):
                     self.assertIn("MatMult", logs[0])
 
     def test_iterations_near_incompressibility(self) -> None:
-        for poisson in (0.3, 0.49, 0.4999):
+        for poisson, options in ((0.3, "two-level-gamg"), (0.49, "two-level-mumps"), (0.4999, "two-level-mumps")):
             with self.subTest(poisson):  # a linear system: without contact
                 problem = self.export({"poisson": poisson, "friction": 0, "mesh": {"keep_contact_edges": 0},
                                        "boundary": {"force": {"pressure_MPa": 3}}})
-                _, said = self.solve(problem, 2, tolerance="1e-10")
+                _, said = self.solve(problem, 2, options, tolerance="1e-10")
                 self.assertEqual("ok", said["status"])
                 most = int(said["parameters"].split("at most ")[1].split()[0])
                 self.assertLess(most, 65)
