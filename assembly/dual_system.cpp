@@ -67,6 +67,8 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
          traction(problem.particular_stress(edge.end[end]), edge.frame.normal);
 }
 
+}  // namespace
+
 ContactPoints contact_points(const Problem& problem) {
   ContactPoints contact;
   if (problem.given) {
@@ -99,6 +101,8 @@ ContactPoints contact_points(const Problem& problem) {
   contact.gap = Eigen::Map<Eigen::VectorXd>(gap.data(), static_cast<Eigen::Index>(gap.size()));
   return contact;
 }
+
+namespace {
 
 void build_constraints(DualSystem& system) {
   const Problem& problem = *system.problem;

@@ -44,6 +44,9 @@ struct ContactPoints {
   int size() const { return count * components; }  // n_c
 };
 
+// Both components where there is friction anywhere; ḡ by the moments of the wall's distance.
+ContactPoints contact_points(const Problem& problem);
+
 struct DualSystem {
   std::shared_ptr<const Problem> problem;
   DofNumbering dofs;

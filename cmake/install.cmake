@@ -45,8 +45,8 @@ target_include_directories(airybench_flags INTERFACE
 add_library(airybench_library INTERFACE)
 set_target_properties(airybench_library PROPERTIES EXPORT_NAME airybench)
 target_link_libraries(airybench_library INTERFACE airybench_judging)
-install(TARGETS airybench_library airybench_judging airybench_solvers airybench_assembly
-                airybench_mesh airybench_support airybench_flags
+install(TARGETS airybench_library airybench_judging airybench_solvers airybench_elements
+                airybench_assembly airybench_mesh airybench_support airybench_flags
         EXPORT airybench_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/airybench)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/airybench)
 install(EXPORT airybench_targets NAMESPACE airybench:: FILE airybenchTargets.cmake

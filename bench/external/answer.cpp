@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <fstream>
 #include <limits>
 #include <sstream>
 
+#include "bench/external/npy_array.hpp"
 #include "bench/records/json.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
@@ -110,8 +112,23 @@ Answer read_answer(const std::filesystem::path& folder) {
   return answer;
 }
 
+std::string read_log(const std::filesystem::path& folder) {
+  constexpr std::size_t most = 1 << 20;
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(folder / "log.txt", error)) return {};
+  std::ifstream file(folder / "log.txt", std::ios::binary);
+  std::string log(most, '\0');
+  file.read(log.data(), static_cast<std::streamsize>(most));
+  log.resize(static_cast<std::size_t>(file.gcount()));
+  return log;
+}
+
 Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::string& name,
                            Eigen::Index rows, Eigen::Index columns) {
+  std::error_code unknown;
+  if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
+      std::filesystem::is_regular_file(folder / binary, unknown))
+    return read_npy(folder, binary, rows, columns);
   std::istringstream file(text_of(folder, name));
   std::string line;
   int number = 0;

@@ -8,9 +8,14 @@
 //   F_C.mtx; or r.mtx    reads condensed: contact forces; of the format fclib r = −F_C there
 //   displacement_mm.mtx  reads body: columns x and y; rows: the displacement at every vertex, then
 //                        at the middle of every edge
+//   edge_displacements_mm.mtx, F_C.mtx  the same, returning edge_displacements: per edge the
+//                        moments (edge_forces.hpp) x, y at its low vertex, x, y at its high one;
+//                        contact forces in the rows of contact_points(), in N
+//   log.txt              if it is there, its first MiB is kept beside the records
 //
 // Vectors are Matrix Market files, dense: "%%MatrixMarket matrix array real general", its comments,
-// "rows columns", then one number per line, column by column. time_s is the solve by the program's
+// "rows columns", then one number per line, column by column. NAME.npy, NumPy's of doubles, goes
+// before NAME.mtx. time_s is the solve by the program's
 // own clock, from data in memory to the answer in memory; stages are those of stage_times.hpp.
 //
 // status: ok, inaccurate, not_converged, breakdown. It is the program's word; nothing of it is
@@ -40,6 +45,8 @@ struct Answer {
 
 // Both throw FileError: the file's name in the folder, place, value, what is allowed.
 Answer read_answer(const std::filesystem::path& folder);
+// The first MiB of log.txt; empty: there is none.
+std::string read_log(const std::filesystem::path& folder);
 // A dense matrix of that shape; its numbers may be anything that a double can be.
 Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::string& name,
                            Eigen::Index rows, Eigen::Index columns);

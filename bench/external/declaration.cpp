@@ -18,15 +18,24 @@
 namespace airybench {
 namespace {
 
-struct What {
-  Declaration::Reads reads;
-  const char* returns;
+using Reads = Declaration::Reads;
+using Returns = Declaration::Returns;
+const std::map<std::string, Reads> all_that_is_read = {
+    {"airy", Reads::airy}, {"body", Reads::body}, {"condensed", Reads::condensed}};
+const std::map<Reads, std::map<std::string, Returns>> all_that_is_returned = {
+    {Reads::airy, {{"airy_function", Returns::airy_function}}},
+    {Reads::body,
+     {{"displacement", Returns::displacement},
+      {"edge_displacements", Returns::edge_displacements}}},
+    {Reads::condensed, {{"contact_forces", Returns::contact_forces}}},
 };
-const std::map<std::string, What> all_that_is_read = {
-    {"airy", {Declaration::Reads::airy, "airy_function"}},
-    {"body", {Declaration::Reads::body, "displacement"}},
-    {"condensed", {Declaration::Reads::condensed, "contact_forces"}},
-};
+
+template <typename Value>
+std::string names_in(const std::map<std::string, Value>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 // The values of one file's keys; what does not fit is a FileError.
 class Reader {
@@ -128,17 +137,17 @@ Declaration read_declaration(const std::filesystem::path& file) {
     reader.fail("name", declaration.name, "letters, digits, '-', '_' and '.'");
   if (reader.has("summary")) declaration.summary = reader.text("summary");
 
-  std::vector<std::string> names;
-  for (const auto& [name, what] : all_that_is_read) names.push_back(name);
-  const std::string allowed = fmt::format("{}", fmt::join(names, ", "));
+  const std::string allowed = names_in(all_that_is_read);
   const std::string reads = reader.text("reads", allowed);
   const auto found = all_that_is_read.find(reads);
   if (found == all_that_is_read.end()) reader.fail("reads", reads, allowed);
-  declaration.reads = found->second.reads;
-  if (const std::string returns = reader.text("returns", found->second.returns);
-      returns != found->second.returns)
-    reader.fail("returns", returns,
-                fmt::format("{}, as it reads {}", found->second.returns, reads));
+  declaration.reads = found->second;
+  const auto& possible = all_that_is_returned.at(declaration.reads);
+  const std::string returns = reader.text("returns", names_in(possible));
+  const auto returned = possible.find(returns);
+  if (returned == possible.end())
+    reader.fail("returns", returns, fmt::format("{}, as it reads {}", names_in(possible), reads));
+  declaration.returns = returned->second;
 
   const bool condensed = declaration.reads == Declaration::Reads::condensed;
   std::vector<std::string_view> formats = problem_formats();

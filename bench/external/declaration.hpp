@@ -8,7 +8,8 @@
 //     "first_tolerance": 0.01 }
 //
 // reads      airy (S, C_F, C_C and loads), condensed (D, G), body (mesh, material, boundary data)
-// returns    airy_function, contact_forces, displacement: what belongs to each of these
+// returns    airy_function, contact_forces, displacement: what belongs to each of these; of a body
+//            edge_displacements, too: those of hybridized elements, with their contact forces
 // command    runs in the folder of this file. {input}: folder of the problem's files; {output}:
 //            empty folder for the answer (answer.hpp); {threads}, {tolerance}, {time_limit_s}
 // version    prints one line
@@ -37,10 +38,12 @@ inline constexpr std::array<std::string_view, 5> all = {input, output, threads, 
 
 struct Declaration {
   enum class Reads { airy, condensed, body };
+  enum class Returns { airy_function, contact_forces, displacement, edge_displacements };
 
   std::filesystem::path folder;
   std::string name, summary, format;
   Reads reads = Reads::airy;
+  Returns returns = Returns::airy_function;
   std::vector<std::string> command;
   std::string version = "unknown version";  // what its command printed
   double first_tolerance = 0;

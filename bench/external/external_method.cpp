@@ -12,6 +12,7 @@
 #include "bench/external/answer.hpp"
 #include "bench/external/process_tree.hpp"
 #include "bench/external/work_folder.hpp"
+#include "bench/judging/moments_check.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "solvers/contact/contact_result.hpp"
 #include "solvers/methods.hpp"
@@ -79,6 +80,7 @@ class ProgramSolve {
     run_.wall_s = end.wall_s;
     run_.peak_bytes = end.peak_bytes;
     if (end.exit_code != 0) throw NoAnswer(status_of_end(end), message_of(end, limit_s));
+    run_.log = read_log(output_);
     answer_ = read_answer(output_);
     if (!has_answer(answer_.status))
       throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);
@@ -194,6 +196,38 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   return solution;
 }
 
+// Moments of w from those of u.
+void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    const auto& [low, high] = problem.edges.vertices[edge];
+    const Eigen::Vector2d a = problem.motion.at(problem.mesh.vertices[low]),
+                          b = problem.motion.at(problem.mesh.vertices[high]);
+    moments.col(edge).head<2>() -= (2 * a + b) / 3;
+    moments.col(edge).tail<2>() -= (a + 2 * b) / 3;
+  }
+}
+
+// Edge displacements u are those of HYBRID, and so is what is made of them.
+Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
+                               const RunControl& control) {
+  const Problem& problem = *system.problem;
+  ProgramSolve program(
+      caller, [&] { return body_files(problem, caller.declaration.format); }, control);
+  Eigen::Matrix4Xd moments =
+      program.array("edge_displacements_mm.mtx", problem.edges.count(), 4).transpose();
+  Eigen::VectorXd F_C;
+  if (system.contact.count > 0) F_C = program.array("F_C.mtx", system.contact.size(), 1);
+  Solution solution = program.take_over(control);
+  solution.F_C = std::move(F_C);
+  const StageTimer timer(solution.times, Stage::recover);
+  subtract_motion(problem, moments);
+  MomentsCheck own = check_moments(system, moments);
+  solution.stress = std::move(own.stress);
+  solution.contact_displacement = std::move(own.contact_displacement);
+  solution.edge_moments = std::move(moments);
+  return solution;
+}
+
 Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& contact,
                           const std::string& format) {
   if (format != "fclib") return program.array("F_C.mtx", contact.size(), 1);
@@ -248,6 +282,12 @@ Method external_method(const Declaration& declaration,
       break;
     case Declaration::Reads::body:
       method.blocks = Blocks::contact_points;
+      if (declaration.returns == Declaration::Returns::edge_displacements) {
+        solve = [caller](const DualSystem& s, const RunControl& c) {
+          return solve_hybridized_body(caller, s, c);
+        };
+        break;
+      }
       method.in_displacements = true;
       solve = [caller](const DualSystem& s, const RunControl& c) {
         return solve_body(caller, s, c);

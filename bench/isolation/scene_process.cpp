@@ -12,6 +12,7 @@
 #include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/environment.hpp"
 #include "bench/records/json.hpp"
+#include "support/atomic_file.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -33,6 +34,13 @@ std::filesystem::path fields_of(const Case& c, const Options& options) {
   return options.out / "fields" / c.name().file();
 }
 
+// programs/CASE.txt: what another's program said of itself.
+void keep_log(const Case& c, const Options& options, const std::string& log) {
+  if (log.empty()) return;
+  make_folder(options.out / "programs");
+  write_file_atomically(options.out / "programs" / (c.name().file() + ".txt"), log);
+}
+
 // The case's own process.
 void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
                 const ActivityBoard& board) {
@@ -46,7 +54,8 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
         auto examination = bench.examine(c.method, fields_of(c, options));
         record = std::move(examination.record);
         choice = std::move(examination.choice);
-      } catch (const FileError& error) {  // of a field
+        keep_log(c, options, bench.program_log());
+      } catch (const FileError& error) {  // of a field or a log
         record = blank_record(c, options);
         record.status = Status::machine_fault;
         record.status_reason = error.what();

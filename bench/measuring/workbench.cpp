@@ -324,6 +324,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   Run run = tighten(method, assembled, choice, record);
   Solution& solution = run.solution;
   note(solution, record);
+  program_log_ = solution.program ? std::move(solution.program->log) : "";
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
   if (record.tuning_cut && record.status != Status::ok)
     record.status_reason += "; the search was cut: see tuning_cut";

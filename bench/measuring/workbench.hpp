@@ -55,6 +55,8 @@ class Workbench {
   // is below the target; the verifier has no say in that. fields: where to write the solution's
   // fields, or empty.
   Examination examine(const Method& method, const std::filesystem::path& fields);
+  // What another's program left of itself in the last detail run; empty: nothing.
+  const std::string& program_log() const { return program_log_; }
   // The memory run: heap and resident set at their peak during one solve.
   void measure_memory(const Method& method, const Choice& choice, Record& record);
   TimedRun measure_time(const Method& method, const Choice& choice);
@@ -117,6 +119,7 @@ class Workbench {
   std::map<Blocks, AssembledBlocks> blocks_;
   std::vector<Reference> references_;  // of all steps
   std::string no_reference_;
+  std::string program_log_;
   std::map<Bound, std::optional<Discretisation>> discretisation_;
 };
 

@@ -140,6 +140,7 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
   Eigen::MatrixXi rollers = Eigen::MatrixXi::Zero(rows, 1);
   Eigen::MatrixXd u0 = Eigen::MatrixXd::Zero(rows, 6), traction = Eigen::MatrixXd::Zero(rows, 4),
                   gap = Eigen::MatrixXd::Zero(rows, 3), normals = Eigen::MatrixXd::Zero(rows, 6),
+                  moment_normals = Eigen::MatrixXd::Zero(rows, 4),
                   friction = Eigen::MatrixXd::Zero(rows, 1);
   for (int row = 0; row < static_cast<int>(rows); ++row) {
     const auto [start, end] = mesh.boundary[row].vertices;
@@ -147,6 +148,9 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
     const BoundaryRole role = mesh.boundary[row].role;
     rollers(row) = problem.is_roller(row) ? 1 : 0;
     friction(row) = problem.friction_at(row);
+    if (role == BoundaryRole::contact)
+      for (const int k : {0, 1})
+        moment_normals.row(row).segment<2>(2 * k) = problem.frame_of_moment(row, k).normal;
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector2d x = k == 0 ? a : k == 2 ? b : Eigen::Vector2d((a + b) / 2);
       const EdgeFrame frame = problem.frame_at_node(row, k);
@@ -177,6 +181,8 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
       {"contact_normals", "1",
        "per row of boundary: outward normal of the contact law, x, y at start, middle, end",
        normals},
+      {"contact_moment_normals", "1",
+       "per row of boundary: the same for the moments of its start and its end", moment_normals},
       {"friction", "1", "per row of boundary", friction},
       {"body_force_N_per_mm3", "N/mm^3", "x, y",
        Eigen::MatrixXd(problem.loads.body_force_N_per_mm3)},

@@ -38,7 +38,8 @@ struct CondensedProblem {
 // vertices_mm, triangles, edges, boundary, boundary_roles.
 std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 // With these everything that a displacement method needs: triangle_body, compliance_per_MPa,
-// rollers, u0_mm, traction_MPa, gap_mm, contact_normals, friction, body_force_N_per_mm3.
+// rollers, u0_mm, traction_MPa, gap_mm, contact_normals, contact_moment_normals, friction,
+// body_force_N_per_mm3.
 std::vector<ProblemArray> body_arrays(const Problem& problem);
 // S, C_F, q, F, scale, unknowns; force_rows, force_directions of C_F's rows; with contact C_C, F0.
 std::vector<ProblemArray> airy_arrays(const DualSystem& system);

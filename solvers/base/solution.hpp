@@ -37,6 +37,7 @@ struct ProgramRun {
   double wall_s = 0;            // from its start to its end
   double not_solve_s = 0;       // of our time what its own clock leaves out: start-up, files
   std::int64_t peak_bytes = 0;  // resident, of it and all that it started
+  std::string log;              // what it left of itself for the reader
 };
 
 // Wall clock of an iteration's pieces, in whatever stage it ran.

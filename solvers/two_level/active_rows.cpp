@@ -10,23 +10,6 @@
 namespace airybench {
 namespace {
 
-PointLaw law_at(const ContactPoints& contact, const Eigen::VectorXd& predicted, int p) {
-  const int m = contact.components, n = m * p;
-  PointLaw law;
-  law.closed = predicted(n) < 0;
-  if (!law.closed || m == 1) return law;
-  const double mu = contact.friction_at(p), t = predicted(n + 1);
-  law.sticks = std::abs(t) <= -mu * predicted(n);
-  if (!law.sticks) law.ratio = t > 0 ? -mu : mu;
-  return law;
-}
-
-std::vector<PointLaw> laws_of(const ContactPoints& contact, const Eigen::VectorXd& predicted) {
-  std::vector<PointLaw> laws(static_cast<std::size_t>(contact.count));
-  for (int p = 0; p < contact.count; ++p) laws[p] = law_at(contact, predicted, p);
-  return laws;
-}
-
 // The laws that points begin with: those of the coarse contact problem.
 std::vector<PointLaw> first_laws(const SlotSystem& s, TwoLevelPreconditioner& M,
                                  const RunControl& control, RowsResult& result) {
@@ -50,20 +33,6 @@ std::vector<PointLaw> first_laws(const SlotSystem& s, TwoLevelPreconditioner& M,
   return laws;
 }
 
-// Contact forces of b − K u under the laws.
-Eigen::VectorXd forces_of(const SlotSystem& s, const std::vector<PointLaw>& laws,
-                          const Eigen::VectorXd& unbalanced) {
-  const int m = s.contact.components;
-  Eigen::VectorXd F = Eigen::VectorXd::Zero(s.contact.size());
-  for (int p = 0; p < s.contact.count; ++p) {
-    const PointLaw& law = laws[p];
-    if (!law.closed) continue;
-    F(m * p) = -unbalanced(s.slot[p]);
-    if (m == 2) F(m * p + 1) = law.sticks ? -unbalanced(s.slot[p] + 1) : law.ratio * F(m * p);
-  }
-  return F;
-}
-
 // Moves held contact slots to where they are held.
 void move_to_gap(const SlotSystem& s, const std::vector<PointLaw>& laws, Eigen::VectorXd& u) {
   const int m = s.contact.components;
@@ -72,23 +41,6 @@ void move_to_gap(const SlotSystem& s, const std::vector<PointLaw>& laws, Eigen::
     if (laws[p].closed) u(s.slot[p]) = gap(m * p);
     if (laws[p].sticks) u(s.slot[p] + 1) = gap(m * p + 1);
   }
-}
-
-// Of those laws that would change, so many, where the natural map is largest.
-std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
-                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
-                                      double share) {
-  std::vector<int> changes;
-  for (int p = 0; p < static_cast<int>(laws.size()); ++p)
-    if (!(laws[p] == next[p])) changes.push_back(p);
-  const auto m = map.size() / static_cast<Eigen::Index>(laws.size());
-  std::ranges::sort(changes, std::greater(),
-                    [&](int p) { return map.segment(m * p, m).squaredNorm(); });
-  const auto count = std::max(1.0, std::ceil(share * static_cast<double>(changes.size())));
-  changes.resize(std::min(changes.size(), static_cast<std::size_t>(count)));
-  std::vector<PointLaw> result = laws;
-  for (const int p : changes) result[p] = next[p];
-  return result;
 }
 
 }  // namespace
@@ -231,7 +183,7 @@ class RowsNewton {
   // Forces, natural map and the laws that follow; whether these change.
   bool choose_laws() {
     constexpr int patience = 8;
-    now_.F_C = forces_of(s_, now_.laws, unbalanced_);
+    now_.F_C = forces_under(s_.contact, now_.laws, -s_.of_contact(unbalanced_));
     if (s_.contact.count == 0) return false;
     const Eigen::VectorXd u_C = s_.of_contact(now_.u);
     const Eigen::VectorXd map = natural_map(s_.contact, s_.compliance, now_.F_C, u_C);

@@ -15,16 +15,11 @@
 #pragma once
 
 #include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/point_laws.hpp"
 #include "solvers/krylov/gmres.hpp"
 #include "solvers/two_level/preconditioner.hpp"
 
 namespace airybench {
-
-struct PointLaw {
-  bool closed = false, sticks = false;
-  double ratio = 0;  // F_t / F_n of a slipping point
-  bool operator==(const PointLaw&) const = default;
-};
 
 // The system in slots (edge_matrix.hpp).
 struct SlotSystem {

@@ -61,6 +61,52 @@ TEST_F(ExternalCommand, ScenesWithoutFrictionAndWithoutContact) {
   }
 }
 
+// NumPy's file of it.
+std::string npy(const Eigen::MatrixXd& values) {
+  std::string header = "{'descr': '<f8', 'fortran_order': True, 'shape': (" +
+                       std::to_string(values.rows()) + ", " + std::to_string(values.cols()) +
+                       "), }";
+  header.resize(117, ' ');
+  const std::string bytes(reinterpret_cast<const char*>(values.data()),
+                          static_cast<std::size_t>(values.size()) * sizeof(double));
+  return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + header + "\n" + bytes;
+}
+
+TEST_F(ExternalCommand, EdgeDisplacementsAreJudgedAsHybrids) {
+  for (const double friction : {0.2, 0.0}) {
+    write("scenes/scene.json", Json{{"friction", friction}}.dump());
+    const Scene scene = read_scene_file(bench_.path("scenes/scene.json")).scene;
+    write_right(scene);
+    const Json returns = {{"returns", "edge_displacements"}};
+    declare("text", "body", "cp right/* $2", returns);
+    const Eigen::MatrixXd u = testing::right_answer(scene).edge_displacements_mm;
+    write("numpy.npy", npy(u));
+    write("short.npy", npy(u.topRows(3)));
+    const std::string copy = "cp right/* $2; rm $2/edge*; cp ";
+    declare("numpy", "body", copy + "numpy.npy $2/edge_displacements_mm.npy", returns);
+    declare("short", "body", copy + "short.npy $2/edge_displacements_mm.npy", returns);
+    const auto records = records_of("--scene=scenes/scene.json", 1);
+    for (const char* name : {"text", "numpy"}) {
+      const Json& r = records.at(name);
+      EXPECT_EQ(r["status"], "ok") << r["status_reason"];
+      EXPECT_FALSE(r["in_displacements"].get<bool>());
+      EXPECT_LT(r["error_stress"], 1e-10);
+      EXPECT_LT(r["error_force"], 1e-10);
+    }
+    EXPECT_EQ(records.at("short")["status"], "breakdown");
+    EXPECT_NE(records.at("short")["status_reason"].get<std::string>().find("shape (359, 4)"),
+              std::string::npos)
+        << records.at("short")["status_reason"];
+  }
+}
+
+TEST_F(ExternalCommand, ItsLogIsKept) {
+  write_right();
+  declare("airy", "airy", "cp right/* $2; echo iterations: 7 > $2/log.txt");
+  records_of("", 0);
+  EXPECT_EQ(bench_.content("o/programs/Mesh0--default--EXTERNAL+airy.txt"), "iterations: 7\n");
+}
+
 TEST_F(ExternalCommand, PathsOfLoadStepsAreSkipped) {
   declare_honest();
   write("scenes/path.json", R"({"load_steps": 2})");

@@ -24,6 +24,7 @@ inline std::string market(const Eigen::MatrixXd& values) {
 struct RightAnswer {
   Eigen::VectorXd x, F_C;
   Eigen::MatrixXd displacement_mm;  // at vertices, then at the middles of edges
+  Eigen::MatrixXd edge_displacements_mm;
 };
 
 inline RightAnswer right_answer(const Scene& scene = {}) {
@@ -51,6 +52,16 @@ inline RightAnswer right_answer(const Scene& scene = {}) {
                                   : Eigen::Vector2d((w.col(a) + 2 * w.col(node) + w.col(b)) / 4);
     right.displacement_mm.row(node) = u + problem->motion.at((vertex[a] + vertex[b]) / 2);
   }
+  const Eigen::Matrix4Xd moments = run(select_methods("HYBRID").front(), system, {}).edge_moments;
+  right.edge_displacements_mm = moments.transpose();
+  for (Eigen::Index edge = 0; edge < moments.cols(); ++edge) {
+    const auto [low, high] = problem->edges.vertices[edge];
+    const Eigen::Vector2d a = problem->motion.at(problem->mesh.vertices[low]),
+                          b = problem->motion.at(problem->mesh.vertices[high]);
+    right.edge_displacements_mm.row(edge) +=
+        (Eigen::RowVector4d() << (2 * a + b).transpose() / 3, (a + 2 * b).transpose() / 3)
+            .finished();
+  }
   return right;
 }
 
@@ -62,6 +73,7 @@ class ExternalPrograms : public ::testing::Test {
     write("right/x.mtx", market(right.x));
     write("right/F_C.mtx", market(right.F_C));
     write("right/displacement_mm.mtx", market(right.displacement_mm));
+    write("right/edge_displacements_mm.mtx", market(right.edge_displacements_mm));
     write("right/answer.json", R"({"status": "ok", "time_s": 1e-6})");
   }
   void write(const std::string& name, const std::string& text) const {

@@ -1,0 +1,140 @@
+// What the ranks of one run do together: exchange records, sum small arrays, agree on failures.
+#pragma once
+
+#include <petscksp.h>
+
+#include <Eigen/Core>
+#include <iostream>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace airybench::parallel {
+
+// An option that has no such value.
+struct OptionError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+// What PETSc said first of what went wrong on this rank.
+inline std::string& said_by_petsc() {
+  static std::string said;
+  return said;
+}
+inline PetscErrorCode keep_what_is_said(MPI_Comm, int, const char* function, const char*,
+                                        PetscErrorCode code, PetscErrorType type,
+                                        const char* message, void*) {
+  if (type == PETSC_ERROR_INITIAL || said_by_petsc().empty())
+    said_by_petsc() = std::string(function) + ": " + message;
+  return code;
+}
+
+// After an error of PETSc nothing of it can be used, not even to destroy objects: one line, the
+// end.
+inline void check(PetscErrorCode error) {
+  if (error == 0) return;
+  std::cerr << "hybrid-petsc: PETSc: " << said_by_petsc() << '\n' << std::flush;
+  MPI_Abort(PETSC_COMM_WORLD, 3);
+}
+
+// A PETSc object with one owner.
+template <typename Handle, PetscErrorCode (*destroy)(Handle*)>
+class Owned {
+ public:
+  Owned() = default;
+  ~Owned() { destroy(&handle_); }
+  Owned(const Owned&) = delete;
+  Owned& operator=(const Owned&) = delete;
+  Owned(Owned&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Owned& operator=(Owned&& other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  operator Handle() const { return handle_; }
+  Handle* put() { return &handle_; }
+
+ private:
+  Handle handle_ = nullptr;
+};
+using OwnedMat = Owned<Mat, MatDestroy>;
+using OwnedVec = Owned<Vec, VecDestroy>;
+using OwnedKsp = Owned<KSP, KSPDestroy>;
+using OwnedScatter = Owned<VecScatter, VecScatterDestroy>;
+
+inline int rank_here() {
+  int rank = 0;
+  MPI_Comm_rank(PETSC_COMM_WORLD, &rank);
+  return rank;
+}
+inline int rank_count() {
+  int count = 1;
+  MPI_Comm_size(PETSC_COMM_WORLD, &count);
+  return count;
+}
+
+// Rows [begin, end) of `total` that a rank has, and who has one of them.
+inline PetscInt slice_begin(PetscInt total, int rank) {
+  return static_cast<PetscInt>(static_cast<std::int64_t>(total) * rank / rank_count());
+}
+inline int slice_owner(PetscInt total, PetscInt row) {
+  int rank = static_cast<int>(static_cast<std::int64_t>(row) * rank_count() / total);
+  while (row < slice_begin(total, rank)) --rank;
+  while (row >= slice_begin(total, rank + 1)) ++rank;
+  return rank;
+}
+
+// Record k goes to rank to[k]; what comes is ordered by its sender, then as it was there.
+template <typename Record>
+std::vector<Record> exchanged(const std::vector<Record>& records, const std::vector<int>& to) {
+  const auto ranks = static_cast<std::size_t>(rank_count());
+  std::vector<int> out(ranks, 0), in(ranks), out_at(ranks + 1, 0), in_at(ranks + 1, 0);
+  for (const int rank : to) ++out[rank];
+  MPI_Alltoall(out.data(), 1, MPI_INT, in.data(), 1, MPI_INT, PETSC_COMM_WORLD);
+  std::partial_sum(out.begin(), out.end(), out_at.begin() + 1);
+  std::partial_sum(in.begin(), in.end(), in_at.begin() + 1);
+  std::vector<Record> sorted(records.size()), result(static_cast<std::size_t>(in_at.back()));
+  std::vector<int> next = out_at;
+  for (std::size_t k = 0; k < records.size(); ++k) sorted[next[to[k]]++] = records[k];
+  MPI_Datatype type;
+  MPI_Type_contiguous(sizeof(Record), MPI_BYTE, &type);
+  MPI_Type_commit(&type);
+  MPI_Alltoallv(sorted.data(), out.data(), out_at.data(), type, result.data(), in.data(),
+                in_at.data(), type, PETSC_COMM_WORLD);
+  MPI_Type_free(&type);
+  return result;
+}
+
+inline Eigen::VectorXd sum(Eigen::VectorXd values) {
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_SUM,
+                PETSC_COMM_WORLD);
+  return values;
+}
+inline double sum(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, PETSC_COMM_WORLD);
+  return value;
+}
+inline double largest(double value) {
+  MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_MAX, PETSC_COMM_WORLD);
+  return value;
+}
+
+// Work that talks to no other rank; where it fails on one, all throw that.
+template <typename Work>
+void each_by_itself(Work work) {
+  std::string wrong;
+  try {
+    work();
+  } catch (const std::exception& failure) {
+    wrong = failure.what();
+  }
+  int who = wrong.empty() ? rank_count() : rank_here();
+  MPI_Allreduce(MPI_IN_PLACE, &who, 1, MPI_INT, MPI_MIN, PETSC_COMM_WORLD);
+  if (who == rank_count()) return;
+  wrong.resize(500, '\0');
+  MPI_Bcast(wrong.data(), static_cast<int>(wrong.size()), MPI_CHAR, who, PETSC_COMM_WORLD);
+  throw std::runtime_error(wrong.c_str());
+}
+
+}  // namespace airybench::parallel

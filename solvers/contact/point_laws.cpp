@@ -1,0 +1,58 @@
+#include "solvers/contact/point_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace airybench {
+namespace {
+
+PointLaw law_at(const ContactPoints& contact, const Eigen::VectorXd& trial, int p) {
+  const int m = contact.components, n = m * p;
+  PointLaw law;
+  law.closed = trial(n) < 0;
+  if (!law.closed || m == 1) return law;
+  const double mu = contact.friction_at(p), t = trial(n + 1);
+  law.sticks = std::abs(t) <= -mu * trial(n);
+  if (!law.sticks) law.ratio = t > 0 ? -mu : mu;
+  return law;
+}
+
+}  // namespace
+
+std::vector<PointLaw> laws_of(const ContactPoints& contact, const Eigen::VectorXd& trial) {
+  std::vector<PointLaw> laws(static_cast<std::size_t>(contact.count));
+  for (int p = 0; p < contact.count; ++p) laws[p] = law_at(contact, trial, p);
+  return laws;
+}
+
+Eigen::VectorXd forces_under(const ContactPoints& contact, const std::vector<PointLaw>& laws,
+                             const Eigen::VectorXd& reaction) {
+  const int m = contact.components;
+  Eigen::VectorXd F = Eigen::VectorXd::Zero(contact.size());
+  for (int p = 0; p < contact.count; ++p) {
+    const PointLaw& law = laws[p];
+    if (!law.closed) continue;
+    F(m * p) = reaction(m * p);
+    if (m == 2) F(m * p + 1) = law.sticks ? reaction(m * p + 1) : law.ratio * F(m * p);
+  }
+  return F;
+}
+
+std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
+                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
+                                      double share) {
+  std::vector<int> changes;
+  for (int p = 0; p < static_cast<int>(laws.size()); ++p)
+    if (!(laws[p] == next[p])) changes.push_back(p);
+  const auto m = map.size() / static_cast<Eigen::Index>(laws.size());
+  std::ranges::sort(changes, std::greater(),
+                    [&](int p) { return map.segment(m * p, m).squaredNorm(); });
+  const auto count = std::max(1.0, std::ceil(share * static_cast<double>(changes.size())));
+  changes.resize(std::min(changes.size(), static_cast<std::size_t>(count)));
+  std::vector<PointLaw> result = laws;
+  for (const int p : changes) result[p] = next[p];
+  return result;
+}
+
+}  // namespace airybench
