@@ -25,5 +25,5 @@ if __name__ == "__main__":
     for folder, peer in declarations():
         found, reason = version(folder, peer["version"])
         missing |= reason is not None
-        print(f"{peer['name']:20} {peer['reads']:9} -> {peer['returns']:14} {found or 'missing: ' + reason}")
+        print(f"{peer['name']:20} {peer['reads']:9} -> {peer['returns']:18} {found or 'missing: ' + reason}")
     sys.exit(missing)

@@ -24,7 +24,18 @@ bool LinearSolver::has_two_levels() {
   return given == PETSC_TRUE && std::string(type.data()) == PCMG;
 }
 
-void LinearSolver::set_coarse(CoarseSpace* coarse) { coarse_ = coarse; }
+void LinearSolver::set_coarse(CoarseSpace* coarse) {
+  coarse_ = coarse;
+  if (coarse == nullptr || coarse->kind() != CoarseKind::per_edge) return;
+  for (const std::string option : {"mg_coarse_pc_type", "mg_coarse_pc_factor_mat_solver_type"}) {
+    std::array<char, 64> value{};
+    PetscBool given = PETSC_FALSE;
+    check(PetscOptionsGetString(nullptr, nullptr, ("-per_edge_" + option).c_str(), value.data(),
+                                value.size(), &given));
+    if (given == PETSC_TRUE)
+      check(PetscOptionsSetValue(nullptr, ("-" + option).c_str(), value.data()));
+  }
+}
 
 void LinearSolver::set_laws(const std::vector<PointLaw>& laws) {
   system_.set_laws(laws);

@@ -18,7 +18,8 @@ class LinearSolver {
   LinearSolver& operator=(const LinearSolver&) = delete;
 
   static bool has_two_levels();  // by the options
-  // Two levels: before the first laws.
+  // Two levels: before the first laws. With one displacement per edge
+  // -per_edge_mg_coarse_pc_type and …_pc_factor_mat_solver_type go before -mg_coarse_….
   void set_coarse(CoarseSpace* coarse);
   // Holds what laws hold, in A and in the preconditioner, and sets it up.
   void set_laws(const std::vector<PointLaw>& laws);

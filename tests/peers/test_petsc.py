@@ -117,11 +117,11 @@ class PetscTest(unittest.TestCase):
                     self.assertIn("MatMult", logs[0])
 
     def test_iterations_near_incompressibility(self) -> None:
-        for poisson, options in ((0.3, "two-level-gamg"), (0.49, "two-level-mumps"), (0.4999, "two-level-mumps")):
+        for poisson in (0.3, 0.49, 0.4999):
             with self.subTest(poisson):  # a linear system: without contact
                 problem = self.export({"poisson": poisson, "friction": 0, "mesh": {"keep_contact_edges": 0},
                                        "boundary": {"force": {"pressure_MPa": 3}}})
-                _, said = self.solve(problem, 2, options, tolerance="1e-10")
+                _, said = self.solve(problem, 2, tolerance="1e-10")
                 self.assertEqual("ok", said["status"])
                 most = int(said["parameters"].split("at most ")[1].split()[0])
                 self.assertLess(most, 65)
