@@ -150,9 +150,10 @@ TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   if (update == Update::anew) table().forget(scene_name);
   for (const Method& method : one_of_each_kind()) {
     const ExpectedTable::Row* expected = table().find({scene_name, method.name});
-    if (update == Update::no)
+    if (update == Update::no) {
       ASSERT_NE(expected, nullptr) << scene_name << ", " << method.name
                                    << " is not in stability_outcomes.csv; " << how_to_update;
+    }
     if (update != Update::anew && expected && expected->front() == "left out") continue;
     const auto start = std::chrono::steady_clock::now();
     const Record record = bench.examine(method, {}).record;
