@@ -63,25 +63,28 @@ GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eig
                            const GmresOptions& options, const Deadline& deadline,
                            KrylovSpace& space, Eigen::VectorXd& x) {
   const OwnerScope scope(MemoryOwner::iteration);
+  constexpr double rounding = 1e-7;  // of norms from differences of squares
   const int most = options.most_iterations;
   auto& [Z, w] = space;
   Eigen::VectorXd h = Eigen::VectorXd::Zero(most + 1);
   Eigen::MatrixXd partial(most + 1, slices);
   GmresResult result;
 
-  // Z_n = M⁻¹ w − Σ_{i<n} h_i Z_i, made a unit vector; returns its norm.
+  // Z_n = M⁻¹ w − Σ_{i<n} h_i Z_i, made a unit vector; returns its norm, 0 where rounding is all
+  // that the difference leaves: w·z has the errors of w·M⁻¹w.
   const auto add_vector = [&](int n) {
     if (static_cast<int>(Z.size()) == n) Z.emplace_back();
     M_inverse(w, Z[n]);
     partial.setZero();
     visit_strips(options.threads, w.size(), [&](int slice, Eigen::Index at, Eigen::Index count) {
       auto z = Z[n].segment(at, count);
+      partial(1, slice) += w.segment(at, count).dot(z);
       for (int i = 0; i < n; ++i) z.noalias() -= h(i) * Z[i].segment(at, count);
       partial(0, slice) += w.segment(at, count).dot(z);
     });
-    const double squared = partial.row(0).sum();
+    const double squared = partial.row(0).sum(), before = partial.row(1).sum();
     if (!std::isfinite(squared)) throw Breakdown("GMRES: a vector is not finite");
-    const double norm = std::sqrt(std::max(0.0, squared));
+    const double norm = squared > rounding * rounding * before ? std::sqrt(squared) : 0;
     if (norm > 0)
       visit_strips(options.threads, w.size(), [&](int, Eigen::Index at, Eigen::Index count) {
         Z[n].segment(at, count) /= norm;
@@ -109,7 +112,10 @@ GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eig
     h(n) = add_vector(n);
     const double next = h(n);
     result.reduction = least_squares.add(n - 1, h) / result.norm;
-    if (!(next > 1e-15 * result.norm)) break;  // the space is exhausted
+    if (next == 0) {  // the space is exhausted
+      result.reduction = std::max(result.reduction, rounding);
+      break;
+    }
     deadline.check("GMRES");
   }
   const Eigen::VectorXd y = least_squares.solution(result.iterations);

@@ -9,8 +9,8 @@
 //
 //   z = M⁻¹ w − Z h,   ‖w − V h‖²_M⁻¹ = w·z,   z_{j+1} = z / √(w·z)
 //
-// one vector per iteration. That is classical Gram–Schmidt: a few digits are asked for at a time,
-// and the caller forms the residual anew.
+// one vector per iteration. That is classical Gram–Schmidt, and its norms are differences of
+// squares: at most seven digits can be had at a time, and the caller forms the residual anew.
 #pragma once
 
 #include <Eigen/Core>
