@@ -167,6 +167,8 @@ def measure(shop: Workshop, part: Part, number: int, options: str, more: list[st
     shop.log(part=part.name, run=number, begins=options)
     start = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
+    if more and "--retry-noisy" not in options:
+        more = [*more, "--retry-noisy"]
     with open(out / "printed.txt", "a", encoding="utf-8") as printed:
         code = call(shop.bench, *options.split(), *more, f"--out={out}", cwd=shop.source,
                     stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.STDOUT).returncode
@@ -290,7 +292,7 @@ def run(args: argparse.Namespace) -> int:
     else:
         work = args.work or PROJECT / "build/reproduce"
         source = PROJECT if args.dry_run and not (work / "source").exists() else pinned(work)
-        shop, more = Workshop(work, source), ["--resume", "--retry-noisy"]
+        shop, more = Workshop(work, source), ["--resume"]
     if args.install:
         install(shop, parts)
         return 0

@@ -25,6 +25,17 @@ constexpr double between_looks_s = 0.2;
 // All waiting together, beyond so many seconds: of the run's time so far.
 constexpr double most_waiting_share = 0.1, free_waiting_s = 10;
 
+void warm_up_by_passes() {
+  constexpr int most_passes = 20, passes_without_gain = 3;
+  constexpr double gain = 0.98;
+  double shortest_s = run_noise_kernel();
+  for (int pass = 1, since = 0; pass < most_passes && since < passes_without_gain; ++pass) {
+    const double pass_s = run_noise_kernel();
+    since = pass_s < gain * shortest_s ? 0 : since + 1;
+    shortest_s = std::min(shortest_s, pass_s);
+  }
+}
+
 bool is_judged(const Record& r) { return r.retry_noisy && r.noise_share && r.time_s; }
 
 }  // namespace
@@ -32,7 +43,8 @@ bool is_judged(const Record& r) { return r.retry_noisy && r.noise_share && r.tim
 Machine this_machine() {
   return {
       [](int threads) { return threads > 1 ? run_noise_kernel(threads) : run_noise_kernel(); },
-      [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); }};
+      [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); },
+      warm_up_by_passes};
 }
 
 void QuietLevel::add(const std::vector<double>& passes_s) {
@@ -68,11 +80,13 @@ void give(Attempt attempt, Record& record) {
 NoiseWatch::NoiseWatch(std::optional<double> most_noise, Machine machine)
     : most_noise_(most_noise), machine_(std::move(machine)) {
   if (!most_noise_) return;
+  machine_.warm_up();
   for (int i = 0; i < passes_at_start; ++i) level_.add({machine_.loop(1)});
 }
 
 void NoiseWatch::add_passes(int count, int threads, Record& record) {
   if (most_noise_ && threads > 1) machine_.pause(until_idle_threads_sleep_s);
+  if (most_noise_) machine_.warm_up();
   for (int i = 0; i < count; ++i) {
     record.noise_kernel_samples_s.push_back(machine_.loop(1));
     if (most_noise_) level_.add({record.noise_kernel_samples_s.back()});
@@ -85,6 +99,7 @@ bool NoiseWatch::is_due() const { return most_noise_ && seconds_since(last_pass_
 
 void NoiseWatch::wait_for_quiet() {
   for (int look = 0; look < most_looks; ++look) {
+    machine_.warm_up();
     const std::vector<double> passes_s = {machine_.loop(1), machine_.loop(1), machine_.loop(1)};
     level_.add(passes_s);
     if (noise_beside(passes_s) <= *most_noise_) return;

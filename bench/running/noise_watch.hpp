@@ -26,10 +26,13 @@
 
 namespace airybench {
 
-// Seconds of one pass of the loop on so many threads, and a wait of so many seconds.
+// Seconds of one pass of the loop on so many threads, a wait of so many seconds, and passes that do
+// not count, until they get no shorter: after a case, caches, pages and clock are another
+// process's, and the first passes take half as long again.
 struct Machine {
   std::function<double(int threads)> loop;
   std::function<void(double seconds)> pause;
+  std::function<void()> warm_up = [] {};
 };
 Machine this_machine();
 
