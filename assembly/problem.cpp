@@ -10,13 +10,7 @@ namespace airybench {
 namespace {
 
 void take_out_rigid_motion(Problem& problem) {
-  std::vector<PrescribedEdge> edges;
-  const auto& x = problem.mesh.vertices;
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
-    if (const BoundaryEdge& edge = problem.mesh.boundary[row];
-        edge.role == BoundaryRole::displacement)
-      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]], row, problem.is_roller(row)});
-  SplitDisplacement split = split_rigid_motion(problem.loads.displacement_mm, edges);
+  SplitDisplacement split = split_rigid_motion(problem);
   problem.motion = split.motion;
   problem.loads.displacement_mm = std::move(split.rest_mm);
 }
@@ -145,6 +139,16 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
     }
   }
   return problem;
+}
+
+SplitDisplacement split_rigid_motion(const Problem& problem) {
+  std::vector<PrescribedEdge> edges;
+  const auto& x = problem.mesh.vertices;
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (const BoundaryEdge& edge = problem.mesh.boundary[row];
+        edge.role == BoundaryRole::displacement)
+      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]], row, problem.is_roller(row)});
+  return split_rigid_motion(problem.loads.displacement_mm, edges);
 }
 
 Problem with_loads(const Problem& problem, Loads loads) {

@@ -169,6 +169,8 @@ Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads l
                      const std::vector<double>& friction);
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
+// u0 of a problem that has all of it, on its boundary.
+SplitDisplacement split_rigid_motion(const Problem& problem);
 // The same body under other loads, with all of u0; without later steps.
 Problem with_loads(const Problem& problem, Loads loads);
 

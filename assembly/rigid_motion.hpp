@@ -19,6 +19,13 @@ struct RigidMotion {
     const Eigen::Vector2d d = x - centre;
     return translation_mm + rotation * Eigen::Vector2d(-d.y(), d.x());
   }
+  // Its moments along an edge (edge_forces.hpp): those of its low end, then of its high one.
+  Eigen::Vector4d moments(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const {
+    const Eigen::Vector2d a = at(low), b = at(high);
+    Eigen::Vector4d both;
+    both << (2 * a + b) / 3, (a + 2 * b) / 3;
+    return both;
+  }
   bool is_zero() const { return translation_mm.isZero(0) && rotation == 0; }
 };
 

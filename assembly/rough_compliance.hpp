@@ -9,5 +9,8 @@ namespace airybench {
 
 // Per row of F_C, mm/N: 5 and 15 times C_xxxx of the triangle at the point's edge.
 Eigen::VectorXd rough_compliance(const Problem& problem, const ContactPoints& contact);
+// The same of parts of a body: C_xxxx per row of the boundary, and what is made of it.
+Eigen::VectorXd compliance_at_boundary(const Problem& problem);
+Eigen::VectorXd rough_compliance(const Eigen::VectorXd& at_boundary, const ContactPoints& contact);
 
 }  // namespace airybench

@@ -9,9 +9,8 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_limits, log_log
+from figure_parts import log_limits, log_log
 from figure_table import csv_of
-from figure_words import plain
 from record_keys import Row
 from selection import by_mesh, grouped
 
@@ -45,17 +44,11 @@ def draw(rows: list[Row]) -> Figure | str:
         "costs anew, contact law, recovery and check, or a whole iteration. "
         f"{parts.threads(rows)}."
         + (f" {lost} of {len(rows)} cases have no answer and are not drawn." if lost else "")])
-    panel = (PAGE_WIDTH - LEFT - 0.1 - (len(meshes) - 1) * GAP) / len(meshes)
-    for k, (mesh, own) in enumerate(meshes.items()):
-        axes = axes_at(figure, LEFT + k * (panel + GAP), TOP, panel, HEIGHT)
+    row = parts.side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)
+    for k, (axes, own) in enumerate(zip(row, meshes.values())):
         log_log(axes, xlim=log_limits([row.load_steps for row in timed], 1.4),
                 ylim=log_limits([row.time_s for row in timed], 1.6), xlabel="load steps, 1",
                 ylabel="" if k else "time, s")
-        axes.set_title(plain(mesh), pad=3)
-        axes.grid(which="major")
-        axes.spines[["top", "right"]].set_visible(False)
-        if k:
-            axes.tick_params(labelleft=False)
         draw_methods(axes, own)
     return figure
 

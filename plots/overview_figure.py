@@ -10,9 +10,9 @@ from matplotlib.figure import Figure
 import study_parts as parts
 from direct_labels import Labels
 from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_limits, log_log
+from figure_parts import log_limits, log_log
 from figure_table import CASE, csv_of
-from figure_words import plain, short
+from figure_words import short
 from record_keys import Row
 from selection import by_body, grouped, kind_of, of_scene
 
@@ -75,7 +75,6 @@ def loop_of(rows: list[Row]) -> list[tuple[float, float]]:
 
 def draw(rows: list[Row]) -> Figure:
     bodies = by_body(rows)
-    panel = (PAGE_WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM, "Which mesh and method for which error", [
         f"Scene {rows[0].scene}, {parts.threads(rows)}. Total error of the stresses, mesh and method "
         "together, over the time of one solve; a point per mesh. Dotted: the paper’s own stop; dashed: "
@@ -83,16 +82,11 @@ def draw(rows: list[Row]) -> Figure:
         f"adapted to the error. Thin: the {LOOP}, all levels and error estimates."])
     every = [curve for own in bodies.values() for curve in curves_of(own)]
     errors = log_limits([error for curve in every for error in curve.points[1]], 1.4)
-    for k, (body, own) in enumerate(bodies.items()):
-        axes = axes_at(figure, LEFT + k * (panel + GAP), TOP, panel, HEIGHT)
+    row = parts.side_by_side(figure, bodies, LEFT, TOP, HEIGHT, GAP)
+    for k, (axes, own) in enumerate(zip(row, bodies.values())):
         times = [row.time_s for row in own] + [time for time, _ in loop_of(own)]
         log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel="time of one solve, s",
                 ylabel="" if k else "total error of the stresses, 1")
-        axes.set_title(plain(body), pad=3)
-        axes.grid(which="major")
-        axes.spines[["top", "right"]].set_visible(False)
-        if k:
-            axes.tick_params(labelleft=False)
         draw_curves(axes, curves_of(own), loop_of(own))
     return figure
 

@@ -5,8 +5,10 @@ import math
 import re
 from collections.abc import Iterable
 
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from figure_parts import axes_at
 from figure_words import plain, short, span, wrapped
 from record_keys import Row
 
@@ -59,6 +61,22 @@ def sheet(width: float, body: float, title: str, texts: Iterable[str]) -> Figure
         figure.text(MARGIN / width, (height - body - 0.02 - k * LINE) / height, plain(line),
                     va="top", fontsize=TYPE)
     return figure
+
+
+def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,
+                 gap: float) -> list[Axes]:
+    """A row of panels with a grid; the first has the numbers of the y-axis. In inches."""
+    titles = list(titles)
+    width = (figure.get_size_inches()[0] - left - 0.1 - (len(titles) - 1) * gap) / len(titles)
+    row = []
+    for k, title in enumerate(titles):
+        axes = axes_at(figure, left + k * (width + gap), top, width, height)
+        axes.set_title(plain(title), pad=3)
+        axes.grid(which="major")
+        axes.spines[["top", "right"]].set_visible(False)
+        axes.tick_params(labelleft=k == 0)
+        row.append(axes)
+    return row
 
 
 def error_floor(errors: Iterable[float]) -> float:

@@ -23,7 +23,7 @@ import sys
 import time
 import tomllib
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -50,13 +50,10 @@ class Part:
 
 
 def parts_of(recipe: Path, quick: bool) -> list[Part]:
-    own = {"runs": "quick", "nights": "quick_nights"} if quick else {}
-    parts = []
-    for name, entry in tomllib.loads(recipe.read_text(encoding="utf-8")).items():
-        parts.append(Part(name, entry["shows"], entry.get(own.get("runs", "runs"), []),
-                          entry.get("figures", []), entry.get(own.get("nights", "nights"), 0),
-                          entry.get("claims", False), entry.get("peers", False) and not quick))
-    return parts
+    runs, nights = ("quick", "quick_nights") if quick else ("runs", "nights")
+    return [Part(name, entry["shows"], entry[runs], entry.get("figures", []), entry.get(nights, 0),
+                 entry.get("claims", False), entry.get("peers", False) and not quick)
+            for name, entry in tomllib.loads(recipe.read_text(encoding="utf-8")).items()]
 
 
 def chosen(parts: list[Part], only: str | None) -> list[Part]:
@@ -94,10 +91,14 @@ def output_of(*command: object, cwd: Path) -> str:
 
 
 class Workshop:
-    """Where it is measured: a source tree with its program, and a folder of runs."""
+    """Where it is measured: a source tree with its program, and a folder of runs.
 
-    def __init__(self, work: Path, source: Path, program: Path | None = None) -> None:
-        self.work, self.source = work, source
+    A thin selection is measured in any noise, and from its beginning.
+    """
+
+    def __init__(self, work: Path, source: Path, program: Path | None = None,
+                 thin: bool = False) -> None:
+        self.work, self.source, self.thin = work, source, thin
         self.bench = program or source / "build/release/bench/bench"
 
     def folder(self, part: Part, run: int | None = None) -> Path:
@@ -158,7 +159,7 @@ def print_forecast(shop: Workshop, parts: list[Part]) -> None:
     print(f"in all about {clock(whole)}, and what is not known")
 
 
-def measure(shop: Workshop, part: Part, number: int, options: str, more: list[str]) -> bool:
+def measure(shop: Workshop, part: Part, number: int, options: str) -> bool:
     """Whether the run is complete: its cases may have failed, bench may not."""
     out = shop.folder(part, number)
     done = out / "complete"
@@ -167,8 +168,9 @@ def measure(shop: Workshop, part: Part, number: int, options: str, more: list[st
     shop.log(part=part.name, run=number, begins=options)
     start = time.monotonic()
     out.mkdir(parents=True, exist_ok=True)
-    if more and "--retry-noisy" not in options:
-        more = [*more, "--retry-noisy"]
+    more = [] if shop.thin else ["--resume"]
+    if not shop.thin and "--retry-noisy" not in options:
+        more.append("--retry-noisy")
     with open(out / "printed.txt", "a", encoding="utf-8") as printed:
         code = call(shop.bench, *options.split(), *more, f"--out={out}", cwd=shop.source,
                     stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.STDOUT).returncode
@@ -213,28 +215,35 @@ def join(shop: Workshop, part: Part) -> None:
                       cwd=shop.source)
 
 
-def missing_figures(shop: Workshop, part: Part) -> list[str]:
-    names = [path.name for path in (shop.folder(part) / "figures").glob("*.png")]
-    names += [path.name for path in (shop.folder(part) / "figures").glob("*.csv")]
-    return [glob for glob in part.figures if not fnmatch.filter(names, glob + ".*")]
+def missing(shop: Workshop, part: Part) -> list[str]:
+    """What it has not yet: nights, runs, figures."""
+    if part.nights:
+        there = len(list((shop.folder(part) / "nights").glob("*.json")))
+        return [f"{part.nights - there} nights"] if there < part.nights else []
+    runs = [f"run {k}" for k in range(1, len(part.runs) + 1)
+            if not (shop.folder(part, k) / "complete").exists()]
+    if not (shop.folder(part) / "records.jsonl").exists():
+        runs.append("its runs joined")
+    files = [path.name for path in (shop.folder(part) / "figures").glob("*")
+             if path.suffix in (".png", ".csv")]
+    return runs + [glob for glob in part.figures if not fnmatch.filter(files, glob + ".*")]
 
 
-def make(shop: Workshop, part: Part, more: list[str]) -> bool:
+def make(shop: Workshop, part: Part) -> bool:
     """Whether all of it is there; one part's failure leaves the others alone."""
     if part.nights:
         return night(shop, part)
-    complete = [measure(shop, part, k, run, more) for k, run in enumerate(part.runs, 1)]
-    if not all(complete):
-        return False
+    complete = [measure(shop, part, k, run) for k, run in enumerate(part.runs, 1)]
     try:
-        join(shop, part)
+        if all(complete):
+            join(shop, part)
     except Refused as why:
         shop.log(part=part.name, refused=str(why))
         return False
-    missing = missing_figures(shop, part)
-    if missing:
-        shop.log(part=part.name, missing=" ".join(missing))
-    return not missing
+    lacks = missing(shop, part)
+    if lacks:
+        shop.log(part=part.name, lacks=", ".join(lacks))
+    return not lacks
 
 
 def records_of(folder: Path) -> list[dict]:
@@ -243,66 +252,76 @@ def records_of(folder: Path) -> list[dict]:
             for line in file.read_text(encoding="utf-8").splitlines()]
 
 
-def summary(shop: Workshop, parts: list[Part]) -> Iterator[str]:
-    """A table: what was measured, when, how it ended, with which revision."""
-    yield "| part | shows | cases | ended | noisy | begun | revision |"
-    yield "|---|---|---|---|---|---|---|"
-    for part in parts:
-        records = records_of(shop.folder(part))
-        if not records:
-            continue
-        ended = Counter(record["status"] for record in records)
-        contexts = [record["context"] for record in records]
-        revisions = {context["git_revision"][:10] + "+" * (context["git_dirty"] != "no")
-                     for context in contexts}
-        yield (f"| [{part.name}]({part.name}) | {part.shows} | {len(records)} | "
-               f"{', '.join(f'{n} {status}' for status, n in ended.most_common())} | "
-               f"{sum(bool(record.get('noisy')) for record in records)} | "
-               f"{min(context['date'] for context in contexts)} | {', '.join(sorted(revisions))} |")
+def row_of(folder: Path, part: Part) -> str | None:
+    """Of a table: what was measured, when, how it ended, with which revision."""
+    records = records_of(folder)
+    if not records:
+        return None
+    ended = Counter(record["status"] for record in records)
+    contexts = [record["context"] for record in records]
+    revisions = {context["git_revision"][:10] + "+" * (context["git_dirty"] != "no")
+                 for context in contexts}
+    return (f"| [{part.name}]({part.name}) | {part.shows} | {len(records)} | "
+            f"{', '.join(f'{n} {status}' for status, n in ended.most_common())} | "
+            f"{sum(bool(record.get('noisy')) for record in records)} | "
+            f"{min(context['date'] for context in contexts)} | {', '.join(sorted(revisions))} |")
 
 
-def install(shop: Workshop, parts: list[Part]) -> None:
-    """Replaces folders of results/ whole; what git keeps of a part is what it had."""
+def table(rows: Iterable[str | None]) -> list[str]:
+    return ["| part | shows | cases | ended | noisy | begun | revision |", "|---|---|---|---|---|---|---|",
+            *(row for row in rows if row)]
+
+
+def install(shop: Workshop, parts: list[Part], every: list[Part]) -> None:
+    """Replaces the folders in results/ of those parts that are complete."""
+    said = HERE / "reproduced.md"
+    kept = re.findall(r"^\| \[([\w-]+)\]", said.read_text(encoding="utf-8"), re.MULTILINE) \
+        if said.exists() else []
     for part in parts:
-        made = shop.folder(part)
-        if not made.exists():
+        lacks = missing(shop, part)
+        if lacks:
+            print(f"{part.name}: left as it is in results/, {', '.join(lacks)} missing")
             continue
         new, old = HERE / f".{part.name}.new", HERE / f".{part.name}.old"
         shutil.rmtree(new, ignore_errors=True)
-        shutil.copytree(made, new, ignore=shutil.ignore_patterns("results.json"))
+        shutil.copytree(shop.folder(part), new, ignore=shutil.ignore_patterns("results.json"))
         if (HERE / part.name).exists():
             os.replace(HERE / part.name, old)
         os.replace(new, HERE / part.name)
         shutil.rmtree(old, ignore_errors=True)
-    text = "\n".join(["# What was measured, by `./run reproduce`", "", *summary(shop, parts), ""])
-    (HERE / "reproduced.md").write_text(text, encoding="utf-8")
-    output_of("/usr/bin/python3", PROJECT / "plots/quoted_numbers.py", "--write", cwd=PROJECT)
-    print(f"in {HERE}: {text.count('](')} parts; look at git diff, then commit")
+        kept.append(part.name)
+        print(f"{part.name}: in results/")
+    rows = table(row_of(HERE / part.name, part) for part in every if part.name in kept)
+    said.write_text("\n".join(["# What was measured, by `./run reproduce`", "", *rows, ""]),
+                    encoding="utf-8")
+    output_of(sys.executable, PROJECT / "plots/quoted_numbers.py", "--write", cwd=PROJECT)
+    print("look at git diff, then commit")
 
 
 def run(args: argparse.Namespace) -> int:
     if args.program and not args.quick:
         raise Refused("--program: only with --quick (otherwise the program is of one revision)")
-    parts = chosen(parts_of(HERE / "reproduce.toml", args.quick), args.only)
+    every = parts_of(HERE / "reproduce.toml", args.quick)
+    parts = chosen(every, args.only)
     if args.quick:
         work = args.work or PROJECT / "build/reproduce-quick"
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
-        shop, more = Workshop(work, PROJECT, args.program), []
+        shop = Workshop(work, PROJECT, args.program, thin=True)
     else:
         work = args.work or PROJECT / "build/reproduce"
         source = PROJECT if args.dry_run and not (work / "source").exists() else pinned(work)
-        shop, more = Workshop(work, source), ["--resume"]
+        shop = Workshop(work, source)
     if args.install:
-        install(shop, parts)
+        install(shop, parts, every)
         return 0
     if not args.program:
         build(shop.source, any(part.peers for part in parts) and not args.dry_run)
     if args.dry_run:
         print_forecast(shop, parts)
         return 0
-    incomplete = [part.name for part in parts if not make(shop, part, more)]
-    print(*summary(shop, parts), sep="\n")
+    incomplete = [part.name for part in parts if not make(shop, part)]
+    print(*table(row_of(shop.folder(part), part) for part in parts), sep="\n")
     print(f"not complete: {', '.join(incomplete)}" if incomplete else
           f"complete, in {shop.work / 'results'}")
     return 1 if incomplete else 0

@@ -15,8 +15,8 @@
 //
 // Vectors are Matrix Market files, dense: "%%MatrixMarket matrix array real general", its comments,
 // "rows columns", then one number per line, column by column. NAME.npy, NumPy's of doubles, goes
-// before NAME.mtx. time_s is the solve by the program's
-// own clock, from data in memory to the answer in memory; stages are those of stage_times.hpp.
+// before NAME.mtx. time_s is the solve by the program's own clock, from data in memory to the
+// answer in memory; stages are those of stage_times.hpp.
 //
 // status: ok, inaccurate, not_converged, breakdown. It is the program's word; nothing of it is
 // believed but that it failed.

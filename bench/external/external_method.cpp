@@ -200,10 +200,8 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
 void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
   for (int edge = 0; edge < problem.edges.count(); ++edge) {
     const auto& [low, high] = problem.edges.vertices[edge];
-    const Eigen::Vector2d a = problem.motion.at(problem.mesh.vertices[low]),
-                          b = problem.motion.at(problem.mesh.vertices[high]);
-    moments.col(edge).head<2>() -= (2 * a + b) / 3;
-    moments.col(edge).tail<2>() -= (a + 2 * b) / 3;
+    moments.col(edge) -=
+        problem.motion.moments(problem.mesh.vertices[low], problem.mesh.vertices[high]);
   }
 }
 

@@ -17,7 +17,6 @@ std::vector<PointLaw> first_laws(const ContactPoints& contact) {
   for (int p = 0; p < contact.count; ++p) {
     laws[p].closed = contact.gap.size() > 0 && contact.gap(contact.components * p) < 0;
     laws[p].sticks = laws[p].closed && contact.components == 2 && contact.friction_at(p) > 0;
-    if (laws[p].closed && contact.components == 2 && !laws[p].sticks) laws[p].ratio = 0;
   }
   return laws;
 }
@@ -40,7 +39,11 @@ class ActiveSets {
 
   ContactAnswer solve() {
     constexpr int most_steps = 100;
-    double target = 1e-2;
+    constexpr double first = 0.03;
+    // Laws that settle at a linear error may change at a smaller one: soon seen, little is lost.
+    constexpr double next = 0.01;
+    constexpr double rounding = 1e-12;  // what can be reached of a smaller tolerance
+    double target = first;
     bool laws_are_new = true;
     while (now_.steps < most_steps) {
       if (laws_are_new) {
@@ -49,14 +52,15 @@ class ActiveSets {
         move_to_gap();
         measure();
       }
+      now_.converged = false;
       if (!solve_linear(target)) break;
       laws_are_new = choose_laws();
       if (laws_are_new) {
-        target = std::clamp(now_.natural_map / 10, tolerance_, 1e-2);
+        target = std::clamp(now_.natural_map / 10, tolerance_, first);
       } else {
-        now_.converged = now_.linear_error <= tolerance_;
-        if (now_.converged || target <= tolerance_) break;
-        target = tolerance_;
+        now_.converged = now_.linear_error <= std::max(tolerance_, rounding);
+        if (now_.linear_error <= tolerance_ || target <= tolerance_) break;
+        target = std::max(tolerance_, next * std::min(target, now_.linear_error));
       }
     }
     now_.u_C = system_.of_contact(now_.u);
@@ -119,24 +123,15 @@ class ActiveSets {
 
   // Forces, natural map and the laws that follow; whether these change.
   bool choose_laws() {
-    constexpr int patience = 8;
     if (contact_.count == 0) return false;
     now_.F_C = forces_under(contact_, now_.laws, -system_.of_contact(unbalanced_));
-    const Eigen::VectorXd u_C = system_.of_contact(now_.u);
-    const Eigen::VectorXd map = natural_map(contact_, compliance_, now_.F_C, u_C);
-    now_.natural_map = relative_natural_map(contact_, compliance_, now_.F_C, u_C);
-    since_best_ = now_.natural_map < best_map_ / 2 ? 0 : since_best_ + 1;
-    best_map_ = std::min(best_map_, now_.natural_map);
-    const std::vector<PointLaw> next =
-        laws_of(contact_, now_.F_C - relative_to_gap(contact_, u_C).cwiseQuotient(compliance_));
+    LawChoice::Next next = choice_.after(contact_, compliance_, now_.laws, now_.F_C,
+                                         system_.of_contact(now_.u), tolerance_);
+    now_.natural_map = next.natural_map;
     PetscInfo(nullptr, "active set %d: natural map %g, linear error %g, %d iterations so far\n",
               now_.steps, now_.natural_map, now_.linear_error, now_.iterations);
-    if (next == now_.laws || now_.natural_map <= tolerance_) return false;
-    if (since_best_ > patience) {
-      share_ /= 2;
-      since_best_ = 0;
-    }
-    now_.laws = share_ < 1 ? changed_in_part(now_.laws, next, map, share_) : next;
+    if (next.laws.empty()) return false;
+    now_.laws = std::move(next.laws);
     return true;
   }
 
@@ -147,8 +142,8 @@ class ActiveSets {
   double scale_, tolerance_;
   OwnedVec unbalanced_, product_, correction_;
   ContactAnswer now_;
-  double size_ = 0, share_ = 1, best_map_ = std::numeric_limits<double>::infinity();
-  int since_best_ = 0;
+  LawChoice choice_;
+  double size_ = 0;
 };
 
 struct Correction {

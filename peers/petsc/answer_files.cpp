@@ -45,13 +45,10 @@ EdgeDisplacements gather_displacements(const EdgeSystem& system, Vec u) {
   for (int edge = 0; edge < problem.edges.count(); ++edge) {
     if (!part.mesh.edges.is_owned(edge)) continue;
     const auto [low, high] = problem.edges.vertices[edge];
-    const Eigen::Vector2d a = problem.motion.at(part.mesh.vertices_mm[low]),
-                          b = problem.motion.at(part.mesh.vertices_mm[high]);
-    const Eigen::Vector4d w = moments.col(edge);
-    const Eigen::Vector2d at_low = w.head<2>() + (2 * a + b) / 3,
-                          at_high = w.tail<2>() + (a + 2 * b) / 3;
-    own.push_back(
-        {part.mesh.edges.input[edge], {at_low.x(), at_low.y(), at_high.x(), at_high.y()}});
+    const Eigen::Vector4d of_u =
+        moments.col(edge) +
+        problem.motion.moments(part.mesh.vertices_mm[low], part.mesh.vertices_mm[high]);
+    own.push_back({part.mesh.edges.input[edge], {of_u(0), of_u(1), of_u(2), of_u(3)}});
   }
   const std::vector<OfEdge> all = exchanged(own, std::vector<int>(own.size(), 0));
   EdgeDisplacements result(4, static_cast<Eigen::Index>(all.size()));

@@ -4,6 +4,7 @@
 #include <map>
 #include <unordered_map>
 
+#include "assembly/rough_compliance.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -152,13 +153,7 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<int>& vertices, const M
 }
 
 void take_out_rigid_motion(Problem& boundary, Problem& part) {
-  std::vector<PrescribedEdge> edges;
-  const auto& x = boundary.mesh.vertices;
-  for (int row = 0; row < static_cast<int>(boundary.mesh.boundary.size()); ++row)
-    if (const BoundaryEdge& edge = boundary.mesh.boundary[row];
-        edge.role == BoundaryRole::displacement)
-      edges.push_back({x[edge.vertices[0]], x[edge.vertices[1]], row, boundary.is_roller(row)});
-  const SplitDisplacement split = split_rigid_motion(boundary.loads.displacement_mm, edges);
+  const SplitDisplacement split = split_rigid_motion(boundary);
   boundary.motion = part.motion = split.motion;
   boundary.loads.displacement_mm = split.rest_mm;
   if (!split.rest_mm) {
@@ -171,23 +166,14 @@ void take_out_rigid_motion(Problem& boundary, Problem& part) {
   }
 }
 
-// 5 and 15 times C_xxxx (assembly/rough_compliance.hpp), from the part that has the point's edge.
+// From the part that has the point's edge.
 Eigen::VectorXd compliance_of(const BodyPart& part) {
-  const ContactPoints& contact = part.contact;
+  const Eigen::VectorXd own = compliance_at_boundary(part.problem);
   Eigen::VectorXd of_row =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.boundary.mesh.boundary.size()));
-  std::vector<double> of_edge(part.mesh.edges.input.size());
-  for (std::size_t t = 0; t < part.mesh.triangles.size(); ++t)
-    for (const int edge : part.mesh.edges_of_triangle[t])
-      of_edge[edge] = part.problem.compliance_of(static_cast<int>(t))(0, 0);
   for (std::size_t row = 0; row < part.row_of_part.size(); ++row)
-    of_row(part.row_of_part[row]) = of_edge[part.problem.edges.of_boundary[row]];
-  of_row = sum(of_row);
-  Eigen::VectorXd compliance(contact.size());
-  for (int p = 0; p < contact.count; ++p)
-    for (int k = 0; k < contact.components; ++k)
-      compliance(contact.components * p + k) = (k == 0 ? 5 : 15) * of_row(contact.boundary[p]);
-  return compliance;
+    of_row(part.row_of_part[row]) = own(static_cast<Eigen::Index>(row));
+  return rough_compliance(sum(of_row), part.contact);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "peers/petsc/rigid_modes.hpp"
+#include "peers/petsc/square_matrix.hpp"
 
 namespace airybench {
 namespace {

@@ -63,6 +63,9 @@ class EdgeSystem {
   void create_matrix();
   std::vector<FramedPoint> points_of_slots() const;
   std::array<PetscInt, 12> slots_of(int triangle) const;
+  PetscInt own_slot(int edge) const {  // of an edge of this rank, its first one
+    return 4 * (part_.mesh.edges.global[edge] - part_.mesh.edges.begin);
+  }
   void find_contact();
   void put_into_A(const ContactTriangle& of) const;
   // x at the slots of contact triangles, 12 each.
@@ -81,14 +84,5 @@ class EdgeSystem {
   std::vector<PointLaw> laws_;
   bool slips_ = false;
 };
-
-// Rows and columns of a square matrix with as many unknowns per entity: what every pair of entities
-// needs there. Creates it with that space, type and further options by its prefix.
-struct Pair {
-  int a, b;  // local entities
-};
-void create_square_matrix(const Numbering& entities, int unknowns, const std::vector<Pair>& pairs,
-                          const char* type, int block_size, const char* prefix,
-                          parallel::OwnedMat& matrix);
 
 }  // namespace airybench

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "support/memory_owner.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
 
@@ -77,9 +78,7 @@ class StageTimer {
 class SecondsInto {
  public:
   explicit SecondsInto(double& seconds) : seconds_(seconds) {}
-  ~SecondsInto() {
-    seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  ~SecondsInto() { seconds_ += seconds_since(start_); }
   SecondsInto(const SecondsInto&) = delete;
   SecondsInto& operator=(const SecondsInto&) = delete;
 

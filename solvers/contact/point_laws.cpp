@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "solvers/contact/coulomb_law.hpp"
+
 namespace airybench {
 namespace {
 
@@ -16,6 +18,23 @@ PointLaw law_at(const ContactPoints& contact, const Eigen::VectorXd& trial, int 
   law.sticks = std::abs(t) <= -mu * trial(n);
   if (!law.sticks) law.ratio = t > 0 ? -mu : mu;
   return law;
+}
+
+// Of those laws that would change, so many, where the natural map is largest.
+std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
+                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
+                                      double share) {
+  std::vector<int> changes;
+  for (int p = 0; p < static_cast<int>(laws.size()); ++p)
+    if (!(laws[p] == next[p])) changes.push_back(p);
+  const auto m = map.size() / static_cast<Eigen::Index>(laws.size());
+  std::ranges::sort(changes, std::greater(),
+                    [&](int p) { return map.segment(m * p, m).squaredNorm(); });
+  const auto count = std::max(1.0, std::ceil(share * static_cast<double>(changes.size())));
+  changes.resize(std::min(changes.size(), static_cast<std::size_t>(count)));
+  std::vector<PointLaw> result = laws;
+  for (const int p : changes) result[p] = next[p];
+  return result;
 }
 
 }  // namespace
@@ -39,20 +58,23 @@ Eigen::VectorXd forces_under(const ContactPoints& contact, const std::vector<Poi
   return F;
 }
 
-std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
-                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
-                                      double share) {
-  std::vector<int> changes;
-  for (int p = 0; p < static_cast<int>(laws.size()); ++p)
-    if (!(laws[p] == next[p])) changes.push_back(p);
-  const auto m = map.size() / static_cast<Eigen::Index>(laws.size());
-  std::ranges::sort(changes, std::greater(),
-                    [&](int p) { return map.segment(m * p, m).squaredNorm(); });
-  const auto count = std::max(1.0, std::ceil(share * static_cast<double>(changes.size())));
-  changes.resize(std::min(changes.size(), static_cast<std::size_t>(count)));
-  std::vector<PointLaw> result = laws;
-  for (const int p : changes) result[p] = next[p];
-  return result;
+LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::VectorXd& compliance,
+                                 const std::vector<PointLaw>& laws, const Eigen::VectorXd& F_C,
+                                 const Eigen::VectorXd& u_C, double tolerance) {
+  constexpr int patience = 8;
+  const Eigen::VectorXd map = natural_map(contact, compliance, F_C, u_C);
+  Next next = {relative_natural_map(contact, compliance, F_C, u_C), {}};
+  since_best_ = next.natural_map < best_ / 2 ? 0 : since_best_ + 1;
+  best_ = std::min(best_, next.natural_map);
+  const std::vector<PointLaw> all =
+      laws_of(contact, F_C - relative_to_gap(contact, u_C).cwiseQuotient(compliance));
+  if (all == laws || next.natural_map <= tolerance) return next;
+  if (since_best_ > patience) {
+    share_ /= 2;
+    since_best_ = 0;
+  }
+  next.laws = share_ < 1 ? changed_in_part(laws, all, map, share_) : all;
+  return next;
 }
 
 }  // namespace airybench

@@ -4,6 +4,7 @@
 // The next laws are those of the trial F − r/D (coulomb_law.hpp), with D the rough compliance.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "assembly/dual_system.hpp"
@@ -23,9 +24,23 @@ std::vector<PointLaw> laws_of(const ContactPoints& contact, const Eigen::VectorX
 Eigen::VectorXd forces_under(const ContactPoints& contact, const std::vector<PointLaw>& laws,
                              const Eigen::VectorXd& reaction);
 
-// Of those laws that would change, so many, where the natural map is largest.
-std::vector<PointLaw> changed_in_part(const std::vector<PointLaw>& laws,
-                                      const std::vector<PointLaw>& next, const Eigen::VectorXd& map,
-                                      double share);
+// The laws of one active set after another. There is no proof that they settle: after some without
+// a natural map half as large, only half of those that would change do, where it is largest, then a
+// quarter, …
+class LawChoice {
+ public:
+  struct Next {
+    double natural_map = 0;      // relative
+    std::vector<PointLaw> laws;  // none: those at hand stay
+  };
+  // After `laws` with F_C and u_C; compliance: rough, of every row of F_C.
+  Next after(const ContactPoints& contact, const Eigen::VectorXd& compliance,
+             const std::vector<PointLaw>& laws, const Eigen::VectorXd& F_C,
+             const Eigen::VectorXd& u_C, double tolerance);
+
+ private:
+  double share_ = 1, best_ = std::numeric_limits<double>::infinity();
+  int since_best_ = 0;
+};
 
 }  // namespace airybench

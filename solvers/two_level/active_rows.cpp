@@ -182,22 +182,14 @@ class RowsNewton {
 
   // Forces, natural map and the laws that follow; whether these change.
   bool choose_laws() {
-    constexpr int patience = 8;
     now_.F_C = forces_under(s_.contact, now_.laws, -s_.of_contact(unbalanced_));
     if (s_.contact.count == 0) return false;
-    const Eigen::VectorXd u_C = s_.of_contact(now_.u);
-    const Eigen::VectorXd map = natural_map(s_.contact, s_.compliance, now_.F_C, u_C);
-    now_.natural_map_residual = relative_natural_map(s_.contact, s_.compliance, now_.F_C, u_C);
-    since_best_ = now_.natural_map_residual < best_.natural_map_residual / 2 ? 0 : since_best_ + 1;
+    LawChoice::Next next = choice_.after(s_.contact, s_.compliance, now_.laws, now_.F_C,
+                                         s_.of_contact(now_.u), control_.tolerance);
+    now_.natural_map_residual = next.natural_map;
     if (now_.natural_map_residual < best_.natural_map_residual) best_ = now_;
-    const std::vector<PointLaw> next = laws_of(
-        s_.contact, now_.F_C - relative_to_gap(s_.contact, u_C).cwiseQuotient(s_.compliance));
-    if (next == now_.laws || now_.natural_map_residual <= control_.tolerance) return false;
-    if (since_best_ > patience) {
-      share_ /= 2;
-      since_best_ = 0;
-    }
-    now_.laws = share_ < 1 ? changed_in_part(now_.laws, next, map, share_) : next;
+    if (next.laws.empty()) return false;
+    now_.laws = std::move(next.laws);
     return true;
   }
 
@@ -208,8 +200,8 @@ class RowsNewton {
   RowsResult now_, best_;
   std::vector<PointLaw> held_laws_;
   Eigen::VectorXd unbalanced_, correction_;
-  double size_ = 0, share_ = 1;
-  int since_best_ = 0;
+  LawChoice choice_;
+  double size_ = 0;
 };
 
 }  // namespace

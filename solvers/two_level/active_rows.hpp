@@ -9,9 +9,8 @@
 // reaction along, which makes it nonsymmetric: GMRES, preconditioned by preconditioner.hpp with the
 // same slots held. Steps are inexact: a tenth of the natural map while the laws change.
 //
-// The laws begin with those of the coarse displacements. There is no proof that they settle: after
-// some steps without a smaller natural map only the half of those that would change do, where it is
-// largest, then a quarter, … What comes out counts by its natural map and residual only.
+// The laws begin with those of the coarse displacements; point_laws.hpp chooses the next. What
+// comes out counts by its natural map and residual only.
 #pragma once
 
 #include "solvers/contact/contact_result.hpp"

@@ -30,6 +30,8 @@ SCENES = {
 }
 FILES = {"airy_function": {"x.mtx", "F_C.mtx"}, "contact_forces": {"r.mtx"}, "displacement": {"displacement_mm.mtx"},
          "edge_displacements": {"edge_displacements_mm.npy", "F_C.mtx", "log.txt"}}
+# Pivots that end elsewhere on one processor or another, and say "ok" then; the residual tells.
+SUCCESS_IS_NO_PROOF = {"siconos-lemke"}
 STAGES = {"order", "precondition", "factor", "condense", "contact", "recover", "check"}
 
 
@@ -54,6 +56,14 @@ class PeerTest(ExportingTest):
         self.assertEqual(0, ran.returncode, ran.stderr)
         return folder, json.loads((folder / "answer.json").read_text(encoding="utf-8"))
 
+    def owns_up(self, said: dict) -> bool:
+        """Whether it is known to go wrong at times, and its own residual says that it did."""
+        return self.peer["name"] in SUCCESS_IS_NO_PROOF and said["error_estimate"] > 1e-6
+
+    def test_it_goes_wrong_at_times_only(self) -> None:
+        wrong = [name for name, definition in SCENES.items() if self.owns_up(self.answer(definition)[1])]
+        self.assertLessEqual(len(wrong), 1, wrong)
+
     def test_its_word_is_well_formed(self) -> None:
         for name, definition in SCENES.items():
             with self.subTest(name):
@@ -64,7 +74,7 @@ class PeerTest(ExportingTest):
                 self.assertLessEqual(sum(said.get("stages", {}).values()), 1.001 * said["time_s"])
                 for key in ("message", "parameters"):
                     self.assertIsInstance(said[key], str)
-                if "{tolerance}" in self.peer["command"]:
+                if "{tolerance}" in self.peer["command"] and not self.owns_up(said):
                     self.assertLess(said["error_estimate"], 1e-12)
                 self.assertEqual({"answer.json"} | FILES[self.peer["returns"]],
                                  {file.name for file in folder.iterdir()})
@@ -74,7 +84,9 @@ class PeerTest(ExportingTest):
             self.skipTest("it returns displacements")
         for name, definition in SCENES.items():
             with self.subTest(name):
-                folder, _ = self.answer(definition)
+                folder, said = self.answer(definition)
+                if self.owns_up(said):
+                    continue
                 problem = np.load(self.export("npz", definition) / "problem.npz")
                 fclib = self.peer["format"] == "fclib"
                 forces = -mmread(folder / "r.mtx") if fclib else mmread(folder / "F_C.mtx")
