@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 from matplotlib import colormaps, ticker
 from matplotlib.axes import Axes
@@ -186,9 +187,16 @@ def axes_at(figure: Figure, left: float, top: float, width: float, height: float
 
 
 def log_axis(axis: Axis) -> None:
-    """Of an axis with its limits set."""
+    """Of an axis with its limits set: as many labels a decade as there is room for."""
     low, high = axis.get_view_interval()
-    labelled = (1, 1.5, 2, 3, 5, 7) if high / low < 10 else (1, 2, 5) if high / low < 200 else (1,)
+    choices = [(1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7)][:4 if high / low < 10 else
+                                                              3 if high / low < 200 else 1]
+    size = axis.axes.get_position().size * axis.figure.get_size_inches()
+    along, room = (size[0], 0.28) if axis.axis_name == "x" else (size[1], 0.15)  # inches
+    decade = along / math.log10(high / low)
+    labelled = next((choice for choice in reversed(choices)
+                     if math.log10(min(b / a for a, b in pairwise((*choice, 10)))) * decade > room),
+                    choices[0])
     axis.set_major_formatter(ticker.FuncFormatter(
         lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
     axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))

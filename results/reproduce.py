@@ -3,7 +3,7 @@
     reproduce.py [--only=PART,...] [--work=DIR] [--dry-run | --quick [--program=FILE] | --install]
 
 The revision of HEAD is cloned into DIR/source, built there and measured: what is changed beside it
-meanwhile changes no record. A second call goes on where the first one ended, with the same
+meanwhile changes no record; figures are drawn by what is here. A second call goes on where the first one ended, with the same
 revision. --dry-run prints the forecast. --quick measures a thin selection with the program as it is
 and draws every figure from it. --install puts what is complete into results/ and rewrites the
 numbers that README.md and docs/ quote.
@@ -204,8 +204,7 @@ def join(shop: Workshop, part: Part) -> None:
             if (run / name).is_dir():
                 shutil.copytree(run / name, whole / name, dirs_exist_ok=True)
     if part.figures:
-        ran = call(shop.source / "run", "figures", whole, cwd=shop.source, capture_output=True,
-                   text=True)
+        ran = call(PROJECT / "run", "figures", whole, cwd=PROJECT, capture_output=True, text=True)
         (whole / "figures").mkdir(exist_ok=True)
         (whole / "figures/drawn.txt").write_text(
             (ran.stdout + ran.stderr).replace(f"{whole}/", ""), encoding="utf-8")

@@ -14,7 +14,7 @@ const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host
 const std::set<std::string> of_the_run = {
     "adapt",       "adapt_by",        "cases_planned", "interleaved",        "levels",
     "long_case_s", "max_repetitions", "marking",       "memory_limit_bytes", "plan_sha256",
-    "precision",   "repetitions",     "retry_noisy",   "timeout_s"};
+    "precision",   "repetitions",     "retry_noisy",   "timeout_s",          "tuning_budget_s"};
 
 constexpr int most_named = 6;
 
