@@ -44,7 +44,7 @@ PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
 NUMBER = r"\d{1,3}(?: \d{3})+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|" + "|".join(rf"\b{w}\b" for w in WORDS)
 CONDITION = re.compile(r"(?P<expression>.+) is (?P<relation>below |above |)(?P<number>\S+)")
-TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
+TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/-]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
                    r"(?P<body>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
 
 

@@ -15,7 +15,7 @@ UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "M
          "GiB": 2**30}
 ROUNDING = {"at most": ROUND_CEILING, "at least": ROUND_FLOOR, None: ROUND_HALF_EVEN}
 EXPRESSION = re.compile(
-    r"(?P<folder>[\w/]+): (?:(?P<bound>at most|at least) )?(?:(?P<which>least|greatest) )?"
+    r"(?P<folder>[\w/-]+): (?:(?P<bound>at most|at least) )?(?:(?P<which>least|greatest) )?"
     r"(?P<quantity>[\w+*/().-]+) of (?P<mesh>[^\s/]+)/(?P<method>\S+?)"
     r"(?: per (?:(?P<divisor>[\w+*/().-]+) of )?(?P<per>\S+?))?"
     r"(?P<filters>(?:, \w+=\S*?)*)(?: in (?P<unit>\S+))?")

@@ -3,10 +3,10 @@
     reproduce.py [--only=PART,...] [--work=DIR] [--dry-run | --quick [--program=FILE] | --install]
 
 The revision of HEAD is cloned into DIR/source, built there and measured: what is changed beside it
-meanwhile changes no record; figures are drawn by what is here. A second call goes on where the first one ended, with the same
-revision. --dry-run prints the forecast. --quick measures a thin selection with the program as it is
-and draws every figure from it. --install puts what is complete into results/ and rewrites the
-numbers that README.md and docs/ quote.
+meanwhile changes no record. Figures are drawn by the tree that this file is in. A second call goes
+on where the first one ended, with the same revision. --dry-run prints the forecast. --quick measures
+a thin selection with the program as it is and draws every figure from it. --install puts what is
+complete into results/ and rewrites the numbers that README.md and docs/ quote.
 
 Exit status: 0 complete; 1 some part is not; 2 wrong usage, or what is there cannot be gone on with.
 """
