@@ -31,7 +31,6 @@ HERE = Path(__file__).resolve().parent
 PROJECT = HERE.parent
 FORECAST = re.compile(r"^the run: about (.+?)(?:,|;)", re.MULTILINE)
 SECONDS = {"h": 3600, "min": 60, "s": 1, "ms": 1e-3, "µs": 1e-6}
-KEPT = ("meshes", "programs")  # of a run beside its records: what --adapt made, logs of programs
 
 
 class Refused(Exception):
@@ -194,24 +193,40 @@ def night(shop: Workshop, part: Part) -> bool:
 
 
 def join(shop: Workshop, part: Part) -> None:
-    """Its runs become one results folder, with figures and claims."""
+    """Its runs become one results folder, with its figures and claims; meshes that --adapt made are
+    left behind, a run makes them again."""
     runs = [shop.folder(part, k) for k in range(1, len(part.runs) + 1)]
     whole = shop.folder(part)
     shutil.rmtree(whole, ignore_errors=True)
     output_of(shop.bench, "merge", "--runs", *runs, f"--out={whole}", cwd=shop.source)
     for run in runs:
-        for name in KEPT:
-            if (run / name).is_dir():
-                shutil.copytree(run / name, whole / name, dirs_exist_ok=True)
+        for file in (whole / "records.jsonl", whole / "results.csv"):  # meshes are named from the run
+            text = file.read_text(encoding="utf-8")
+            file.write_text(text.replace(f"{os.path.relpath(run, whole)}/", ""), encoding="utf-8")
+        if (run / "programs").is_dir():
+            shutil.copytree(run / "programs", whole / "programs", dirs_exist_ok=True)
     if part.figures:
-        ran = call(PROJECT / "run", "figures", whole, cwd=PROJECT, capture_output=True, text=True)
-        (whole / "figures").mkdir(exist_ok=True)
-        (whole / "figures/drawn.txt").write_text(
-            (ran.stdout + ran.stderr).replace(f"{whole}/", ""), encoding="utf-8")
+        draw(whole, part)
     if part.claims:
         for stop, name in (("target", "claims.md"), ("paper", "claims_paper_stop.md")):
             output_of(shop.bench, "claims", whole, f"--stop={stop}", f"--out={whole / name}",
                       cwd=shop.source)
+
+
+def draw(whole: Path, part: Part) -> None:
+    """The figures that the part is for, and what was said of them."""
+    def wanted(name: str) -> bool:
+        return any(fnmatch.fnmatch(name.split(".")[0], glob) for glob in part.figures)
+
+    ran = call(PROJECT / "run", "figures", whole, cwd=PROJECT, capture_output=True, text=True)
+    figures = whole / "figures"
+    figures.mkdir(exist_ok=True)
+    for file in figures.iterdir():
+        if file.name != "measured.md" and not wanted(file.name):
+            file.unlink()
+    said = (ran.stdout + ran.stderr).replace(f"{whole}/", "").splitlines()
+    of_these = [line for line in said if wanted(re.split(r"[.:,]", line.removeprefix("figures/"))[0])]
+    (figures / "drawn.txt").write_text("\n".join([*of_these, ""]), encoding="utf-8")
 
 
 def missing(shop: Workshop, part: Part) -> list[str]:
@@ -224,7 +239,7 @@ def missing(shop: Workshop, part: Part) -> list[str]:
     if not (shop.folder(part) / "records.jsonl").exists():
         runs.append("its runs joined")
     files = [path.name for path in (shop.folder(part) / "figures").glob("*")
-             if path.suffix in (".png", ".csv")]
+             if path.suffix in (".png", ".csv", ".md")]
     return runs + [glob for glob in part.figures if not fnmatch.filter(files, glob + ".*")]
 
 
