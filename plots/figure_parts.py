@@ -192,16 +192,21 @@ def log_axis(axis: Axis) -> None:
     choices = [(1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7)][:4 if high / low < 10 else
                                                               3 if high / low < 200 else 1]
     size = axis.axes.get_position().size * axis.figure.get_size_inches()
-    along, room = (size[0], 0.28) if axis.axis_name == "x" else (size[1], 0.15)  # inches
-    decade = along / math.log10(high / low)
+    letters = max(len(tick_label(10.0**round(math.log10(end)))) for end in (low, high))
+    along, room = (size[0], 0.05 + 0.07 * letters) if axis.axis_name == "x" else (size[1], 0.15)
+    decade = along / math.log10(high / low)  # inches, as room
     labelled = next((choice for choice in reversed(choices)
                      if math.log10(min(b / a for a, b in pairwise((*choice, 10)))) * decade > room),
                     choices[0])
-    axis.set_major_formatter(ticker.FuncFormatter(
-        lambda v, _: f"{v:g}" if 1e-3 <= v < 1e5 else short(v)))
-    axis.set_major_locator(ticker.LogLocator(subs=labelled, numticks=99))
+    axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: tick_label(v)))
+    axis.set_major_locator(ticker.LogLocator(10.0**math.ceil(room / decade) if decade < room else 10,
+                                             subs=labelled, numticks=99))
     axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10), numticks=99))
     axis.set_minor_formatter(ticker.NullFormatter())
+
+
+def tick_label(value: float) -> str:
+    return f"{value:g}" if 1e-3 <= value < 1e5 else short(value)
 
 
 def log_log(axes: Axes, **properties: object) -> None:
