@@ -39,7 +39,7 @@ class ActiveSets {
 
   ContactAnswer solve() {
     constexpr int most_steps = 100;
-    constexpr double first = 0.03;
+    constexpr double first = 0.01;
     // Laws that settle at a linear error may change at a smaller one: soon seen, little is lost.
     constexpr double next = 0.01;
     constexpr double rounding = 1e-12;  // what can be reached of a smaller tolerance
