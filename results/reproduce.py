@@ -179,10 +179,14 @@ def measure(shop: Workshop, part: Part, number: int, options: str) -> bool:
     return done.exists()
 
 
+def nights_of(history: Path) -> int:
+    return len(list((history / "nights").glob("*.json")))
+
+
 def night(shop: Workshop, part: Part) -> bool:
     history = shop.folder(part)
     history.mkdir(parents=True, exist_ok=True)
-    while (there := len(list((history / "nights").glob("*.json")))) < part.nights:
+    while (there := nights_of(history)) < part.nights:
         code = call(shop.bench, "track", *part.runs[0].split(), f"--history={history}",
                     cwd=shop.source, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                     stderr=subprocess.DEVNULL).returncode
@@ -215,14 +219,14 @@ def join(shop: Workshop, part: Part) -> None:
 
 def draw(whole: Path, part: Part) -> None:
     """The figures that the part is for, and what was said of them."""
-    def wanted(name: str) -> bool:
-        return any(fnmatch.fnmatch(name.split(".")[0], glob) for glob in part.figures)
+    def wanted(stem: str) -> bool:
+        return any(fnmatch.fnmatch(stem, glob) for glob in part.figures)
 
     ran = call(PROJECT / "run", "figures", whole, cwd=PROJECT, capture_output=True, text=True)
     figures = whole / "figures"
     figures.mkdir(exist_ok=True)
     for file in figures.iterdir():
-        if file.name != "measured.md" and not wanted(file.name):
+        if file.name != "measured.md" and not wanted(file.stem):
             file.unlink()
     said = (ran.stdout + ran.stderr).replace(f"{whole}/", "").splitlines()
     of_these = [line for line in said if wanted(re.split(r"[.:,]", line.removeprefix("figures/"))[0])]
@@ -232,15 +236,15 @@ def draw(whole: Path, part: Part) -> None:
 def missing(shop: Workshop, part: Part) -> list[str]:
     """What it has not yet: nights, runs, figures."""
     if part.nights:
-        there = len(list((shop.folder(part) / "nights").glob("*.json")))
-        return [f"{part.nights - there} nights"] if there < part.nights else []
+        lacks = part.nights - nights_of(shop.folder(part))
+        return [f"{lacks} nights"] if lacks > 0 else []
     runs = [f"run {k}" for k in range(1, len(part.runs) + 1)
             if not (shop.folder(part, k) / "complete").exists()]
     if not (shop.folder(part) / "records.jsonl").exists():
         runs.append("its runs joined")
-    files = [path.name for path in (shop.folder(part) / "figures").glob("*")
+    drawn = [path.stem for path in (shop.folder(part) / "figures").glob("*")
              if path.suffix in (".png", ".csv", ".md")]
-    return runs + [glob for glob in part.figures if not fnmatch.filter(files, glob + ".*")]
+    return runs + [glob for glob in part.figures if not fnmatch.filter(drawn, glob)]
 
 
 def make(shop: Workshop, part: Part) -> bool:

@@ -62,7 +62,6 @@ LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::Vect
                                  const std::vector<PointLaw>& laws, const Eigen::VectorXd& F_C,
                                  const Eigen::VectorXd& u_C, double tolerance) {
   constexpr int patience = 8;
-  const Eigen::VectorXd map = natural_map(contact, compliance, F_C, u_C);
   Next next = {relative_natural_map(contact, compliance, F_C, u_C), {}};
   since_best_ = next.natural_map < best_ / 2 ? 0 : since_best_ + 1;
   best_ = std::min(best_, next.natural_map);
@@ -73,7 +72,9 @@ LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::Vect
     share_ /= 2;
     since_best_ = 0;
   }
-  next.laws = share_ < 1 ? changed_in_part(laws, all, map, share_) : all;
+  next.laws = share_ < 1
+                  ? changed_in_part(laws, all, natural_map(contact, compliance, F_C, u_C), share_)
+                  : all;
   return next;
 }
 

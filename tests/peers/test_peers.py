@@ -61,6 +61,8 @@ class PeerTest(ExportingTest):
         return self.peer["name"] in SUCCESS_IS_NO_PROOF and said["error_estimate"] > 1e-6
 
     def test_it_goes_wrong_at_times_only(self) -> None:
+        if self.peer["name"] not in SUCCESS_IS_NO_PROOF:
+            self.skipTest("it is not known to go wrong")
         wrong = [name for name, definition in SCENES.items() if self.owns_up(self.answer(definition)[1])]
         self.assertLessEqual(len(wrong), 1, wrong)
 
