@@ -63,14 +63,18 @@ LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::Vect
                                  const Eigen::VectorXd& u_C, double tolerance) {
   constexpr int patience = 8;
   Next next = {relative_natural_map(contact, compliance, F_C, u_C), {}};
-  since_best_ = next.natural_map < best_ / 2 ? 0 : since_best_ + 1;
-  best_ = std::min(best_, next.natural_map);
+  ++since_halved_;
+  if (next.natural_map < to_halve_ / 2) {
+    to_halve_ = next.natural_map;
+    share_ = std::min(1.0, 2 * share_);
+    since_halved_ = 0;
+  }
   const std::vector<PointLaw> all =
       laws_of(contact, F_C - relative_to_gap(contact, u_C).cwiseQuotient(compliance));
   if (all == laws || next.natural_map <= tolerance) return next;
-  if (since_best_ > patience) {
+  if (since_halved_ > patience) {
     share_ /= 2;
-    since_best_ = 0;
+    since_halved_ = 0;
   }
   next.laws = share_ < 1
                   ? changed_in_part(laws, all, natural_map(contact, compliance, F_C, u_C), share_)

@@ -26,7 +26,7 @@ Eigen::VectorXd forces_under(const ContactPoints& contact, const std::vector<Poi
 
 // The laws of one active set after another. There is no proof that they settle: after some without
 // a natural map half as large, only half of those that would change do, where it is largest, then a
-// quarter, …
+// quarter, …; each time that it halves, twice as many again.
 class LawChoice {
  public:
   struct Next {
@@ -39,8 +39,8 @@ class LawChoice {
              const Eigen::VectorXd& u_C, double tolerance);
 
  private:
-  double share_ = 1, best_ = std::numeric_limits<double>::infinity();
-  int since_best_ = 0;
+  double share_ = 1, to_halve_ = std::numeric_limits<double>::infinity();
+  int since_halved_ = 0;
 };
 
 }  // namespace airybench
