@@ -197,16 +197,14 @@ def night(shop: Workshop, part: Part) -> bool:
 
 
 def join(shop: Workshop, part: Part) -> None:
-    """Its runs become one results folder, with its figures and claims; meshes that --adapt made are
-    left behind, a run makes them again."""
+    """Its runs become one results folder, with its figures and claims, without the meshes that --adapt
+    made: a run makes them again."""
     runs = [shop.folder(part, k) for k in range(1, len(part.runs) + 1)]
     whole = shop.folder(part)
     shutil.rmtree(whole, ignore_errors=True)
     output_of(shop.bench, "merge", "--runs", *runs, f"--out={whole}", cwd=shop.source)
+    shutil.rmtree(whole / "meshes", ignore_errors=True)
     for run in runs:
-        for file in (whole / "records.jsonl", whole / "results.csv"):  # meshes are named from the run
-            text = file.read_text(encoding="utf-8")
-            file.write_text(text.replace(f"{os.path.relpath(run, whole)}/", ""), encoding="utf-8")
         if (run / "programs").is_dir():
             shutil.copytree(run / "programs", whole / "programs", dirs_exist_ok=True)
     if part.figures:

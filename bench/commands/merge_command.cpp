@@ -9,7 +9,10 @@
 #include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/output/record_files.hpp"
+#include "support/atomic_file.hpp"
+#include "support/file_text.hpp"
 #include "support/numbers.hpp"
+#include "support/sha256.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -22,6 +25,8 @@ there. What is refused is named, and nothing is written then.
 
 With --runs the folders are whole runs of different plans, which may differ in limits and repetitions, too; no case
 may be there twice.
+
+Meshes that lie in a run's folder (of --adapt, of models) are copied; fields and figures are not.
 
 Exit status  0  joined
              2  refused, wrong usage, or records that cannot be read: one line on standard error
@@ -52,20 +57,53 @@ MergeOptions parse_merge(int argc, const char* const* argv) {
   return options;
 }
 
-// A path from its own folder becomes one from the folder of the whole.
+// Meshes in the folders of runs, by their paths from there, which are the same in the whole.
+class OwnMeshes {
+ public:
+  // Throws FileError: another file of that path.
+  void add(const std::string& path, const std::filesystem::path& file) {
+    if (!std::filesystem::exists(file)) return;  // a run may have been kept without its meshes
+    const auto [there, is_new] = files_.emplace(path, file);
+    if (!is_new && sha256_of_file(there->second) != sha256_of_file(file))
+      throw FileError(fmt::format("{} and {}: two meshes that would be one file of the whole",
+                                  there->second.string(), file.string()));
+  }
+  void copy_to(const std::filesystem::path& folder) const {
+    for (const auto& [path, file] : files_) {
+      const std::filesystem::path copy = folder / path;
+      make_folder(copy.parent_path());
+      write_file_atomically(copy, file_text(file));
+    }
+  }
+
+ private:
+  std::map<std::string, std::filesystem::path> files_;
+};
+
+bool lies_in_its_folder(const std::filesystem::path& recorded) {
+  return recorded.has_parent_path() && recorded.is_relative() &&
+         *recorded.lexically_normal().begin() != "..";
+}
+
+// A path from a run's folder becomes one from the folder of the whole.
 void name_mesh_from(const std::filesystem::path& out, const std::filesystem::path& folder,
-                    RecordLine& line) {
-  if (line.record.mesh_file.empty()) return;
-  line.record.mesh_file = recorded_path(recorded_file(line.record.mesh_file, folder), out);
-  line.json["mesh_file"] = line.record.mesh_file;
+                    OwnMeshes& meshes, RecordLine& line) {
+  std::string& name = line.record.mesh_file;
+  if (name.empty()) return;
+  const std::filesystem::path file = recorded_file(name, folder);
+  if (lies_in_its_folder(name))
+    meshes.add(name, file);
+  else
+    name = recorded_path(file, out);
+  line.json["mesh_file"] = name;
 }
 
 std::vector<RecordLine> read_all(const std::vector<std::filesystem::path>& folders,
-                                 const std::filesystem::path& out) {
+                                 const std::filesystem::path& out, OwnMeshes& meshes) {
   std::vector<RecordLine> all;
   for (const auto& folder : folders)
     for (RecordLine& line : lines_in(folder)) {
-      name_mesh_from(out, folder, line);
+      name_mesh_from(out, folder, meshes, line);
       all.push_back(std::move(line));
     }
   if (all.empty()) throw FileError("the folders have no records");
@@ -147,11 +185,13 @@ std::vector<RecordLine> of_runs(const std::vector<RecordLine>& all) {
 
 int merge_command(int argc, const char* const* argv) {
   const MergeOptions options = parse_merge(argc, argv);
-  const std::vector<RecordLine> all = read_all(options.folders, options.out);
+  OwnMeshes meshes;
+  const std::vector<RecordLine> all = read_all(options.folders, options.out, meshes);
   refuse_mixtures(all, options.runs ? Sameness::different_runs : Sameness::same_sources);
   const std::vector<RecordLine> lines =
       options.runs ? of_runs(all) : of_shards(all, options.incomplete);
   write_records(options.out, lines);
+  meshes.copy_to(options.out);
   fmt::print("{} records of {} folders in {}\n", lines.size(), options.folders.size(),
              options.out.string());
   return 0;

@@ -10,8 +10,11 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
   HybridizedAnswer answer;
   answer.stress.resize(problem.mesh.triangles.size());
   UnbalancedForces& unbalanced = answer.unbalanced;
-  unbalanced.r.setZero(system.b.size());
-  unbalanced.defect.setZero(system.b.size());
+  {
+    const OwnerScope scope(MemoryOwner::check);
+    unbalanced.r.setZero(system.b.size());
+    unbalanced.defect.setZero(system.b.size());
+  }
   add_tractions(problem, system.unknown, unbalanced.r);
   visit_stresses(problem, system, u, [&](int t, const HybridStress<double>& of_triangle) {
     answer.stress[t] = Eigen::Map<const ElementStress>(of_triangle.stress);

@@ -16,6 +16,7 @@ struct KrylovBody {
   HybridizedSystem system;
   EdgeMatrix matrix;
   std::unique_ptr<TwoLevelPreconditioner> two_levels;
+  std::size_t matrix_bytes = 0;  // of K both ways
 };
 
 void note_rows(const RowsResult& rows, const RunControl& control, Solution& solution) {
@@ -48,6 +49,8 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body.system = assemble_hybridized(problem, airy.contact);
     body.matrix = make_edge_matrix(problem, body.system, control.threads);
+    body.matrix_bytes = body.system.bytes() + body.matrix.bytes();
+    const OwnerScope scope(MemoryOwner::preconditioner);
     coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
                                                    coarse_kind_for(problem));
   });
@@ -59,10 +62,11 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
   body.two_levels = std::make_unique<TwoLevelPreconditioner>(body.matrix, std::move(coarse));
 }
 
-void count_storage(const KrylovBody& body, const RowsResult& rows, Solution& solution) {
-  solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
+void count_storage(const KrylovBody& body, const SlotSystem& slots, const RowsResult& rows,
+                   Solution& solution) {
+  solution.storage[MemoryOwner::system_matrix] = body.matrix_bytes;
   solution.storage[MemoryOwner::preconditioner] = body.two_levels->bytes();
-  solution.storage[MemoryOwner::iteration] = rows.bytes;
+  solution.storage[MemoryOwner::iteration] = slots.bytes() + rows.bytes;
 }
 
 // What comes after the two levels.
@@ -73,16 +77,19 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   TwoLevelPreconditioner& M = *body.two_levels;
   note_parameters(M.coarse(), solution);
   M.times() = {};
-  const SlotSystem slots(problem, airy.contact, body.system, body.matrix);
-  const RowsResult rows = run_stage(
-      solution.times, has_contact ? Stage::contact : Stage::recover, MemoryOwner::iteration,
-      [&] { return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control); });
+  const Stage stage = has_contact ? Stage::contact : Stage::recover;
+  const SlotSystem slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+    return SlotSystem(problem, airy.contact, body.system, body.matrix);
+  });
+  const RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+    return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control);
+  });
   note_rows(rows, control, solution);
   if (has_contact) {
     solution.contact_iterations = rows.sweeps;
     solution.newton_steps = rows.steps;
   }
-  count_storage(body, rows, solution);
+  count_storage(body, slots, rows, solution);
   HybridizedAnswer answer;
   run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
     solution.F_C = project_on_coulomb(airy.contact, rows.F_C);

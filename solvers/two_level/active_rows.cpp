@@ -117,7 +117,9 @@ class RowsNewton {
 
   RowsResult solve() {
     RowsResult result = iterate();
-    result.bytes = linearised_.bytes();
+    constexpr std::size_t vectors = 5;  // u, the best u, unbalanced, its copy, correction
+    result.bytes = linearised_.bytes() +
+                   vectors * static_cast<std::size_t>(unbalanced_.size()) * sizeof(double);
     return result;
   }
 
@@ -133,14 +135,14 @@ class RowsNewton {
       } else {
         now_.converged =
             now_.linear_error <= std::max(control_.tolerance, control_.target_error / 1000);
-        if (now_.converged || target <= control_.tolerance) return now_;
+        if (now_.converged || target <= control_.tolerance) return std::move(now_);
         target = control_.tolerance;
       }
     }
     for (const auto count : {&RowsResult::steps, &RowsResult::sweeps}) best_.*count = now_.*count;
     best_.iterations = now_.iterations;
     best_.history = std::move(now_.history);
-    return best_;
+    return std::move(best_);
   }
 
   void hold_laws() {

@@ -33,6 +33,11 @@ struct SlotSystem {
   SlotSystem(const Problem& problem, const ContactPoints& contact, const HybridizedSystem& system,
              const EdgeMatrix& K);
   Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const;  // in the rows of F_C
+  std::size_t bytes() const {
+    return static_cast<std::size_t>(b.size() + prescribed_u.size() + K_times_u.size() +
+                                    compliance.size()) *
+           sizeof(double);
+  }
 };
 
 // The linear system under given laws.
@@ -64,7 +69,7 @@ struct RowsResult {
   double linear_error = 0;          // of u under its laws, relative in the energy norm, estimated
   int sweeps = 0, steps = 0;        // on the coarse contact problem; active sets
   std::int64_t iterations = 0;      // of GMRES
-  std::size_t bytes = 0;            // of GMRES' vectors
+  std::size_t bytes = 0;            // of the iteration's vectors
   std::vector<double> history;      // linear_error
 };
 

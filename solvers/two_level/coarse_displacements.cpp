@@ -201,11 +201,13 @@ void CoarseDisplacements::factorise(const Problem& problem, const HybridizedSyst
   const int trailing = unknowns_ - first_trailing_;
   const ElementMatrices coarse = run_stage(times, Stage::precondition, MemoryOwner::preconditioner,
                                            [&] { return galerkin(problem, K, system); });
+  matrix_bytes_ = coarse.bytes();
   deadline.check("the coarse matrix");
   run_stage(times, Stage::order, MemoryOwner::factor, [&] { factor_.analyse(coarse, trailing); });
   deadline.check("the ordering of the coarse matrix");
   run_stage(times, Stage::factor, MemoryOwner::factor, [&] {
     factor_.factor(coarse, deadline);
+    const OwnerScope scope(MemoryOwner::preconditioner);
     L_ = factor_.trailing_factor();
     S_ = lower_of_product(L_);
   });
@@ -231,6 +233,7 @@ void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
     if (free[i]) now.push_back(i);
   const bool all = now.size() == free.size();
   if (now != free_ && !all && !now.empty()) {
+    const OwnerScope scope(MemoryOwner::preconditioner);
     on_free_.compute(S_(now, now));
     if (on_free_.info() != Eigen::Success)
       throw Breakdown("the coarse problem of the contact rows is not positive definite");
@@ -362,8 +365,7 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
 }
 
 std::size_t CoarseDisplacements::bytes() const {
-  return factor_.bytes() +
-         static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) *
+  return static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) *
              sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
          block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +

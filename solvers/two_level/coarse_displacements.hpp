@@ -52,7 +52,8 @@ class CoarseDisplacements {
 
   CoarseKind kind() const { return kind_; }
   int unknowns() const { return unknowns_; }
-  std::size_t bytes() const;
+  std::size_t bytes() const;                                  // without the factor
+  std::size_t matrix_bytes() const { return matrix_bytes_; }  // of PᵀKP, gone with factorise()
   const MultifrontalFactor& factor() const { return factor_; }
 
  private:
@@ -84,6 +85,7 @@ class CoarseDisplacements {
 
   CoarseKind kind_;
   int unknowns_ = 0, first_trailing_ = 0;
+  std::size_t matrix_bytes_ = 0;
   std::vector<NodeUnknowns> unknown_;            // per node
   std::vector<int> frame_of_node_;               // row of frame_, or −1: x and y
   std::vector<Eigen::Matrix2d> frame_;           // columns n, t

@@ -57,6 +57,31 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
   EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
 }
 
+TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
+  namespace fs = std::filesystem;
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=1000 --repetitions=1 --out=o"), 0)
+      << complaint();
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=P2 --repetitions=1 --out=p"), 0) << complaint();
+  ASSERT_EQ(bench("merge --runs o p --out=deep/whole"), 0) << complaint();
+  const auto of_run = bench_.records("o"), of_whole = bench_.records("deep/whole");
+  ASSERT_EQ(of_whole.size(), of_run.size() + 1);
+  for (std::size_t i = 0; i < of_run.size(); ++i) {
+    EXPECT_EQ(of_whole[i]["mesh_file"], of_run[i]["mesh_file"]);
+    EXPECT_EQ(
+        sha256_of_file(bench_.path("deep/whole") / of_whole[i]["mesh_file"].get<std::string>()),
+        of_whole[i]["mesh_sha256"]);
+  }
+  EXPECT_EQ(of_whole.back()["mesh_file"], "Mesh0.msh");
+
+  fs::copy(bench_.path("o"), bench_.path("other"), fs::copy_options::recursive);
+  std::ofstream(bench_.path("other") / of_run[0]["mesh_file"].get<std::string>(), std::ios::app)
+      << "\n";
+  EXPECT_EQ(bench("merge --runs o other --out=no"), 2);
+  EXPECT_NE(complaint().find("two meshes that would be one file"), std::string::npos)
+      << complaint();
+  EXPECT_FALSE(fs::exists(bench_.path("no")));
+}
+
 TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
   ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=2500 --marking=1 --repetitions=1 --out=o"),
             0)
