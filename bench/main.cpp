@@ -19,6 +19,7 @@
 #include "bench/commands/track_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
+#include "bench/measuring/blas_kernels.hpp"
 #include "support/lack_of_memory.hpp"
 #include "support/standard_streams.hpp"
 
@@ -74,6 +75,7 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  airybench::restart_with_better_blas_core(argv);
   airybench::open_standard_streams();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
   if (const std::string lack = airybench::lack_of_address_space(1); !lack.empty())

@@ -1,9 +1,9 @@
 #include "solvers/condensation/symmlq_condensation.hpp"
 
-#include <Eigen/Cholesky>
 #include <memory>
 
 #include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/dense_cholesky.hpp"
 #include "solvers/krylov/symmetric_product.hpp"
 #include "solvers/preconditioners/drop_tolerance.hpp"
 
@@ -70,8 +70,7 @@ SchurFactor factor_schur(const DualSystem& system, const Preconditioner& S_star,
   SchurFactor factor;
   if (schur == SchurBlock::dense) {
     factor.dense = dense_schur(system, S_star, lanes, threads, deadline);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> in_place(factor.dense);
-    if (in_place.info() != Eigen::Success || !factor.dense.allFinite())
+    if (!factorise_in_place(factor.dense))
       throw Breakdown("SYMMLQ: the Schur block is not positive definite");
     return factor;
   }

@@ -1,11 +1,11 @@
 #include "solvers/contact/active_set.hpp"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/direct/dense_lu.hpp"
 
 namespace airybench {
 
@@ -43,7 +43,7 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   for (Eigen::Index k = 0; k < closed; ++k)
     if (ratio[k] != 0) matrix.col(k) += ratio[k] * D(row, row[k] + 1);
   const Eigen::VectorXd violation = r + D * (next - F);
-  const Eigen::VectorXd change = matrix.partialPivLu().solve(violation(row));
+  const Eigen::VectorXd change = solve_by_lu(std::move(matrix), violation(row));
   for (Eigen::Index k = 0; k < closed; ++k) {
     next(row[k]) -= change(k);
     if (ratio[k] != 0) next(row[k] + 1) -= ratio[k] * change(k);

@@ -1,10 +1,16 @@
 #include "solvers/direct/dense_cholesky.hpp"
 
+#include <cmath>
+
 #include "solvers/base/solution.hpp"
 
 // OpenBLAS has LAPACK in it, but brings no header for it.
-extern "C" void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride,
-                        int* info, std::size_t length_of_triangle);
+extern "C" {
+void dpotrf_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
+             std::size_t length_of_triangle);
+void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
+             std::size_t length_of_triangle);
+}
 
 namespace airybench {
 
@@ -13,6 +19,18 @@ Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::s
   if (llt.info() != Eigen::Success || !matrix.allFinite())
     throw Breakdown(name + " is not positive definite to rounding");
   return llt;
+}
+
+bool factorise_in_place(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> A) {
+  const auto n = static_cast<int>(A.rows()), stride = static_cast<int>(A.outerStride());
+  if (n == 0) return true;
+  if (n < 48) {  // where a call of LAPACK costs more than it saves
+    const Eigen::LLT<decltype(A)> in_place(A);
+    return in_place.info() == Eigen::Success && std::isfinite(A(n - 1, n - 1));
+  }
+  int info = 0;
+  dpotrf_("L", &n, A.data(), &stride, &info, 1);
+  return info == 0 && std::isfinite(A(n - 1, n - 1));
 }
 
 Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {

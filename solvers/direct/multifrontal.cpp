@@ -2,10 +2,10 @@
 
 #include <cblas.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/direct/dense_cholesky.hpp"
 #include "support/huge_pages.hpp"
 
 namespace airybench {
@@ -98,9 +98,7 @@ class Fronts {
 
   void factorise(const Front& front, Panel& panel, Panel& update) {
     const int pivots = front.pivots, below = front.below();
-    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> top = panel.topRows(pivots);
-    const Eigen::LLT<decltype(top)> cholesky(top);
-    if (cholesky.info() != Eigen::Success || !std::isfinite(top(pivots - 1, pivots - 1)))
+    if (!factorise_in_place(panel.topRows(pivots)))
       throw Breakdown(
           "multifrontal Cholesky: the matrix is not positive definite in the front at " +
           std::to_string(front.first + 1) + " of " + std::to_string(elimination_.place.size()) +

@@ -6,21 +6,18 @@
 #include <Eigen/QR>
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/scene.hpp"
 #include "assembly/stress_field.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::dual_system_test {
 namespace {
 
+using testing::posed;
 using testing::small_tooth;
-
-std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh) {
-  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
-}
 
 // The exact solution's Airy unknowns for φ given as a function with gradient.
 Eigen::VectorXd interpolate(const DualSystem& system,

@@ -1,16 +1,12 @@
-// The bench command from outside: exit codes, one-line complaints, output files.
+// The bench command from outside: exit codes, records, output files; plan_test.cpp, usage_test.cpp.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <set>
 #include <sstream>
 
 #include "bench/records/json.hpp"
-#include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
@@ -19,28 +15,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+using testing::lines_of;
 using Result = testing::CommandResult;
 
 std::string content(const fs::path& file) { return testing::text_of(file); }
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
 
 class Command : public ::testing::Test {
  protected:
   Result bench(const std::string& arguments) const {
     return testing::run_bench(folder_, arguments);
-  }
-  // Wrong usage: exit code 2, one line, no output folder.
-  void expect_usage_error(const std::string& arguments, const std::string& line) const {
-    const Result result = bench(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(result.err, "bench: " + line + "\n") << arguments;
-    EXPECT_FALSE(fs::exists(folder_ / "results")) << arguments;
   }
   fs::path file(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
@@ -127,79 +110,6 @@ TEST_F(Command, TakesAUsersMeshAndScene) {
   EXPECT_TRUE(record["coulomb_violation_N"].is_null());
 }
 
-#ifndef AIRYBENCH_SANITIZED  // which needs more address space than any limit
-TEST_F(Command, ALackOfMemoryIsNotWrongUsage) {
-  fs::create_directory(folder_ / "big");  // of its one line there is more than one copy
-  file("big/records.jsonl", R"({"mesh":")" + std::string(120'000'000, 'x') + "\"}\n");
-  const Result result =
-      testing::run_bench(folder_, "export big --format=junit", "ulimit -v 400000; ");
-  EXPECT_EQ(result.code, 3);
-  EXPECT_EQ(result.err, "bench: out of memory\n");
-}
-#endif
-
-TEST_F(Command, ListsPlansAndExplainsWithoutMeasuring) {
-  EXPECT_NE(bench("--list").out.find("*3STEPD "), std::string::npos);
-  const Result plan = bench("--mesh=Mesh0..Mesh7 --method='*' --dry-run");
-  EXPECT_EQ(plan.code, 0);
-  int rows = 0;
-  for (const std::string& line : lines_of(plan.out))
-    rows += line.starts_with("Mesh") && line.find("/default/") != line.npos &&
-            line[line.find(' ') - 1] != ':';  // which would be a limit that is passed
-  EXPECT_EQ(rows, static_cast<int>(8 * select_methods("*").size()));
-  EXPECT_NE(plan.out.find("\nthe run: "), std::string::npos);
-  EXPECT_NE(plan.out.find("no traction, no body force (in "), std::string::npos);
-  const Result limits =
-      bench("--mesh=Mesh7 --method=3STEPD --memory-limit=500 --timeout=1 --dry-run");
-  EXPECT_NE(limits.out.find("Mesh7/default/3STEPD: above --memory-limit=500"), std::string::npos);
-  EXPECT_NE(limits.out.find("Mesh7/default/3STEPD: above --timeout=1"), std::string::npos);
-  EXPECT_NE(bench("--mesh=Mesh7 --explain")
-                .out.find("] Mesh7/default/3STEPD  n_phi 50483, n_f 920, n_c 640\n"),
-            std::string::npos);
-  file("smooth.json", R"({"friction": 0})");
-  EXPECT_NE(bench("--mesh=Mesh0 --scene=smooth.json --explain").out.find("n_f 116, n_c 20\n"),
-            std::string::npos);  // as records say it
-  EXPECT_NE(bench("--mesh=Mesh0 --explain").out.find("left out  assemble F: no traction"),
-            std::string::npos);
-  EXPECT_EQ(bench("--help").code, 0);
-  EXPECT_EQ(bench("--version").code, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "results"));
-}
-
-TEST_F(Command, WrongUsageIsOneLineAndNothingIsWritten) {
-  const Result unknown = bench("--method=4STEP");
-  EXPECT_EQ(unknown.code, 2);
-  EXPECT_EQ(unknown.err.rfind("bench: no method matches '4STEP' (valid: SDTIC3, ", 0), 0u);
-  EXPECT_EQ(std::count(unknown.err.begin(), unknown.err.end(), '\n'), 1);
-  expect_usage_error("--mesh=nowhere.msh",
-                     "nowhere.msh: cannot be opened: No such file or directory");
-  expect_usage_error("--scene=nowhere.json",
-                     "nowhere.json: cannot be opened: No such file or directory");
-  file("bad.json", R"({"friction": -2})");
-  expect_usage_error("--scene=bad.json", "bad.json: friction: -2 (allowed: >= 0)");
-  file("four.json", R"({"teeth": 4})");
-  expect_usage_error("--mesh=Mesh0 --scene=four.json",
-                     "four.json: teeth: 4 contradicts the mesh Mesh0, which has 1 contact face(s)");
-  file("broken.msh", "hello\n");
-  expect_usage_error("--mesh=broken.msh",
-                     "broken.msh:1: not a mesh file: the first line must be $MeshFormat");
-  EXPECT_EQ(bench("--mesh=Mesh9").code, 2);
-  for (const char* arguments : {"--repetitions=0", "--repetitions=x", "--timeout=-1", "--threads=0",
-                                "--target-error=0", "--memory-limit=0", "--wrong", "extra"}) {
-    const Result result = bench(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_FALSE(fs::exists(folder_ / "results")) << arguments;
-  }
-}
-
-TEST_F(Command, AnOutputFolderThatCannotBeMadeIsNamed) {
-  file("taken", "a file");
-  const Result result = bench("--mesh=Mesh0 --repetitions=1 --out=taken/inside");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err, "bench: taken/inside: cannot be made a folder: Not a directory\n");
-}
-
 TEST_F(Command, HandsTheRestToGoogleBenchmark) {
   const Result result =
       bench("--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- --benchmark_filter=CHOLMOD");
@@ -224,81 +134,6 @@ TEST_F(Command, InterleavedRepetitionsAreAllRecorded) {
   EXPECT_EQ(large.size(), 6u);
   EXPECT_EQ(records["Mesh0"]["n_phi"], 761);
   EXPECT_EQ(records["Mesh3"]["n_phi"], 6287);
-}
-
-TEST_F(Command, ArgumentsThatCannotBeUsedLeaveEarlierResultsAlone) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
-  const auto all = [&] {
-    return content(folder_ / "o/records.jsonl") + content(folder_ / "o/results.csv") +
-           content(folder_ / "o/results.json");
-  };
-  const std::string before = all();
-  for (const char* arguments :
-       {"--no_such_option", "--benchmark_out=x", "--benchmark_report_aggregates_only=true",
-        "--benchmark_filter=NoSuchCase", "--benchmark_list_tests"}) {
-    const Result result =
-        bench(std::string("--mesh=Mesh0 --repetitions=1 --out=o -- ") + arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find("bench: "), std::string::npos) << result.err;
-    EXPECT_EQ(all(), before) << arguments;
-  }
-}
-
-// "Mesh0/default/3STEPD" of every line "[1/8] Mesh0/default/3STEPD  n_phi …".
-std::vector<std::string> planned(const std::string& text) {
-  std::vector<std::string> cases;
-  for (const std::string& line : lines_of(text)) {
-    if (!line.starts_with('[')) continue;
-    const std::size_t begin = line.find("] ") + 2;
-    cases.push_back(line.substr(begin, line.find("  n_phi") - begin));
-  }
-  return cases;
-}
-
-TEST_F(Command, AFigureIsExactlyItsMeshesAndMethods) {
-  std::vector<std::string> fourth, third;
-  for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2", "Mesh3", "Mesh4", "Mesh5", "Mesh6", "Mesh7"})
-    for (const char* method :
-         {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6", "SSKY", "3STEPD", "ALM", "BLIND"})
-      fourth.push_back(std::string(mesh) + "/default/" + method);
-  EXPECT_EQ(planned(bench("--figure=4 --explain").out), fourth);
-  EXPECT_EQ(planned(bench("--figure=5 --explain").out), fourth);
-  third = planned(bench("--figure=3 --explain").out);
-  EXPECT_EQ(third.size(), 36u);
-  EXPECT_EQ(std::set<std::string>(third.begin(), third.end()).size(), 36u);
-  for (const std::string& name : third)
-    EXPECT_TRUE(name.starts_with("Mesh3/default/SYMMLQ:") ||
-                name.starts_with("Mesh3/default/3STEPCG:"))
-        << name;
-}
-
-TEST_F(Command, WrongMethodsFiguresAndStopsAreOneLine) {
-  const std::pair<const char*, const char*> wrong[] = {
-      {"--figure=4 --mesh=Mesh0", "--mesh excludes --figure"},
-      {"--figure=4 --method=3STEPD", "--method excludes --figure"},
-      {"--figure=2", "--figure: "},
-      {"--stop=wrong", "--stop: wrong"},
-      {"--method=SYMMLQ:DTIC9", "'DTIC9' is no preconditioner (valid: DTIC3..DTIC6"},
-      {"--method=SYMMLQ:", "'' is no preconditioner"},
-      {"--method=ALM:r=0,rho=1", "r='0' (allowed: a number above 0)"},
-      {"--method=ALM:r=1", "rho='' (allowed: a number above 0)"},
-      {"--method=ALM:r=1,rho=inf", "rho='inf'"},
-      {"--method=ALM:r=1,rho=1,r=2", "'r' is there twice"},
-      {"--method=ALM:r=1,rho=1,s=2", "unknown option 's' (valid: r, rho)"},
-      {"--method=3STEPCG:DTIC3,lanes=3", "lanes=3 (allowed: 1, 16)"},
-      {"--method=3STEPCG:DTIC3,schur=sparse", "unknown option 'schur' (valid: lanes, refine)"},
-      {"--method=SYMMLQ:DTIC3,schur=x", "schur=x (allowed: dense, sparse)"},
-      {"--method=BLIND:DTIC3", "no method matches 'BLIND:DTIC3'"},
-      {"--method=3STEPD,,HYBRID", "no method matches ''"},
-  };
-  for (const auto& [arguments, line] : wrong) {
-    const Result result = bench(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(result.err.rfind("bench: ", 0), 0u) << result.err;
-    EXPECT_NE(result.err.find(line), std::string::npos) << arguments << ": " << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_FALSE(fs::exists(folder_ / "results")) << arguments;
-  }
 }
 
 TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
@@ -368,18 +203,6 @@ TEST_F(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
   // Without --append the folder holds what was run last.
   ASSERT_EQ(bench("--mesh=Mesh1 --method=HYBRID --repetitions=1 --out=o").code, 0);
   EXPECT_EQ(lines_of(content(folder_ / "o/records.jsonl")).size(), 1u);
-}
-
-TEST_F(Command, AppendToAMalformedFileIsRefusedBeforeAnythingIsRun) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
-  std::ofstream(folder_ / "o/records.jsonl", std::ios::app) << "{\"mesh\": \n";
-  const std::string before = content(folder_ / "o/records.jsonl");
-  const Result result = bench("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --append");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err.rfind("bench: o/records.jsonl:2: ", 0), 0u) << result.err;
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-  EXPECT_EQ(content(folder_ / "o/records.jsonl"), before);
-  EXPECT_EQ(lines_of(content(folder_ / "o/results.csv")).size(), 2u);
 }
 
 TEST_F(Command, ATimeoutTellsWhatWasDone) {

@@ -43,7 +43,7 @@ ROOMS = {
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
     # A benchmark by itself.
     "bench/kernels": ["solvers", "assembly", "mesh", "support"],
-    "bench": ["bench/commands", "bench/isolation", "support"],
+    "bench": ["bench/commands", "bench/isolation", "bench/measuring", "support"],
 }
 
 # Inside solvers/: what a folder may use besides itself and base; "table": the files of no folder.
@@ -54,7 +54,7 @@ FOLDERS_OF_SOLVERS = {
     "direct": [],
     "preconditioners": ["direct"],
     "krylov": ["preconditioners"],
-    "contact": [],
+    "contact": ["direct"],
     "condensation": ["direct", "preconditioners", "krylov", "contact"],
     "uzawa": ["direct", "contact", "condensation"],
     "displacement": [],

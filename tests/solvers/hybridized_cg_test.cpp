@@ -1,7 +1,6 @@
 // HYBRID:CG against HYBRID, the same discrete problem by a factor; how its iterations grow.
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/contact/condensed.hpp"
@@ -10,18 +9,16 @@
 #include "solvers/two_level/preconditioner.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::hybridized_cg_test {
 namespace {
 
+using testing::posed;
 using testing::small_rack;
 using testing::small_tooth;
-
-std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh) {
-  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
-}
 
 Solution solve(const char* method, const std::shared_ptr<const Problem>& problem,
                const RunControl& control = {}) {

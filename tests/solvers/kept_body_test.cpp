@@ -5,11 +5,10 @@
 
 #include <ostream>
 
-#include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/named_scenes.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::kept_body_test {
 
@@ -19,10 +18,7 @@ namespace {
 
 using testing::named_scenes;
 using testing::NamedScenes;
-
-std::shared_ptr<const Problem> posed(const Scene& scene, int nx = 6) {
-  return std::make_shared<const Problem>(pose(scene, testing::small_tooth(nx, 5)));
-}
+using testing::posed;
 
 NamedScenes load_cases() {
   return named_scenes({
@@ -102,7 +98,8 @@ TEST_P(KeptBody, RefusesAnotherBody) {
   Scene frictionless, softer;
   frictionless.friction = 0;
   softer.material.young_MPa /= 2;
-  for (const auto& problem : {posed({}, 7), posed(frictionless), posed(softer)}) {
+  for (const auto& problem :
+       {posed({}, testing::small_tooth(7, 5)), posed(frictionless), posed(softer)}) {
     const Solution refused = run(first.solve_again, assemble(problem, GetParam().blocks), {});
     EXPECT_EQ(refused.status, Status::crashed);
     EXPECT_NE(refused.message.find("of another body"), std::string::npos) << refused.message;

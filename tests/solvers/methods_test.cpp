@@ -5,21 +5,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <limits>
 #include <ostream>
-#include <set>
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/scene.hpp"
-#include "solvers/condensation/blind.hpp"
-#include "solvers/condensation/hybridized.hpp"
-#include "solvers/condensation/three_step.hpp"
-#include "solvers/direct/mumps.hpp"
-#include "solvers/direct/skyline.hpp"
-#include "solvers/preconditioners/preconditioner.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/method_names.hpp"
+#include "tests/support/named_scenes.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::methods_test {
@@ -28,11 +20,9 @@ void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 
 namespace {
 
+using testing::posed;
+using testing::scene_variants;
 using testing::small_tooth;
-
-std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh = small_tooth(6, 5)) {
-  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
-}
 
 std::vector<Method> kinds_of_methods() {
   std::vector<Method> kinds;
@@ -143,39 +133,6 @@ TEST_P(EveryKindOfMethod, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
   }
 }
 
-struct NamedScene {
-  std::string name;
-  Scene scene;
-};
-
-std::vector<NamedScene> scene_variants() {
-  const auto with = [](const char* name, auto change) {
-    Scene scene;
-    change(scene);
-    return NamedScene{name, scene};
-  };
-  return {
-      with("default", [](Scene&) {}),
-      with("frictionless", [](Scene& s) { s.friction = 0; }),
-      with("plane stress", [](Scene& s) { s.plane = Plane::stress; }),
-      with("body force",
-           [](Scene& s) {
-             s.body_force_N_per_mm3 = {3, -1};
-           }),
-      with("frictionless, body force",
-           [](Scene& s) {
-             s.friction = 0;
-             s.body_force_N_per_mm3 = {3, -1};
-           }),
-      with("flat face", [](Scene& s) { s.crown_radius_mm.reset(); }),
-      with("clearance", [](Scene& s) { s.clearance_mm = 0.005; }),
-      with("high friction", [](Scene& s) { s.friction = 5; }),
-      with("no load", [](Scene& s) { s.displacement_mm.setZero(); }),
-      with("nothing touches", [](Scene& s) { s.clearance_mm = 1; }),
-      with("pulled away", [](Scene& s) { s.displacement_mm.x() = -0.02; }),
-  };
-}
-
 TEST_P(EveryKindOfMethod, AgreesWithAnotherKindOfMethodOnEveryScene) {
   for (const auto& [name, scene] : scene_variants()) {
     const auto problem = posed(scene);
@@ -190,10 +147,10 @@ TEST_P(EveryKindOfMethod, AgreesWithAnotherKindOfMethodOnEveryScene) {
 
 TEST_P(EveryKindOfMethod, ScenesWithNoForceHaveNoStress) {
   for (const char* name : {"no load", "nothing touches", "pulled away"}) {
-    const std::vector<NamedScene> variants = scene_variants();
+    const testing::NamedScenes variants = scene_variants();
     const auto variant = std::find_if(variants.begin(), variants.end(),
-                                      [&](const NamedScene& v) { return v.name == name; });
-    const auto problem = posed(variant->scene);
+                                      [&](const auto& v) { return v.first == name; });
+    const auto problem = posed(variant->second);
     const Solution solution = solve(problem);
     EXPECT_TRUE(solution.F_C.isZero(0)) << name;
     EXPECT_LT(std::sqrt(stress_norm_squared(*problem, solution.stress)), 1e-9) << name;
@@ -297,226 +254,6 @@ TEST_P(EveryKindOfMethod, TooFewSweepsIsNotConverged) {
 }
 
 TEST_P(EveryKindOfMethod, CountsItsStorage) { EXPECT_GT(matrix_bytes(solve(posed({}))), 0u); }
-
-// Entries and flops of the factor or preconditioner; none where there is none.
-TEST(WorkCounts, AreThoseOfTheFactor) {
-  const DualSystem system = assemble(posed({}));
-  const auto counted = [&](const char* name) {
-    return run(select_methods(name).front(), system, {});
-  };
-  const SkylineProfile profile = analyse_skyline(system.S);
-  for (const char* name : {"3STEPD", "3STEPCG:SKY"}) {
-    EXPECT_EQ(counted(name).factor_entries, profile.profile) << name;
-    EXPECT_EQ(counted(name).factor_flops, profile.factor_flops) << name;
-  }
-  EXPECT_EQ(counted("3STEPCG:DTIC3").factor_flops, profile.factor_flops);  // then dropped
-  EXPECT_LT(counted("3STEPCG:DTIC3").factor_entries, profile.profile);
-  EXPECT_LT(counted("3STEPCG:FLIC1").factor_flops, counted("3STEPCG:FLIC3").factor_flops);
-  for (const char* name : {"3STEPD:CHOLMOD", "HYBRID", "P2", "BLIND"}) {
-    const Solution solution = counted(name);
-    EXPECT_GT(solution.factor_flops.value(), static_cast<double>(*solution.factor_entries)) << name;
-  }
-  EXPECT_TRUE(counted("BLIND").library_bytes);  // MUMPS's: in units of 10⁶, here 0
-  const Solution by_cholmod = counted("3STEPD:CHOLMOD");
-  EXPECT_GT(by_cholmod.library_bytes, 8 * *by_cholmod.factor_entries);
-  EXPECT_FALSE(counted("HYBRID").library_bytes);
-  EXPECT_FALSE(counted("3STEPCG:NONE").factor_entries);
-  EXPECT_FALSE(counted("3STEPCG:SSOR1.0").factor_flops);
-  EXPECT_FALSE(counted("3STEPD").library_bytes);
-}
-
-TEST(StageObservers, OfAllScopesAreToldInsideOut) {
-  struct Noting : StageObserver {
-    Noting(std::string name, std::string& seen) : name_(std::move(name)), seen_(seen) {}
-    void begins(Stage) override { seen_ += name_ + "("; }
-    void ends(Stage) override { seen_ += name_ + ")"; }
-    std::string name_;
-    std::string& seen_;
-  };
-  std::string seen;
-  Noting outer("o", seen), inner("i", seen);
-  StageTimes times;
-  const ObservedStages observed(&outer);
-  {
-    const ObservedStages too(&inner);
-    const StageTimer timer(times, Stage::factor);
-  }
-  const StageTimer timer(times, Stage::check);
-  EXPECT_EQ(seen, "i(o(i)o)o(");
-}
-
-TEST(Methods, SelectionByNamesAndGlobs) {
-  EXPECT_EQ(select_methods("3STEPD").size(), 1u);
-  std::set<std::string> identities;
-  for (const Method& method : methods()) identities.insert(method.identity());
-  EXPECT_EQ(select_methods("*").size(), identities.size());
-  EXPECT_EQ(select_methods("HYBRID,3STEPD").front().name, "3STEPD");  // in the table's order
-  EXPECT_EQ(select_methods("3STEPD,3STEP*,3STEPD").size(), select_methods("3STEP*").size());
-  try {
-    select_methods("3STEPD,4STEP");
-    FAIL() << "an unknown method was accepted";
-  } catch (const std::invalid_argument& error) {
-    std::string valid;
-    for (const Method& method : methods())
-      if (!is_general_name(method.name)) valid += (valid.empty() ? "" : ", ") + method.name;
-    EXPECT_EQ(error.what(), "no method matches '4STEP' (valid: " + valid +
-                                ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
-                                "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
-  }
-  EXPECT_THROW(select_methods(""), std::invalid_argument);
-}
-
-// What records and figures group methods by.
-TEST(Methods, EachSaysItsFamilyAndItsPreconditioner) {
-  const std::set<std::string> iterative = {"3STEPCG", "ALM", "HYBRID:CG", "SYMMLQ"},
-                              direct = {"3STEPD", "BLIND", "HYBRID", "P2"};
-  const std::vector<std::string>& known = preconditioner_names();
-  std::set<std::string> families;
-  for (const Method& method : methods()) {
-    families.insert(method.family);
-    EXPECT_EQ(method.is_iterative(), iterative.contains(method.family)) << method.name;
-    EXPECT_TRUE(method.identity().starts_with(method.family)) << method.name;
-    const bool has_one = method.family == "3STEPCG" || method.family == "SYMMLQ";
-    EXPECT_EQ(std::count(known.begin(), known.end(), method.preconditioner), has_one)
-        << method.name << ": " << method.preconditioner;
-    if (has_one) {
-      EXPECT_EQ(method.identity(), method.family + ":" + method.preconditioner);
-    }
-    EXPECT_EQ(std::count(method.stages.begin(), method.stages.end(), Stage::precondition),
-              has_one || method.family == "HYBRID:CG")
-        << method.name;
-  }
-  std::set<std::string> all = iterative;
-  all.insert(direct.begin(), direct.end());
-  EXPECT_EQ(families, all);
-}
-
-TEST(Methods, APreconditionerHasOneSpelling) {
-  for (const auto& [name, spelling] : {std::pair{"SYMMLQ:SSOR1", "SSOR1.0"},
-                                       {"SYMMLQ:SSOR1.00,schur=sparse", "SSOR1.0"},
-                                       {"3STEPCG:SSOR.7,lanes=1", "SSOR0.7"},
-                                       {"3STEPCG:DTIC3.0", "DTIC3"},
-                                       {"SSKY", "SKY"}})
-    EXPECT_EQ(select_methods(name).front().preconditioner, spelling) << name;
-}
-
-Method made_up(std::function<Solution(const DualSystem&, const RunControl&)> solve) {
-  Method method;
-  method.name = "MADE_UP";
-  method.blocks = Blocks::contact_points;
-  method.solve = std::move(solve);
-  return method;
-}
-
-TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
-  const DualSystem system = assemble(posed({}), Blocks::contact_points);
-  const auto status = [&](auto solve) { return run(made_up(solve), system, {}).status; };
-  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::bad_alloc(); }),
-            Status::out_of_memory);
-  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw Breakdown("x"); }), Status::breakdown);
-  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw TimeoutReached("x"); }), Status::timeout);
-  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::logic_error("x"); }), Status::crashed);
-  EXPECT_EQ(status([](auto&, auto&) { return Solution{}; }), Status::crashed);
-  const auto claim_success = [](auto change) {
-    return [=](const DualSystem& s, const RunControl&) {
-      Solution solution;
-      solution.status = Status::ok;
-      solution.F_C = Eigen::VectorXd::Zero(s.contact.size());
-      solution.stress.assign(s.problem->mesh.triangles.size(), ElementStress::Zero());
-      change(solution);
-      return solution;
-    };
-  };
-  EXPECT_EQ(status(claim_success([](Solution&) {})), Status::ok);
-  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C(1) = std::nan(""); })), Status::breakdown);
-  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress[3](1, 2) = INFINITY; })),
-            Status::breakdown);
-  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress.clear(); })), Status::breakdown);
-  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C.resize(1); })), Status::breakdown);
-}
-
-CondensedSystem three_step_condensed(const DualSystem& system) {
-  const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
-  return condense_in_three_steps(system,
-                                 [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); })
-      .condensed;
-}
-
-TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
-  const CondensedSystem condensed = three_step_condensed(assemble(posed({})));
-  EXPECT_EQ((condensed.D - condensed.D.transpose()).norm(), 0);
-  const Eigen::VectorXd eigenvalues =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(condensed.D).eigenvalues();
-  EXPECT_GT(eigenvalues(0), 1e-5 * eigenvalues(eigenvalues.size() - 1));
-}
-
-TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
-  for (const auto& [name, scene] : scene_variants()) {
-    const DualSystem system = assemble(posed(scene));
-    const CondensedSystem airy = three_step_condensed(system);
-    const HybridizedSystem hybrid = assemble_hybridized(*system.problem, system.contact);
-    StiffnessFactor factor;
-    factor.cholesky.analyse(hybrid.K, hybrid.n_c);
-    factor.cholesky.factor(hybrid.K);
-    factor.y = factor.cholesky.forward(hybrid.b);
-    const CondensedSystem other = condense(factor);
-    EXPECT_LT((airy.D - other.D).norm(), 1e-11 * other.D.norm()) << name;
-    EXPECT_LE((airy.G - other.G).norm(), 1e-11 * other.G.norm()) << name;
-  }
-}
-
-TEST(Condensation, BlindAndThreeStepGiveTheSameNumbers) {
-  for (const auto& [name, scene] : scene_variants()) {
-    const DualSystem system = assemble(posed(scene));
-    const CondensedSystem reference = three_step_condensed(system);
-    const auto expect_equal = [&, &label = name](const CondensedSystem& other, const char* how) {
-      EXPECT_LT((other.D - reference.D).norm(), 1e-10 * reference.D.norm()) << label << how;
-      EXPECT_LE((other.G - reference.G).norm(), 1e-10 * reference.G.norm()) << label << how;
-    };
-    const BlindSystem last = make_blind_system(system, BlindNumbering::multipliers_last);
-    MumpsFactor whole, partial;
-    whole.analyse(last.lower);
-    whole.factor(last.lower);
-    for (const int columns : {1, 7, 1000})
-      expect_equal(condense_blindly(
-                       system, last,
-                       [&](Eigen::Ref<Eigen::MatrixXd> X) { whole.solve_in_place(X); }, columns),
-                   ", solves");
-    partial.analyse(last.lower, system.n_c());
-    partial.factor(last.lower);
-    expect_equal(
-        condense_blindly(partial.schur(), partial.reduce(blind_right_hand_side(system, last, {}))),
-        ", Schur");
-    const BlindSystem mixed = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
-    const SkylineFactor factor = factor_ldlt(analyse_skyline(mixed.lower), mixed.lower);
-    expect_equal(
-        condense_blindly(
-            system, mixed, [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); }, 192),
-        ", skyline");
-  }
-}
-
-TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
-  DualSystem system = assemble(posed({}));
-  SparseRows doubled = system.C_F;
-  doubled.row(1) = doubled.row(0);
-  system.C_F = doubled;
-  const Solution solution = run(select_methods("3STEPD").front(), system, {});
-  EXPECT_EQ(solution.status, Status::breakdown);
-  EXPECT_EQ(solution.message, "three-step condensation: K_FF is not positive definite to rounding");
-}
-
-TEST(Condensation, NotFiniteInputIsABreakdown) {
-  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    for (const char* method : {"3STEPD", "3STEPD:CHOLMOD"}) {
-      DualSystem system = assemble(posed({}));
-      system.S.valuePtr()[5] = poison;
-      const Solution solution = run(select_methods(method).front(), system, {});
-      EXPECT_TRUE(solution.status == Status::breakdown || solution.status == Status::not_converged)
-          << method << ": " << name_of(solution.status);
-    }
-  }
-}
 
 }  // namespace
 }  // namespace airybench::methods_test

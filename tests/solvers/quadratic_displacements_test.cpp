@@ -5,20 +5,17 @@
 #include <gtest/gtest.h>
 
 #include "assembly/edge_forces.hpp"
-#include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::quadratic_displacements_test {
 namespace {
 
+using testing::posed;
 using testing::small_tooth;
 constexpr double young = 2000, poisson = 0.3;
-
-std::shared_ptr<const Problem> posed(const Scene& scene, Mesh mesh = small_tooth(6, 5)) {
-  return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
-}
 
 Solution solve(const std::shared_ptr<const Problem>& problem, const RunControl& control = {}) {
   return run(select_methods("P2").front(), assemble(problem, Blocks::contact_points), control);

@@ -19,4 +19,28 @@ inline NamedScenes named_scenes(
   return scenes;
 }
 
+// What a method must cope with: plane, friction, load, gap.
+inline NamedScenes scene_variants() {
+  return named_scenes({
+      {"default", [](Scene&) {}},
+      {"frictionless", [](Scene& s) { s.friction = 0; }},
+      {"plane stress", [](Scene& s) { s.plane = Plane::stress; }},
+      {"body force",
+       [](Scene& s) {
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"frictionless, body force",
+       [](Scene& s) {
+         s.friction = 0;
+         s.body_force_N_per_mm3 = {3, -1};
+       }},
+      {"flat face", [](Scene& s) { s.crown_radius_mm.reset(); }},
+      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
+      {"high friction", [](Scene& s) { s.friction = 5; }},
+      {"no load", [](Scene& s) { s.displacement_mm.setZero(); }},
+      {"nothing touches", [](Scene& s) { s.clearance_mm = 1; }},
+      {"pulled away", [](Scene& s) { s.displacement_mm.x() = -0.02; }},
+  });
+}
+
 }  // namespace airybench::testing

@@ -194,12 +194,33 @@ TEST_F(IsolationAtSize, AMemoryLimitIsARecord) {
   }
 }
 
-TEST_F(IsolationAtSize, ATimeLimitInItsIterationsIsARecord) {
-  // Time is up in the first of its stages that takes any.
+TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   options_.timeout_s = 0.1;
   const Record record = run_large(method_);
   EXPECT_EQ(record.status, Status::timeout);
   EXPECT_NE(record.status_reason.find("time limit"), std::string::npos) << record.status_reason;
+}
+
+TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
+  struct EndsTheTime : StageObserver {
+    RunControl& control;
+    explicit EndsTheTime(RunControl& of) : control(of) {}
+    void begins(Stage of) override {
+      if (of == Stage::contact) control.deadline = Deadline::after(0);
+    }
+    void ends(Stage) override {}
+  };
+  Method late = method_;
+  late.solve = [this](const DualSystem& system, const RunControl& control) {
+    RunControl own = control;
+    EndsTheTime ender(own);
+    const bool is_large = system.contact.count > 100;
+    const ObservedStages scope(is_large ? &ender : nullptr);
+    return method_.solve(system, own);
+  };
+  const Record record = run_large(late);
+  EXPECT_EQ(record.status, Status::timeout);
+  EXPECT_EQ(record.status_reason, "time limit reached during the active sets of the contact law");
 }
 
 TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {

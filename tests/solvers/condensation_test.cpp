@@ -1,0 +1,106 @@
+// D and G from the Airy system, blindly and in three steps, and from the hybridized one.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <limits>
+
+#include "solvers/condensation/blind.hpp"
+#include "solvers/condensation/hybridized.hpp"
+#include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/mumps.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/named_scenes.hpp"
+#include "tests/support/posed.hpp"
+
+namespace airybench::condensation_test {
+namespace {
+
+using testing::posed;
+using testing::scene_variants;
+
+CondensedSystem three_step_condensed(const DualSystem& system) {
+  const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
+  return condense_in_three_steps(system,
+                                 [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); })
+      .condensed;
+}
+
+TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
+  const CondensedSystem condensed = three_step_condensed(assemble(posed({})));
+  EXPECT_EQ((condensed.D - condensed.D.transpose()).norm(), 0);
+  const Eigen::VectorXd eigenvalues =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(condensed.D).eigenvalues();
+  EXPECT_GT(eigenvalues(0), 1e-5 * eigenvalues(eigenvalues.size() - 1));
+}
+
+TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
+  for (const auto& [name, scene] : scene_variants()) {
+    const DualSystem system = assemble(posed(scene));
+    const CondensedSystem airy = three_step_condensed(system);
+    const HybridizedSystem hybrid = assemble_hybridized(*system.problem, system.contact);
+    StiffnessFactor factor;
+    factor.cholesky.analyse(hybrid.K, hybrid.n_c);
+    factor.cholesky.factor(hybrid.K);
+    factor.y = factor.cholesky.forward(hybrid.b);
+    const CondensedSystem other = condense(factor);
+    EXPECT_LT((airy.D - other.D).norm(), 1e-11 * other.D.norm()) << name;
+    EXPECT_LE((airy.G - other.G).norm(), 1e-11 * other.G.norm()) << name;
+  }
+}
+
+TEST(Condensation, BlindAndThreeStepGiveTheSameNumbers) {
+  for (const auto& [name, scene] : scene_variants()) {
+    const DualSystem system = assemble(posed(scene));
+    const CondensedSystem reference = three_step_condensed(system);
+    const auto expect_equal = [&, &label = name](const CondensedSystem& other, const char* how) {
+      EXPECT_LT((other.D - reference.D).norm(), 1e-10 * reference.D.norm()) << label << how;
+      EXPECT_LE((other.G - reference.G).norm(), 1e-10 * reference.G.norm()) << label << how;
+    };
+    const BlindSystem last = make_blind_system(system, BlindNumbering::multipliers_last);
+    MumpsFactor whole, partial;
+    whole.analyse(last.lower);
+    whole.factor(last.lower);
+    for (const int columns : {1, 7, 1000})
+      expect_equal(condense_blindly(
+                       system, last,
+                       [&](Eigen::Ref<Eigen::MatrixXd> X) { whole.solve_in_place(X); }, columns),
+                   ", solves");
+    partial.analyse(last.lower, system.n_c());
+    partial.factor(last.lower);
+    expect_equal(
+        condense_blindly(partial.schur(), partial.reduce(blind_right_hand_side(system, last, {}))),
+        ", Schur");
+    const BlindSystem mixed = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
+    const SkylineFactor factor = factor_ldlt(analyse_skyline(mixed.lower), mixed.lower);
+    expect_equal(
+        condense_blindly(
+            system, mixed, [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); }, 192),
+        ", skyline");
+  }
+}
+
+TEST(Condensation, ConstraintsThatDependOnEachOtherAreABreakdown) {
+  DualSystem system = assemble(posed({}));
+  SparseRows doubled = system.C_F;
+  doubled.row(1) = doubled.row(0);
+  system.C_F = doubled;
+  const Solution solution = run(select_methods("3STEPD").front(), system, {});
+  EXPECT_EQ(solution.status, Status::breakdown);
+  EXPECT_EQ(solution.message, "three-step condensation: K_FF is not positive definite to rounding");
+}
+
+TEST(Condensation, NotFiniteInputIsABreakdown) {
+  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const char* method : {"3STEPD", "3STEPD:CHOLMOD"}) {
+      DualSystem system = assemble(posed({}));
+      system.S.valuePtr()[5] = poison;
+      const Solution solution = run(select_methods(method).front(), system, {});
+      EXPECT_TRUE(solution.status == Status::breakdown || solution.status == Status::not_converged)
+          << method << ": " << name_of(solution.status);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace airybench::condensation_test

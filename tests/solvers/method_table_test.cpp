@@ -1,0 +1,154 @@
+// What a method says of itself, how it is chosen, and what becomes of whatever it does.
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "solvers/direct/skyline.hpp"
+#include "solvers/methods.hpp"
+#include "solvers/preconditioners/preconditioner.hpp"
+#include "tests/support/posed.hpp"
+
+namespace airybench::method_table_test {
+namespace {
+
+using testing::posed;
+
+// Entries and flops of the factor or preconditioner; none where there is none.
+TEST(WorkCounts, AreThoseOfTheFactor) {
+  const DualSystem system = assemble(posed({}));
+  const auto counted = [&](const char* name) {
+    return run(select_methods(name).front(), system, {});
+  };
+  const SkylineProfile profile = analyse_skyline(system.S);
+  for (const char* name : {"3STEPD", "3STEPCG:SKY"}) {
+    EXPECT_EQ(counted(name).factor_entries, profile.profile) << name;
+    EXPECT_EQ(counted(name).factor_flops, profile.factor_flops) << name;
+  }
+  EXPECT_EQ(counted("3STEPCG:DTIC3").factor_flops, profile.factor_flops);  // then dropped
+  EXPECT_LT(counted("3STEPCG:DTIC3").factor_entries, profile.profile);
+  EXPECT_LT(counted("3STEPCG:FLIC1").factor_flops, counted("3STEPCG:FLIC3").factor_flops);
+  for (const char* name : {"3STEPD:CHOLMOD", "HYBRID", "P2", "BLIND"}) {
+    const Solution solution = counted(name);
+    EXPECT_GT(solution.factor_flops.value(), static_cast<double>(*solution.factor_entries)) << name;
+  }
+  EXPECT_TRUE(counted("BLIND").library_bytes);  // MUMPS's: in units of 10⁶, here 0
+  const Solution by_cholmod = counted("3STEPD:CHOLMOD");
+  EXPECT_GT(by_cholmod.library_bytes, 8 * *by_cholmod.factor_entries);
+  EXPECT_FALSE(counted("HYBRID").library_bytes);
+  EXPECT_FALSE(counted("3STEPCG:NONE").factor_entries);
+  EXPECT_FALSE(counted("3STEPCG:SSOR1.0").factor_flops);
+  EXPECT_FALSE(counted("3STEPD").library_bytes);
+}
+
+TEST(StageObservers, OfAllScopesAreToldInsideOut) {
+  struct Noting : StageObserver {
+    Noting(std::string name, std::string& seen) : name_(std::move(name)), seen_(seen) {}
+    void begins(Stage) override { seen_ += name_ + "("; }
+    void ends(Stage) override { seen_ += name_ + ")"; }
+    std::string name_;
+    std::string& seen_;
+  };
+  std::string seen;
+  Noting outer("o", seen), inner("i", seen);
+  StageTimes times;
+  const ObservedStages observed(&outer);
+  {
+    const ObservedStages too(&inner);
+    const StageTimer timer(times, Stage::factor);
+  }
+  const StageTimer timer(times, Stage::check);
+  EXPECT_EQ(seen, "i(o(i)o)o(");
+}
+
+TEST(Methods, SelectionByNamesAndGlobs) {
+  EXPECT_EQ(select_methods("3STEPD").size(), 1u);
+  std::set<std::string> identities;
+  for (const Method& method : methods()) identities.insert(method.identity());
+  EXPECT_EQ(select_methods("*").size(), identities.size());
+  EXPECT_EQ(select_methods("HYBRID,3STEPD").front().name, "3STEPD");  // in the table's order
+  EXPECT_EQ(select_methods("3STEPD,3STEP*,3STEPD").size(), select_methods("3STEP*").size());
+  try {
+    select_methods("3STEPD,4STEP");
+    FAIL() << "an unknown method was accepted";
+  } catch (const std::invalid_argument& error) {
+    std::string valid;
+    for (const Method& method : methods())
+      if (!is_general_name(method.name)) valid += (valid.empty() ? "" : ", ") + method.name;
+    EXPECT_EQ(error.what(), "no method matches '4STEP' (valid: " + valid +
+                                ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
+                                "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
+  }
+  EXPECT_THROW(select_methods(""), std::invalid_argument);
+}
+
+// What records and figures group methods by.
+TEST(Methods, EachSaysItsFamilyAndItsPreconditioner) {
+  const std::set<std::string> iterative = {"3STEPCG", "ALM", "HYBRID:CG", "SYMMLQ"},
+                              direct = {"3STEPD", "BLIND", "HYBRID", "P2"};
+  const std::vector<std::string>& known = preconditioner_names();
+  std::set<std::string> families;
+  for (const Method& method : methods()) {
+    families.insert(method.family);
+    EXPECT_EQ(method.is_iterative(), iterative.contains(method.family)) << method.name;
+    EXPECT_TRUE(method.identity().starts_with(method.family)) << method.name;
+    const bool has_one = method.family == "3STEPCG" || method.family == "SYMMLQ";
+    EXPECT_EQ(std::count(known.begin(), known.end(), method.preconditioner), has_one)
+        << method.name << ": " << method.preconditioner;
+    if (has_one) {
+      EXPECT_EQ(method.identity(), method.family + ":" + method.preconditioner);
+    }
+    EXPECT_EQ(std::count(method.stages.begin(), method.stages.end(), Stage::precondition),
+              has_one || method.family == "HYBRID:CG")
+        << method.name;
+  }
+  std::set<std::string> all = iterative;
+  all.insert(direct.begin(), direct.end());
+  EXPECT_EQ(families, all);
+}
+
+TEST(Methods, APreconditionerHasOneSpelling) {
+  for (const auto& [name, spelling] : {std::pair{"SYMMLQ:SSOR1", "SSOR1.0"},
+                                       {"SYMMLQ:SSOR1.00,schur=sparse", "SSOR1.0"},
+                                       {"3STEPCG:SSOR.7,lanes=1", "SSOR0.7"},
+                                       {"3STEPCG:DTIC3.0", "DTIC3"},
+                                       {"SSKY", "SKY"}})
+    EXPECT_EQ(select_methods(name).front().preconditioner, spelling) << name;
+}
+
+Method made_up(std::function<Solution(const DualSystem&, const RunControl&)> solve) {
+  Method method;
+  method.name = "MADE_UP";
+  method.blocks = Blocks::contact_points;
+  method.solve = std::move(solve);
+  return method;
+}
+
+TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
+  const DualSystem system = assemble(posed({}), Blocks::contact_points);
+  const auto status = [&](auto solve) { return run(made_up(solve), system, {}).status; };
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::bad_alloc(); }),
+            Status::out_of_memory);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw Breakdown("x"); }), Status::breakdown);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw TimeoutReached("x"); }), Status::timeout);
+  EXPECT_EQ(status([](auto&, auto&) -> Solution { throw std::logic_error("x"); }), Status::crashed);
+  EXPECT_EQ(status([](auto&, auto&) { return Solution{}; }), Status::crashed);
+  const auto claim_success = [](auto change) {
+    return [=](const DualSystem& s, const RunControl&) {
+      Solution solution;
+      solution.status = Status::ok;
+      solution.F_C = Eigen::VectorXd::Zero(s.contact.size());
+      solution.stress.assign(s.problem->mesh.triangles.size(), ElementStress::Zero());
+      change(solution);
+      return solution;
+    };
+  };
+  EXPECT_EQ(status(claim_success([](Solution&) {})), Status::ok);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C(1) = std::nan(""); })), Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress[3](1, 2) = INFINITY; })),
+            Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress.clear(); })), Status::breakdown);
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C.resize(1); })), Status::breakdown);
+}
+
+}  // namespace
+}  // namespace airybench::method_table_test
