@@ -61,25 +61,19 @@ def draw(rows: list[Row]) -> Figure | str:
         "(newton, whose steps are added), or iterations of ADMM. " +
         (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
          "the iterations or the time allowed." if failed else "All cases were solved.")])
-    panel = (PAGE_WIDTH - LEFT - 0.1 - GAP * (len(scenes) - 1)) / len(scenes)
+    xlim = log_limits([row.n_c for row in rows if row.n_c], 1.3)
     for k, (of, words) in enumerate(QUANTITIES):
-        values = [value for row in rows if (value := of(row))]
-        for j, (scene, own) in enumerate(scenes.items()):
-            axes = axes_at(figure, LEFT + j * (panel + GAP), TOP + k * (HEIGHT + GAP), panel,
-                           HEIGHT)
-            log_log(axes, xlim=log_limits([row.n_c for row in rows if row.n_c], 1.3),
-                    ylim=log_limits(values, 1.6))
-            axes.grid(which="major")
+        ylim = log_limits([value for row in rows if (value := of(row))], 1.6)
+        panels = parts.side_by_side(figure, ["" if k else scene for scene in scenes], LEFT,
+                                    TOP + k * (HEIGHT + GAP), HEIGHT, GAP)
+        for axes, own in zip(panels, scenes.values()):
+            log_log(axes, xlim=xlim, ylim=ylim)
             draw_solvers(axes, own, of)
-            if j:
-                axes.tick_params(labelleft=False)
-            else:
-                axes.set_ylabel(words)
-            if k == 0:
-                axes.set_title(plain(scene), pad=3)
-                axes.tick_params(labelbottom=False)
-            else:
+            if k:
                 axes.set_xlabel("contact forces $n_C$, 1")
+            else:
+                axes.tick_params(labelbottom=False)
+        panels[0].set_ylabel(words)
     for k, (solver, (colour, marker)) in enumerate(LOOKS.items()):
         figure.text((LEFT + 0.2 + 1.5 * k) / PAGE_WIDTH, 1 - 0.36 / figure.get_size_inches()[1],
                     plain(solver), color=colour, va="center", fontsize=9)
