@@ -2,8 +2,8 @@
 //
 // OpenBLAS chooses them when it is loaded, from a table of processors. One that is newer than the
 // library it takes for the oldest that it knows, Prescott of 2004 (0.3.21 does so on Emerald
-// Rapids): dgemm then has a third of its rate. OPENBLAS_CORETYPE, read at that moment only, overrules
-// the table.
+// Rapids): dgemm then has a third of its rate. OPENBLAS_CORETYPE, read at that moment only,
+// overrules the table.
 #pragma once
 
 #include <string>

@@ -20,9 +20,9 @@ using testing::write_text;
 TEST(Usage, ALackOfMemoryIsNotWrongUsage) {
   const BenchCommand bench;
   fs::create_directory(bench.path("big"));  // of its one line there is more than one copy
-  write_text(bench.path("big/records.jsonl"), R"({"mesh":")" + std::string(120'000'000, 'x') + "\"}\n");
-  const CommandResult result =
-      bench.run("export big --format=junit", "ulimit -v 400000; ");
+  write_text(bench.path("big/records.jsonl"),
+             R"({"mesh":")" + std::string(120'000'000, 'x') + "\"}\n");
+  const CommandResult result = bench.run("export big --format=junit", "ulimit -v 400000; ");
   EXPECT_EQ(result.code, 3);
   EXPECT_EQ(result.err, "bench: out of memory\n");
 }
@@ -124,7 +124,8 @@ TEST(Usage, AppendToAMalformedFileIsRefusedBeforeAnythingIsRun) {
   ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
   std::ofstream(bench.path("o/records.jsonl"), std::ios::app) << "{\"mesh\": \n";
   const std::string before = bench.content("o/records.jsonl");
-  const CommandResult result = bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --append");
+  const CommandResult result =
+      bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --append");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err.rfind("bench: o/records.jsonl:2: ", 0), 0u) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
