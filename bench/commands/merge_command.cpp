@@ -64,7 +64,8 @@ class OwnMeshes {
   void add(const std::string& path, const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) return;  // a run may have been kept without its meshes
     const auto [there, is_new] = files_.emplace(path, file);
-    if (!is_new && sha256_of_file(there->second) != sha256_of_file(file))
+    if (is_new || there->second == file) return;  // another case of the same run
+    if (sha256_of_file(there->second) != sha256_of_file(file))
       throw FileError(fmt::format("{} and {}: two meshes that would be one file of the whole",
                                   there->second.string(), file.string()));
   }

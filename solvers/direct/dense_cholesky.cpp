@@ -3,14 +3,7 @@
 #include <cmath>
 
 #include "solvers/base/solution.hpp"
-
-// OpenBLAS has LAPACK in it, but brings no header for it.
-extern "C" {
-void dpotrf_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
-             std::size_t length_of_triangle);
-void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
-             std::size_t length_of_triangle);
-}
+#include "solvers/direct/lapack.hpp"
 
 namespace airybench {
 

@@ -2,9 +2,7 @@
 
 #include <limits>
 
-// OpenBLAS has LAPACK in it, but brings no header for it.
-extern "C" void dgesv_(const int* n, const int* columns, double* matrix, const int* stride,
-                       int* pivots, double* right, const int* right_stride, int* info);
+#include "solvers/direct/lapack.hpp"
 
 namespace airybench {
 

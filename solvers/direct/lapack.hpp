@@ -1,0 +1,14 @@
+// What is used of LAPACK: OpenBLAS has it, but brings no header for it. Column by column, integers of
+// 32 bits; triangle "L": the lower one.
+#pragma once
+
+#include <cstddef>
+
+extern "C" {
+void dpotrf_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
+             std::size_t length_of_triangle);
+void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
+             std::size_t length_of_triangle);
+void dgesv_(const int* n, const int* columns, double* matrix, const int* stride, int* pivots,
+            double* right, const int* right_stride, int* info);
+}
