@@ -186,8 +186,8 @@ void expand(const cholmod_factor& supernodes, const Blocks& blocks, const std::v
       for (int place = start[rows[k]]; place < start[rows[k] + 1]; ++place)
         result.rows.push_back(place);
     front.rows = static_cast<int>(result.rows.size() - front.rows_at);
-    front.panel_at = result.panel_doubles;
-    result.panel_doubles += static_cast<std::size_t>(front.rows) * front.pivots;
+    front.panel_at = result.panel_entries;
+    result.panel_entries += static_cast<std::size_t>(front.rows) * front.pivots;
   }
 }
 

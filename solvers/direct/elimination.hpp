@@ -22,7 +22,7 @@ struct Front {
   int rows = 0;               // pivots and below, ascending
   std::vector<int> children;  // by index, in the order in which they are to be done
   std::vector<int> elements;  // whose first pivot is one of this front's
-  std::size_t panel_at = 0;   // rows × pivots doubles of the factor
+  std::size_t panel_at = 0;   // rows × pivots entries of the factor
   int below() const { return rows - pivots; }
   std::size_t update_doubles() const {  // of what it leaves to its parent
     return static_cast<std::size_t>(below()) * static_cast<std::size_t>(below());
@@ -35,7 +35,7 @@ struct Elimination {
   std::vector<int> order;  // of the fronts: every one after its children
   std::vector<int> rows;
   int trailing = 0;
-  std::size_t panel_doubles = 0;   // of all fronts
+  std::size_t panel_entries = 0;   // of all fronts
   std::size_t update_doubles = 0;  // most at a time, by the fronts' order
   std::int64_t entries() const;    // of L, with the zeros that supernodes store
   double flops() const;            // additions and multiplications, Σ (rows of a pivot)²

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "solvers/direct/dense_cholesky.hpp"
 #include "support/huge_pages.hpp"
@@ -12,7 +13,6 @@ namespace airybench {
 namespace {
 
 using Panel = Eigen::Map<Eigen::MatrixXd>;
-using ConstPanel = Eigen::Map<const Eigen::MatrixXd>;
 
 void add(int n, const double* __restrict from, double* __restrict to) {
   for (int i = 0; i < n; ++i) to[i] += from[i];
@@ -22,19 +22,19 @@ void add(int n, const double* __restrict from, double* __restrict to) {
 // children are done right before.
 class Fronts {
  public:
-  Fronts(const Elimination& elimination, const ElementMatrices& K, double* panels)
+  Fronts(const Elimination& elimination, const ElementMatrices& K)
       : elimination_(elimination),
         K_(K),
-        panels_(panels),
         waiting_(std::make_unique_for_overwrite<double[]>(elimination.update_doubles)),
         row_of_(elimination.place.size(), -1) {
     prefer_huge_pages(waiting_.get(), elimination.update_doubles * sizeof(double));
   }
 
-  void eliminate(const Front& front) {
+  // Into its columns of L.
+  void eliminate(const Front& front, double* columns) {
     const int* rows = elimination_.rows.data() + front.rows_at;
     for (int i = 0; i < front.rows; ++i) row_of_[rows[i]] = i;
-    Panel panel(panels_ + front.panel_at, front.rows, front.pivots);
+    Panel panel(columns, front.rows, front.pivots);
     Panel update(waiting_.get() + top_, front.below(), front.below());
     // Their lower triangles: nothing else is read.
     for (int j = 0; j < front.pivots; ++j) std::fill_n(&panel(j, j), front.rows - j, 0.0);
@@ -112,12 +112,156 @@ class Fronts {
 
   const Elimination& elimination_;
   const ElementMatrices& K_;
-  double* panels_;
   std::unique_ptr<double[]> waiting_;
   std::size_t top_ = 0;
   std::vector<int> row_of_;  // of a place, in the front at work
   std::vector<int> to_, run_end_;
 };
+
+template <typename Entry>
+std::unique_ptr<Entry[]> room_for(const Elimination& elimination) {
+  auto panels = std::make_unique_for_overwrite<Entry[]>(elimination.panel_entries);
+  prefer_huge_pages(panels.get(), elimination.panel_entries * sizeof(Entry));
+  return panels;
+}
+
+// Calls eliminate(front) on all of them.
+template <typename Eliminate>
+void visit_fronts(const Elimination& elimination, const Deadline& deadline, Eliminate eliminate) {
+  double since_asked = 0;
+  for (const int f : elimination.order) {
+    const Front& front = elimination.fronts[f];
+    eliminate(front);
+    since_asked += static_cast<double>(front.pivots) * front.rows * front.rows;
+    if (since_asked > 1e8) {
+      deadline.check("the factorisation");
+      since_asked = 0;
+    }
+  }
+}
+
+// Columns of L, four at a time: a solve reads all of L, and does little else.
+constexpr int abreast = 4;
+
+// y −= Σ_k x_k L_k.
+template <typename Entry>
+void subtract_columns(const Entry* L, int stride, int count, const double* x, int rows, double* y) {
+  if (count == abreast) {
+    const Entry *a = L, *b = a + stride, *c = b + stride, *d = c + stride;
+    for (int i = 0; i < rows; ++i)
+      y[i] -= (a[i] * x[0] + b[i] * x[1]) + (c[i] * x[2] + d[i] * x[3]);
+    return;
+  }
+  for (int k = 0; k < count; ++k, L += stride)
+    for (int i = 0; i < rows; ++i) y[i] -= L[i] * x[k];
+}
+
+// x_k −= L_k · y.
+template <typename Entry>
+void subtract_products(const Entry* L, int stride, int count, const double* y, int rows,
+                       double* x) {
+  constexpr int lanes = 4;
+  double sum[abreast][lanes] = {};
+  const int whole = rows / lanes * lanes;
+  if (count == abreast) {
+    const Entry *a = L, *b = a + stride, *c = b + stride, *d = c + stride;
+    for (int i = 0; i < whole; i += lanes)
+      for (int l = 0; l < lanes; ++l) {
+        sum[0][l] += a[i + l] * y[i + l];
+        sum[1][l] += b[i + l] * y[i + l];
+        sum[2][l] += c[i + l] * y[i + l];
+        sum[3][l] += d[i + l] * y[i + l];
+      }
+  } else {
+    for (int k = 0; k < count; ++k)
+      for (int i = 0; i < whole; i += lanes)
+        for (int l = 0; l < lanes; ++l)
+          sum[k][l] += L[static_cast<std::size_t>(k) * stride + i + l] * y[i + l];
+  }
+  for (int k = 0; k < count; ++k, L += stride) {
+    double of_column = (sum[k][0] + sum[k][1]) + (sum[k][2] + sum[k][3]);
+    for (int i = whole; i < rows; ++i) of_column += L[i] * y[i];
+    x[k] -= of_column;
+  }
+}
+
+// Of a front, those before `end`.
+int pivots_before(int end, const Front& front) {
+  return std::clamp(end - front.first, 0, front.pivots);
+}
+
+// y ← L⁻¹ y, in the factor's order, by the columns before `end`.
+template <typename Entry>
+void solve_forward(const Elimination& elimination, const Entry* panels, int end,
+                   Eigen::VectorXd& y) {
+  std::vector<double> of_front;  // its pivots and the rows below
+  for (const Front& front : elimination.fronts) {
+    const int pivots = pivots_before(end, front);
+    if (pivots == 0) continue;
+    const int* rows = elimination.rows.data() + front.rows_at;
+    of_front.assign(static_cast<std::size_t>(front.rows), 0.0);
+    double* x = of_front.data();
+    std::copy_n(y.data() + front.first, pivots, x);
+    const Entry* L = panels + front.panel_at;
+    for (int j = 0; j < pivots; j += abreast) {
+      const int count = std::min(abreast, pivots - j), after = j + count;
+      for (int k = j; k < after; ++k) {
+        const Entry* column = L + static_cast<std::size_t>(k) * front.rows;
+        x[k] /= column[k];
+        for (int i = k + 1; i < after; ++i) x[i] -= column[i] * x[k];
+      }
+      subtract_columns(L + static_cast<std::size_t>(j) * front.rows + after, front.rows, count,
+                       x + j, front.rows - after, x + after);
+    }
+    std::copy_n(x, pivots, y.data() + front.first);
+    for (int i = pivots; i < front.rows; ++i) y(rows[i]) += x[i];
+  }
+}
+
+// x ← L⁻ᵀ x, by the columns before `end`: what comes after them is x already.
+template <typename Entry>
+void solve_backward(const Elimination& elimination, const Entry* panels, int end,
+                    Eigen::VectorXd& of_all) {
+  std::vector<double> of_front;
+  for (std::size_t f = elimination.fronts.size(); f-- > 0;) {
+    const Front& front = elimination.fronts[f];
+    const int pivots = pivots_before(end, front);
+    if (pivots == 0) continue;
+    const int* rows = elimination.rows.data() + front.rows_at;
+    of_front.resize(static_cast<std::size_t>(front.rows));
+    double* x = of_front.data();
+    for (int i = 0; i < front.rows; ++i) x[i] = of_all(rows[i]);
+    const Entry* L = panels + front.panel_at;
+    for (int j = (pivots - 1) / abreast * abreast; j >= 0; j -= abreast) {
+      const int count = std::min(abreast, pivots - j), after = j + count;
+      subtract_products(L + static_cast<std::size_t>(j) * front.rows + after, front.rows, count,
+                        x + after, front.rows - after, x + j);
+      for (int k = after; k-- > j;) {
+        const Entry* column = L + static_cast<std::size_t>(k) * front.rows;
+        for (int i = k + 1; i < after; ++i) x[k] -= column[i] * x[i];
+        x[k] /= column[k];
+      }
+    }
+    std::copy_n(x, pivots, of_all.data() + front.first);
+  }
+}
+
+// L_CC of the last n unknowns.
+template <typename Entry>
+Eigen::MatrixXd trailing_columns(const Elimination& elimination, const Entry* panels) {
+  const int n = elimination.trailing;
+  const int first = static_cast<int>(elimination.place.size()) - n;
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+  for (const Front& front : elimination.fronts) {
+    const int* rows = elimination.rows.data() + front.rows_at;
+    const Entry* column = panels + front.panel_at;
+    for (int j = 0; j < front.pivots; ++j, column += front.rows)
+      if (front.first + j >= first)
+        for (int i = j; i < front.rows; ++i)
+          L(rows[i] - first, front.first + j - first) = column[i];
+  }
+  return L;
+}
 
 }  // namespace
 
@@ -126,19 +270,38 @@ void MultifrontalFactor::analyse(const ElementMatrices& K, int trailing) {
 }
 
 void MultifrontalFactor::factor(const ElementMatrices& K, const Deadline& deadline) {
-  panels_ = std::make_unique_for_overwrite<double[]>(elimination_.panel_doubles);
-  prefer_huge_pages(panels_.get(), elimination_.panel_doubles * sizeof(double));
-  Fronts fronts(elimination_, K, panels_.get());
-  double since_asked = 0;
-  for (const int f : elimination_.order) {
-    const Front& front = elimination_.fronts[f];
-    fronts.eliminate(front);
-    since_asked += static_cast<double>(front.pivots) * front.rows * front.rows;
-    if (since_asked > 1e8) {
-      deadline.check("the factorisation");
-      since_asked = 0;
-    }
+  rounded_.reset();
+  panels_ = room_for<double>(elimination_);
+  Fronts fronts(elimination_, K);
+  visit_fronts(elimination_, deadline, [&](const Front& front) {
+    fronts.eliminate(front, panels_.get() + front.panel_at);
+  });
+}
+
+void MultifrontalFactor::factor_rounded(const ElementMatrices& K, const Deadline& deadline) {
+  constexpr double most = 0.1;
+  panels_.reset();
+  rounded_ = room_for<float>(elimination_);
+  {
+    std::vector<double> columns;
+    Fronts fronts(elimination_, K);
+    visit_fronts(elimination_, deadline, [&](const Front& front) {
+      columns.resize(static_cast<std::size_t>(front.rows) * front.pivots);
+      fronts.eliminate(front, columns.data());
+      std::copy(columns.begin(), columns.end(), rounded_.get() + front.panel_at);
+    });
   }
+  if (!(error_in_soft_modes(K) <= most)) factor(K, deadline);
+}
+
+double MultifrontalFactor::error_in_soft_modes(const ElementMatrices& K) const {
+  std::mt19937 bits;
+  const Eigen::VectorXd r =
+      Eigen::VectorXd::NullaryExpr(K.order, [&] { return bits() < bits.max() / 2 ? -1.0 : 1.0; });
+  const Eigen::VectorXd z = backward(forward(r));
+  Eigen::VectorXd Kz = Eigen::VectorXd::Zero(K.order);
+  add_product(K, z, Kz);
+  return std::abs(1 - z.dot(Kz) / z.dot(r));
 }
 
 void MultifrontalFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X,
@@ -149,57 +312,34 @@ void MultifrontalFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X,
   }
 }
 
-Eigen::VectorXd MultifrontalFactor::forward(const Eigen::VectorXd& b) const {
-  Eigen::VectorXd y(b.size()), below;
+Eigen::VectorXd MultifrontalFactor::forward(const Eigen::VectorXd& b, Columns columns) const {
+  Eigen::VectorXd y(b.size());
   for (Eigen::Index i = 0; i < b.size(); ++i) y(elimination_.place[i]) = b(i);
-  for (const Front& front : elimination_.fronts) {
-    const ConstPanel panel(panels_.get() + front.panel_at, front.rows, front.pivots);
-    auto x = y.segment(front.first, front.pivots);
-    panel.topRows(front.pivots).triangularView<Eigen::Lower>().solveInPlace(x);
-    below.noalias() = panel.bottomRows(front.below()) * x;
-    const int* rows = elimination_.rows.data() + front.rows_at + front.pivots;
-    for (int i = 0; i < front.below(); ++i) y(rows[i]) -= below(i);
-  }
+  visit_panels([&](const auto* panels) { solve_forward(elimination_, panels, end(columns), y); });
   return y;
 }
 
-Eigen::VectorXd MultifrontalFactor::backward(const Eigen::VectorXd& z) const {
-  Eigen::VectorXd x = z, below;
-  for (std::size_t f = elimination_.fronts.size(); f-- > 0;) {
-    const Front& front = elimination_.fronts[f];
-    const ConstPanel panel(panels_.get() + front.panel_at, front.rows, front.pivots);
-    const int* rows = elimination_.rows.data() + front.rows_at + front.pivots;
-    below.resize(front.below());
-    for (int i = 0; i < front.below(); ++i) below(i) = x(rows[i]);
-    auto own = x.segment(front.first, front.pivots);
-    own.noalias() -= panel.bottomRows(front.below()).transpose() * below;
-    panel.topRows(front.pivots).triangularView<Eigen::Lower>().transpose().solveInPlace(own);
-  }
-  Eigen::VectorXd result(x.size());
+Eigen::VectorXd MultifrontalFactor::backward(const Eigen::VectorXd& z, Columns columns) const {
+  Eigen::VectorXd x = z, result(z.size());
+  visit_panels([&](const auto* panels) { solve_backward(elimination_, panels, end(columns), x); });
   for (Eigen::Index i = 0; i < x.size(); ++i) result(i) = x(elimination_.place[i]);
   return result;
 }
 
+int MultifrontalFactor::end(Columns columns) const {
+  const auto all = static_cast<int>(elimination_.place.size());
+  return columns == Columns::all ? all : all - elimination_.trailing;
+}
+
 Eigen::MatrixXd MultifrontalFactor::trailing_factor() const {
-  const int n = elimination_.trailing;
-  const int first = static_cast<int>(elimination_.place.size()) - n;
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
-  for (const Front& front : elimination_.fronts) {
-    const int* rows = elimination_.rows.data() + front.rows_at;
-    const double* column = panels_.get() + front.panel_at;
-    for (int j = 0; j < front.pivots; ++j, column += front.rows)
-      if (front.first + j >= first)
-        for (int i = j; i < front.rows; ++i)
-          L(rows[i] - first, front.first + j - first) = column[i];
-  }
-  return L;
+  return visit_panels([&](const auto* panels) { return trailing_columns(elimination_, panels); });
 }
 
 std::size_t MultifrontalFactor::bytes() const {
   std::size_t elements = 0;
   for (const Front& front : elimination_.fronts)
     elements += front.elements.size() + front.children.size();
-  return elimination_.panel_doubles * sizeof(double) +
+  return elimination_.panel_entries * (rounded() ? sizeof(float) : sizeof(double)) +
          elimination_.fronts.size() * (sizeof(Front) + sizeof(int)) +
          (elimination_.rows.size() + 2 * elimination_.place.size() + elements) * sizeof(int);
 }

@@ -1,4 +1,5 @@
 // HYBRID:CG: hybridized equilibrium elements, iteratively: two levels, active sets on K itself.
+#include <algorithm>
 #include <memory>
 #include <sstream>
 
@@ -16,7 +17,7 @@ struct KrylovBody {
   HybridizedSystem system;
   EdgeMatrix matrix;
   std::unique_ptr<TwoLevelPreconditioner> two_levels;
-  std::size_t matrix_bytes = 0;  // of K both ways
+  std::size_t coarse_matrix_bytes = 0;  // gone when the two levels are there
 };
 
 void note_rows(const RowsResult& rows, const RunControl& control, Solution& solution) {
@@ -38,7 +39,8 @@ void note_rows(const RowsResult& rows, const RunControl& control, Solution& solu
 void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {
   solution.parameters = std::string("coarse=") +
                         (coarse.kind() == CoarseKind::linear ? "linear" : "per-edge") + ", " +
-                        std::to_string(coarse.unknowns()) + " unknowns";
+                        std::to_string(coarse.unknowns()) + " unknowns" +
+                        (coarse.factor().rounded() ? ", factor rounded" : "");
 }
 
 // K is factorised nowhere: what is left of it is `matrix`, unless other loads come.
@@ -46,17 +48,20 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
                      Solution& solution) {
   const Problem& problem = *airy.problem;
   std::unique_ptr<CoarseDisplacements> coarse;
+  ElementMatrices coarse_matrix;
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body.system = assemble_hybridized(problem, airy.contact);
     body.matrix = make_edge_matrix(problem, body.system, control.threads);
-    body.matrix_bytes = body.system.bytes() + body.matrix.bytes();
     const OwnerScope scope(MemoryOwner::preconditioner);
     coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
                                                    coarse_kind_for(problem));
+    coarse_matrix = coarse->galerkin(problem, body.matrix, body.system);
+    if (!control.keep_body) body.system.K = {};
   });
-  control.deadline.check("the assembly of the hybridized system");
-  coarse->factorise(problem, body.system, body.matrix, control.deadline, solution.times);
-  if (!control.keep_body) body.system.K = {};
+  control.deadline.check("the assembly of the two levels");
+  body.coarse_matrix_bytes = coarse_matrix.bytes();
+  coarse->factorise(coarse_matrix, control.deadline, solution.times);
+  coarse_matrix = {};
   count_factor(coarse->factor(), solution);
   const OwnerScope scope(MemoryOwner::preconditioner);
   body.two_levels = std::make_unique<TwoLevelPreconditioner>(body.matrix, std::move(coarse));
@@ -64,8 +69,9 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
 
 void count_storage(const KrylovBody& body, const SlotSystem& slots, const RowsResult& rows,
                    Solution& solution) {
-  solution.storage[MemoryOwner::system_matrix] = body.matrix_bytes;
-  solution.storage[MemoryOwner::preconditioner] = body.two_levels->bytes();
+  solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
+  solution.storage[MemoryOwner::preconditioner] =
+      std::max(body.two_levels->bytes(), body.coarse_matrix_bytes);
   solution.storage[MemoryOwner::iteration] = slots.bytes() + rows.bytes;
 }
 
@@ -78,10 +84,10 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   note_parameters(M.coarse(), solution);
   M.times() = {};
   const Stage stage = has_contact ? Stage::contact : Stage::recover;
-  const SlotSystem slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+  SlotSystem slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
     return SlotSystem(problem, airy.contact, body.system, body.matrix);
   });
-  const RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+  RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
     return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control);
   });
   note_rows(rows, control, solution);
@@ -95,6 +101,8 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
     solution.F_C = project_on_coulomb(airy.contact, rows.F_C);
     const Eigen::VectorXd u =
         from_slots(body.matrix, body.system.unknown, rows.u, body.system.b.size());
+    rows.u.resize(0);
+    slots.drop_loads();
     solution.contact_displacement = u.tail(body.system.n_c);
     answer = recover_stresses(problem, body.system, u);
     solution.stress = std::move(answer.stress);

@@ -33,6 +33,7 @@ struct SlotSystem {
   SlotSystem(const Problem& problem, const ContactPoints& contact, const HybridizedSystem& system,
              const EdgeMatrix& K);
   Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const;  // in the rows of F_C
+  void drop_loads() { b = prescribed_u = K_times_u = Eigen::VectorXd(); }
   std::size_t bytes() const {
     return static_cast<std::size_t>(b.size() + prescribed_u.size() + K_times_u.size() +
                                     compliance.size()) *

@@ -195,26 +195,24 @@ ElementMatrices CoarseDisplacements::galerkin(const Problem& problem, const Edge
   return coarse;
 }
 
-void CoarseDisplacements::factorise(const Problem& problem, const HybridizedSystem& system,
-                                    const EdgeMatrix& K, const Deadline& deadline,
+void CoarseDisplacements::factorise(const ElementMatrices& coarse, const Deadline& deadline,
                                     StageTimes& times) {
-  const int trailing = unknowns_ - first_trailing_;
-  const ElementMatrices coarse = run_stage(times, Stage::precondition, MemoryOwner::preconditioner,
-                                           [&] { return galerkin(problem, K, system); });
-  matrix_bytes_ = coarse.bytes();
-  deadline.check("the coarse matrix");
-  run_stage(times, Stage::order, MemoryOwner::factor, [&] { factor_.analyse(coarse, trailing); });
+  constexpr std::int64_t cached = 4'000'000;  // entries of L: a solve reads all of them twice
+  run_stage(times, Stage::order, MemoryOwner::factor,
+            [&] { factor_.analyse(coarse, unknowns_ - first_trailing_); });
   deadline.check("the ordering of the coarse matrix");
   run_stage(times, Stage::factor, MemoryOwner::factor, [&] {
-    factor_.factor(coarse, deadline);
+    if (factor_.entries() > cached)
+      factor_.factor_rounded(coarse, deadline);
+    else
+      factor_.factor(coarse, deadline);
     const OwnerScope scope(MemoryOwner::preconditioner);
-    L_ = factor_.trailing_factor();
-    S_ = lower_of_product(L_);
+    S_ = lower_of_product(factor_.trailing_factor());
   });
 }
 
 void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
-  std::vector<bool> free(static_cast<std::size_t>(L_.rows()), true);
+  std::vector<bool> free(static_cast<std::size_t>(S_.rows()), true);
   for (BoundaryBlock& of : boundary_) {
     const auto found = held.find(of.block);
     of.held = found == held.end() ? std::array<bool, 4>{} : found->second;
@@ -304,19 +302,19 @@ void CoarseDisplacements::add_prolonged(const Eigen::VectorXd& v, Eigen::VectorX
 
 void CoarseDisplacements::correct(const Eigen::VectorXd& r, Eigen::VectorXd& x) const {
   if (unknowns_ == 0) return;
-  Eigen::VectorXd y = factor_.forward(restricted(r));
-  const Eigen::Index trailing = L_.rows();
-  if (static_cast<Eigen::Index>(free_.size()) < trailing) {
-    const auto L = L_.triangularView<Eigen::Lower>();
-    const Eigen::VectorXd load = L * y.tail(trailing);
-    Eigen::VectorXd u = Eigen::VectorXd::Zero(trailing);
-    if (!free_.empty()) {
-      const Eigen::VectorXd moved = on_free_.solve(Eigen::VectorXd(load(free_)));
-      u(free_) = moved;
-    }
-    y.tail(trailing) = L.transpose() * u;
+  using Columns = MultifrontalFactor::Columns;
+  const Eigen::Index trailing = S_.rows();
+  const Columns columns =
+      static_cast<Eigen::Index>(free_.size()) < trailing ? Columns::inner : Columns::all;
+  Eigen::VectorXd y = factor_.forward(restricted(r), columns);
+  if (columns == Columns::inner) {
+    auto last = y.tail(trailing);
+    Eigen::VectorXd u = last(free_);
+    if (!free_.empty()) on_free_.solveInPlace(u);
+    last.setZero();
+    last(free_) = u;
   }
-  add_prolonged(factor_.backward(y), x);
+  add_prolonged(factor_.backward(y, columns), x);
 }
 
 CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
@@ -352,21 +350,21 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
       points.gap.segment(m * point, m) += contact.gap.segment(m * p, m) / times[point];
   }
   // Columns: L⁻¹ N, N spreading a group's force evenly over its nodes.
-  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(L_.rows(), points.size());
+  const Eigen::MatrixXd L = factor_.trailing_factor();
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(L.rows(), points.size());
   for (std::size_t i = 0; i < met.size(); ++i)
     for (int k = 0; k < m; ++k) {
       const auto group = static_cast<int>(i) / in_group;
       N(unknown_[met[i]][k] - first_trailing_, m * group + k) = 1 / nodes[group];
     }
-  L_.triangularView<Eigen::Lower>().solveInPlace(N);
+  L.triangularView<Eigen::Lower>().solveInPlace(N);
   coarse.condensed.D.noalias() = N.transpose() * N;
-  coarse.condensed.G = -N.transpose() * factor_.forward(restricted(b)).tail(L_.rows());
+  coarse.condensed.G = -N.transpose() * factor_.forward(restricted(b)).tail(L.rows());
   return coarse;
 }
 
 std::size_t CoarseDisplacements::bytes() const {
-  return static_cast<std::size_t>(L_.size() + S_.size() + on_free_.rows() * on_free_.cols()) *
-             sizeof(double) +
+  return static_cast<std::size_t>(S_.size() + on_free_.rows() * on_free_.cols()) * sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
          block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +
          boundary_.size() * sizeof(BoundaryBlock);

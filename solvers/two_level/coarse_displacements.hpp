@@ -38,9 +38,12 @@ class CoarseDisplacements {
  public:
   CoarseDisplacements(const Problem& problem, const ContactPoints& contact, const EdgeMatrix& K,
                       CoarseKind kind);
-  // PᵀKP and its factor; stages order and factor. Throws Breakdown, TimeoutReached, std::bad_alloc.
-  void factorise(const Problem& problem, const HybridizedSystem& system, const EdgeMatrix& K,
-                 const Deadline& deadline, StageTimes& times);
+  // PᵀKP.
+  ElementMatrices galerkin(const Problem& problem, const EdgeMatrix& K,
+                           const HybridizedSystem& system) const;
+  // Its factor, a large one rounded; stages order and factor. Throws Breakdown, TimeoutReached,
+  // std::bad_alloc.
+  void factorise(const ElementMatrices& coarse, const Deadline& deadline, StageTimes& times);
 
   // Holds what these slots hold (per block, if any), and nothing else.
   void hold(const std::map<int, std::array<bool, 4>>& held);
@@ -52,8 +55,7 @@ class CoarseDisplacements {
 
   CoarseKind kind() const { return kind_; }
   int unknowns() const { return unknowns_; }
-  std::size_t bytes() const;                                  // without the factor
-  std::size_t matrix_bytes() const { return matrix_bytes_; }  // of PᵀKP, gone with factorise()
+  std::size_t bytes() const;  // without the factor
   const MultifrontalFactor& factor() const { return factor_; }
 
  private:
@@ -75,8 +77,6 @@ class CoarseDisplacements {
   Eigen::Matrix<double, 12, 6> prolongation(const Problem& problem, const EdgeMatrix& K,
                                             const HybridizedSystem& system, int t,
                                             const std::array<int, 3>& nodes) const;
-  ElementMatrices galerkin(const Problem& problem, const EdgeMatrix& K,
-                           const HybridizedSystem& system) const;
   // Calls visit(component) for those of a node that a direction has a part in.
   template <typename Visit>
   void visit_components(int node, const Eigen::Vector2d& direction, Visit visit) const;
@@ -85,7 +85,6 @@ class CoarseDisplacements {
 
   CoarseKind kind_;
   int unknowns_ = 0, first_trailing_ = 0;
-  std::size_t matrix_bytes_ = 0;
   std::vector<NodeUnknowns> unknown_;            // per node
   std::vector<int> frame_of_node_;               // row of frame_, or −1: x and y
   std::vector<Eigen::Matrix2d> frame_;           // columns n, t
@@ -94,9 +93,9 @@ class CoarseDisplacements {
   std::vector<BoundaryBlock> boundary_;
   std::vector<int> node_of_point_;  // per contact point
   MultifrontalFactor factor_;
-  Eigen::MatrixXd L_, S_;                // of the trailing unknowns, lower triangles: S = L Lᵀ
+  Eigen::MatrixXd S_;                    // Schur complement on trailing unknowns, lower triangle
   std::vector<int> free_;                // trailing unknowns that are not held, from the first on
-  Eigen::LLT<Eigen::MatrixXd> on_free_;  // of the Schur complement on them
+  Eigen::LLT<Eigen::MatrixXd> on_free_;  // of S's rows and columns of these
 };
 
 }  // namespace airybench

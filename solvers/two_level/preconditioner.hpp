@@ -25,7 +25,7 @@ class TwoLevelPreconditioner {
   void apply(const Eigen::VectorXd& r, Eigen::VectorXd& x);
   const CoarseDisplacements& coarse() const { return *coarse_; }
   IterationTimes& times() { return times_; }
-  std::size_t bytes() const;  // the most at a time, without the coarse factor
+  std::size_t bytes() const;  // without the coarse factor
 
  private:
   // x_i = K_ii⁻¹ (r_i − Σ K_ij x_j) over the blocks j before i, whose rest_ loses K_ji x_i.

@@ -18,13 +18,12 @@ struct Correction {
 };
 
 Correction solve_under(const SlotSystem& slots, const std::vector<PointLaw>& laws,
-                       const Eigen::VectorXd& load, TwoLevelPreconditioner& M,
-                       const Deadline& deadline) {
+                       Eigen::VectorXd load, TwoLevelPreconditioner& M, const Deadline& deadline) {
   const GmresOptions digits{.tolerance = 0.02, .most_iterations = 20, .threads = slots.K.threads};
   LinearisedContact linearised(slots, M);
   linearised.set(laws);
   Correction correction;
-  const GmresResult linear = linearised.solve(load, digits, deadline, correction.x);
+  const GmresResult linear = linearised.solve(std::move(load), digits, deadline, correction.x);
   Eigen::VectorXd Kx;
   slots.K.multiply(correction.x, Kx);
   correction.norm = std::sqrt(std::max(0.0, correction.x.dot(Kx))) +
@@ -49,26 +48,31 @@ void check_rows_answer(const Problem& problem, const SlotSystem& slots, const Ed
                        const UnbalancedForces& unbalanced, const std::vector<PointLaw>& laws,
                        TwoLevelPreconditioner& M, const RunControl& control, Solution& solution) {
   const LoadScale scale = load_scale(problem);
-  const Eigen::VectorXd d = to_slots(slots.K, unknown, unbalanced.defect),
-                        load = to_slots(slots.K, unknown, unbalanced.r) + d;
-  const Correction under_laws = solve_under(slots, laws, load, M, control.deadline);
-  const double squared =
-      unbalanced.defect_energy + under_laws.norm * under_laws.norm - 2 * under_laws.x.dot(d);
+  Eigen::VectorXd load = to_slots(slots.K, unknown, unbalanced.r);
+  double norm_under_laws, squared;
+  {
+    const Eigen::VectorXd d = to_slots(slots.K, unknown, unbalanced.defect);
+    load += d;
+    const Correction under_laws = solve_under(slots, laws, load, M, control.deadline);
+    *solution.linear_iterations += under_laws.iterations;
+    norm_under_laws = under_laws.norm;
+    squared =
+        unbalanced.defect_energy + norm_under_laws * norm_under_laws - 2 * under_laws.x.dot(d);
+  }
   const double stress =
       safety * std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
   double estimate = std::max(
       relative_error(unbalanced.r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N),
       relative_error(stress, std::sqrt(stress_norm_squared(problem, solution.stress)),
                      scale.energy_norm));
-  *solution.linear_iterations += under_laws.iterations;
   if (slots.contact.count > 0) {
     const std::vector<PointLaw> open(laws.size());
-    const Correction held = solve_under(slots, open, load, M, control.deadline);
+    const Correction held = solve_under(slots, open, std::move(load), M, control.deadline);
     *solution.linear_iterations += held.iterations;
     const Eigen::VectorXd u_C = solution.contact_displacement + slots.of_contact(held.x);
     const double map = natural_map(slots.contact, slots.compliance, solution.F_C, u_C).norm();
     estimate = std::max({estimate,
-                         relative_error(safety * (under_laws.norm + held.norm),
+                         relative_error(safety * (norm_under_laws + held.norm),
                                         norm_from_below(slots, solution.F_C, M), scale.energy_norm),
                          relative_error(2 * map, solution.F_C.norm(), scale.force_N)});
   }

@@ -158,6 +158,54 @@ TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   EXPECT_LT((dense(K) * x.col(0) - Eigen::VectorXd::Ones(K.order)).norm(), 1e-12);
 }
 
+// Solves with a rounded factor are those of a symmetric matrix near K.
+TEST(Multifrontal, RoundedHalfTheMemoryAndSymmetric) {
+  const ElementMatrices K = grid_elements(12);
+  const Eigen::MatrixXd A = dense(K);
+  MultifrontalFactor cholesky, rounded;
+  for (MultifrontalFactor* factor : {&cholesky, &rounded}) factor->analyse(K, 7);
+  cholesky.factor(K);
+  rounded.factor_rounded(K);
+  ASSERT_TRUE(rounded.rounded());
+  EXPECT_FALSE(cholesky.rounded());
+  EXPECT_EQ(rounded.entries(), cholesky.entries());
+  EXPECT_LE(rounded.bytes() + static_cast<std::size_t>(rounded.entries()) * sizeof(float),
+            cholesky.bytes());
+  EXPECT_LT((rounded.trailing_factor() - cholesky.trailing_factor()).norm(),
+            1e-7 * cholesky.trailing_factor().norm());
+  Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(K.order, K.order);
+  rounded.solve_in_place(inverse);
+  EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-13 * inverse.norm());
+  const double error = (A * inverse - Eigen::MatrixXd::Identity(K.order, K.order)).norm();
+  EXPECT_GT(error, 1e-8);  // it is rounded
+  EXPECT_LT(error, 1e-3);
+}
+
+// Unknowns tied together far more stiffly than they are held: what holds them is lost in rounding.
+TEST(Multifrontal, NotRoundedWhereSoftModesWouldSuffer) {
+  for (const auto& [stiffness, rounds] : {std::pair{1e2, true}, {1e15, false}}) {
+    ElementMatrices K = grid_elements(4);
+    for (int u = 0; u + 1 < K.order; ++u) {
+      ElementMatrices::Unknowns pair;
+      pair.fill(-1);
+      pair[0] = u;
+      pair[1] = u + 1;
+      ElementMatrices::Matrix spring = ElementMatrices::Matrix::Zero();
+      const double k = stiffness * (1 + 0.1 * std::sin(u));
+      spring.topLeftCorner<2, 2>() << k, -k, -k, k;
+      K.add(pair, {0, 0}, spring);
+    }
+    MultifrontalFactor cholesky;
+    cholesky.analyse(K);
+    cholesky.factor_rounded(K);
+    EXPECT_EQ(cholesky.rounded(), rounds) << stiffness;
+    Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
+    cholesky.solve_in_place(x);
+    EXPECT_NEAR(x.sum() / dense(K).llt().solve(Eigen::VectorXd::Ones(K.order)).sum(), 1, 0.1)
+        << stiffness;
+  }
+}
+
 TEST(Multifrontal, IndefiniteNaNAndTimeAreSaid) {
   for (const double poison : {-1e3, std::nan("")}) {
     ElementMatrices K = grid_elements(4);
