@@ -5,6 +5,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/scene.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::boundary_values_test {
@@ -71,7 +72,7 @@ TEST(BoundaryValues, ARollersTangentialForcesAreRowsOfTheForcesThatAreKnown) {
   Scene scene;
   const Mesh mesh = testing::small_block(4, 3, 0);  // three edges at the root, four at the bottom
   const auto rows = [&] {
-    const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
+    const auto problem = testing::posed(scene, mesh);
     const DualSystem system = assemble(problem);
     return std::pair(system.n_f(), system.n_c());
   };
@@ -83,7 +84,7 @@ TEST(BoundaryValues, ARollersTangentialForcesAreRowsOfTheForcesThatAreKnown) {
   for (BoundaryEdge& edge : held.boundary)
     if (boundary_label(held, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
   scene.boundary["displacement:bottom"].support = Support::normal;
-  const auto problem = std::make_shared<const Problem>(pose(scene, held));
+  const auto problem = testing::posed(scene, held);
   EXPECT_EQ(assemble(problem).n_f(), 4 * 4 + 2 * 3 + 2 * 3 + 2 * 4);
 }
 

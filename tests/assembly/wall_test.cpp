@@ -9,6 +9,7 @@
 #include "assembly/dual_system.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/scene.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::wall_test {
@@ -156,7 +157,7 @@ TEST(Wall, ContactGroupsHaveTheirOwnWallFrictionAndClearance) {
   own.friction = 0;
   own.clearance_mm = 0.25;
   own.wall = FlatWall{{10.5, 0}, {-1, 0}};
-  const DualSystem system = assemble(std::make_shared<const Problem>(pose(scene, block)));
+  const DualSystem system = assemble(testing::posed(scene, block));
   EXPECT_EQ(system.contact.components, 2);
   int of_upper = 0;
   for (int p = 0; p < system.contact.count; ++p) {

@@ -8,6 +8,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/dense_operators.hpp"
 #include "tests/support/named_scenes.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::accelerated_lagrangian_test {
@@ -17,7 +18,7 @@ using testing::named_scenes;
 using testing::NamedScenes;
 
 DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6, 5)) {
-  return assemble(std::make_shared<const Problem>(pose(scene, std::move(mesh))));
+  return assemble(testing::posed(scene, std::move(mesh)));
 }
 
 Solution solve(const DualSystem& system, const RunControl& control = {},

@@ -9,6 +9,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::airy_refinement_test {
@@ -22,7 +23,7 @@ struct Dense {
   Eigen::PartialPivLU<MatrixXd> factors;
 
   explicit Dense(const Scene& scene)
-      : system(assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(4, 3))))) {
+      : system(assemble(testing::posed(scene, testing::small_tooth(4, 3)))) {
     const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
     MatrixXd C(n_f + n_c, n);
     C << MatrixXd(system.C_F), MatrixXd(system.C_C);

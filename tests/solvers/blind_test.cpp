@@ -7,6 +7,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::blind_test {
@@ -16,7 +17,7 @@ DualSystem system_of(double friction = 0.2) {
   Scene scene;
   scene.friction = friction;
   scene.body_force_N_per_mm3 = {3, -1};  // all parts of the load
-  return assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5))));
+  return assemble(testing::posed(scene, testing::small_tooth(6, 5)));
 }
 
 // Unknowns of φ in row k of [C_F; C_C].

@@ -10,6 +10,7 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -60,7 +61,7 @@ class FileSizeLimit {
 };
 
 DualSystem system_of(const Scene& scene = {}) {
-  return assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5))));
+  return assemble(testing::posed(scene, testing::small_tooth(6, 5)));
 }
 
 Solution solve(const char* method, const DualSystem& system) {

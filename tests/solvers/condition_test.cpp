@@ -10,6 +10,7 @@
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::condition_test {
 namespace {
@@ -82,7 +83,7 @@ TEST(ConditionEstimate, ASingularMatrixIsInfinite) {
 // about 1e4 on Mesh0 (docs/theory.md, section 16).
 TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
   const Mesh mesh = testing::catalogue_mesh("Mesh0");
-  const auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh));
+  const auto problem = testing::posed(Scene{}, mesh);
   const DualSystem system = assemble(problem);
   RunControl control;
   control.condition = true;

@@ -10,6 +10,7 @@
 #include "solvers/preconditioners/fill_level.hpp"
 #include "solvers/preconditioners/ssor.hpp"
 #include "tests/support/dense_operators.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::preconditioners_test {
@@ -23,8 +24,7 @@ Eigen::MatrixXd whole(const SparseColumns& lower) {
 
 // S of a small tooth.
 const SparseColumns& tooth() {
-  static const SparseColumns S =
-      assemble(std::make_shared<const Problem>(pose(Scene{}, small_tooth(6, 5)))).S;
+  static const SparseColumns S = assemble(testing::posed(Scene{}, small_tooth(6, 5))).S;
   return S;
 }
 

@@ -15,6 +15,7 @@
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::product_test {
@@ -40,8 +41,7 @@ const DualSystem& system_of(const std::string& mesh, Blocks blocks = Blocks::air
   static std::map<std::pair<std::string, Blocks>, DualSystem> systems;
   const auto key = std::pair(mesh, blocks);
   if (!systems.contains(key))
-    systems.emplace(
-        key, assemble(std::make_shared<const Problem>(pose(Scene{}, mesh_named(mesh))), blocks));
+    systems.emplace(key, assemble(testing::posed(Scene{}, mesh_named(mesh)), blocks));
   return systems.at(key);
 }
 

@@ -9,6 +9,7 @@
 #include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::skyline_test {
 namespace {
@@ -68,7 +69,7 @@ TEST(Skyline, CountsTheClassicalProfile) {
 }
 
 TEST(Skyline, PaddingOfAFiniteElementMatrixStaysSmall) {
-  const auto problem = std::make_shared<const Problem>(pose({}, testing::catalogue_mesh("Mesh5")));
+  const auto problem = testing::posed({}, testing::catalogue_mesh("Mesh5"));
   const DualSystem system = assemble(problem);
   const SkylineProfile profile = analyse_skyline(system.S);
   EXPECT_LT(static_cast<double>(profile.stored), 1.4 * static_cast<double>(profile.profile));

@@ -7,6 +7,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "tests/support/krylov_checks.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::symmlq_test {
@@ -211,7 +212,7 @@ struct Saddle {
   Saddle() {
     Scene scene;
     scene.body_force_N_per_mm3 = {3, -1};
-    system = assemble(std::make_shared<const Problem>(pose(scene, small_tooth(6, 5))));
+    system = assemble(testing::posed(scene, small_tooth(6, 5)));
     n = system.n(), m = system.n_f() + system.n_c();
   }
   Eigen::MatrixXd dense() const {

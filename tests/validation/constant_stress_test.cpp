@@ -16,6 +16,7 @@
 #include "bench/judging/verifier.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::constant_stress_test {
@@ -137,8 +138,8 @@ TEST_P(ConstantStress, IsExactWhateverTheWallDoes) {
   const Method& method = GetParam();
   for (const Block& block : blocks()) {
     const Exact exact(block);
-    const auto problem = std::make_shared<const Problem>(
-        pose(scene_of(block, exact), testing::small_block(4, 4, block.turn)));
+    const auto problem =
+        testing::posed(scene_of(block, exact), testing::small_block(4, 4, block.turn));
     const DualSystem system = assemble(problem, method.blocks);
     const Solution solution = run(method, system, control_of(method));
     ASSERT_EQ(solution.status, Status::ok) << block.what << ": " << solution.message;
@@ -175,7 +176,7 @@ TEST_P(ConstantStress, IsExactBetweenTwoRollersAndAWall) {
       scene.boundary["displacement:root"].support = BoundaryValues::Support::normal;
       scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
       scene.boundary["force:top"].pressure_MPa = LinearValue<double>{{q, q}};
-      const auto problem = std::make_shared<const Problem>(pose(scene, mesh));
+      const auto problem = testing::posed(scene, mesh);
       const DualSystem system = assemble(problem, method.blocks);
       if (method.blocks == Blocks::airy) {
         EXPECT_EQ(solved_sizes(*problem).n_f, system.n_f());

@@ -18,6 +18,7 @@
 #include "solvers/methods.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::contact_cases_test {
 namespace {
@@ -52,8 +53,8 @@ struct Face {
   Face(const char* mesh, const char* scene_name, int refined) {
     Scene scene = read_scene(testing::test_data(std::string("validation/") + scene_name + ".json"));
     scene.mesh.refine = refined;
-    problem = std::make_shared<const Problem>(
-        pose(scene, read_msh(testing::test_data(std::string("validation/") + mesh + ".msh"))));
+    problem = testing::posed(
+        scene, read_msh(testing::test_data(std::string("validation/") + mesh + ".msh")));
     system = assemble(problem, Blocks::contact_points);
     RunControl control;
     control.contact_sweeps = 50;  // then active sets

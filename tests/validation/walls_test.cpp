@@ -9,6 +9,7 @@
 #include "bench/judging/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::walls_test {
@@ -21,7 +22,7 @@ struct Solved {
   Solution solution;
 
   Solved(const Scene& scene, const Mesh& mesh, const char* method)
-      : system(assemble(std::make_shared<const Problem>(pose(scene, mesh)))),
+      : system(assemble(testing::posed(scene, mesh))),
         solution(run(select_methods(method).front(), system, {})) {
     EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
   }

@@ -10,6 +10,7 @@
 #include "support/errors.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::adaptive_loop_test {
@@ -175,8 +176,7 @@ TEST(AdaptiveLoop, EnergiesOfAllLevelsAreBracketedAndTheBoundIsNearP2s) {
   AdaptiveLoop loop(scene, testing::catalogue_mesh("Mesh0"), hybrid(), until(0.006));
   double highest_lower = -1e9, lowest_upper = 1e9;
   for (const AdaptiveLevel& level : levels_of(loop)) {
-    const DualSystem system =
-        assemble(std::make_shared<const Problem>(pose(scene, level.mesh)), Blocks::contact_points);
+    const DualSystem system = assemble(testing::posed(scene, level.mesh), Blocks::contact_points);
     const Solution own = run(hybrid(), system, {}),
                    p2 = run(select_methods("P2").front(), system, {});
     const ConstitutiveError error =

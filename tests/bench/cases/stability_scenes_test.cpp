@@ -5,6 +5,7 @@
 #include "bench/judging/reference.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::stability_scenes_test {
 namespace {
@@ -33,8 +34,7 @@ TEST(StabilityScenes, AllCanBeReadAndPosed) {
 
 Reference reference_of(const std::string& scene) {
   return compute_reference(
-      assemble(std::make_shared<const Problem>(
-                   pose(read_scene(folder / (scene + ".json")), catalogue_mesh("Mesh0"))),
+      assemble(testing::posed(read_scene(folder / (scene + ".json")), catalogue_mesh("Mesh0")),
                Blocks::contact_points));
 }
 

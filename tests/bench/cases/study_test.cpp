@@ -17,6 +17,7 @@
 #include "bench/running/runner.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -26,8 +27,7 @@ namespace {
 Method method(const std::string& name) { return select_methods(name).front(); }
 
 std::shared_ptr<const Problem> mesh0() {
-  static const auto problem =
-      std::make_shared<const Problem>(pose(Scene(), testing::catalogue_mesh("Mesh0")));
+  static const auto problem = testing::posed(Scene(), testing::catalogue_mesh("Mesh0"));
   return problem;
 }
 

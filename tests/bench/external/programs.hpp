@@ -11,6 +11,7 @@
 #include "bench/cases/scene_file.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::testing {
 
@@ -28,7 +29,7 @@ struct RightAnswer {
 };
 
 inline RightAnswer right_answer(const Scene& scene = {}) {
-  const auto problem = std::make_shared<const Problem>(pose(scene, catalogue_mesh("Mesh0")));
+  const auto problem = testing::posed(scene, catalogue_mesh("Mesh0"));
   const DualSystem system = assemble(problem);
   const Solution found = run(select_methods("3STEPD").front(), system, {});
   RightAnswer right;

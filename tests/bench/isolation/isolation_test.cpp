@@ -17,6 +17,7 @@
 #include "bench/running/runner.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -64,7 +65,7 @@ class Isolation : public ::testing::Test {
     options_.repetitions = 2;
     options_.target_error = 1e-6;
     posed_.scene_name = "default";
-    posed_.problem = std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(4, 3)));
+    posed_.problem = testing::posed(Scene{}, testing::small_tooth(4, 3));
   }
   const testing::TemporaryFolder folder_;
   Options options_;
@@ -165,7 +166,7 @@ class IsolationAtSize : public Isolation {
     for (int level = 0; level < 3; ++level) mesh = uniformly_refined(mesh);
     mesh.name = "large";
     large_.scene_name = "default";
-    large_.problem = std::make_shared<const Problem>(pose(Scene{}, std::move(mesh)));
+    large_.problem = testing::posed(Scene{}, std::move(mesh));
     options_.repetitions = 1;
   }
   // Of the large body; the small one is solved after it.

@@ -10,6 +10,7 @@
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::answer_hash_test {
 namespace {
@@ -30,7 +31,7 @@ TEST(AnswerHash, IsTheSameForMethodsAndDiffersBetweenProblems) {
       Scene scene;
       scene.friction = friction;
       const Mesh mesh = testing::catalogue_mesh(name);
-      const DualSystem system = assemble(std::make_shared<const Problem>(pose(scene, mesh)));
+      const DualSystem system = assemble(testing::posed(scene, mesh));
       std::set<std::string> of_methods;
       for (const Method& method : select_methods("3STEPD,BLIND,HYBRID")) {
         const Solution solution = run(method, system, {});

@@ -10,6 +10,7 @@
 #include "mesh/refinement.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::contact_intervals_test {
@@ -23,8 +24,7 @@ struct Judged {
   std::optional<ContactIntervals> intervals;
 
   Judged(const Scene& scene, const Mesh& mesh)
-      : system(
-            assemble(std::make_shared<const Problem>(pose(scene, mesh)), Blocks::contact_points)),
+      : system(assemble(testing::posed(scene, mesh), Blocks::contact_points)),
         hybrid(run(select_methods("HYBRID").front(), system, {})),
         u(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)),
         error(constitutive_error(system, hybrid.stress, hybrid.F_C, u)),

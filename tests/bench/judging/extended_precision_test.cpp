@@ -12,6 +12,7 @@
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/quad.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -125,7 +126,7 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     const std::string name = c.name;
-    const auto problem = std::make_shared<const Problem>(pose(c.scene, mesh_));
+    const auto problem = testing::posed(c.scene, mesh_);
     const DualSystem system = assemble(problem, Blocks::contact_points);
     const Reference reference = compute_reference(system);
     const QuadSolution exact = solve_in_quad(system, reference.F_C);
@@ -165,7 +166,7 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
 }
 
 TEST_P(ExtendedPrecision, HybridStressesAreTheAiryFunctionsElementByElement) {
-  const auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh_));
+  const auto problem = testing::posed(Scene{}, mesh_);
   const DualSystem system = assemble(problem);
   const Solution hybrid = run(select_methods("HYBRID").front(), system, {});
   const Solution airy = run(select_methods("3STEPD:CHOLMOD").front(), system, {});
@@ -187,8 +188,7 @@ TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
     SCOPED_TRACE(mesh.name);
     Scene scene;
     scene.crown_radius_mm.reset();
-    const DualSystem system =
-        assemble(std::make_shared<const Problem>(pose(scene, mesh)), Blocks::contact_points);
+    const DualSystem system = assemble(testing::posed(scene, mesh), Blocks::contact_points);
     const Reference reference = compute_reference(system);
     const Errors off = errors(*system.problem, solve_in_quad(system, reference.F_C), reference.F_C,
                               reference.stress);

@@ -6,6 +6,7 @@
 #include "assembly/scene.hpp"
 #include "bench/judging/verifier.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::moments_check_test {
@@ -16,8 +17,7 @@ class MomentsCheckTest : public ::testing::Test {
   Solution solve(const char* method, double friction) {
     Scene scene;
     scene.friction = friction;
-    system_ = assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(8, 6))),
-                       Blocks::contact_points);
+    system_ = assemble(testing::posed(scene, testing::small_tooth(8, 6)), Blocks::contact_points);
     RunControl control;
     control.tolerance = 1e-10;
     return run(select_methods(method).front(), system_, control);
@@ -58,8 +58,7 @@ TEST_F(MomentsCheckTest, SeesEveryPartOfAnAnswerThatIsWrong) {
   // In balance and compatible, through the wall.
   Scene scene;
   scene.clearance_mm = 1;
-  system_ = assemble(std::make_shared<const Problem>(pose(scene, testing::small_tooth(8, 6))),
-                     Blocks::contact_points);
+  system_ = assemble(testing::posed(scene, testing::small_tooth(8, 6)), Blocks::contact_points);
   EXPECT_GT(worst(right), 1e-5);
 }
 

@@ -11,6 +11,7 @@
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::oracles_test {
 namespace {
@@ -38,7 +39,7 @@ Oracle finest(const std::string& wanted) {
 }
 
 Verification solved(const std::string& mesh, const Scene& scene, const char* method) {
-  const auto problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh)));
+  const auto problem = testing::posed(scene, testing::catalogue_mesh(mesh));
   const DualSystem system = assemble(problem);
   const Solution solution = run(select_methods(method).front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
@@ -46,7 +47,7 @@ Verification solved(const std::string& mesh, const Scene& scene, const char* met
 }
 
 Verification solved_in_displacements(const std::string& mesh, const Scene& scene) {
-  const auto problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh)));
+  const auto problem = testing::posed(scene, testing::catalogue_mesh(mesh));
   const DualSystem system = assemble(problem, Blocks::contact_points);
   const Solution solution = run(select_methods("P2").front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;

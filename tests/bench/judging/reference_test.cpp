@@ -13,6 +13,7 @@
 #include "solvers/base/solution.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::reference_test {
 namespace {
@@ -37,8 +38,7 @@ Mesh renumbered(const Mesh& mesh, unsigned seed) {
 }
 
 Reference reference_of(const Mesh& mesh) {
-  return compute_reference(
-      assemble(std::make_shared<const Problem>(pose(Scene{}, mesh)), Blocks::contact_points));
+  return compute_reference(assemble(testing::posed(Scene{}, mesh), Blocks::contact_points));
 }
 
 TEST(Reference, DoesNotDependOnTheNumbering) {
@@ -54,8 +54,7 @@ TEST(Reference, DoesNotDependOnTheNumbering) {
 
 TEST(Reference, KnowsTheDisplacementsOfItsForces) {
   const Mesh mesh = testing::catalogue_mesh("Mesh0");
-  const DualSystem system =
-      assemble(std::make_shared<const Problem>(pose(Scene{}, mesh)), Blocks::contact_points);
+  const DualSystem system = assemble(testing::posed(Scene{}, mesh), Blocks::contact_points);
   const Reference reference = compute_reference(system);
   const CondensedSystem& condensed = reference.condensed;
   const Eigen::VectorXd residual =

@@ -11,6 +11,7 @@
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::refinement_test {
 namespace {
@@ -32,8 +33,7 @@ struct Posed {
 };
 
 Posed posed(const char* mesh, const Scene& scene) {
-  DualSystem system =
-      assemble(std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh))));
+  DualSystem system = assemble(testing::posed(scene, testing::catalogue_mesh(mesh)));
   Reference reference = compute_reference(system);
   return {std::move(system), std::move(reference)};
 }

@@ -5,6 +5,7 @@
 
 #include "assembly/scene.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::verifier_test {
@@ -13,7 +14,7 @@ namespace {
 class Verifier : public ::testing::Test {
  protected:
   void pose_scene(const Scene& scene) {
-    problem_ = std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5)));
+    problem_ = testing::posed(scene, testing::small_tooth(6, 5));
     system_ = assemble(problem_, Blocks::contact_points);
     reference_ = compute_reference(system_);
     solution_ = run(select_methods("HYBRID").front(), system_, {});

@@ -21,6 +21,7 @@
 #include "solvers/krylov/conjugate_gradients.hpp"
 #include "solvers/uzawa/accelerated_lagrangian.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::heap_probe_test {
@@ -139,8 +140,7 @@ TEST(Allocations, NoneInsideAContactSweep) {
 }
 
 const DualSystem& tooth() {
-  static const DualSystem system =
-      assemble(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(16, 12))));
+  static const DualSystem system = assemble(testing::posed(Scene{}, testing::small_tooth(16, 12)));
   return system;
 }
 
@@ -282,8 +282,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
-  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(16, 12))),
-                  options_);
+  Workbench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options_);
   auto [record, choice] = bench.examine(method_, {});
   bench.measure_memory(method_, choice, record);
   ASSERT_EQ(record.status, Status::ok) << record.status_reason;
@@ -297,8 +296,7 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
 
 // Wherever memory runs out, the case is out_of_memory and the process goes on.
 TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
-  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(10, 8))),
-                  options_);
+  Workbench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
   auto [free, choice] = bench.examine(method_, {});
   bench.measure_memory(method_, choice, free);
   const std::int64_t peak = free.peak_heap_bytes.value();
@@ -312,8 +310,7 @@ TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
 }
 
 TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
-  const DualSystem rack =
-      assemble(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh4"))));
+  const DualSystem rack = assemble(testing::posed(Scene{}, testing::catalogue_mesh("Mesh4")));
   const auto peak = [&](const char* name) {
     heap::reset_peak();
     const std::int64_t before = heap::live_bytes();
@@ -327,8 +324,7 @@ TEST(ThreeStep, MatricesInAFileOrNowhereAreNotOnTheHeap) {
 }
 
 TEST(Assembly, Mesh7PeaksAtMostAtThreeTimesItsBlocks) {
-  const auto problem =
-      std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh7")));
+  const auto problem = testing::posed(Scene{}, testing::catalogue_mesh("Mesh7"));
   heap::reset_peak();
   const std::int64_t before = heap::live_bytes();
   const DualSystem system = assemble(problem);

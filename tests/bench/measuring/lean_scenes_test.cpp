@@ -17,6 +17,7 @@
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::lean_scenes_test {
@@ -44,7 +45,7 @@ struct LeanScene {
     for (BoundaryEdge& edge : mesh.boundary)
       for (const BoundaryRole role : without)
         if (edge.role == role) edge.role = BoundaryRole::displacement;
-    return std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+    return testing::posed(scene, std::move(mesh));
   }
 };
 

@@ -4,6 +4,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measuring/workbench.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::leaving_out_test {
@@ -12,7 +13,7 @@ namespace {
 Record measured(const Scene& scene, Mesh mesh, const char* method) {
   static Options options;
   options.repetitions = 1;
-  Workbench bench(std::make_shared<const Problem>(pose(scene, std::move(mesh))), options);
+  Workbench bench(testing::posed(scene, std::move(mesh)), options);
   const Method chosen = select_methods(method).front();
   auto [record, choice] = bench.examine(chosen, {});
   bench.measure_memory(chosen, choice, record);

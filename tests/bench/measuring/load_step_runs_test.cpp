@@ -6,6 +6,7 @@
 #include "assembly/scene.hpp"
 #include "bench/measuring/workbench.hpp"
 #include "bench/records/summary.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::load_step_runs_test {
@@ -17,7 +18,7 @@ std::shared_ptr<const Problem> sheared_and_back() {
   scene.later_steps.resize(2);
   scene.later_steps[0].displacement_mm = Eigen::Vector2d(0.02, 0.006);
   scene.later_steps[1].displacement_mm = Eigen::Vector2d(0.02, 0);
-  return std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5)));
+  return testing::posed(scene, testing::small_tooth(6, 5));
 }
 
 Record examined(const Method& method, Options options = {}) {
@@ -86,7 +87,7 @@ TEST(LoadStepRuns, AStepWithoutAnAnswerIsTheLast) {
 TEST(LoadStepRuns, ASceneWithoutAPathHasOneStep) {
   Options options;
   options.repetitions = 1;
-  Workbench bench(std::make_shared<const Problem>(pose({}, testing::small_tooth(6, 5))), options);
+  Workbench bench(testing::posed({}, testing::small_tooth(6, 5)), options);
   const Record record = bench.examine(select_methods("HYBRID").front(), {}).record;
   EXPECT_EQ(record.load_steps, 1);
   EXPECT_TRUE(record.steps.is_null());

@@ -15,6 +15,7 @@
 #include "mesh/msh_format.hpp"
 #include "solvers/base/parallel.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::memory_owner_test {
 namespace {
@@ -226,8 +227,7 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
   const Method method = select_methods(GetParam()).front();
   // Ten times the iterations of the others.
   const char* mesh = method.name.ends_with("schur=sparse") ? "Mesh0" : "Mesh1";
-  Workbench bench(std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh(mesh))),
-                  options);
+  Workbench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
   auto [record, choice] = bench.examine(method, {});
   bench.measure_memory(method, choice, record);
   ASSERT_TRUE(record.memory_count_ratio) << record.status_reason;

@@ -3,6 +3,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measuring/workbench.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::tuning_budget_test {
@@ -14,8 +15,7 @@ Record examined(const Method& method, std::optional<double> budget_s) {
   Options options;
   options.repetitions = 1;
   options.tuning_budget_s = budget_s;
-  Workbench bench(std::make_shared<const Problem>(pose(Scene(), testing::small_tooth(6, 4))),
-                  options);
+  Workbench bench(testing::posed(Scene(), testing::small_tooth(6, 4)), options);
   return bench.examine(method, {}).record;
 }
 

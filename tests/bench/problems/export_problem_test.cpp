@@ -9,6 +9,7 @@
 #include "bench/problems/known_rows.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::export_problem_test {
@@ -149,8 +150,7 @@ TEST(KnownRows, AreAsManyAsTheRowsOfTheSystem) {
   for (const double friction : {0.0, 0.3}) {
     Scene scene;
     scene.friction = friction;
-    const auto problem =
-        std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
+    const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
     const DualSystem system = assemble(problem);
     EXPECT_EQ(known_rows(*problem, Known::force).size(), static_cast<std::size_t>(system.n_f()));
     EXPECT_EQ(known_rows(*problem, Known::contact_law).size(),

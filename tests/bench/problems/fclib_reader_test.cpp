@@ -17,6 +17,7 @@
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::fclib_reader_test {
 namespace {
@@ -127,8 +128,7 @@ TEST_F(FclibReader, OurOwnExportHasTheForcesOfTheBody) {
   for (const double friction : {0.3, 0.0}) {
     Scene scene;
     scene.friction = friction;
-    const auto problem =
-        std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
+    const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
     const Solution of_body =
         run(select_methods("HYBRID").front(), assemble(problem, Blocks::contact_points), {});
     PosedScene posed;

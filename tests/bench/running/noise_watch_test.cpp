@@ -9,6 +9,7 @@
 #include "bench/running/runner.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::noise_watch_test {
@@ -150,7 +151,7 @@ class RetryNoisy : public ::testing::Test {
     options_.repetitions = 2;
     options_.retry_noisy = 0.05;
     posed_.scene_name = "default";
-    posed_.problem = std::make_shared<const Problem>(pose(Scene{}, testing::small_tooth(4, 3)));
+    posed_.problem = testing::posed(Scene{}, testing::small_tooth(4, 3));
     made_up_.then(24, 1);  // before the first case
   }
   const testing::TemporaryFolder folder_;

@@ -9,6 +9,7 @@
 #include "mesh/msh_format.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::error_points_test {
 namespace {
@@ -67,8 +68,7 @@ TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
   Options options;
   options.study = Study::error;
   options.repetitions = 1;
-  Workbench bench(std::make_shared<const Problem>(pose(Scene(), testing::catalogue_mesh(mesh))),
-                  options);
+  Workbench bench(testing::posed(Scene(), testing::catalogue_mesh(mesh)), options);
   const Update update = testing::update();
   if (update == Update::anew) table().forget(mesh);
   for (const Method& method : select_methods("SDTIC6,3STEPCG6,ALM:r=20,rho=20,3STEPD,HYBRID,P2"))

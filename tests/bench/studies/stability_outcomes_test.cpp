@@ -15,6 +15,7 @@
 #include "mesh/msh_format.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::stability_outcomes_test {
 namespace {
@@ -138,8 +139,7 @@ TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   const std::string scene_name = GetParam();
   const Scene scene =
       read_scene(scenes_of(Study::stability).front().parent_path() / (scene_name + ".json"));
-  const auto problem =
-      std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
+  const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
   Options options;
   options.study = Study::stability;
   options.repetitions = 1;

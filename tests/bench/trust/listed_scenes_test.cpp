@@ -5,6 +5,7 @@
 #include "bench/measuring/workbench.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 
 namespace airybench::listed_scenes_test {
 namespace {
@@ -14,7 +15,7 @@ using Changes = std::function<void(Scene&)>;
 std::shared_ptr<const Problem> posed(const Changes& changes, const std::string& mesh = "Mesh0") {
   Scene scene;
   changes(scene);
-  return std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(mesh)));
+  return testing::posed(scene, testing::catalogue_mesh(mesh));
 }
 
 Options options_for(Study study) {
@@ -118,8 +119,7 @@ TEST(ListedScenes, HybridKnowsWhatItsElementMatricesLose) {
 // estimate being 5e-7 where the error was 6e-3; and SSKY with the paper's stop was a wrong success.
 TEST(ListedScenes, IterationsAreTightenedByTheirOwnWordAndItIsTrue) {
   const Scene scene = read_scene(testing::stability_scenes_folder() / "layers_1e-8.json");
-  const auto problem =
-      std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh("Mesh0")));
+  const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
   for (const Stop stop : {Stop::target, Stop::paper})
     for (const Method& method : select_methods("SDTIC6,SSKY,3STEPCG6")) {
       const Record record = examined(problem, method, Study::stability, stop);

@@ -12,6 +12,7 @@
 #include "bench/measuring/workbench.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
 
 namespace airybench::random_scenes_test {
@@ -104,7 +105,7 @@ TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
     const Scene scene = testing::random_scene(seed, k);
     std::shared_ptr<const Problem> problem;
     try {
-      problem = std::make_shared<const Problem>(pose(scene, testing::catalogue_mesh(wanted.mesh)));
+      problem = testing::posed(scene, testing::catalogue_mesh(wanted.mesh));
     } catch (const SceneError&) {
       ++tally.not_posed;
       continue;
