@@ -30,7 +30,7 @@ Eigen::Matrix4d inverse_on_free(const Eigen::Matrix4d& D, const std::array<bool,
 
 TwoLevelPreconditioner::TwoLevelPreconditioner(const EdgeMatrix& K,
                                                std::unique_ptr<CoarseDisplacements> coarse)
-    : K_(K), coarse_(std::move(coarse)) {
+    : K_(K), coarse_(std::move(coarse)), rest_(K.slots()) {
   inverse_.reserve(K.diagonal.size());
   for (const Eigen::Matrix4d& D : K.diagonal) inverse_.push_back(inverse_on_free(D, {}));
 }
@@ -59,7 +59,6 @@ void TwoLevelPreconditioner::relax(int i, const Eigen::VectorXd& r, Eigen::Vecto
 void TwoLevelPreconditioner::sweep_forward(const Eigen::VectorXd& r, Eigen::VectorXd& x) {
   const SecondsInto timer(times_.smoother_s);
   x.resize(r.size());
-  rest_.resize(r.size());
   const auto relax_all = [&](int begin, int end) {
     const Eigen::Index first = 4 * static_cast<Eigen::Index>(begin);
     rest_.segment(first, 4 * static_cast<Eigen::Index>(end) - first).setZero();

@@ -145,6 +145,22 @@ TEST(Multifrontal, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   EXPECT_LT((dense(K).topRows(inner) * x - b.head(inner)).norm(), 1e-12 * x.norm());
 }
 
+TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
+  const ElementMatrices K = grid_elements(4);
+  for (const int trailing : {1, 5, 33}) {
+    using Columns = MultifrontalFactor::Columns;
+    MultifrontalFactor cholesky;
+    cholesky.analyse(K, trailing);
+    cholesky.factor(K);
+    const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
+    Eigen::VectorXd y = cholesky.forward(b, Columns::inner);
+    const Eigen::MatrixXd L = cholesky.trailing_factor();
+    y.tail(trailing) = (L * L.transpose()).llt().solve(y.tail(trailing)).eval();
+    const Eigen::VectorXd x = cholesky.backward(y, Columns::inner);
+    EXPECT_LT((dense(K) * x - b).norm(), 1e-12 * b.norm()) << trailing;
+  }
+}
+
 TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   ElementMatrices K = grid_elements(5);
   MultifrontalFactor cholesky;
