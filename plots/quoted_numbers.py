@@ -86,8 +86,17 @@ def shown(value: float, rounding: str, like: str) -> str:
     last = exact.adjusted() - digits + 1
     if not exponent:
         last = min(last, 0)  # never coarser than a whole number
-    rounded = exact.quantize(Decimal(1).scaleb(last), rounding=rounding)
-    if rounded.adjusted() > exact.adjusted() and last < 0:  # 0.0996 is 0.10
+
+    def to(place: int) -> Decimal:
+        return exact.quantize(Decimal(1).scaleb(place), rounding=rounding)
+
+    def grows(number: Decimal) -> bool:
+        return number.adjusted() > exact.adjusted()
+
+    rounded = to(last)
+    if grows(rounded) and last == 0 and not exponent:  # 9.78 is 9.8: 10 would say more
+        last, rounded = -1, to(-1)
+    if grows(rounded) and last < 0:  # 0.0996 is 0.10
         rounded = rounded.quantize(Decimal(1).scaleb(last + 1))
     if exponent:
         text, power = f"{rounded:.{digits - 1}e}".split("e")

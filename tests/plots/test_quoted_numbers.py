@@ -149,10 +149,11 @@ class QuotedNumbersTest(unittest.TestCase):
         for value, rounding, like, shown in (
                 (0.0905, even, "0.08", "0.09"), (0.2007, even, "0.31", "0.20"),
                 (9.96, even, "3", "10"), (12.3, even, "4", "12"), (2604.0, even, "2603", "2604"),
-                (797363.0, even, "50 483", "797 363"), (999.6, even, "300", "1000"),
+                (797363.0, even, "50 483", "797 363"), (999.6, even, "300", "999.6"),
                 (1.8225e-12, even, "1.7e-12", "1.8e-12"), (1.8225e-12, up, "1e-12", "2e-12"),
                 (9.96e-4, even, "1.2e-3", "1.0e-3"), (0.0, even, "no", "no"),
                 (12.0, even, "no", "12"), (0.0996, even, "0.10", "0.10"),
+                (9.78, even, "9", "9.8"), (99.7, even, "9", "99.7"), (9.96, even, "9", "10"),
                 (9.96, even, "10", "10"), (0.0, even, "3", "0")):
             with self.subTest(value=value, like=like):
                 self.assertEqual(quoted_numbers.shown(value, rounding, like), shown)
