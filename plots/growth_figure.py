@@ -47,7 +47,8 @@ PANELS = (Panel("time_s", "time of one solve, s", lambda row: row.time_s),
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    own = of_scene([row for row in rows if not row.study and row.stop == "target"])
+    own = of_scene([row for row in rows if not row.study and row.stop == "target"
+                    and kind_of(row) != "adapted"])
     bodies = [shown for shown in by_body(own).values()
               if any(kind_of(row) == "refined everywhere" for row in shown)]
     if bodies:

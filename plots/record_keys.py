@@ -203,9 +203,9 @@ class Row:
 # As bench lists them (bench/records/record_fields.def).
 FIELDS: list[dict] = json.loads(
     Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))
-# Those that are shown as they are: a label, or a unit in the nights, and no type of their own in Row.
-NUMBERS = [f["name"] for f in FIELDS
-           if not isinstance(f["empty"], list) and (f["label"] or (f["nightly"] and f["unit"]))]
+# Those that are shown or quoted as they are: a label or a unit, and no type of their own in Row.
+NUMBERS = [f["name"] for f in FIELDS if not isinstance(f["empty"], list)
+           and (f["label"] or (f["unit"] and (f["nightly"] or f["column"])))]
 OF_ROW: dict[str, Kind] = {f.name: f.metadata["kind"] for f in fields(Row) if f.metadata}
 KEYS = OF_ROW | {name: FINITE for name in NUMBERS if name not in OF_ROW}
 NEEDED = tuple(f.name for f in fields(Row) if f.metadata.get("needed"))
