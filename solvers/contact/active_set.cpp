@@ -39,17 +39,9 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   }
   const auto closed = static_cast<Eigen::Index>(row.size());
   if (closed == 0) return next;
-  Eigen::MatrixXd matrix(closed, closed);
-  for (Eigen::Index k = 0; k < closed; ++k) {
-    const auto of_normal = D.col(row[k]);
-    if (ratio[k] == 0) {
-      for (Eigen::Index i = 0; i < closed; ++i) matrix(i, k) = of_normal(row[i]);
-    } else {
-      const auto of_tangent = D.col(row[k] + 1);
-      for (Eigen::Index i = 0; i < closed; ++i)
-        matrix(i, k) = of_normal(row[i]) + ratio[k] * of_tangent(row[i]);
-    }
-  }
+  Eigen::MatrixXd matrix = D(row, row);
+  for (Eigen::Index k = 0; k < closed; ++k)
+    if (ratio[k] != 0) matrix.col(k) += ratio[k] * D(row, row[k] + 1);
   const Eigen::VectorXd violation = r + D * (next - F);
   const Eigen::VectorXd change = solve_by_lu(std::move(matrix), violation(row));
   for (Eigen::Index k = 0; k < closed; ++k) {
