@@ -50,7 +50,7 @@ void check_rows_answer(const Problem& problem, const SlotSystem& slots, const Ed
   const LoadScale scale = load_scale(problem);
   Eigen::VectorXd load = to_slots(slots.K, unknown, unbalanced.r);
   double norm_under_laws, squared;
-  {
+  {  // its vectors go before the next solve
     const Eigen::VectorXd d = to_slots(slots.K, unknown, unbalanced.defect);
     load += d;
     const Correction under_laws = solve_under(slots, laws, load, M, control.deadline);

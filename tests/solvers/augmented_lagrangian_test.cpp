@@ -15,10 +15,7 @@ namespace {
 
 using testing::named_scenes;
 using testing::NamedScenes;
-
-DualSystem system_of(const Scene& scene = {}, Mesh mesh = testing::small_tooth(6, 5)) {
-  return assemble(testing::posed(scene, std::move(mesh)));
-}
+using testing::system_of;
 
 Solution solve(const char* method, const DualSystem& system, const RunControl& control = {}) {
   return run(select_methods(method).front(), system, control);

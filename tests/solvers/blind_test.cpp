@@ -17,7 +17,7 @@ DualSystem system_of(double friction = 0.2) {
   Scene scene;
   scene.friction = friction;
   scene.body_force_N_per_mm3 = {3, -1};  // all parts of the load
-  return assemble(testing::posed(scene, testing::small_tooth(6, 5)));
+  return testing::system_of(scene);
 }
 
 // Unknowns of φ in row k of [C_F; C_C].

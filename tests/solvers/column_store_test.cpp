@@ -18,6 +18,7 @@ namespace airybench::column_store_test {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::system_of;
 
 // $TMPDIR for the scope of the object.
 class TemporaryDirectoryVariable {
@@ -59,10 +60,6 @@ class FileSizeLimit {
   rlimit before_{};
   void (*signal_)(int) = SIG_DFL;
 };
-
-DualSystem system_of(const Scene& scene = {}) {
-  return assemble(testing::posed(scene, testing::small_tooth(6, 5)));
-}
 
 Solution solve(const char* method, const DualSystem& system) {
   return run(select_methods(method).front(), system, {});

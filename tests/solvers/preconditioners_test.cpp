@@ -24,7 +24,7 @@ Eigen::MatrixXd whole(const SparseColumns& lower) {
 
 // S of a small tooth.
 const SparseColumns& tooth() {
-  static const SparseColumns S = assemble(testing::posed(Scene{}, small_tooth(6, 5))).S;
+  static const SparseColumns S = testing::system_of().S;
   return S;
 }
 

@@ -212,7 +212,7 @@ struct Saddle {
   Saddle() {
     Scene scene;
     scene.body_force_N_per_mm3 = {3, -1};
-    system = assemble(testing::posed(scene, small_tooth(6, 5)));
+    system = testing::system_of(scene);
     n = system.n(), m = system.n_f() + system.n_c();
   }
   Eigen::MatrixXd dense() const {

@@ -14,7 +14,7 @@ namespace {
 class Verifier : public ::testing::Test {
  protected:
   void pose_scene(const Scene& scene) {
-    problem_ = testing::posed(scene, testing::small_tooth(6, 5));
+    problem_ = testing::posed(scene);
     system_ = assemble(problem_, Blocks::contact_points);
     reference_ = compute_reference(system_);
     solution_ = run(select_methods("HYBRID").front(), system_, {});

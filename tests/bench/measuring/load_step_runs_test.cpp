@@ -18,7 +18,7 @@ std::shared_ptr<const Problem> sheared_and_back() {
   scene.later_steps.resize(2);
   scene.later_steps[0].displacement_mm = Eigen::Vector2d(0.02, 0.006);
   scene.later_steps[1].displacement_mm = Eigen::Vector2d(0.02, 0);
-  return testing::posed(scene, testing::small_tooth(6, 5));
+  return testing::posed(scene);
 }
 
 Record examined(const Method& method, Options options = {}) {
@@ -87,7 +87,7 @@ TEST(LoadStepRuns, AStepWithoutAnAnswerIsTheLast) {
 TEST(LoadStepRuns, ASceneWithoutAPathHasOneStep) {
   Options options;
   options.repetitions = 1;
-  Workbench bench(testing::posed({}, testing::small_tooth(6, 5)), options);
+  Workbench bench(testing::posed({}), options);
   const Record record = bench.examine(select_methods("HYBRID").front(), {}).record;
   EXPECT_EQ(record.load_steps, 1);
   EXPECT_TRUE(record.steps.is_null());
