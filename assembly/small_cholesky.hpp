@@ -24,6 +24,7 @@ class SmallCholesky {
         for (int k = 0; k < j; ++k) sum += L_(i, k) * L_(j, k);
         L_(i, j) = (S(i, j) - sum) / L_(j, j);
       }
+      reciprocal_(j) = 1 / L_(j, j);
     }
   }
   // S = MᵀM without forming it, which would square M's condition number: M = Q Lᵀ by modified
@@ -34,14 +35,15 @@ class SmallCholesky {
     using std::sqrt;
     SmallCholesky result;
     Eigen::Matrix<Scalar, n, 1> length;
-    for (int j = 0; j < n; ++j) length(j) = sqrt(M.col(j).dot(M.col(j)));
+    for (int j = 0; j < n; ++j) length(j) = sqrt(dot(M, j, j));
     for (int j = 0; j < n; ++j) {
-      result.L_(j, j) = sqrt(M.col(j).dot(M.col(j)));
+      result.L_(j, j) = sqrt(dot(M, j, j));
+      result.reciprocal_(j) = 1 / result.L_(j, j);
       // In this order what is not a number stays: the last column has it, too.
       result.independence_ = min(Scalar(result.L_(j, j) / length(j)), result.independence_);
-      M.col(j) /= result.L_(j, j);
+      M.col(j) *= result.reciprocal_(j);
       for (int i = j + 1; i < n; ++i) {
-        result.L_(i, j) = M.col(j).dot(M.col(i));
+        result.L_(i, j) = dot(M, j, i);
         M.col(i) -= result.L_(i, j) * M.col(j);
       }
     }
@@ -65,7 +67,7 @@ class SmallCholesky {
     for (int c = 0; c < columns; ++c)
       for (int i = 0; i < n; ++i) {
         for (int k = 0; k < i; ++k) X(i, c) -= L_(i, k) * X(k, c);
-        X(i, c) /= L_(i, i);
+        X(i, c) *= reciprocal_(i);
       }
   }
   template <int columns>
@@ -73,12 +75,22 @@ class SmallCholesky {
     for (int c = 0; c < columns; ++c)
       for (int i = n - 1; i >= 0; --i) {
         for (int k = i + 1; k < n; ++k) X(i, c) -= L_(k, i) * X(k, c);
-        X(i, c) /= L_(i, i);
+        X(i, c) *= reciprocal_(i);
       }
   }
 
  private:
+  // Of two columns; four sums at a time, which do not wait for each other.
+  template <int rows>
+  static Scalar dot(const Eigen::Matrix<Scalar, rows, n>& M, int a, int b) {
+    constexpr int sums = 4;
+    Scalar sum[sums] = {0, 0, 0, 0};
+    for (int i = 0; i < rows; ++i) sum[i % sums] += M(i, a) * M(i, b);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  }
+
   Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
+  Eigen::Matrix<Scalar, n, 1> reciprocal_;  // of L's diagonal
   Scalar independence_ = 1;
 };
 

@@ -39,9 +39,17 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   }
   const auto closed = static_cast<Eigen::Index>(row.size());
   if (closed == 0) return next;
-  Eigen::MatrixXd matrix = D(row, row);
-  for (Eigen::Index k = 0; k < closed; ++k)
-    if (ratio[k] != 0) matrix.col(k) += ratio[k] * D(row, row[k] + 1);
+  Eigen::MatrixXd matrix(closed, closed);
+  for (Eigen::Index k = 0; k < closed; ++k) {
+    const auto column = D.col(row[k]);
+    if (ratio[k] == 0) {
+      for (Eigen::Index i = 0; i < closed; ++i) matrix(i, k) = column(row[i]);
+    } else {
+      const auto along = D.col(row[k] + 1);
+      for (Eigen::Index i = 0; i < closed; ++i)
+        matrix(i, k) = column(row[i]) + ratio[k] * along(row[i]);
+    }
+  }
   const Eigen::VectorXd violation = r + D * (next - F);
   const Eigen::VectorXd change = solve_by_lu(std::move(matrix), violation(row));
   for (Eigen::Index k = 0; k < closed; ++k) {

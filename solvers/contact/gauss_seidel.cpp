@@ -1,5 +1,7 @@
 #include "solvers/contact/gauss_seidel.hpp"
 
+#include <cblas.h>
+
 #include <cmath>
 
 #include "solvers/contact/coulomb_law.hpp"
@@ -13,6 +15,7 @@ double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
              const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
   using Local = Eigen::Matrix<double, components, 1>;
   const Eigen::MatrixXd& D = condensed.D;
+  const auto n = static_cast<int>(F.size());
   double change = 0;
   for (int p = 0; p < contact.count; ++p) {
     const Eigen::Index i = components * p;
@@ -20,7 +23,8 @@ double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
         D.template block<components, components>(i, i);
     const Local old = F.template segment<components>(i);
     Local b;
-    for (int k = 0; k < components; ++k) b(k) = D.col(i + k).dot(F) - offset(i + k);
+    for (int k = 0; k < components; ++k)
+      b(k) = cblas_ddot(n, D.col(i + k).data(), 1, F.data(), 1) - offset(i + k);
     b -= D_pp * old;
     Local solved;
     if constexpr (components == 2)

@@ -1,11 +1,69 @@
 #include "solvers/direct/dense_cholesky.hpp"
 
+#include <cblas.h>
+
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 #include "solvers/base/solution.hpp"
 #include "solvers/direct/lapack.hpp"
+#include "solvers/direct/per_processor.hpp"
 
 namespace airybench {
+namespace {
+
+constexpr int narrow = 8;  // columns
+constexpr int small = 64;  // rows, where twice the work of dgemm takes less time than dsyrk
+
+int length(Eigen::Index n) { return static_cast<int>(n); }
+
+// C ← C − A Bᵀ.
+void subtract_product(const ConstDenseBlock& A, const ConstDenseBlock& B, DenseBlock C) {
+  if (C.size() == 0) return;
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, length(C.rows()), length(C.cols()),
+              length(A.cols()), -1, A.data(), length(A.outerStride()), B.data(),
+              length(B.outerStride()), 1, C.data(), length(C.outerStride()));
+}
+
+bool factorise_narrow(DenseBlock A) {
+  const Eigen::Index n = A.cols();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    auto column = A.col(k).tail(n - k);
+    for (Eigen::Index j = 0; j < k; ++j) column -= A(k, j) * A.col(j).tail(n - k);
+    if (!(column(0) > 0) || std::isinf(column(0))) return false;
+    column /= std::sqrt(column(0));
+  }
+  return true;
+}
+
+// X ← X L⁻ᵀ of up to `narrow` columns, eight rows at a time: those that are not there are those of
+// the identity.
+AIRYBENCH_PER_PROCESSOR
+void divide_rows(const double* L, std::ptrdiff_t stride, std::ptrdiff_t columns, double* X,
+                 std::ptrdiff_t rows) {
+  constexpr int lanes = 8;
+  typedef double Rows __attribute__((vector_size(lanes * sizeof(double))));
+  double factor[narrow][narrow] = {};
+  double reciprocal[narrow];
+  for (int k = 0; k < narrow; ++k) {
+    for (int j = 0; j < k && k < columns; ++j) factor[k][j] = L[k + j * stride];
+    reciprocal[k] = k < columns ? 1 / L[k + k * stride] : 1;
+  }
+  for (std::ptrdiff_t i = 0; i < rows; i += lanes) {
+    const std::size_t bytes = std::min<std::size_t>(lanes, rows - i) * sizeof(double);
+    Rows x[narrow] = {};
+    for (int k = 0; k < columns; ++k) std::memcpy(&x[k], X + i + k * stride, bytes);
+    for (int k = 0; k < narrow; ++k) {
+      for (int j = 0; j < k; ++j) x[k] -= factor[k][j] * x[j];
+      x[k] *= reciprocal[k];
+    }
+    for (int k = 0; k < columns; ++k) std::memcpy(X + i + k * stride, &x[k], bytes);
+  }
+}
+
+}  // namespace
 
 Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name) {
   Eigen::LLT<Eigen::MatrixXd> llt(matrix);
@@ -14,16 +72,32 @@ Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::s
   return llt;
 }
 
-bool factorise_in_place(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> A) {
-  const auto n = static_cast<int>(A.rows()), stride = static_cast<int>(A.outerStride());
-  if (n == 0) return true;
-  if (n < 48) {  // where a call of LAPACK costs more than it saves
-    const Eigen::LLT<decltype(A)> in_place(A);
-    return in_place.info() == Eigen::Success && std::isfinite(A(n - 1, n - 1));
+bool factorise_in_place(DenseBlock A) {
+  const Eigen::Index n = A.cols(), below = A.rows() - n;
+  if (n <= narrow) {
+    if (!factorise_narrow(A.topRows(n))) return false;
+    divide_rows(A.data(), A.outerStride(), n, A.data() + n, below);
+    return true;
   }
-  int info = 0;
-  dpotrf_("L", &n, A.data(), &stride, &info, 1);
-  return info == 0 && std::isfinite(A(n - 1, n - 1));
+  const Eigen::Index half = (n / 2 + narrow - 1) / narrow * narrow, rest = n - half;
+  if (!factorise_in_place(A.leftCols(half))) return false;
+  DenseBlock top = A.block(half, 0, rest, half), bottom = A.block(n, 0, below, half);
+  if (rest > small) {
+    subtract_square(top, A.block(half, half, rest, rest));
+    subtract_product(bottom, top, A.block(n, half, below, rest));
+  } else {
+    subtract_product(A.bottomLeftCorner(rest + below, half), top,
+                     A.bottomRightCorner(rest + below, rest));
+  }
+  return factorise_in_place(A.bottomRightCorner(rest + below, rest));
+}
+
+void subtract_square(const ConstDenseBlock& A, DenseBlock C) {
+  if (A.rows() <= small)
+    subtract_product(A, A, C);
+  else
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, length(A.rows()), length(A.cols()), -1,
+                A.data(), length(A.outerStride()), 1, C.data(), length(C.outerStride()));
 }
 
 Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {

@@ -9,9 +9,23 @@ namespace airybench {
 // Throws Breakdown naming the block when it is not positive definite to rounding.
 Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name);
 
-// A = L Lᵀ in its lower triangle, on the processor's kernels; what is above stays. False: not
-// positive definite to rounding, or not finite.
-bool factorise_in_place(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> A);
+using DenseBlock = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using ConstDenseBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+// The first columns of a Cholesky factorisation in place of those of a symmetric matrix, whose
+// lower part A has, m × n, m ≥ n:
+//
+//   ⎡A_1⎤   ⎡L_1⎤     L_1 L_1ᵀ = A_1,  n × n,
+//   ⎣A_2⎦ ← ⎣L_2⎦     L_2 = A_2 L_1⁻ᵀ
+//
+// What is above the diagonal is not read, and lost. Halves of the columns one after the other, down
+// to eight (Andersen, Waśniewski & Gustavson 2001, doi:10.1145/383738.383741), so that
+// nearly all of it are matrix products: OpenBLAS has dtrsm at a third of dgemm's rate on AVX-512.
+// False: not positive definite to rounding, or not finite.
+bool factorise_in_place(DenseBlock A);
+
+// C ← C − A Aᵀ in the lower triangle. What is above is not read, and lost.
+void subtract_square(const ConstDenseBlock& A, DenseBlock C);
 
 // (L Lᵀ)⁻¹, exactly symmetric, from the lower triangle of L. Throws Breakdown where L has a zero on
 // its diagonal.

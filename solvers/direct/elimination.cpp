@@ -9,7 +9,6 @@
 #include <numeric>
 
 #include "solvers/direct/dissection.hpp"
-#include "solvers/direct/index_lists.hpp"
 
 namespace airybench {
 namespace {
@@ -97,6 +96,8 @@ class Analysis {
     for (int e = 0; e < own.count(); ++e)
       for (std::size_t j = 0; j < own[e].size(); ++j)
         for (const int i : own[e].subspan(j)) below[next[own[e][j]]++] = i;
+    start_.reserve(pairs_of.size());
+    row_.reserve(below.size());
     start_.push_back(0);
     for (int j = 0; j < n_; ++j) {
       const auto first = below.begin() + pairs_of[j], end = below.begin() + pairs_of[j + 1];
@@ -177,6 +178,9 @@ void expand(const cholmod_factor& supernodes, const Blocks& blocks, const std::v
   const auto* rows_at = static_cast<const int*>(supernodes.pi);
   const auto* rows = static_cast<const int*>(supernodes.s);
   result.fronts.resize(supernodes.nsuper);
+  std::size_t count = 0;
+  for (int k = 0; k < rows_at[supernodes.nsuper]; ++k) count += blocks.size(order[rows[k]]);
+  result.rows.reserve(count);
   for (std::size_t f = 0; f < supernodes.nsuper; ++f) {
     Front& front = result.fronts[f];
     front.first = start[super[f]];
@@ -187,6 +191,7 @@ void expand(const cholmod_factor& supernodes, const Blocks& blocks, const std::v
         result.rows.push_back(place);
     front.rows = static_cast<int>(result.rows.size() - front.rows_at);
     front.panel_at = result.panel_entries;
+    result.most_rows = std::max(result.most_rows, front.rows);
     result.panel_entries += static_cast<std::size_t>(front.rows) * front.pivots;
   }
 }
@@ -203,23 +208,24 @@ std::vector<int> fronts_of_places(const Elimination& elimination) {
 // doi:10.1145/6497.6499): by how much more a child needs than it leaves.
 void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   const int count = static_cast<int>(result.fronts.size());
-  std::vector<int> roots;
+  std::vector<int> roots, parent(static_cast<std::size_t>(count), -1);
   for (int f = 0; f < count; ++f) {
     const Front& front = result.fronts[f];
     if (front.below() == 0)
       roots.push_back(f);
     else
-      result.fronts[front_at[result.rows[front.rows_at + front.pivots]]].children.push_back(f);
+      parent[f] = front_at[result.rows[front.rows_at + front.pivots]];
   }
+  result.children = members(count, parent);
   // A child comes before its parent in the places, so its need is known.
   std::vector<std::size_t> need(static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
-    Front& front = result.fronts[f];
+    const std::span<int> children = result.children[f];
     const auto leaves = [&](int child) { return result.fronts[child].update_doubles(); };
-    std::ranges::sort(front.children, std::greater{},
+    std::ranges::sort(children, std::greater{},
                       [&](int child) { return need[child] - leaves(child); });
     std::size_t waiting = 0;
-    for (const int child : front.children) {
+    for (const int child : children) {
       need[f] = std::max(need[f], waiting + need[child]);
       waiting += leaves(child);
     }
@@ -228,12 +234,14 @@ void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   for (const int root : roots) result.update_doubles = std::max(result.update_doubles, need[root]);
   // Postorder, without recursion: chains of fronts are as long as the mesh.
   std::vector<std::pair<int, std::size_t>> path;
+  path.reserve(result.fronts.size());
+  result.order.reserve(result.fronts.size());
   for (const int root : roots) {
     path.emplace_back(root, 0);
     while (!path.empty()) {
       const int f = path.back().first;
-      if (path.back().second < result.fronts[f].children.size()) {
-        const int child = result.fronts[f].children[path.back().second++];
+      if (path.back().second < result.children[f].size()) {
+        const int child = result.children[f][path.back().second++];
         path.emplace_back(child, 0);
       } else {
         result.order.push_back(f);
@@ -245,12 +253,14 @@ void order_fronts(const std::vector<int>& front_at, Elimination& result) {
 
 void hand_out_elements(const ElementMatrices& K, const std::vector<int>& front_at,
                        Elimination& result) {
+  std::vector<int> front_of(static_cast<std::size_t>(K.count()), -1);
   for (int e = 0; e < K.count(); ++e) {
     int first = K.order;
     for (const int u : K.unknown[e])
       if (u >= 0) first = std::min(first, result.place[u]);
-    if (first < K.order) result.fronts[front_at[first]].elements.push_back(e);
+    if (first < K.order) front_of[e] = front_at[first];
   }
+  result.elements = members(static_cast<int>(result.fronts.size()), front_of);
 }
 
 }  // namespace

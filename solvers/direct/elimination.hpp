@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solvers/base/element_matrices.hpp"
+#include "solvers/direct/index_lists.hpp"
 
 namespace airybench {
 
@@ -20,8 +21,6 @@ struct Front {
   int first = 0, pivots = 0;  // places first … first + pivots − 1
   std::size_t rows_at = 0;    // its rows in Elimination::rows: pivots, then those below
   int rows = 0;               // pivots and below, ascending
-  std::vector<int> children;  // by index, in the order in which they are to be done
-  std::vector<int> elements;  // whose first pivot is one of this front's
   std::size_t panel_at = 0;   // rows × pivots entries of the factor
   int below() const { return rows - pivots; }
   std::size_t update_doubles() const {  // of what it leaves to its parent
@@ -32,9 +31,12 @@ struct Front {
 struct Elimination {
   std::vector<int> place;  // of every unknown
   std::vector<Front> fronts;
+  IndexLists children;     // of each front, in the order in which they are to be done
+  IndexLists elements;     // whose first pivot is one of the front's
   std::vector<int> order;  // of the fronts: every one after its children
   std::vector<int> rows;
   int trailing = 0;
+  int most_rows = 0;               // of a front
   std::size_t panel_entries = 0;   // of all fronts
   std::size_t update_doubles = 0;  // most at a time, by the fronts' order
   std::int64_t entries() const;    // of L, with the zeros that supernodes store

@@ -5,8 +5,6 @@
 #include <cstddef>
 
 extern "C" {
-void dpotrf_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
-             std::size_t length_of_triangle);
 void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
              std::size_t length_of_triangle);
 void dgesv_(const int* n, const int* columns, double* matrix, const int* stride, int* pivots,

@@ -1,13 +1,12 @@
 #include "solvers/direct/multifrontal.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "solvers/direct/dense_cholesky.hpp"
-#include "support/huge_pages.hpp"
+#include "solvers/direct/per_processor.hpp"
+#include "support/map_at_once.hpp"
 
 namespace airybench {
 namespace {
@@ -26,33 +25,56 @@ class Fronts {
       : elimination_(elimination),
         K_(K),
         waiting_(std::make_unique_for_overwrite<double[]>(elimination.update_doubles)),
-        row_of_(elimination.place.size(), -1) {
-    prefer_huge_pages(waiting_.get(), elimination.update_doubles * sizeof(double));
+        row_of_(elimination.place.size(), -1),
+        to_(static_cast<std::size_t>(elimination.most_rows)),
+        run_end_(to_.size()) {
+    map_at_once(waiting_.get(), elimination.update_doubles * sizeof(double));
   }
 
   // Into its columns of L.
-  void eliminate(const Front& front, double* columns) {
+  void eliminate(int f, double* columns) {
+    const Front& front = elimination_.fronts[f];
+    const std::span<const int> elements = elimination_.elements[f],
+                               children = elimination_.children[f];
     const int* rows = elimination_.rows.data() + front.rows_at;
     for (int i = 0; i < front.rows; ++i) row_of_[rows[i]] = i;
     Panel panel(columns, front.rows, front.pivots);
     Panel update(waiting_.get() + top_, front.below(), front.below());
-    // Their lower triangles: nothing else is read.
-    for (int j = 0; j < front.pivots; ++j) std::fill_n(&panel(j, j), front.rows - j, 0.0);
-    for (int j = 0; j < front.below(); ++j) std::fill_n(&update(j, j), front.below() - j, 0.0);
-    for (const int element : front.elements) add_element(element, panel, update);
+    for (const int element : elements) fetch(element);
+    panel.setZero();
+    set_lower_zero(update);
+    for (const int element : elements) add_element(element, panel, update);
     // The last child's update is on top.
     std::size_t base = top_;
-    for (std::size_t k = front.children.size(); k-- > 0;) {
-      const Front& child = elimination_.fronts[front.children[k]];
+    for (std::size_t k = children.size(); k-- > 0;) {
+      const Front& child = elimination_.fronts[children[k]];
       base -= child.update_doubles();
       add_update(child, waiting_.get() + base, panel, update);
     }
     factorise(front, panel, update);
-    if (base < top_) std::copy_n(update.data(), update.size(), waiting_.get() + base);
+    if (base < top_) lower_triangle_to(waiting_.get() + base, update);
     top_ = base + front.update_doubles();
   }
 
  private:
+  // Elements lie where the mesh has them: anywhere.
+  void fetch(int element) const {
+    constexpr std::size_t line = 64;
+    const auto* bytes = reinterpret_cast<const char*>(K_.lower[element].data());
+    for (std::size_t b = 0; b < sizeof(K_.lower[element]); b += line) __builtin_prefetch(bytes + b);
+    __builtin_prefetch(&K_.unknown[element]);
+  }
+
+  // Nothing else is read; where there is little, one call does it.
+  static void set_lower_zero(Panel& update) {
+    constexpr int few = 64;
+    const Eigen::Index n = update.rows();
+    if (n <= few)
+      update.setZero();
+    else
+      for (Eigen::Index j = 0; j < n; ++j) update.col(j).tail(n - j).setZero();
+  }
+
   // The column of the front's matrix, to be indexed by the front's rows.
   static double* column(int j, Panel& panel, Panel& update) {
     const auto pivots = panel.cols();
@@ -81,8 +103,6 @@ class Fronts {
   void add_update(const Front& child, const double* left, Panel& panel, Panel& update) {
     const int n = child.below();
     const int* rows = elimination_.rows.data() + child.rows_at + child.pivots;
-    to_.resize(static_cast<std::size_t>(n));
-    run_end_.resize(static_cast<std::size_t>(n));
     for (int i = 0; i < n; ++i) to_[i] = row_of_[rows[i]];
     for (int i = n - 1; i >= 0; --i)
       run_end_[i] = i + 1 < n && to_[i + 1] == to_[i] + 1 ? run_end_[i + 1] : i + 1;
@@ -97,17 +117,18 @@ class Fronts {
   }
 
   void factorise(const Front& front, Panel& panel, Panel& update) {
-    const int pivots = front.pivots, below = front.below();
-    if (!factorise_in_place(panel.topRows(pivots)))
+    if (!factorise_in_place(panel))
       throw Breakdown(
           "multifrontal Cholesky: the matrix is not positive definite in the front at " +
           std::to_string(front.first + 1) + " of " + std::to_string(elimination_.place.size()) +
           " pivots");
-    if (below == 0) return;
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, CblasTrans, CblasNonUnit, below, pivots, 1,
-                panel.data(), front.rows, panel.data() + pivots, front.rows);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, below, pivots, -1, panel.data() + pivots,
-                front.rows, 1, update.data(), below);
+    subtract_square(panel.bottomRows(front.below()), update);
+  }
+
+  // The place is below, and may overlap.
+  static void lower_triangle_to(double* to, const Panel& update) {
+    const Eigen::Index n = update.rows();
+    for (Eigen::Index j = 0; j < n; ++j) std::copy_n(&update(j, j), n - j, to + j * n + j);
   }
 
   const Elimination& elimination_;
@@ -121,17 +142,17 @@ class Fronts {
 template <typename Entry>
 std::unique_ptr<Entry[]> room_for(const Elimination& elimination) {
   auto panels = std::make_unique_for_overwrite<Entry[]>(elimination.panel_entries);
-  prefer_huge_pages(panels.get(), elimination.panel_entries * sizeof(Entry));
+  map_at_once(panels.get(), elimination.panel_entries * sizeof(Entry));
   return panels;
 }
 
-// Calls eliminate(front) on all of them.
+// Calls eliminate(index of the front) for all of them.
 template <typename Eliminate>
 void visit_fronts(const Elimination& elimination, const Deadline& deadline, Eliminate eliminate) {
   double since_asked = 0;
   for (const int f : elimination.order) {
     const Front& front = elimination.fronts[f];
-    eliminate(front);
+    eliminate(f);
     since_asked += static_cast<double>(front.pivots) * front.rows * front.rows;
     if (since_asked > 1e8) {
       deadline.check("the factorisation");
@@ -145,7 +166,8 @@ constexpr int abreast = 4;
 
 // y −= Σ_k x_k L_k.
 template <typename Entry>
-void subtract_columns(const Entry* L, int stride, int count, const double* x, int rows, double* y) {
+AIRYBENCH_PER_PROCESSOR void subtract_columns(const Entry* L, int stride, int count,
+                                              const double* x, int rows, double* y) {
   if (count == abreast) {
     const Entry *a = L, *b = a + stride, *c = b + stride, *d = c + stride;
     for (int i = 0; i < rows; ++i)
@@ -158,8 +180,8 @@ void subtract_columns(const Entry* L, int stride, int count, const double* x, in
 
 // x_k −= L_k · y.
 template <typename Entry>
-void subtract_products(const Entry* L, int stride, int count, const double* y, int rows,
-                       double* x) {
+AIRYBENCH_PER_PROCESSOR void subtract_products(const Entry* L, int stride, int count,
+                                               const double* y, int rows, double* x) {
   constexpr int lanes = 4;
   double sum[abreast][lanes] = {};
   const int whole = rows / lanes * lanes;
@@ -194,14 +216,14 @@ int pivots_before(int end, const Front& front) {
 template <typename Entry>
 void solve_forward(const Elimination& elimination, const Entry* panels, int end,
                    Eigen::VectorXd& y) {
-  std::vector<double> of_front;  // its pivots and the rows below
+  std::vector<double> of_front(elimination.most_rows);  // its pivots and the rows below
   for (const Front& front : elimination.fronts) {
     const int pivots = pivots_before(end, front);
     if (pivots == 0) continue;
     const int* rows = elimination.rows.data() + front.rows_at;
-    of_front.assign(static_cast<std::size_t>(front.rows), 0.0);
     double* x = of_front.data();
     std::copy_n(y.data() + front.first, pivots, x);
+    std::fill_n(x + pivots, front.rows - pivots, 0.0);
     const Entry* L = panels + front.panel_at;
     for (int j = 0; j < pivots; j += abreast) {
       const int count = std::min(abreast, pivots - j), after = j + count;
@@ -222,13 +244,12 @@ void solve_forward(const Elimination& elimination, const Entry* panels, int end,
 template <typename Entry>
 void solve_backward(const Elimination& elimination, const Entry* panels, int end,
                     Eigen::VectorXd& of_all) {
-  std::vector<double> of_front;
+  std::vector<double> of_front(elimination.most_rows);
   for (std::size_t f = elimination.fronts.size(); f-- > 0;) {
     const Front& front = elimination.fronts[f];
     const int pivots = pivots_before(end, front);
     if (pivots == 0) continue;
     const int* rows = elimination.rows.data() + front.rows_at;
-    of_front.resize(static_cast<std::size_t>(front.rows));
     double* x = of_front.data();
     for (int i = 0; i < front.rows; ++i) x[i] = of_all(rows[i]);
     const Entry* L = panels + front.panel_at;
@@ -273,8 +294,8 @@ void MultifrontalFactor::factor(const ElementMatrices& K, const Deadline& deadli
   rounded_.reset();
   panels_ = room_for<double>(elimination_);
   Fronts fronts(elimination_, K);
-  visit_fronts(elimination_, deadline, [&](const Front& front) {
-    fronts.eliminate(front, panels_.get() + front.panel_at);
+  visit_fronts(elimination_, deadline, [&](int f) {
+    fronts.eliminate(f, panels_.get() + elimination_.fronts[f].panel_at);
   });
 }
 
@@ -285,9 +306,10 @@ void MultifrontalFactor::factor_rounded(const ElementMatrices& K, const Deadline
   {
     std::vector<double> columns;
     Fronts fronts(elimination_, K);
-    visit_fronts(elimination_, deadline, [&](const Front& front) {
+    visit_fronts(elimination_, deadline, [&](int f) {
+      const Front& front = elimination_.fronts[f];
       columns.resize(static_cast<std::size_t>(front.rows) * front.pivots);
-      fronts.eliminate(front, columns.data());
+      fronts.eliminate(f, columns.data());
       std::copy(columns.begin(), columns.end(), rounded_.get() + front.panel_at);
     });
   }
@@ -336,12 +358,10 @@ Eigen::MatrixXd MultifrontalFactor::trailing_factor() const {
 }
 
 std::size_t MultifrontalFactor::bytes() const {
-  std::size_t elements = 0;
-  for (const Front& front : elimination_.fronts)
-    elements += front.elements.size() + front.children.size();
   return elimination_.panel_entries * (rounded() ? sizeof(float) : sizeof(double)) +
          elimination_.fronts.size() * (sizeof(Front) + sizeof(int)) +
-         (elimination_.rows.size() + 2 * elimination_.place.size() + elements) * sizeof(int);
+         elimination_.children.bytes() + elimination_.elements.bytes() +
+         (elimination_.rows.size() + 2 * elimination_.place.size()) * sizeof(int);
 }
 
 std::int64_t MultifrontalFactor::entries() const { return elimination_.entries(); }

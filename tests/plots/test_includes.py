@@ -42,7 +42,7 @@ ROOMS = {
                        "bench/forecast", "bench/claims", "bench/exports", "bench/tracking",
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
     # A benchmark by itself.
-    "bench/kernels": ["solvers", "assembly", "mesh", "support"],
+    "bench/kernels": ["bench/measuring", "solvers", "assembly", "mesh", "support"],
     "bench": ["bench/commands", "bench/isolation", "bench/measuring", "support"],
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "solvers/direct/dense_cholesky.hpp"
@@ -45,21 +47,57 @@ TEST(DenseLu, SingularIsNotFinite) {
   EXPECT_EQ(solve_by_lu({}, {}).size(), 0);
 }
 
-// By Eigen below a size, by LAPACK above it.
-TEST(DenseCholesky, IsTheFactorAtAnySize) {
-  for (const int n : {1, 47, 48, 90}) {
-    const Eigen::MatrixXd root = random_matrix(n), A = root * root.transpose();
-    Eigen::MatrixXd L = A;
-    ASSERT_TRUE(factorise_in_place(L));
-    L.triangularView<Eigen::StrictlyUpper>().setZero();
-    EXPECT_LE((L * L.transpose() - A).norm(), 1e-13 * A.norm()) << n;
-    const Eigen::MatrixXd inverse = inverse_from_factor(L);
-    EXPECT_EQ(inverse, inverse.transpose());
-    EXPECT_LE((A * inverse - Eigen::MatrixXd::Identity(n, n)).norm(),
-              1e-13 * A.norm() * inverse.norm());
-    Eigen::MatrixXd indefinite = -A;
-    EXPECT_FALSE(factorise_in_place(indefinite));
-  }
+// n columns and what is below them, in the lower part of an array that has more of both.
+TEST(DenseCholesky, IsTheFirstColumnsOfAFactorOfAnySize) {
+  constexpr double stays = 7;
+  for (const int n : {1, 7, 8, 9, 20, 64, 65, 150})
+    for (const int below : {0, 1, 8, 11, 90}) {
+      const int m = n + below;
+      const Eigen::MatrixXd root = random_matrix(m), A = root * root.transpose();
+      Eigen::MatrixXd room = Eigen::MatrixXd::Constant(m + 3, n + 1, stays);
+      room.topLeftCorner(m, n) = A.leftCols(n);
+      // Above the diagonal there may be anything.
+      for (int j = 1; j < n; ++j)
+        room.col(j).head(j).setConstant(std::numeric_limits<double>::quiet_NaN());
+      ASSERT_TRUE(factorise_in_place(room.topLeftCorner(m, n)));
+      for (int j = 0; j < n; ++j) room.col(j).head(j).setZero();
+      const Eigen::MatrixXd L = room.topLeftCorner(m, n);
+      EXPECT_LE((L * L.topRows(n).transpose() - A.leftCols(n)).norm(), 1e-13 * A.norm())
+          << m << " " << n;
+      EXPECT_TRUE((room.bottomRows(3).array() == stays).all() &&
+                  (room.rightCols(1).array() == stays).all());
+
+      Eigen::MatrixXd rest = A.bottomRightCorner(below, below);
+      rest.triangularView<Eigen::StrictlyUpper>().setConstant(
+          std::numeric_limits<double>::quiet_NaN());
+      subtract_square(L.bottomRows(below), rest);
+      const Eigen::MatrixXd exact =
+          A.bottomRightCorner(below, below) - L.bottomRows(below) * L.bottomRows(below).transpose();
+      for (int j = 0; j < below; ++j)
+        EXPECT_LE((rest - exact).col(j).tail(below - j).norm(), 1e-13 * A.norm());
+    }
+}
+
+TEST(DenseCholesky, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  for (const int n : {1, 8, 40, 90})
+    for (const int at : {0, n / 2, n - 1})
+      for (const double pivot : {0.0, -1.0, infinity, std::nan("")}) {
+        Eigen::MatrixXd A = Eigen::MatrixXd::Identity(n, n);
+        A(at, at) = pivot;
+        EXPECT_FALSE(factorise_in_place(A)) << n << " " << at << " " << pivot;
+      }
+}
+
+TEST(DenseCholesky, InverseIsSymmetric) {
+  const Eigen::MatrixXd root = random_matrix(90), A = root * root.transpose();
+  Eigen::MatrixXd L = A;
+  ASSERT_TRUE(factorise_in_place(L));
+  L.triangularView<Eigen::StrictlyUpper>().setZero();
+  const Eigen::MatrixXd inverse = inverse_from_factor(L);
+  EXPECT_EQ(inverse, inverse.transpose());
+  EXPECT_LE((A * inverse - Eigen::MatrixXd::Identity(90, 90)).norm(),
+            1e-13 * A.norm() * inverse.norm());
 }
 
 }  // namespace

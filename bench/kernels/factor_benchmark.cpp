@@ -1,0 +1,141 @@
+// How fast our own factorisations are, as a fraction of dgemm on the same machine in the same run
+// (OpenBLAS, one thread): the skyline's of S, its solves, and the multifrontal one of HYBRID.
+//
+//   factor_benchmark [Google Benchmark's options]         sizes: all meshes below
+//
+// Each iteration times one dgemm and one operation in turn. Operations are those of the factor that
+// is stored: of the skyline Σ h², and 4 Σ h per dense right-hand side; of fronts Σ (rows of a
+// pivot)², their forming and gathering not counted. What the skyline's panels pad, and the leading
+// zeros that solves skip, is not credited: solves here are on dense right-hand sides.
+#include <benchmark/benchmark.h>
+#include <cblas.h>
+
+#include <chrono>
+#include <functional>
+#include <map>
+#include <memory>
+
+#include "assembly/dual_system.hpp"
+#include "assembly/scene.hpp"
+#include "bench/measuring/blas_kernels.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/refinement.hpp"
+#include "solvers/condensation/hybridized.hpp"
+#include "solvers/direct/multifrontal.hpp"
+#include "solvers/direct/skyline.hpp"
+#include "support/data_folder.hpp"
+
+namespace {
+
+using namespace airybench;
+using Clock = std::chrono::steady_clock;
+
+constexpr const char* mesh_names[] = {"Mesh3", "Mesh5", "Mesh7"};
+constexpr int most_refinements_of_Mesh7 = 2;
+constexpr Eigen::Index dgemm_size = 1024;
+constexpr Eigen::Index right_hand_sides = 384;
+constexpr int repetitions = 5;
+
+double seconds(const std::function<void()>& work) {
+  const auto start = Clock::now();
+  work();
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Flops per second of C ← C + A B with square matrices.
+double dgemm_rate() {
+  static const Eigen::MatrixXd a = Eigen::MatrixXd::Random(dgemm_size, dgemm_size);
+  static Eigen::MatrixXd c = Eigen::MatrixXd::Zero(dgemm_size, dgemm_size);
+  const double spent = seconds([] { c.noalias() += a * a; });
+  benchmark::DoNotOptimize(c.data());
+  return 2.0 * dgemm_size * dgemm_size * dgemm_size / spent;
+}
+
+Mesh mesh_of(const std::string& name) { return read_msh(data_folder("meshes") / (name + ".msh")); }
+
+const DualSystem& system_of(const std::string& mesh) {
+  static std::map<std::string, DualSystem> systems;
+  const auto found = systems.find(mesh);
+  if (found != systems.end()) return found->second;
+  auto problem = std::make_shared<const Problem>(pose(Scene{}, mesh_of(mesh)));
+  return systems.emplace(mesh, assemble(std::move(problem))).first->second;
+}
+
+void report(benchmark::State& state, double flops, double op_s, double dgemm_flops_per_s) {
+  state.SetIterationTime(op_s);
+  state.counters["of_dgemm"] = flops / op_s / dgemm_flops_per_s;
+  state.counters["GFlop/s"] = flops / op_s * 1e-9;
+  state.counters["dgemm_GFlop/s"] = dgemm_flops_per_s * 1e-9;
+}
+
+void report_profile(benchmark::State& state, const SkylineProfile& profile) {
+  state.counters["profile"] = static_cast<double>(profile.profile);
+  state.counters["stored/profile"] =
+      static_cast<double>(profile.stored) / static_cast<double>(profile.profile);
+}
+
+void skyline_factor(benchmark::State& state, const std::string& mesh) {
+  const DualSystem& system = system_of(mesh);
+  for (auto _ : state) {
+    const double rate = dgemm_rate();
+    SkylineProfile profile = analyse_skyline(system.S);
+    SkylineFactor result;
+    const double spent = seconds([&] { result = factor_ldlt(std::move(profile), system.S); });
+    report(state, result.profile.factor_flops, spent, rate);
+    report_profile(state, result.profile);
+  }
+}
+
+void skyline_solve(benchmark::State& state, const std::string& mesh) {
+  const DualSystem& system = system_of(mesh);
+  const SkylineFactor f = factor_ldlt(analyse_skyline(system.S), system.S);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(system.n(), right_hand_sides);
+  for (auto _ : state) {
+    const double rate = dgemm_rate();
+    Eigen::MatrixXd x = b;
+    const double spent = seconds([&] { solve_in_place(f, x); });
+    report(state, f.profile.solve_flops() * right_hand_sides, spent, rate);
+    report_profile(state, f.profile);
+  }
+}
+
+void multifrontal_factor(benchmark::State& state, int refinements) {
+  Mesh mesh = mesh_of("Mesh7");
+  for (int k = 0; k < refinements; ++k) mesh = uniformly_refined(mesh);
+  const DualSystem points = assemble(
+      std::make_shared<const Problem>(pose(Scene{}, std::move(mesh))), Blocks::contact_points);
+  const HybridizedSystem system = assemble_hybridized(*points.problem, points.contact);
+  for (auto _ : state) {
+    const double rate = dgemm_rate();
+    MultifrontalFactor result;
+    result.analyse(system.K, system.n_c);
+    const double spent = seconds([&] { result.factor(system.K); });
+    report(state, result.flops(), spent, rate);
+  }
+}
+
+void add(const std::string& name, const std::function<void(benchmark::State&)>& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)
+      ->UseManualTime()
+      ->Iterations(1)
+      ->Repetitions(repetitions)
+      ->ReportAggregatesOnly()
+      ->Unit(benchmark::kMillisecond);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  restart_with_better_blas_core(argv);
+  openblas_set_num_threads(1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  for (const std::string mesh : mesh_names) {
+    add("skyline factor/" + mesh, [mesh](benchmark::State& s) { skyline_factor(s, mesh); });
+    add("skyline solve/" + mesh, [mesh](benchmark::State& s) { skyline_solve(s, mesh); });
+  }
+  for (int k = 0; k <= most_refinements_of_Mesh7; ++k)
+    add("multifrontal factor/Mesh7" + (k > 0 ? "+refine" + std::to_string(k) : ""),
+        [k](benchmark::State& s) { multifrontal_factor(s, k); });
+  benchmark::RunSpecifiedBenchmarks();
+}
