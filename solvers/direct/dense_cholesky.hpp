@@ -19,9 +19,9 @@ using ConstDenseBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<
 //   ⎣A_2⎦ ← ⎣L_2⎦     L_2 = A_2 L_1⁻ᵀ
 //
 // What is above the diagonal is not read, and lost. Halves of the columns one after the other, down
-// to eight (Andersen, Waśniewski & Gustavson 2001, doi:10.1145/383738.383741), so that
-// nearly all of it are matrix products: OpenBLAS has dtrsm at a third of dgemm's rate on AVX-512.
-// False: not positive definite to rounding, or not finite.
+// to eight (Andersen, Waśniewski & Gustavson 2001, doi:10.1145/383738.383741), so that nearly all
+// of it are matrix products: OpenBLAS has dtrsm at a third of dgemm's rate on AVX-512. False: not
+// positive definite to rounding, or not finite.
 bool factorise_in_place(DenseBlock A);
 
 // C ← C − A Aᵀ in the lower triangle. What is above is not read, and lost.

@@ -17,18 +17,11 @@ namespace {
 constexpr int many_elements = 30000;
 
 IndexLists elements_of_unknowns(const ElementMatrices& K) {
-  IndexLists lists;
-  lists.start.assign(static_cast<std::size_t>(K.order) + 1, 0);
-  for (const auto& unknowns : K.unknown)
-    for (const int u : unknowns)
-      if (u >= 0) ++lists.start[u + 1];
-  std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
-  lists.entry.resize(static_cast<std::size_t>(lists.start.back()));
-  std::vector<int> next(lists.start.begin(), lists.start.end() - 1);
-  for (int e = 0; e < K.count(); ++e)
-    for (const int u : K.unknown[e])
-      if (u >= 0) lists.entry[next[u]++] = e;
-  return lists;
+  return gather_lists(K.order, [&](auto add) {
+    for (int e = 0; e < K.count(); ++e)
+      for (const int u : K.unknown[e])
+        if (u >= 0) add(u, e);
+  });
 }
 
 // Neighbouring unknowns that the same elements have, on the same side of the trailing ones.
@@ -85,24 +78,18 @@ class Analysis {
     common_.nrelax[0] = 1;
     common_.nrelax[1] = 4;
     common_.nrelax[2] = 12;
-    std::vector<int> pairs_of(static_cast<std::size_t>(n_) + 1, 0);
-    for (int e = 0; e < own.count(); ++e) {
-      const int last = static_cast<int>(own[e].size());
-      for (int j = 0; j < last; ++j) pairs_of[own[e][j] + 1] += last - j;
-    }
-    std::partial_sum(pairs_of.begin(), pairs_of.end(), pairs_of.begin());
-    std::vector<int> below(static_cast<std::size_t>(pairs_of.back()));
-    std::vector<int> next(pairs_of.begin(), pairs_of.end() - 1);
-    for (int e = 0; e < own.count(); ++e)
-      for (std::size_t j = 0; j < own[e].size(); ++j)
-        for (const int i : own[e].subspan(j)) below[next[own[e][j]]++] = i;
-    start_.reserve(pairs_of.size());
-    row_.reserve(below.size());
+    IndexLists below = gather_lists(n_, [&](auto add) {
+      for (int e = 0; e < own.count(); ++e)
+        for (std::size_t j = 0; j < own[e].size(); ++j)
+          for (const int i : own[e].subspan(j)) add(own[e][j], i);
+    });
+    start_.reserve(below.start.size());
+    row_.reserve(below.entry.size());
     start_.push_back(0);
     for (int j = 0; j < n_; ++j) {
-      const auto first = below.begin() + pairs_of[j], end = below.begin() + pairs_of[j + 1];
-      std::sort(first, end);
-      row_.insert(row_.end(), first, std::unique(first, end));
+      const std::span<int> rows = below[j];
+      std::ranges::sort(rows);
+      row_.insert(row_.end(), rows.begin(), std::ranges::unique(rows).begin());
       start_.push_back(static_cast<int>(row_.size()));
     }
   }
@@ -208,15 +195,17 @@ std::vector<int> fronts_of_places(const Elimination& elimination) {
 // doi:10.1145/6497.6499): by how much more a child needs than it leaves.
 void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   const int count = static_cast<int>(result.fronts.size());
-  std::vector<int> roots, parent(static_cast<std::size_t>(count), -1);
-  for (int f = 0; f < count; ++f) {
-    const Front& front = result.fronts[f];
-    if (front.below() == 0)
-      roots.push_back(f);
-    else
-      parent[f] = front_at[result.rows[front.rows_at + front.pivots]];
-  }
-  result.children = members(count, parent);
+  std::vector<int> roots;
+  result.children = gather_lists(count, [&](auto add) {
+    roots.clear();
+    for (int f = 0; f < count; ++f) {
+      const Front& front = result.fronts[f];
+      if (front.below() == 0)
+        roots.push_back(f);
+      else
+        add(front_at[result.rows[front.rows_at + front.pivots]], f);
+    }
+  });
   // A child comes before its parent in the places, so its need is known.
   std::vector<std::size_t> need(static_cast<std::size_t>(count));
   for (int f = 0; f < count; ++f) {
@@ -253,14 +242,15 @@ void order_fronts(const std::vector<int>& front_at, Elimination& result) {
 
 void hand_out_elements(const ElementMatrices& K, const std::vector<int>& front_at,
                        Elimination& result) {
-  std::vector<int> front_of(static_cast<std::size_t>(K.count()), -1);
-  for (int e = 0; e < K.count(); ++e) {
-    int first = K.order;
-    for (const int u : K.unknown[e])
-      if (u >= 0) first = std::min(first, result.place[u]);
-    if (first < K.order) front_of[e] = front_at[first];
-  }
-  result.elements = members(static_cast<int>(result.fronts.size()), front_of);
+  const auto count = static_cast<int>(result.fronts.size());
+  result.elements = gather_lists(count, [&](auto add) {
+    for (int e = 0; e < K.count(); ++e) {
+      int first = K.order;
+      for (const int u : K.unknown[e])
+        if (u >= 0) first = std::min(first, result.place[u]);
+      if (first < K.order) add(front_at[first], e);
+    }
+  });
 }
 
 }  // namespace

@@ -21,17 +21,16 @@ struct IndexLists {
   void end_list() { start.push_back(static_cast<int>(entry.size())); }
 };
 
-// Of each of `count` lists the indices i, ascending, with list[i] its number; negative: in none.
-inline IndexLists members(int count, const std::vector<int>& list) {
+// `count` lists of what visit(add) adds by add(list, index), in that order; it is called twice.
+template <typename Visit>
+IndexLists gather_lists(int count, Visit visit) {
   IndexLists lists;
   lists.start.assign(static_cast<std::size_t>(count) + 1, 0);
-  for (const int l : list)
-    if (l >= 0) ++lists.start[l + 1];
+  visit([&](int list, int) { ++lists.start[list + 1]; });
   std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
   lists.entry.resize(static_cast<std::size_t>(lists.start.back()));
   std::vector<int> next(lists.start.begin(), lists.start.end() - 1);
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (list[i] >= 0) lists.entry[next[list[i]]++] = static_cast<int>(i);
+  visit([&](int list, int index) { lists.entry[next[list]++] = index; });
   return lists;
 }
 

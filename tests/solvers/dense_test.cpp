@@ -89,15 +89,20 @@ TEST(DenseCholesky, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
       }
 }
 
-TEST(DenseCholesky, InverseIsSymmetric) {
-  const Eigen::MatrixXd root = random_matrix(90), A = root * root.transpose();
-  Eigen::MatrixXd L = A;
-  ASSERT_TRUE(factorise_in_place(L));
-  L.triangularView<Eigen::StrictlyUpper>().setZero();
-  const Eigen::MatrixXd inverse = inverse_from_factor(L);
-  EXPECT_EQ(inverse, inverse.transpose());
-  EXPECT_LE((A * inverse - Eigen::MatrixXd::Identity(90, 90)).norm(),
-            1e-13 * A.norm() * inverse.norm());
+TEST(DenseCholesky, IsTheFactorAtAnySize) {
+  for (const int n : {1, 47, 48, 90}) {
+    const Eigen::MatrixXd root = random_matrix(n), A = root * root.transpose();
+    Eigen::MatrixXd L = A;
+    ASSERT_TRUE(factorise_in_place(L));
+    L.triangularView<Eigen::StrictlyUpper>().setZero();
+    EXPECT_LE((L * L.transpose() - A).norm(), 1e-13 * A.norm()) << n;
+    const Eigen::MatrixXd inverse = inverse_from_factor(L);
+    EXPECT_EQ(inverse, inverse.transpose());
+    EXPECT_LE((A * inverse - Eigen::MatrixXd::Identity(n, n)).norm(),
+              1e-13 * A.norm() * inverse.norm());
+    Eigen::MatrixXd indefinite = -A;
+    EXPECT_FALSE(factorise_in_place(indefinite));
+  }
 }
 
 }  // namespace
