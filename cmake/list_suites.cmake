@@ -1,5 +1,6 @@
 # Makes a test of CTest of every suite of an executable, so that its cases share what they set up.
-# SPLIT "suite parts ...": long suites in so many parts, which run beside each other.
+# SPLIT "suite parts ...": suites in so many parts, which run beside each other. LONG "suite;...":
+# these are begun before others.
 execute_process(COMMAND ${EXECUTABLE} --gtest_list_tests OUTPUT_VARIABLE listed
                 COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX REPLACE "#[^\n]*" "" listed "${listed}")
@@ -11,6 +12,11 @@ foreach(line IN LISTS lines)
     continue()
   endif()
   set(suite ${CMAKE_MATCH_1})
+  list(FIND LONG ${suite} place)
+  set(cost "")
+  if(place GREATER -1)
+    set(cost "COST 50")
+  endif()
   set(parts 1)
   list(FIND split ${suite} place)
   if(place GREATER -1)
@@ -27,7 +33,7 @@ foreach(line IN LISTS lines)
     endif()
     string(APPEND script
       "add_test([[${name}]] [[${EXECUTABLE}]] --gtest_brief=1 [[--gtest_filter=${suite}.*]])\n"
-      "set_tests_properties([[${name}]] PROPERTIES ENVIRONMENT [[${environment}]])\n")
+      "set_tests_properties([[${name}]] PROPERTIES ENVIRONMENT [[${environment}]] ${cost})\n")
   endforeach()
 endforeach()
 file(WRITE ${OUTPUT} "${script}")

@@ -1,13 +1,10 @@
 #include "bench/cases/plan.hpp"
 
 #include <fmt/format.h>
-#include <regex.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <limits>
-#include <stdexcept>
 
 #include "support/numbers.hpp"
 #include "support/sha256.hpp"
@@ -83,23 +80,6 @@ std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard) {
   for (const Case& c : plan)
     if ((c.number - 1) % shard.count == shard.index - 1) part.push_back(c);
   return part;
-}
-
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& expression) {
-  const bool others = expression.starts_with('-');
-  regex_t compiled;
-  if (const int error =
-          regcomp(&compiled, expression.c_str() + (others ? 1 : 0), REG_EXTENDED | REG_NOSUB)) {
-    std::array<char, 200> what{};
-    regerror(error, &compiled, what.data(), what.size());
-    throw std::invalid_argument(fmt::format("{}: {}", expression, what.data()));
-  }
-  std::vector<Case> found;
-  std::copy_if(plan.begin(), plan.end(), std::back_inserter(found), [&](const Case& c) {
-    return (regexec(&compiled, c.name().text().c_str(), 0, nullptr, 0) == 0) != others;
-  });
-  regfree(&compiled);
-  return found;
 }
 
 }  // namespace airybench

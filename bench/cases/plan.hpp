@@ -60,8 +60,4 @@ std::string name_of(const Shard& shard);                 // "2/3"
 std::optional<Shard> shard_of(const std::string& text);  // empty: not k/n with 1 ≤ k ≤ n
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
 
-// The cases whose names a POSIX extended regular expression matches somewhere; with a leading '-'
-// the others. Throws std::invalid_argument.
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& expression);
-
 }  // namespace airybench

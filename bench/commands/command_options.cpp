@@ -50,8 +50,7 @@ Examples
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
-// What Google Benchmark is told. Its filter and context are ours to keep: the cases that are run
-// and the records must show them.
+// What Google Benchmark is told, kept as options: the plan and the records must show it.
 void take_benchmark_argument(const std::string& argument, Options& options) {
   const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
     if (!argument.starts_with(option)) return {};

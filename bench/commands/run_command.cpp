@@ -25,6 +25,7 @@
 #include "bench/measuring/machine_warnings.hpp"
 #include "bench/measuring/noise_kernel.hpp"
 #include "bench/records/json.hpp"
+#include "bench/running/benchmark_flags.hpp"
 #include "bench/running/progress.hpp"
 #include "bench/running/repetitions.hpp"
 #include "bench/running/runner.hpp"
@@ -138,12 +139,9 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   const std::vector<PosedScene> scenes =
       options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
-  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
-                                      options.stop, options.contact, options.thread_counts);
-  if (!options.filter.empty()) plan = matching(plan, options.filter);
-  if (plan.empty() && short_of.empty())
-    throw UsageError("no case is left: the arguments after -- select none");
-  return plan;
+  const std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
+                                            options.stop, options.contact, options.thread_counts);
+  return options.filter.empty() ? plan : matching(plan, options.filter);
 }
 
 std::string times_line(const RunTimes& times) {

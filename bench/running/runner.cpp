@@ -12,6 +12,7 @@
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/output/record_files.hpp"
 #include "bench/records/summary.hpp"
+#include "bench/running/benchmark_flags.hpp"
 #include "bench/running/progress.hpp"
 #include "bench/running/repetitions.hpp"
 #include "support/seconds_since.hpp"
@@ -171,28 +172,6 @@ class Reporter : public benchmark::BenchmarkReporter {
   SceneRunner& run_;
 };
 
-void initialize_benchmark(const Options& options) {
-  static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
-  // All that its environment variables could change (BENCHMARK_FILTER and so on): a run is what its
-  // own options say.
-  arguments = {"bench",
-               "--benchmark_filter=all",
-               "--benchmark_list_tests=false",
-               "--benchmark_repetitions=1",
-               "--benchmark_min_time=0",
-               "--benchmark_min_warmup_time=0",
-               "--benchmark_report_aggregates_only=false",
-               "--benchmark_display_aggregates_only=false",
-               "--benchmark_out=",
-               "--benchmark_perf_counters=",
-               "--benchmark_context=",
-               fmt::format("--benchmark_enable_random_interleaving={}", options.interleave)};
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  int argc = static_cast<int>(argv.size());
-  benchmark::Initialize(&argc, argv.data());
-}
-
 void run_scene(const std::vector<const Case*>& cases, const Options& options, SceneRunner& run) {
   for (std::size_t k = 0; k < cases.size(); ++k)
     benchmark::RegisterBenchmark(cases[k]->name().text().c_str(),
@@ -216,7 +195,7 @@ void run_scene(const std::vector<const Case*>& cases, const Options& options, Sc
 RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
                     const Machine& machine) {
   const auto start = std::chrono::steady_clock::now();
-  initialize_benchmark(options);
+  set_benchmark_flags(Benchmarks::run, options.interleave);
   const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
   RecordFiles files(options.out, context, keep);
   NoiseWatch watch(options.retry_noisy, machine);

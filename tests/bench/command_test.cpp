@@ -1,45 +1,33 @@
 // The bench command from outside: exit codes, records, output files; plan_test.cpp, usage_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::command_test {
 namespace {
 
 namespace fs = std::filesystem;
 
+using testing::BenchCommand;
+using testing::CommandResult;
 using testing::lines_of;
-using Result = testing::CommandResult;
+using testing::write_text;
 
-std::string content(const fs::path& file) { return testing::text_of(file); }
-
-class Command : public ::testing::Test {
- protected:
-  Result bench(const std::string& arguments) const {
-    return testing::run_bench(folder_, arguments);
-  }
-  fs::path file(const std::string& name, const std::string& text) const {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
-  }
-  const testing::TemporaryFolder temporary_;
-  const fs::path folder_ = temporary_.path();
-};
-
-TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
-  const Result result = bench("--mesh=Mesh0 --method=3STEPD --repetitions=3 --out=o");
+TEST(Command, MeasuresOneCaseAndWritesThreeFiles) {
+  const BenchCommand bench;
+  const CommandResult result = bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=3 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.err.find("[1/1] Mesh0/default/3STEPD: ok, "), std::string::npos);
   EXPECT_NE(result.out.find("error force"), std::string::npos);
 
-  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = bench.records().front();
   EXPECT_EQ(record["status"], "ok");
   EXPECT_EQ(record["n_phi"], 761);
   EXPECT_EQ(record["n_f"], 96);
@@ -50,10 +38,10 @@ TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
   EXPECT_EQ(record["context"]["blas_threads"], "1");
   EXPECT_TRUE(record["context"].contains("git_revision"));
 
-  const std::string csv = content(folder_ / "o/results.csv");
+  const std::string csv = bench.content("o/results.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 2);
 
-  const auto google = Json::parse(content(folder_ / "o/results.json"));
+  const auto google = Json::parse(bench.content("o/results.json"));
   int iterations = 0;
   for (const auto& run : google["benchmarks"]) {
     if (run["run_type"] != "iteration") continue;
@@ -66,68 +54,93 @@ TEST_F(Command, MeasuresOneCaseAndWritesThreeFiles) {
   EXPECT_EQ(google["context"]["blas_threads"], "1");
 }
 
-TEST_F(Command, FailedCasesAreRecordedAndExitWithOne) {
-  const Result slow =
-      bench("--mesh=Mesh0 --method=3STEPD --timeout=1e-9 --repetitions=2 --out=slow");
+TEST(Command, FailedCasesAreRecordedAndExitWithOne) {
+  const BenchCommand bench;
+  const CommandResult slow =
+      bench.run("--mesh=Mesh0 --method=3STEPD --timeout=1e-9 --repetitions=2 --out=slow");
   EXPECT_EQ(slow.code, 1);
-  EXPECT_EQ(Json::parse(content(folder_ / "slow/records.jsonl"))["status"], "timeout");
-  EXPECT_TRUE(fs::exists(folder_ / "slow/results.csv"));
+  EXPECT_EQ(bench.records("slow").front()["status"], "timeout");
+  EXPECT_TRUE(fs::exists(bench.path("slow/results.csv")));
   EXPECT_NE(slow.out.find("timeout: time limit reached during"), std::string::npos);
 
-  const Result strict =
-      bench("--mesh=Mesh0 --method=3STEPD --target-error=1e-16 --repetitions=2 --out=strict");
+  const CommandResult strict =
+      bench.run("--mesh=Mesh0 --method=3STEPD --target-error=1e-16 --repetitions=2 --out=strict");
   EXPECT_EQ(strict.code, 1);
-  const auto record = Json::parse(content(folder_ / "strict/records.jsonl"));
+  const auto record = bench.records("strict").front();
   EXPECT_EQ(record["status"], "inaccurate");
   EXPECT_FALSE(record["time_s"].is_null());  // measured all the same, with its error beside it
 }
 
-TEST_F(Command, WritesFieldsOnRequest) {
-  const Result result =
-      bench("--mesh=Mesh0 --method=3STEPD:CHOLMOD --repetitions=1 --fields --out=o");
+TEST(Command, WritesFieldsOnRequest) {
+  const BenchCommand bench;
+  const CommandResult result =
+      bench.run("--mesh=Mesh0 --method=3STEPD:CHOLMOD --repetitions=1 --fields --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  const std::string stress =
-      content(folder_ / "o/fields/Mesh0--default--3STEPD+CHOLMOD.stress.csv");
+  const std::string stress = bench.content("o/fields/Mesh0--default--3STEPD+CHOLMOD.stress.csv");
   EXPECT_EQ(std::count(stress.begin(), stress.end(), '\n'), 1 + 9 * 226);
-  const std::string contact =
-      content(folder_ / "o/fields/Mesh0--default--3STEPD+CHOLMOD.contact.csv");
+  const std::string contact = bench.content("o/fields/Mesh0--default--3STEPD+CHOLMOD.contact.csv");
   EXPECT_EQ(std::count(contact.begin(), contact.end(), '\n'), 1 + 20);
 }
 
-TEST_F(Command, TakesAUsersMeshAndScene) {
-  fs::copy_file(testing::mesh_file("Mesh0"), folder_ / "mine.msh");
-  file("flat.json", R"({"crown_radius_mm": null, "friction": 0})");
-  const Result result =
-      bench("--mesh=mine.msh --scene=flat.json --method=3STEPD --repetitions=1 --out=o");
+TEST(Command, TakesAUsersMeshAndScene) {
+  const BenchCommand bench;
+  fs::copy_file(testing::mesh_file("Mesh0"), bench.path("mine.msh"));
+  write_text(bench.path("flat.json"), R"({"crown_radius_mm": null, "friction": 0})");
+  const CommandResult result =
+      bench.run("--mesh=mine.msh --scene=flat.json --method=3STEPD --repetitions=1 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = bench.records().front();
   EXPECT_EQ(record["mesh"], "mine");
   EXPECT_EQ(record["mesh_file"], "../mine.msh");
-  EXPECT_EQ(bench("replay o:1 --out=again/r").code, 0);
-  EXPECT_EQ(Json::parse(content(folder_ / "again/r/records.jsonl"))["mesh_file"], "../../mine.msh");
+  EXPECT_EQ(bench.run("replay o:1 --out=again/r").code, 0);
+  EXPECT_EQ(bench.records("again/r").front()["mesh_file"], "../../mine.msh");
   EXPECT_EQ(record["scene"], "flat");
   EXPECT_EQ(record["n_c"], 20);
   EXPECT_TRUE(record["coulomb_violation_N"].is_null());
 }
 
-TEST_F(Command, HandsTheRestToGoogleBenchmark) {
-  const Result result =
-      bench("--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- --benchmark_filter=CHOLMOD");
-  ASSERT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(Json::parse(content(folder_ / "o/records.jsonl"))["method"], "3STEPD:CHOLMOD");
+TEST(Command, GoogleBenchmarksFilterSelectsCases) {
+  const BenchCommand bench;
+  const auto explained = [&](const std::string& filter) {
+    return bench.run("--mesh=Mesh0,Mesh1 --method='3STEPD*' --explain -- --benchmark_filter='" +
+                     filter + "'");
+  };
+  const auto cases = [&](const std::string& filter) {
+    const CommandResult result = explained(filter);
+    EXPECT_EQ(result.code, 0) << result.err;
+    return std::ranges::count_if(lines_of(result.out),
+                                 [](const std::string& line) { return line.starts_with('['); });
+  };
+  const auto all = cases("all");
+  EXPECT_GT(all, 4);
+  EXPECT_EQ(cases("CHOLMOD"), 2);
+  EXPECT_EQ(cases("-CHOLMOD"), all - 2);
+  EXPECT_EQ(cases("^Mesh1/default/3STEPD(:CHOLMOD)?$"), 2);
+  const CommandResult none = explained("NoSuchCase"), wrong = explained("(");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_EQ(none.err,
+            "bench: -- --benchmark_filter=NoSuchCase: Failed to match any benchmarks against "
+            "regex: NoSuchCase\n");
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_TRUE(wrong.err.starts_with("bench: -- --benchmark_filter=(: Could not compile"))
+      << wrong.err;
+  EXPECT_EQ(lines_of(wrong.err).size(), 1u);
+  ASSERT_EQ(bench
+                .run("--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- "
+                     "--benchmark_filter=CHOLMOD")
+                .code,
+            0);
+  EXPECT_EQ(bench.records().front()["method"], "3STEPD:CHOLMOD");
 }
 
-TEST_F(Command, InterleavedRepetitionsAreAllRecorded) {
-  const Result result = bench(
+TEST(Command, InterleavedRepetitionsAreAllRecorded) {
+  const BenchCommand bench;
+  const CommandResult result = bench.run(
       "--mesh=Mesh0,Mesh3 --method=HYBRID --repetitions=6 --out=o -- "
       "--benchmark_enable_random_interleaving=true");
   ASSERT_EQ(result.code, 0) << result.err;
-  std::istringstream lines(content(folder_ / "o/records.jsonl"));
   std::map<std::string, Json> records;
-  for (std::string line; std::getline(lines, line);) {
-    const auto record = Json::parse(line);
-    records[record["mesh"]] = record;
-  }
+  for (const Json& record : bench.records()) records[record["mesh"]] = record;
   ASSERT_EQ(records.size(), 2u);
   const auto &small = records["Mesh0"]["samples_s"], &large = records["Mesh3"]["samples_s"];
   EXPECT_EQ(small.size(), 6u);
@@ -136,21 +149,20 @@ TEST_F(Command, InterleavedRepetitionsAreAllRecorded) {
   EXPECT_EQ(records["Mesh3"]["n_phi"], 6287);
 }
 
-TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
-#ifdef AIRYBENCH_SANITIZED  // few iterations
-  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SKY,lanes=1",
-                                          "3STEPCG:SKY,lanes=1"};
-#else
-  const std::vector<std::string> names = {"ALM:r=20,rho=32", "SYMMLQ:SSOR0.7,schur=sparse",
-                                          "3STEPCG:FLIC2,lanes=1"};
-#endif
-  const Result result = bench("--mesh=Mesh0 --repetitions=1 --out=o --method=" + names[0] + "," +
-                              names[1] + "," + names[2]);
+TEST(Command, GeneralNamesAreKeptInTheRecords) {
+  const BenchCommand bench;
+  const bool few = testing::sanitized;  // iterations
+  const std::vector<std::string> names = {
+      "ALM:r=20,rho=32", few ? "SYMMLQ:SKY,lanes=1" : "SYMMLQ:SSOR0.7,schur=sparse",
+      few ? "3STEPCG:SKY,lanes=1" : "3STEPCG:FLIC2,lanes=1"};
+  const CommandResult result =
+      bench.run("--mesh=Mesh0 --repetitions=1 --out=o --method=" + names[0] + "," + names[1] + "," +
+                names[2]);
   ASSERT_EQ(result.code, 0) << result.err << result.out;
-  const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
-  ASSERT_EQ(lines.size(), 3u);
+  const std::vector<Json> records = bench.records();
+  ASSERT_EQ(records.size(), 3u);
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto record = Json::parse(lines[k]);
+    const Json& record = records[k];
     EXPECT_EQ(record["method"], names[k]);
     EXPECT_EQ(record["stop"], "target");
     EXPECT_GT(record["tolerance"], 0);
@@ -159,23 +171,23 @@ TEST_F(Command, GeneralNamesAreKeptInTheRecords) {
     EXPECT_EQ(record["uzawa_iterations"].is_null(), k > 0);
     EXPECT_EQ(record["linear_iterations"].is_null(), k == 0);
   }
-  EXPECT_EQ(Json::parse(lines[0])["parameters"], "r=20, rho=32");
+  EXPECT_EQ(records[0]["parameters"], "r=20, rho=32");
 }
 
-TEST_F(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
-  const Result result =
-      bench("--mesh=Mesh0 --method=SDTIC3,ALM --stop=paper --repetitions=1 --out=o");
+TEST(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
+  const BenchCommand bench;
+  const CommandResult result =
+      bench.run("--mesh=Mesh0 --method=SDTIC3,ALM --stop=paper --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 1) << "its error is above the target";
-  const std::vector<std::string> lines = lines_of(content(folder_ / "o/records.jsonl"));
-  ASSERT_EQ(lines.size(), 2u);
-  for (const std::string& line : lines) {
-    const auto record = Json::parse(line);
+  const std::vector<Json> records = bench.records();
+  ASSERT_EQ(records.size(), 2u);
+  for (const Json& record : records) {
     EXPECT_EQ(record["stop"], "paper");
     EXPECT_EQ(record["status"], "inaccurate");
     EXPECT_GT(record["error_force"], 1e-7);
     EXPECT_GT(record["time_s"], 0);
   }
-  const auto alm = Json::parse(lines[1]);
+  const Json& alm = records[1];
   EXPECT_EQ(alm["grid"].size(), 64u);
   EXPECT_EQ(alm["grid_best"], alm["uzawa_iterations"]);
   EXPECT_LE(alm["grid_best"], alm["grid_median"]);
@@ -183,33 +195,35 @@ TEST_F(Command, ThePapersStopIsRecordedWithTheErrorItLeaves) {
   EXPECT_GT(alm["tuning_s"], 0);
 }
 
-TEST_F(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=1 --out=o").code, 0);
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --repetitions=2 --out=o --append").code, 0);
-  ASSERT_EQ(bench("--mesh=Mesh1 --method=3STEPD --repetitions=1 --out=o --append").code, 0);
+TEST(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD,HYBRID --repetitions=1 --out=o").code, 0);
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=2 --out=o --append").code, 0);
+  ASSERT_EQ(bench.run("--mesh=Mesh1 --method=3STEPD --repetitions=1 --out=o --append").code, 0);
   // Another stop is another case.
   ASSERT_EQ(
-      bench("--mesh=Mesh1 --method=3STEPD --stop=paper --repetitions=1 --out=o --append").code, 0);
+      bench.run("--mesh=Mesh1 --method=3STEPD --stop=paper --repetitions=1 --out=o --append").code,
+      0);
   std::vector<std::string> found;
-  for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
-    const auto record = Json::parse(line);
+  for (const Json& record : bench.records()) {
     found.push_back(record["mesh"].get<std::string>() + " " + record["method"].get<std::string>() +
                     " " + record["stop"].get<std::string>() + " " +
                     std::to_string(record["samples_s"].size()));
   }
   EXPECT_EQ(found, (std::vector<std::string>{"Mesh0 HYBRID target 1", "Mesh0 3STEPD target 2",
                                              "Mesh1 3STEPD target 1", "Mesh1 3STEPD paper 1"}));
-  EXPECT_EQ(lines_of(content(folder_ / "o/results.csv")).size(), 5u);
+  EXPECT_EQ(lines_of(bench.content("o/results.csv")).size(), 5u);
   // Without --append the folder holds what was run last.
-  ASSERT_EQ(bench("--mesh=Mesh1 --method=HYBRID --repetitions=1 --out=o").code, 0);
-  EXPECT_EQ(lines_of(content(folder_ / "o/records.jsonl")).size(), 1u);
+  ASSERT_EQ(bench.run("--mesh=Mesh1 --method=HYBRID --repetitions=1 --out=o").code, 0);
+  EXPECT_EQ(bench.records().size(), 1u);
 }
 
-TEST_F(Command, ATimeoutTellsWhatWasDone) {
-  const Result result =
-      bench("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
+TEST(Command, ATimeoutTellsWhatWasDone) {
+  const BenchCommand bench;
+  const CommandResult result =
+      bench.run("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 1);
-  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
+  const auto record = bench.records().front();
   EXPECT_EQ(record["status"], "timeout");
   EXPECT_TRUE(record["time_s"].is_null());
   EXPECT_GT(record["done_fraction"], 0);
@@ -218,16 +232,15 @@ TEST_F(Command, ATimeoutTellsWhatWasDone) {
   EXPECT_GT(record["error_so_far"], record["tolerance"].get<double>());
 }
 
-TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
+TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
+  const BenchCommand bench;
   const std::string methods = "3STEPCG3,SDTIC6,ALM:r=20,rho=20,BLIND:SKY,HYBRID";
   const auto counts = [&](const std::string& arguments, std::vector<const char*> keys) {
-    EXPECT_EQ(bench("--mesh=Mesh0 --repetitions=1 --out=o --method=" + methods + arguments).code,
-              0);
+    EXPECT_EQ(
+        bench.run("--mesh=Mesh0 --repetitions=1 --out=o --method=" + methods + arguments).code, 0);
     std::vector<std::string> all;
-    for (const std::string& line : lines_of(content(folder_ / "o/records.jsonl"))) {
-      const auto record = Json::parse(line);
+    for (const Json& record : bench.records())
       for (const char* key : keys) all.push_back(record["method"].dump() + record[key].dump());
-    }
     return all;
   };
   const std::vector<const char*> every = {"linear_iterations", "contact_iterations",
@@ -249,20 +262,22 @@ TEST_F(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
         << on_two[k];
 }
 
-TEST_F(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
+TEST(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
+  const BenchCommand bench;
   const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=\"it's\" ";
-  const Result result = bench(run + "--then='ls >said; ls >>said'");
+  const CommandResult result = bench.run(run + "--then='ls >said; ls >>said'");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(content(folder_ / "said").find("records.jsonl\n"), std::string::npos);
-  EXPECT_EQ(bench(run + "--then=false").code, 0);
-  EXPECT_EQ(bench(run + "--then='touch never' --dry-run").code, 0);
-  EXPECT_FALSE(fs::exists(folder_ / "never"));
+  EXPECT_NE(bench.content("said").find("records.jsonl\n"), std::string::npos);
+  EXPECT_EQ(bench.run(run + "--then=false").code, 0);
+  EXPECT_EQ(bench.run(run + "--then='touch never' --dry-run").code, 0);
+  EXPECT_FALSE(fs::exists(bench.path("never")));
 }
 
-TEST_F(Command, ALongCaseIsMeasuredOnce) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code,
-            0);
-  const auto record = Json::parse(content(folder_ / "o/records.jsonl"));
+TEST(Command, ALongCaseIsMeasuredOnce) {
+  const BenchCommand bench;
+  ASSERT_EQ(
+      bench.run("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code, 0);
+  const auto record = bench.records().front();
   EXPECT_EQ(record["measured_once"], true);
   EXPECT_EQ(record["repetitions"], 1);
   EXPECT_EQ(record["samples_s"].size(), 1u);

@@ -12,6 +12,7 @@
 #include "tests/support/method_names.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::methods_test {
@@ -32,11 +33,11 @@ std::vector<Method> kinds_of_methods() {
                            "3STEPCG:DTIC4,lanes=1", "SYMMLQ:DTIC3", "SYMMLQ:FLIC2", "SYMMLQ:SKY",
                            "3STEPCG:DTIC3", "3STEPCG:FLIC2", "3STEPCG:SKY"})
     kinds.push_back(select_methods(name).front());
-#ifndef AIRYBENCH_SANITIZED  // thousands of iterations; preconditioners_test has these, too
+  if (testing::sanitized) return kinds;
+  // Thousands of iterations; preconditioners_test has these, too.
   for (const char* name : {"SYMMLQ:SKY,schur=sparse", "SYMMLQ:SSOR1.0", "SYMMLQ:NONE",
                            "3STEPCG:SSOR1.0", "3STEPCG:NONE"})
     kinds.push_back(select_methods(name).front());
-#endif
   return kinds;
 }
 

@@ -18,25 +18,19 @@ struct CommandResult {
   std::string out, err;
 };
 
-// Runs it in that folder. before: what the shell does first, "ulimit -f 8; ".
-inline CommandResult run_bench(const std::filesystem::path& folder, const std::string& arguments,
-                               const std::string& before = "") {
-  std::string command = "cd '";
-  command += folder.string();
-  command += "' && ";
-  command += before;
-  command += "'" + bench_executable().string() + "' ";
-  command += arguments;
-  command += " >out.txt 2>err.txt </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / "out.txt"),
-          text_of(folder / "err.txt")};
-}
-
 class BenchCommand {
  public:
+  // before: what the shell does first, "ulimit -f 8; ".
   CommandResult run(const std::string& arguments, const std::string& before = "") const {
-    return run_bench(folder_.path(), arguments, before);
+    std::string command = "cd '";
+    command += folder_.path().string();
+    command += "' && ";
+    command += before;
+    command += "'" + bench_executable().string() + "' ";
+    command += arguments;
+    command += " >out.txt 2>err.txt </dev/null";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }

@@ -56,7 +56,7 @@ TEST_F(ClaimsCommand, WritesAMarkdownTable) {
   add("Mesh0", "3STEPD", 1);
   add("Mesh0", "BLIND", 3);
   ASSERT_EQ(claims("--out=table.md").code, 0);
-  const std::string table = testing::text_of(folder_ / "table.md");
+  const std::string table = bench_.content("table.md");
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 2 + 2 + 10);
   EXPECT_NE(table.find("| 10 | Blind condensation is too expensive (3.2.1); here: slower than "
                        "3STEPD | BLIND/3STEPD: Mesh0 3 s/1 s = 3 | BLIND/3STEPD on 1 mesh 3 | "
@@ -112,13 +112,13 @@ TEST_F(ClaimsCommand, MalformedRecordsAreNamedByLineKeyAndValue) {
   expect_bad("peak_heap_bytes", -1, ": -1 (allowed: a whole number from 0 to 2^60, null)");
   expect_refused(good.dump() + "\n[1]\n", ":2: [1] (allowed: a JSON object)");
   const std::string cut = good.dump().substr(0, 40);
-  testing::write_text(folder_ / "records.jsonl", good.dump() + "\n" + cut + "\n");
+  testing::write_text(bench_.path("records.jsonl"), good.dump() + "\n" + cut + "\n");
   Result result = run("claims .");
   EXPECT_EQ(result.code, 2);
   EXPECT_EQ(result.err.rfind("bench: ./records.jsonl:2: not JSON: ", 0), 0u) << result.err;
   EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
   // The last line of a run that was ended while it wrote.
-  testing::write_text(folder_ / "records.jsonl", good.dump() + "\n" + cut);
+  testing::write_text(bench_.path("records.jsonl"), good.dump() + "\n" + cut);
   result = run("claims .");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("1 cases"), std::string::npos) << result.out;

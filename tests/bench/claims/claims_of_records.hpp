@@ -57,13 +57,11 @@ class ClaimsOfRecords : public ::testing::Test {
                          [&](const Json& r) { return r["mesh"] == mesh && r["method"] == method; });
   }
 
-  CommandResult run(const std::string& arguments) const {
-    return run_bench(folder_.path(), arguments);
-  }
+  CommandResult run(const std::string& arguments) const { return bench_.run(arguments); }
   CommandResult claims(const std::string& arguments = "") const {
     std::string lines;
     for (const Json& record : records_) lines += record.dump() + "\n";
-    write_text(folder_ / "records.jsonl", lines);
+    write_text(bench_.path("records.jsonl"), lines);
     return run("claims . " + arguments);
   }
   // The lines of one claim: verdict, sentence, what it rests on.
@@ -92,15 +90,15 @@ class ClaimsOfRecords : public ::testing::Test {
     EXPECT_NE(claim(number).find("open      " + reason), std::string::npos) << claim(number);
   }
   void expect_refused(const std::string& records, const std::string& complaint) const {
-    write_text(folder_ / "records.jsonl", records);
+    write_text(bench_.path("records.jsonl"), records);
     const CommandResult result = run("claims . --out=table.md");
     EXPECT_EQ(result.code, 2);
     EXPECT_EQ(result.err, "bench: ./records.jsonl" + complaint + "\n");
     EXPECT_EQ(result.out, "");
-    EXPECT_FALSE(std::filesystem::exists(folder_ / "table.md"));
+    EXPECT_FALSE(std::filesystem::exists(bench_.path("table.md")));
   }
 
-  const TemporaryFolder folder_;
+  const BenchCommand bench_;
   std::vector<Json> records_;
 };
 

@@ -271,29 +271,29 @@ TEST(Junit, StatusesBecomeOutcomes) {
 class ExportCommand : public ::testing::Test {
  protected:
   int run(const std::string& arguments) {
-    const testing::CommandResult result = testing::run_bench(folder_.path(), "export " + arguments);
+    const testing::CommandResult result = bench_.run("export " + arguments);
     out_ = result.out;
     err_ = result.err;
     return result.code;
   }
-  const TemporaryFolder folder_;
+  const testing::BenchCommand bench_;
   std::string out_, err_;
 };
 
 TEST_F(ExportCommand, WritesEveryFormat) {
-  write_text(folder_ / "records.jsonl", record("HYBRID", {1}).dump() + "\n");
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
   for (const char* format : {"google-benchmark", "github-action", "bencher", "csv", "junit"}) {
     EXPECT_EQ(run(std::string(". --format=") + format), 0) << err_;
     const std::string printed = out_;
     EXPECT_NE(printed.find("Mesh0"), std::string::npos) << format;
     EXPECT_EQ(run(std::string(". --out=file --format=") + format), 0) << err_;
     EXPECT_EQ(out_, "");
-    EXPECT_EQ(testing::text_of(folder_ / "file"), printed);
+    EXPECT_EQ(bench_.content("file"), printed);
   }
 }
 
 TEST_F(ExportCommand, TheSeriesOfAHistoryIsInOrderOfDate) {
-  fs::create_directory(folder_ / "nights");
+  fs::create_directory(bench_.path("nights"));
   const auto night = [&](const char* file, const char* date, double peak) {
     Json one = record("HYBRID", {1});
     one["peak_heap_bytes"] = peak;
@@ -305,7 +305,7 @@ TEST_F(ExportCommand, TheSeriesOfAHistoryIsInOrderOfDate) {
                        {"cases", {one}},
                        {"verdicts", Json::array()},
                        {"failed", false}};
-    write_text(folder_ / ("nights/" + std::string(file) + ".json"), json.dump(1));
+    write_text(bench_.path("nights/" + std::string(file) + ".json"), json.dump(1));
   };
   night("a", "2026-01-02T00:00:00Z", 2);
   night("b", "2026-01-01T00:00:00Z", 1);
@@ -322,28 +322,28 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   const auto expect_line = [&](const std::string& arguments, const std::string& line) {
     EXPECT_EQ(run(arguments + " --out=file"), 2) << arguments;
     EXPECT_EQ(err_, "bench: " + line + "\n");
-    EXPECT_FALSE(fs::exists(folder_ / "file"));
+    EXPECT_FALSE(fs::exists(bench_.path("file")));
   };
   expect_line("nowhere --format=csv",
               "nowhere/records.jsonl: no such file (a folder that bench --out wrote has it)");
   EXPECT_EQ(run(". --format=xml"), 2);
   EXPECT_NE(err_.find("junit"), std::string::npos) << err_;
-  write_text(folder_ / "records.jsonl", record("HYBRID", {1}).dump() + "\n{\n");
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n{\n");
   expect_line(
       ". --format=csv",
       "./records.jsonl:2: not JSON: parse error at line 1, column 2: syntax error while parsing "
       "object key - unexpected end of input; expected string literal");
   Json wrong = record("HYBRID", {1});
   wrong["status"] = 1;
-  write_text(folder_ / "records.jsonl", wrong.dump() + "\n");
+  write_text(bench_.path("records.jsonl"), wrong.dump() + "\n");
   expect_line(". --format=junit",
               "./records.jsonl:1: status: 1 (allowed: ok, inaccurate, unstressed, not_converged, "
               "breakdown, timeout, "
               "out_of_memory, crashed, machine_fault, skipped)");
-  fs::create_directory(folder_ / "nights");
+  fs::create_directory(bench_.path("nights"));
   expect_line(". --format=csv",
               "./nights: no *.json in it (a folder that bench track wrote has them)");
-  write_text(folder_ / "nights/a.json", "{\"format\": 1}");
+  write_text(bench_.path("nights/a.json"), "{\"format\": 1}");
   expect_line(". --format=csv", "./nights/a.json: format: 1 (allowed: \"airybench-night-1\")");
 }
 

@@ -14,6 +14,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/quad.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::extended_precision_test {
@@ -197,11 +198,8 @@ TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
   }
 }
 
-#ifdef AIRYBENCH_SANITIZED  // 128 bits are computed in software, slower still then
-INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Values(0));
-#else
-INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Values(0, 1));
-#endif
+// 128 bits are computed in software.
+INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Range(0, testing::sanitized ? 1 : 2));
 
 }  // namespace
 }  // namespace airybench::extended_precision_test

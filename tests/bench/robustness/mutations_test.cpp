@@ -7,17 +7,14 @@
 
 #include "support/file_text.hpp"
 #include "tests/fuzz/corpus.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::mutations_test {
 namespace {
 
 namespace fs = std::filesystem;
 
-#ifdef AIRYBENCH_SANITIZED
-constexpr int mutants = 400;
-#else
-constexpr int mutants = 1000;
-#endif
+constexpr int mutants = testing::sanitized ? 400 : 1000;
 
 std::string mutant_of(std::string text, std::mt19937& engine) {
   static const std::vector<std::string> words = {"1e999",

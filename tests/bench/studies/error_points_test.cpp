@@ -10,6 +10,7 @@
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::error_points_test {
 namespace {
@@ -88,11 +89,9 @@ TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
     }
 }
 
-#ifdef AIRYBENCH_SANITIZED
-INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints, ::testing::Values("Mesh0"));
-#else
-INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints, ::testing::Values("Mesh0", "Mesh1"));
-#endif
+const std::vector<std::string> meshes = {"Mesh0", "Mesh1"};
+INSTANTIATE_TEST_SUITE_P(Mesh, ErrorPoints,
+                         ::testing::ValuesIn(meshes.begin(), meshes.end() - testing::sanitized));
 
 }  // namespace
 }  // namespace airybench::error_points_test

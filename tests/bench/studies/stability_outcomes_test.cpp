@@ -16,6 +16,7 @@
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::stability_outcomes_test {
 namespace {
@@ -42,14 +43,12 @@ std::vector<Method> one_of_each_kind() {
 }
 
 std::vector<std::string> scene_names() {
-#ifdef AIRYBENCH_SANITIZED
-  return {"default", "boundary_no_contact", "friction_0", "load_none", "slivers_1e3"};
-#else
+  if (testing::sanitized)
+    return {"default", "boundary_no_contact", "friction_0", "load_none", "slivers_1e3"};
   std::vector<std::string> names;
   for (const auto& file : scenes_of(Study::stability))
     if (file.stem() != left_out_scene) names.push_back(file.stem());
   return names;
-#endif
 }
 
 constexpr double target = 1e-6;

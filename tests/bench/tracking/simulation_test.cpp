@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "tests/bench/tracking/synthetic_history.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::simulation_test {
 namespace {
@@ -15,11 +16,7 @@ namespace {
 using boost::math::binomial_distribution;
 using testing::SyntheticHistory;
 
-#ifdef AIRYBENCH_SANITIZED
-constexpr int part = 20;  // of the nights
-#else
-constexpr int part = 1;
-#endif
+constexpr int part = testing::sanitized ? 20 : 1;  // of the nights
 
 constexpr int most_nights_to_find = 5;
 constexpr int least_nights = static_cast<int>(TimeRules{}.least_nights_after);

@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 class TrackingCommand : public ::testing::Test {
  protected:
   using Result = testing::CommandResult;
-  Result run(const std::string& arguments) { return testing::run_bench(folder_.path(), arguments); }
+  Result run(const std::string& arguments) { return bench_.run(arguments); }
   // A results folder with one case.
   void write_run(const std::string& name, double time_s, const std::string& date,
                  int iterations = 10, const std::string& threads = "1") {
@@ -34,8 +34,8 @@ class TrackingCommand : public ::testing::Test {
         {"time_s", samples[4]},
         {"linear_iterations", iterations},
         {"context", {{"cpu", "C"}, {"cpus", "2"}, {"threads", threads}, {"date", date}}}};
-    fs::create_directories(folder_ / name);
-    testing::write_text(folder_ / name / "records.jsonl", json.dump() + "\n");
+    fs::create_directories(bench_.path(name));
+    testing::write_text(bench_.path(name + "/records.jsonl"), json.dump() + "\n");
   }
   void expect_refused(const std::string& arguments, const std::string& part) {
     const Result result = run(arguments);
@@ -45,7 +45,7 @@ class TrackingCommand : public ::testing::Test {
     EXPECT_EQ(result.out, "") << arguments;
   }
 
-  const testing::TemporaryFolder folder_;
+  const testing::BenchCommand bench_;
 };
 
 TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
@@ -61,12 +61,11 @@ TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
   const Result worse = run("compare " + a + b + " --out=c.json");
   EXPECT_EQ(worse.code, 1) << worse.err;
   EXPECT_NE(worse.out.find("slower"), std::string::npos) << worse.out;
-  EXPECT_EQ(Json::parse(testing::text_of(folder_ / "c.json"))["cases"][0]["verdict"], "slower");
+  EXPECT_EQ(Json::parse(bench_.content("c.json"))["cases"][0]["verdict"], "slower");
   EXPECT_EQ(run("compare " + b + " " + a).code, 0);
   EXPECT_EQ(run("compare " + a + b + " --minimum-effect=30").code, 0);
   EXPECT_EQ(run("compare b1 b2 --out=c.md").code, 0);
-  EXPECT_NE(testing::text_of(folder_ / "c.md").find("| not separated: one run each |"),
-            std::string::npos);
+  EXPECT_NE(bench_.content("c.md").find("| not separated: one run each |"), std::string::npos);
   expect_refused("compare b1,b2,b1 b3", "b1/records.jsonl: the same run as b1");
   write_run("other", 1, "2026-11-21T09:00:00Z", 10, "2");
   expect_refused(
@@ -80,8 +79,8 @@ TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
   expect_refused("compare a", "B");
   expect_refused("compare a a --out=c.txt", "allowed: a name that ends in .md or .json");
   expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
-  fs::create_directories(folder_ / "empty");
-  testing::write_text(folder_ / "empty/records.jsonl", "");
+  fs::create_directories(bench_.path("empty"));
+  testing::write_text(bench_.path("empty/records.jsonl"), "");
   expect_refused("compare a empty", "no case is in both");
 }
 
@@ -92,11 +91,11 @@ TEST_F(TrackingCommand, NightsHaveEveryQuantityOfThePage) {
     if (*field.label != '\0') keys.push_back(field.name);
   EXPECT_GE(keys.size(), 18u);
   write_run("a", 1, "2026-11-21T03:00:00Z");
-  Json record = Json::parse(testing::text_of(folder_ / "a/records.jsonl"));
+  Json record = Json::parse(bench_.content("a/records.jsonl"));
   for (std::size_t k = 0; k < keys.size(); ++k) record[keys[k]] = k + 1;
-  testing::write_text(folder_ / "a/records.jsonl", record.dump() + "\n");
+  testing::write_text(bench_.path("a/records.jsonl"), record.dump() + "\n");
   ASSERT_EQ(run("track --history=h --from=a").code, 0);
-  const Json night = Json::parse(testing::text_of(folder_ / "h/nights/2026-11-21T030000Z.json"));
+  const Json night = Json::parse(bench_.content("h/nights/2026-11-21T030000Z.json"));
   for (std::size_t k = 0; k < keys.size(); ++k)
     EXPECT_EQ(night.at("cases")[0].at(keys[k]), k + 1) << keys[k];
 }
@@ -106,10 +105,9 @@ TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
   const Result first = run("track --history=h --from=a");
   EXPECT_EQ(first.code, 0) << first.err;
   EXPECT_NE(first.out.find("nothing is worse"), std::string::npos) << first.out;
-  EXPECT_TRUE(fs::exists(folder_ / "h/nights/2026-11-21T030000Z.json"));
+  EXPECT_TRUE(fs::exists(bench_.path("h/nights/2026-11-21T030000Z.json")));
   expect_refused("track --history=h --from=a", "already in the history");
-  EXPECT_EQ(Json::parse(testing::text_of(folder_ / "h/nights/2026-11-21T030000Z.json"))
-                .at("times_judged"),
+  EXPECT_EQ(Json::parse(bench_.content("h/nights/2026-11-21T030000Z.json")).at("times_judged"),
             false);
   write_run("b", 1, "2026-11-22T03:00:00Z", 12);
   const Result second = run("track --history=h --from=b");
@@ -117,10 +115,10 @@ TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
   EXPECT_NE(second.out.find("worse    Mesh0/default/ALM: linear_iterations was 10 and is 12"),
             std::string::npos)
       << second.out;
-  const std::string night = testing::text_of(folder_ / "h/nights/2026-11-22T030000Z.json");
+  const std::string night = bench_.content("h/nights/2026-11-22T030000Z.json");
   EXPECT_EQ(Json::parse(night)["failed"], true);
   EXPECT_EQ(run("track --history=h --judge-only").code, 1);
-  EXPECT_EQ(testing::text_of(folder_ / "h/nights/2026-11-22T030000Z.json"), night);
+  EXPECT_EQ(bench_.content("h/nights/2026-11-22T030000Z.json"), night);
 }
 
 TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
@@ -130,9 +128,9 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   expect_refused("track --history=h --from=none", "none/records.jsonl: no such file");
   expect_refused("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
   expect_refused("track --history=h --out=x", "--out: not with bench track");
-  EXPECT_FALSE(fs::exists(folder_ / "h"));
-  fs::create_directories(folder_ / "h/nights");
-  testing::write_text(folder_ / "h/nights/2026-11-21T030000Z.json", "{\"format\"");
+  EXPECT_FALSE(fs::exists(bench_.path("h")));
+  fs::create_directories(bench_.path("h/nights"));
+  testing::write_text(bench_.path("h/nights/2026-11-21T030000Z.json"), "{\"format\"");
   write_run("b", 1, "2026-11-21T03:00:00Z");
   expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
 }
@@ -170,9 +168,9 @@ TEST(Nights, ThatAreWrongAreNamedByFileKeyAndValue) {
 TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
   const Result result = run("track --history=h --mesh=Mesh0 --method=HYBRID --repetitions=2");
   EXPECT_EQ(result.code, 0) << result.err;
-  ASSERT_TRUE(fs::exists(folder_ / "h/nights"));
+  ASSERT_TRUE(fs::exists(bench_.path("h/nights")));
   const Json night =
-      Json::parse(testing::text_of(fs::directory_iterator(folder_ / "h/nights")->path()));
+      Json::parse(testing::text_of(fs::directory_iterator(bench_.path("h/nights"))->path()));
   EXPECT_EQ(night["format"], "airybench-night-1");
   EXPECT_EQ(night["cases"][0]["method"], "HYBRID");
   EXPECT_EQ(night["cases"][0]["samples_s"].size(), 2u);

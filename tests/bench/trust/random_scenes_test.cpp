@@ -14,6 +14,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::random_scenes_test {
 namespace {
@@ -23,11 +24,7 @@ constexpr double most_times_the_estimate = 10;
 // Below, an error is the rounding of the stresses, of which no estimate speaks.
 constexpr double rounding = 1e-12;
 
-#ifdef AIRYBENCH_SANITIZED
-constexpr int scenes = 4;
-#else
-constexpr int scenes = 60;
-#endif
+constexpr int scenes = testing::sanitized ? 4 : 60;
 
 struct Campaign {
   int first = 0, count = scenes;
