@@ -17,9 +17,9 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/scene.hpp"
-#include "bench/measuring/blas_kernels.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
+#include "solvers/base/blas_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/direct/multifrontal.hpp"
 #include "solvers/direct/skyline.hpp"

@@ -43,7 +43,7 @@ ROOMS = {
                        "bench/output", "bench/records", "solvers", "mesh", "support"],
     # A benchmark by itself.
     "bench/kernels": ["bench/measuring", "solvers", "assembly", "mesh", "support"],
-    "bench": ["bench/commands", "bench/isolation", "bench/measuring", "support"],
+    "bench": ["bench/commands", "bench/isolation", "solvers", "support"],
 }
 
 # Inside solvers/: what a folder may use besides itself and base; "table": the files of no folder.

@@ -1,4 +1,4 @@
-#include "bench/measuring/blas_kernels.hpp"
+#include "solvers/base/blas_kernels.hpp"
 
 #include <cblas.h>
 #include <unistd.h>
