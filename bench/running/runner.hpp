@@ -28,8 +28,8 @@ struct RunResult {
   RunTimes times;
 };
 
-// Prints progress to standard error, writes the output folder. Throws UsageError (arguments for
-// Google Benchmark, no case), FileError, Interrupted; what was measured is on disk then.
+// Prints progress to standard error, writes the output folder. Throws FileError, Interrupted; what
+// was measured is on disk then.
 RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
                     const Machine& machine = this_machine());
 
