@@ -1,14 +1,12 @@
 """Makes what results/ holds anew, unattended, from one revision (reproduce.toml says what).
 
-    reproduce.py [--only=PART,...] [--work=DIR]
-                 [--dry-run | --noisy-again | --quick [--program=FILE] | --install]
+    reproduce.py [--only=PART,...] [--work=DIR] [--dry-run | --quick [--program=FILE] | --install]
 
 The revision of HEAD is cloned into DIR/source, built there and measured: what is changed beside it
 meanwhile changes no record. Figures are drawn by the tree that this file is in. A second call goes
-on where the first one ended, with the same revision. --dry-run prints the forecast. --noisy-again
-measures the noisy cases of complete runs once more and keeps of each what came out less noisy. --quick
-measures a thin selection with the program as it is and draws every figure from it. --install puts what
-is complete into results/ and rewrites the numbers that README.md and docs/ quote.
+on where the first one ended, with the same revision. --dry-run prints the forecast. --quick measures
+a thin selection with the program as it is and draws every figure from it. --install puts what is
+complete into results/ and rewrites the numbers that README.md and docs/ quote.
 
 Exit status: 0 complete; 1 some part is not; 2 wrong usage, or what is there cannot be gone on with.
 """
@@ -135,7 +133,7 @@ def pinned(work: Path) -> Path:
 
 
 def forecast(shop: Workshop, part: Part, run: str) -> tuple[float | None, str]:
-    """Seconds, and a word: where --adapt makes the meshes only when it runs, nothing is known."""
+    """Seconds, and a word: where meshes or other programs are made only when it runs, nothing is known."""
     if "--adapt" in run or "=adapted" in run:
         return None, "not known: its meshes are made on the way"
     if "--external" in run and not (shop.source / "build/peers").exists():
@@ -179,50 +177,8 @@ def measure(shop: Workshop, part: Part, number: int, options: str) -> bool:
                     stdin=subprocess.DEVNULL, stdout=printed, stderr=subprocess.STDOUT).returncode
     shop.log(part=part.name, run=number, exit=code, wall_s=round(time.monotonic() - start, 1))
     if code in (0, 1) and (out / "records.jsonl").exists():
-        keep_less_noisy(out)
         done.touch()
     return done.exists()
-
-
-def replace_text(file: Path, text: str) -> None:
-    """At once, or not."""
-    new = file.with_name(file.name + ".new")
-    new.write_text(text, encoding="utf-8")
-    os.replace(new, file)
-
-
-def lines_of(file: Path) -> list[str]:
-    return file.read_text(encoding="utf-8").splitlines(keepends=True)
-
-
-def set_noisy_aside(out: Path) -> None:
-    """A complete run's, so that it goes on with these cases."""
-    lines = lines_of(out / "records.jsonl")
-    noisy = [line for line in lines if json.loads(line).get("noisy")]
-    if not noisy:
-        return
-    replace_text(out / "noisy.jsonl", "".join(noisy))
-    (out / "complete").unlink()
-    replace_text(out / "records.jsonl", "".join(line for line in lines if line not in noisy))
-
-
-def keep_less_noisy(out: Path) -> None:
-    """Of each case that was set aside, what came out less noisy: times have no say in it. A case that
-    failed meanwhile has failed."""
-    def noise(line: str) -> float:
-        return json.loads(line).get("noise_share") or 0
-
-    def number(line: str) -> int:
-        return json.loads(line)["case_number"]
-
-    aside = out / "noisy.jsonl"
-    if not aside.exists():
-        return
-    earlier = {number(line): line for line in lines_of(aside)}
-    kept = [min(line, earlier.get(number(line), line), key=noise)
-            for line in lines_of(out / "records.jsonl")]
-    replace_text(out / "records.jsonl", "".join(kept))
-    aside.unlink()
 
 
 def nights_of(history: Path) -> int:
@@ -382,11 +338,6 @@ def run(args: argparse.Namespace) -> int:
     if args.dry_run:
         print_forecast(shop, parts)
         return 0
-    if args.noisy_again:
-        parts = [part for part in parts if not part.nights and not missing(shop, part)]
-        for part in parts:
-            for k in range(1, len(part.runs) + 1):
-                set_noisy_aside(shop.folder(part, k))
     incomplete = [part.name for part in parts if not make(shop, part)]
     print(*table(row_of(shop.folder(part), part) for part in parts), sep="\n")
     print(f"not complete: {', '.join(incomplete)}" if incomplete else
@@ -404,8 +355,6 @@ def main() -> int:
                         help="with --quick: a bench that is built already")
     kind = parser.add_mutually_exclusive_group()
     kind.add_argument("--dry-run", action="store_true", help="runs and their forecast, and end")
-    kind.add_argument("--noisy-again", action="store_true",
-                      help="the noisy cases of complete runs once more; the less noisy is kept")
     kind.add_argument("--quick", action="store_true",
                       help="a thin selection that draws every figure, a few minutes")
     kind.add_argument("--install", action="store_true",

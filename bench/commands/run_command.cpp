@@ -141,7 +141,13 @@ std::vector<Case> plan_of(const Options& options, std::vector<std::string>& shor
       options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
   const std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
                                             options.stop, options.contact, options.thread_counts);
-  return options.filter.empty() ? plan : matching(plan, options.filter);
+  if (options.filter.empty()) return plan;
+  try {
+    return matching(plan, options.filter, options.interleave);
+  } catch (const UsageError&) {
+    if (short_of.empty()) throw;
+    return {};  // a goal that was not reached, which its cases may have been for, is told first
+  }
 }
 
 std::string times_line(const RunTimes& times) {

@@ -14,60 +14,70 @@
 namespace airybench {
 namespace {
 
-// It says names and complaints to the reporter's streams.
-class Lister : public benchmark::BenchmarkReporter {
+// Which benchmarks ran; why none did it says to the reporter's stream.
+class Names : public benchmark::BenchmarkReporter {
  public:
-  Lister() {
-    SetOutputStream(&names);
-    SetErrorStream(&complaints);
-  }
+  Names() { SetErrorStream(&complaints); }
   bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>&) override {}
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) names.insert(run.run_name.function_name);
+  }
 
-  std::stringstream names, complaints;
+  std::set<std::string> names;
+  std::stringstream complaints;
 };
 
 }  // namespace
 
-void set_benchmark_flags(Benchmarks mode, bool interleave) {
+void initialize_benchmark(bool interleave) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
-  arguments = {"bench",
-               "--benchmark_filter=all",
-               fmt::format("--benchmark_list_tests={}", mode == Benchmarks::list),
-               "--benchmark_repetitions=1",
-               "--benchmark_min_time=0",
-               "--benchmark_min_warmup_time=0",
-               "--benchmark_report_aggregates_only=false",
-               "--benchmark_display_aggregates_only=false",
-               "--benchmark_out=",
-               "--benchmark_perf_counters=",
-               "--benchmark_context=",
-               fmt::format("--benchmark_enable_random_interleaving={}", interleave)};
+  std::vector<std::string> wanted = {
+      "bench",
+      "--benchmark_filter=all",
+      "--benchmark_list_tests=false",
+      "--benchmark_repetitions=1",
+      "--benchmark_min_time=0",
+      "--benchmark_min_warmup_time=0",
+      "--benchmark_report_aggregates_only=false",
+      "--benchmark_display_aggregates_only=false",
+      "--benchmark_format=console",
+      "--benchmark_out=",
+      "--benchmark_out_format=json",
+      "--benchmark_color=false",
+      "--benchmark_counters_tabular=false",
+      "--benchmark_perf_counters=",
+      "--benchmark_context=",
+      "--benchmark_time_unit=ms",
+      "--v=0",
+      fmt::format("--benchmark_enable_random_interleaving={}", interleave)};
+  if (arguments == wanted) return;  // it complains of a context that it has already
+  arguments = std::move(wanted);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
   int argc = static_cast<int>(argv.size());
   benchmark::Initialize(&argc, argv.data());
 }
 
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter) {
+std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter,
+                           bool interleave) {
   if (plan.empty()) return {};
-  set_benchmark_flags(Benchmarks::list, false);
-  for (const Case& c : plan)
-    benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State&) {});
-  Lister lister;
-  benchmark::RunSpecifiedBenchmarks(&lister, filter);
+  initialize_benchmark(interleave);
+  for (const Case& c : plan)  // any setting would be part of the name; min_time=0 is one iteration
+    benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State& state) {
+      for (auto _ : state) continue;
+    });
+  Names selected;
+  benchmark::RunSpecifiedBenchmarks(&selected, filter);
   benchmark::ClearRegisteredBenchmarks();
-  std::set<std::string> names;
-  for (std::string name; std::getline(lister.names, name);) names.insert(name);
-  if (names.empty()) {
+  if (selected.names.empty()) {
     std::string complaint;
-    std::getline(lister.complaints, complaint);
+    std::getline(selected.complaints, complaint);
     throw UsageError(
         fmt::format("-- --benchmark_filter={}: {}", shortened(filter), shortened(complaint, 200)));
   }
   std::vector<Case> found;
   std::ranges::copy_if(plan, std::back_inserter(found),
-                       [&](const Case& c) { return names.contains(c.name().text()); });
+                       [&](const Case& c) { return selected.names.contains(c.name().text()); });
   return found;
 }
 

@@ -1,4 +1,4 @@
-// What Google Benchmark is told, and what it says of names.
+// What Google Benchmark is told, and which cases it selects.
 #pragma once
 
 #include <string>
@@ -8,15 +8,14 @@
 
 namespace airybench {
 
-enum class Benchmarks { run, list };
-
-// All that its environment variables could change (BENCHMARK_FILTER and so on) is set: a run is
-// what its own options say.
-void set_benchmark_flags(Benchmarks mode, bool interleave);
+// With flags for all that its environment variables could change (BENCHMARK_FILTER and so on): a
+// run is what its own options say.
+void initialize_benchmark(bool interleave);
 
 // The cases whose names its --benchmark_filter selects: a regular expression that matches
 // somewhere, with a leading '-' the others. Throws UsageError: no expression, or it matches no
 // case.
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter);
+std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter,
+                           bool interleave);
 
 }  // namespace airybench

@@ -195,7 +195,7 @@ void run_scene(const std::vector<const Case*>& cases, const Options& options, Sc
 RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
                     const Machine& machine) {
   const auto start = std::chrono::steady_clock::now();
-  set_benchmark_flags(Benchmarks::run, options.interleave);
+  initialize_benchmark(options.interleave);
   const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
   RecordFiles files(options.out, context, keep);
   NoiseWatch watch(options.retry_noisy, machine);

@@ -27,7 +27,7 @@ TEST(Command, MeasuresOneCaseAndWritesThreeFiles) {
   EXPECT_NE(result.err.find("[1/1] Mesh0/default/3STEPD: ok, "), std::string::npos);
   EXPECT_NE(result.out.find("error force"), std::string::npos);
 
-  const auto record = bench.records().front();
+  const auto record = bench.record();
   EXPECT_EQ(record["status"], "ok");
   EXPECT_EQ(record["n_phi"], 761);
   EXPECT_EQ(record["n_f"], 96);
@@ -59,14 +59,14 @@ TEST(Command, FailedCasesAreRecordedAndExitWithOne) {
   const CommandResult slow =
       bench.run("--mesh=Mesh0 --method=3STEPD --timeout=1e-9 --repetitions=2 --out=slow");
   EXPECT_EQ(slow.code, 1);
-  EXPECT_EQ(bench.records("slow").front()["status"], "timeout");
+  EXPECT_EQ(bench.record("slow")["status"], "timeout");
   EXPECT_TRUE(fs::exists(bench.path("slow/results.csv")));
   EXPECT_NE(slow.out.find("timeout: time limit reached during"), std::string::npos);
 
   const CommandResult strict =
       bench.run("--mesh=Mesh0 --method=3STEPD --target-error=1e-16 --repetitions=2 --out=strict");
   EXPECT_EQ(strict.code, 1);
-  const auto record = bench.records("strict").front();
+  const auto record = bench.record("strict");
   EXPECT_EQ(record["status"], "inaccurate");
   EXPECT_FALSE(record["time_s"].is_null());  // measured all the same, with its error beside it
 }
@@ -89,11 +89,11 @@ TEST(Command, TakesAUsersMeshAndScene) {
   const CommandResult result =
       bench.run("--mesh=mine.msh --scene=flat.json --method=3STEPD --repetitions=1 --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
-  const auto record = bench.records().front();
+  const auto record = bench.record();
   EXPECT_EQ(record["mesh"], "mine");
   EXPECT_EQ(record["mesh_file"], "../mine.msh");
   EXPECT_EQ(bench.run("replay o:1 --out=again/r").code, 0);
-  EXPECT_EQ(bench.records("again/r").front()["mesh_file"], "../../mine.msh");
+  EXPECT_EQ(bench.record("again/r")["mesh_file"], "../../mine.msh");
   EXPECT_EQ(record["scene"], "flat");
   EXPECT_EQ(record["n_c"], 20);
   EXPECT_TRUE(record["coulomb_violation_N"].is_null());
@@ -125,12 +125,10 @@ TEST(Command, GoogleBenchmarksFilterSelectsCases) {
   EXPECT_TRUE(wrong.err.starts_with("bench: -- --benchmark_filter=(: Could not compile"))
       << wrong.err;
   EXPECT_EQ(lines_of(wrong.err).size(), 1u);
-  ASSERT_EQ(bench
-                .run("--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- "
-                     "--benchmark_filter=CHOLMOD")
-                .code,
-            0);
-  EXPECT_EQ(bench.records().front()["method"], "3STEPD:CHOLMOD");
+  const CommandResult run = bench.run(
+      "--mesh=Mesh0 --method='3STEP*' --repetitions=2 --out=o -- --benchmark_filter=CHOLMOD");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(bench.record()["method"], "3STEPD:CHOLMOD");
 }
 
 TEST(Command, InterleavedRepetitionsAreAllRecorded) {
@@ -223,7 +221,7 @@ TEST(Command, ATimeoutTellsWhatWasDone) {
   const CommandResult result =
       bench.run("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
   EXPECT_EQ(result.code, 1);
-  const auto record = bench.records().front();
+  const auto record = bench.record();
   EXPECT_EQ(record["status"], "timeout");
   EXPECT_TRUE(record["time_s"].is_null());
   EXPECT_GT(record["done_fraction"], 0);
@@ -277,7 +275,7 @@ TEST(Command, ALongCaseIsMeasuredOnce) {
   const BenchCommand bench;
   ASSERT_EQ(
       bench.run("--mesh=Mesh0 --method=3STEPD --long-case=0.001 --repetitions=5 --out=o").code, 0);
-  const auto record = bench.records().front();
+  const auto record = bench.record();
   EXPECT_EQ(record["measured_once"], true);
   EXPECT_EQ(record["repetitions"], 1);
   EXPECT_EQ(record["samples_s"].size(), 1u);

@@ -72,55 +72,5 @@ class InstallTest(unittest.TestCase):
         self.assertLess(said.index("| abc |"), said.index("| def |"))
 
 
-class NoisyAgainTest(unittest.TestCase):
-    """Cases 1 to 4: quiet; noisy; noisy; noisy. Measured again: quieter, noisier, failed."""
-
-    def setUp(self) -> None:
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.out = Path(place.name)
-        self.program = program()
-        self.write(self.out / "records.jsonl",
-                   [self.record(1, 0.01, 1), *(self.record(k, 0.1 * k, 1) for k in (2, 3, 4))])
-        (self.out / "complete").touch()
-
-    @staticmethod
-    def record(number: int, noise: float | None, time_s: float | None) -> dict:
-        return {"case_number": number, "noise_share": noise, "time_s": time_s,
-                "noisy": (noise or 0) > 0.05}
-
-    @staticmethod
-    def write(file: Path, records: list[dict], mode: str = "w") -> None:
-        with open(file, mode, encoding="utf-8") as lines:
-            lines.writelines(json.dumps(record) + "\n" for record in records)
-
-    def records(self) -> list[dict]:
-        return [json.loads(line) for line in (self.out / "records.jsonl").read_text().splitlines()]
-
-    def test_the_less_noisy_is_kept_whatever_its_time(self) -> None:
-        self.program.set_noisy_aside(self.out)
-        self.assertFalse((self.out / "complete").exists())
-        self.assertEqual([1], [record["case_number"] for record in self.records()])
-        self.write(self.out / "records.jsonl",
-                   [self.record(2, 0.02, 9), self.record(3, 0.4, 0.1), self.record(4, None, None)], "a")
-        self.program.keep_less_noisy(self.out)
-        self.assertEqual([(1, 1), (2, 9), (3, 1), (4, None)],
-                         [(record["case_number"], record["time_s"]) for record in self.records()])
-        self.assertFalse((self.out / "noisy.jsonl").exists())
-
-    def test_a_quiet_run_is_left_as_it_is(self) -> None:
-        self.write(self.out / "records.jsonl", [self.record(1, 0.01, 1)])
-        self.program.set_noisy_aside(self.out)
-        self.assertTrue((self.out / "complete").exists())
-        self.assertFalse((self.out / "noisy.jsonl").exists())
-
-    def test_ended_before_the_records_were_cut_nothing_is_lost(self) -> None:
-        noisy = self.records()[1:]
-        self.write(self.out / "noisy.jsonl", noisy)
-        before = self.records()
-        self.program.keep_less_noisy(self.out)
-        self.assertEqual(before, self.records())
-
-
 if __name__ == "__main__":
     unittest.main()

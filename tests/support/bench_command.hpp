@@ -1,6 +1,7 @@
 // The bench command from outside, in a folder of its own.
 #pragma once
 
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -34,6 +35,12 @@ class BenchCommand {
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }
+  // Of a folder that has one.
+  Json record(const std::string& folder = "o") const {
+    const std::vector<Json> all = records(folder);
+    EXPECT_EQ(all.size(), 1u) << folder;
+    return all.at(0);
+  }
   // The whole lines of a records.jsonl.
   std::vector<Json> records(const std::string& folder = "o") const {
     std::vector<Json> result;

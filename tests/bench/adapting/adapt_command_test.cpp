@@ -148,6 +148,10 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
             std::string::npos)
       << complaint();
   EXPECT_EQ(bench_.records().size(), 1u);  // what there is is measured
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+                  "--repetitions=1 --out=none -- --benchmark_filter=NoSuchCase"),
+            1);
+  EXPECT_NE(complaint().find("not reached for Mesh0/default"), std::string::npos) << complaint();
 }
 #endif
 

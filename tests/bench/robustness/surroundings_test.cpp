@@ -107,10 +107,15 @@ TEST(Environment, OfGoogleBenchmarkIsIgnored) {
        {"BENCHMARK_FILTER=nothing", "BENCHMARK_FILTER=P2", "BENCHMARK_LIST_TESTS=true",
         "BENCHMARK_BENCHMARK_FILTER=P2", "BENCHMARK_BENCHMARK_LIST_TESTS=true",
         "BENCHMARK_REPETITIONS=7", "BENCHMARK_MIN_TIME=5", "BENCHMARK_OUT=google.json",
-        "BENCHMARK_ENABLE_RANDOM_INTERLEAVING=true", "BENCHMARK_MIN_WARMUP_TIME=3"}) {
+        "BENCHMARK_ENABLE_RANDOM_INTERLEAVING=true", "BENCHMARK_MIN_WARMUP_TIME=3",
+        "BENCHMARK_FORMAT=x", "BENCHMARK_OUT_FORMAT=x", "BENCHMARK_TIME_UNIT=x",
+        "BENCHMARK_COLOR=", "BENCHMARK_CONTEXT=a=b"}) {
     const BenchCommand bench;
-    const CommandResult result = bench.run(two, std::string("export ") + variable + "; ");
+    const CommandResult result =
+        bench.run(two + " -- --benchmark_filter=.", std::string("export ") + variable + "; ");
     EXPECT_EQ(result.code, 0) << variable << result.err;
+    EXPECT_EQ(result.err.find("benchmark"), std::string::npos) << variable << result.err;
+    EXPECT_EQ(result.err.find("context"), std::string::npos) << variable << result.err;
     const std::vector<Json> records = bench.records();
     EXPECT_EQ(records.size(), 2u) << variable;
     for (const Json& record : records) EXPECT_EQ(record["samples_s"].size(), 1u) << variable;
