@@ -139,15 +139,12 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   const std::vector<PosedScene> scenes =
       options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
-  const std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
-                                            options.stop, options.contact, options.thread_counts);
-  if (options.filter.empty()) return plan;
-  try {
-    return matching(plan, options.filter, options.interleave);
-  } catch (const UsageError&) {
-    if (short_of.empty()) throw;
-    return {};  // a goal that was not reached, which its cases may have been for, is told first
-  }
+  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
+                                      options.stop, options.contact, options.thread_counts);
+  if (!options.filter.empty()) plan = matching(std::move(plan), options.filter, options.interleave);
+  if (plan.empty() && short_of.empty())
+    throw UsageError("no case is left: the arguments after -- select none");
+  return plan;
 }
 
 std::string times_line(const RunTimes& times) {

@@ -3,8 +3,6 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <set>
 #include <sstream>
 
@@ -58,9 +56,7 @@ void initialize_benchmark(bool interleave) {
   benchmark::Initialize(&argc, argv.data());
 }
 
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter,
-                           bool interleave) {
-  if (plan.empty()) return {};
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave) {
   initialize_benchmark(interleave);
   for (const Case& c : plan)  // any setting would be part of the name; min_time=0 is one iteration
     benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State& state) {
@@ -69,16 +65,13 @@ std::vector<Case> matching(const std::vector<Case>& plan, const std::string& fil
   Names selected;
   benchmark::RunSpecifiedBenchmarks(&selected, filter);
   benchmark::ClearRegisteredBenchmarks();
-  if (selected.names.empty()) {
-    std::string complaint;
-    std::getline(selected.complaints, complaint);
+  std::string complaint;
+  std::getline(selected.complaints, complaint);
+  if (!complaint.empty() && !complaint.starts_with("Failed to match"))
     throw UsageError(
         fmt::format("-- --benchmark_filter={}: {}", shortened(filter), shortened(complaint, 200)));
-  }
-  std::vector<Case> found;
-  std::ranges::copy_if(plan, std::back_inserter(found),
-                       [&](const Case& c) { return selected.names.contains(c.name().text()); });
-  return found;
+  std::erase_if(plan, [&](const Case& c) { return !selected.names.contains(c.name().text()); });
+  return plan;
 }
 
 }  // namespace airybench

@@ -13,9 +13,7 @@ namespace airybench {
 void initialize_benchmark(bool interleave);
 
 // The cases whose names its --benchmark_filter selects: a regular expression that matches
-// somewhere, with a leading '-' the others. Throws UsageError: no expression, or it matches no
-// case.
-std::vector<Case> matching(const std::vector<Case>& plan, const std::string& filter,
-                           bool interleave);
+// somewhere, with a leading '-' the others. Throws UsageError: no such expression.
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave);
 
 }  // namespace airybench

@@ -196,15 +196,12 @@ std::vector<int> fronts_of_places(const Elimination& elimination) {
 void order_fronts(const std::vector<int>& front_at, Elimination& result) {
   const int count = static_cast<int>(result.fronts.size());
   std::vector<int> roots;
+  for (int f = 0; f < count; ++f)
+    if (result.fronts[f].below() == 0) roots.push_back(f);
   result.children = gather_lists(count, [&](auto add) {
-    roots.clear();
-    for (int f = 0; f < count; ++f) {
-      const Front& front = result.fronts[f];
-      if (front.below() == 0)
-        roots.push_back(f);
-      else
+    for (int f = 0; f < count; ++f)
+      if (const Front& front = result.fronts[f]; front.below() > 0)
         add(front_at[result.rows[front.rows_at + front.pivots]], f);
-    }
   });
   // A child comes before its parent in the places, so its need is known.
   std::vector<std::size_t> need(static_cast<std::size_t>(count));

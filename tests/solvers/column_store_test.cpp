@@ -4,12 +4,12 @@
 #include <sys/resource.h>
 
 #include <csignal>
-#include <cstdlib>
 
 #include "assembly/scene.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -19,26 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::system_of;
-
-// $TMPDIR for the scope of the object.
-class TemporaryDirectoryVariable {
- public:
-  explicit TemporaryDirectoryVariable(const fs::path& folder) {
-    if (const char* value = std::getenv("TMPDIR")) before_ = value;
-    setenv("TMPDIR", folder.c_str(), 1);
-  }
-  ~TemporaryDirectoryVariable() {
-    if (before_)
-      setenv("TMPDIR", before_->c_str(), 1);
-    else
-      unsetenv("TMPDIR");
-  }
-  TemporaryDirectoryVariable(const TemporaryDirectoryVariable&) = delete;
-  TemporaryDirectoryVariable& operator=(const TemporaryDirectoryVariable&) = delete;
-
- private:
-  std::optional<std::string> before_;
-};
 
 // No file may be larger, as on a full disk, for the scope of the object.
 class FileSizeLimit {
@@ -82,7 +62,7 @@ TEST(ColumnStore, IsAZeroMatrixInEitherPlaceThatKeepsWhatIsWritten) {
 
 TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
   const testing::TemporaryFolder folder;
-  const TemporaryDirectoryVariable variable(folder.path());
+  const testing::EnvironmentVariable variable("TMPDIR", folder.path());
   constexpr std::size_t bytes = 64 << 20;
   {
     const MappedFile file(bytes);
@@ -95,7 +75,7 @@ TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
 TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
   const testing::TemporaryFolder folder;
   const auto refusal = [](const fs::path& temporary) -> std::string {
-    const TemporaryDirectoryVariable variable(temporary);
+    const testing::EnvironmentVariable variable("TMPDIR", temporary);
     try {
       const MappedFile file(std::size_t{1} << 24);
     } catch (const Breakdown& breakdown) {
@@ -120,7 +100,7 @@ TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
 
 TEST(ColumnStore, AMethodWithoutRoomForItsFileBreaksDown) {
   const testing::TemporaryFolder folder;
-  const TemporaryDirectoryVariable variable(folder / "nowhere");
+  const testing::EnvironmentVariable variable("TMPDIR", folder / "nowhere");
   const DualSystem system = system_of();
   const Solution solution = solve("3STEPD:FILE", system);
   EXPECT_EQ(solution.status, Status::breakdown);

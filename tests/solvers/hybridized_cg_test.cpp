@@ -174,7 +174,7 @@ TEST(HybridizedCg, RandomScenesAreSolvedOrItSaysThatTheyAreNot) {
     if (size < 1e-6 || exact.F_C.norm() < 1e-6) continue;  // relative to the loads
     EXPECT_LE(true_error(*problem, solution, exact), 1e-5) << number << ": " << scene.about;
   }
-  EXPECT_GE(solved, posed_scenes * 8 / 9) << posed_scenes;  // 53 or 54 of 58, by BLAS's kernels
+  EXPECT_GE(solved, posed_scenes * 9 / 10) << posed_scenes;  // 53 or 54 of 58, by BLAS's kernels
 }
 
 TEST(TwoLevels, AreSymmetricAndAboveTheStiffness) {

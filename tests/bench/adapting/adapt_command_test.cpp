@@ -152,6 +152,9 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
                   "--repetitions=1 --out=none -- --benchmark_filter=NoSuchCase"),
             1);
   EXPECT_NE(complaint().find("not reached for Mesh0/default"), std::string::npos) << complaint();
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+                  "--repetitions=1 --out=none -- --benchmark_filter='('"),
+            2);
 }
 #endif
 

@@ -6,6 +6,7 @@
 
 #include "tests/bench/external/programs.hpp"
 #include "tests/support/background_run.hpp"
+#include "tests/support/environment_variable.hpp"
 
 namespace airybench::external_command_test {
 namespace {
@@ -220,10 +221,9 @@ TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
   std::filesystem::create_directories(bench_.path("tmp"));
   declare("one", "condensed",
           "sleep 1000 & setsid sleep 1000 & echo $! > orphan; echo $$ > new; mv new pid; wait");
-  setenv("TMPDIR", bench_.path("tmp").c_str(), 1);
+  const testing::EnvironmentVariable folder("TMPDIR", bench_.path("tmp").string());
   testing::BackgroundRun run(bench_,
                              "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o");
-  unsetenv("TMPDIR");
   testing::wait_for([&] { return std::filesystem::exists(bench_.path("pid")); });
   const int status = run.end(SIGINT);
   EXPECT_TRUE(WIFSIGNALED(status) ? WTERMSIG(status) == SIGINT : WEXITSTATUS(status) == 130);

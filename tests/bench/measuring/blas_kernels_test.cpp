@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <optional>
-
 #include "tests/support/bench_command.hpp"
+#include "tests/support/environment_variable.hpp"
 
 namespace airybench::blas_kernels_test {
 namespace {
@@ -30,11 +28,8 @@ TEST(BlasKernels, AreNotThoseOf2004OnAProcessorThatHasMore) {
 TEST(BlasKernels, AreThoseThatAreAskedFor) {
   EXPECT_EQ(better_blas_core(), "") << "this test has others than bench would take";
   EXPECT_EQ(core_of_record("export OPENBLAS_CORETYPE=Prescott; "), "Prescott");
-  const char* const own = std::getenv("OPENBLAS_CORETYPE");
-  const std::optional<std::string> before = own == nullptr ? std::nullopt : std::optional(own);
-  setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+  const testing::EnvironmentVariable asked("OPENBLAS_CORETYPE", "Prescott");
   EXPECT_EQ(better_blas_core(), "");
-  before ? setenv("OPENBLAS_CORETYPE", before->c_str(), 1) : unsetenv("OPENBLAS_CORETYPE");
 }
 
 }  // namespace
