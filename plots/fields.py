@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 
 from case_names import case_name, file_of
-from records import RecordsError, cells_of, read_run
+from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state"
@@ -109,7 +109,7 @@ def read_table(path: Path, header: str,
 
 def recorded(results: Path) -> dict[str, dict]:
     """Name of a case's files -> its record; of none where there are no records."""
-    if not any((results / file).is_file() for file in ("records.jsonl", "results.csv")):
+    if not lines_file(results) and not (results / "results.csv").is_file():
         return {}
     table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))
     return {file_of(case_name(case)): case for case in table.to_dict("records")}

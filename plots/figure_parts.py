@@ -142,7 +142,7 @@ def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple
     key = []
     if any(row.status == "inaccurate" for row in done):
         key.append(((sample(fill="0.8"), Line2D([], [], **CROSS)),
-                    "inaccurate: an error above the target"))
+                    "inaccurate: an error, or its estimate, above the target"))
     if any(row.error_force is None for row in done):
         key.append((sample(fill=UNKNOWN), "grey: error not known"))
     if "open" in marks:

@@ -21,7 +21,7 @@ from pathlib import Path
 import command
 from night_history import OF_A_CASE, read_history
 from page_data import page_data
-from records import RecordsError, read
+from records import RecordsError, lines_file, read
 
 PARTS = Path(__file__).resolve().parent / "page"
 SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
@@ -48,8 +48,8 @@ def page(history: Path, results: Path | None) -> str:
     nights, records = read_history(history), None
     if results and not results.is_dir():
         raise RecordsError(f"{results}: no such folder; expected the --out of bench")
-    if results and (results / "records.jsonl").exists():
-        records = read(results / "records.jsonl", OF_A_CASE)
+    if results and (lines := lines_file(results)):
+        records = read(lines, OF_A_CASE)
     data = json.dumps(page_data(nights, records), ensure_ascii=False, allow_nan=False,
                       separators=(",", ":")).replace("<", "\\u003c")
     style = part("page.css")

@@ -6,8 +6,10 @@ is allowed.
 from __future__ import annotations
 
 import csv
+import gzip
 import io
 import json
+import zlib
 from collections.abc import Callable, Collection
 from dataclasses import fields
 from pathlib import Path
@@ -147,7 +149,11 @@ def text_of(path: Path) -> str:
     if path.exists() and not path.is_file():  # a pipe would be waited for
         raise RecordsError(f"{path}: is no regular file; expected what bench writes")
     try:
-        return path.read_text(encoding="utf-8")
+        with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8") as file:
+            return file.read()
+    except (gzip.BadGzipFile, EOFError, zlib.error):
+        raise RecordsError(f"{path}: cannot be read: not of gzip, or damaged; expected what gzip "
+                           "made of records.jsonl")
     except (OSError, UnicodeDecodeError) as error:
         reason = getattr(error, "strerror", None) or "not UTF-8"
         raise RecordsError(f"{path}: cannot be read: {reason}; expected what bench writes")
@@ -171,7 +177,12 @@ def rows_of(table: pd.DataFrame) -> list[Row]:
     return [Row(**values) for values in table[own].to_dict("records")]
 
 
+def lines_file(folder: Path) -> Path | None:
+    """records.jsonl, or what gzip made of it, where one is there."""
+    files = (folder / name for name in ("records.jsonl", "records.jsonl.gz"))
+    return next((file for file in files if file.exists()), None)
+
+
 def read_run(folder: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
-    """Its records.jsonl; where that is not, the flat view of it."""
-    lines = folder / "records.jsonl"
-    return read(lines if lines.exists() else folder / "results.csv", needed)
+    """Its records, a line each; where these are not, the flat view of them."""
+    return read(lines_file(folder) or folder / "results.csv", needed)

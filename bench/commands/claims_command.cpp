@@ -88,7 +88,7 @@ std::string claims_markdown(const std::vector<Claim>& claims) {
 
 int claims_command(int argc, const char* const* argv) {
   const ClaimsOptions options = parse_claims(argc, argv);
-  const std::string file = (options.folder / "records.jsonl").string();
+  const std::string file = records_file_in(options.folder).string();
   const CaseTable cases(read_records(file), options.stop, file);
   const std::vector<Claim> claims = check_claims(cases);
   const std::string mesh = preconditioner_mesh(cases);

@@ -64,7 +64,7 @@ Runs runs_in(const std::string& folders) {
   Runs runs;
   std::vector<std::string> names = split_list(folders);
   for (const std::string& name : names) {
-    const std::filesystem::path file = std::filesystem::path(name) / "records.jsonl";
+    const std::filesystem::path file = records_file_in(name);
     runs.push_back(read_records(file, Studies::include));
     if (runs.back().empty() || runs.front().empty()) continue;
     const Context &first = runs.front().front().context, &context = runs.back().front().context;

@@ -84,7 +84,7 @@ int export_command(int argc, const char* const* argv) {
       options.format == "csv" && std::filesystem::is_directory(options.folder / "nights");
   const std::string text = exported(
       options.format, history ? cases_of_history(options.folder)
-                              : read_records(options.folder / "records.jsonl", Studies::include));
+                              : read_records(records_file_in(options.folder), Studies::include));
   if (options.out.empty())
     fmt::print("{}", text);
   else

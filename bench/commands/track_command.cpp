@@ -99,7 +99,7 @@ void run_night(const TrackOptions& options) {
 }
 
 Night night_in(const fs::path& folder) {
-  const fs::path records = folder / "records.jsonl";
+  const fs::path records = records_file_in(folder);
   return night_of(read_records(records), records.string());
 }
 

@@ -220,13 +220,13 @@ Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders) {
   PastRecords past;
   for (const auto& folder : folders) {
-    const std::filesystem::path file = folder / "records.jsonl";
+    const std::filesystem::path file = records_file_in(folder);
     std::error_code error;
     if (!std::filesystem::exists(file, error)) continue;
     try {
       std::vector<Record> records = read_records(file, Studies::include);
       std::move(records.begin(), records.end(), std::back_inserter(past.records));
-    } catch (const RecordError& unusable) {
+    } catch (const FileError& unusable) {
       past.passed_over.push_back(unusable.what());
     }
   }

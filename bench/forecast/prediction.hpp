@@ -44,7 +44,7 @@ struct Forecast {
   std::optional<double> references_s;  // one per mesh and scene; empty: unknown for one of them
 };
 
-// records.jsonl of these folders, studies included, oldest first; a folder without one is passed
+// The records of these folders, studies included, oldest first; a folder without one is passed
 // over. A file that cannot be used is passed over too, with a line that says why: a prediction is
 // no reason to refuse a run.
 struct PastRecords {

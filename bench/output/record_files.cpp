@@ -53,13 +53,16 @@ std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
       throw FileError(
           fmt::format("{}: is no regular file (allowed: one, or a name that is not there)",
                       (folder / name).string()));
+  if (const auto packed = folder / "records.jsonl.gz"; std::filesystem::exists(packed))
+    throw FileError(packed.string() +
+                    ": packed records are only read (allowed: another folder, or gunzip before)");
   return folder;
 }
 
 }  // namespace
 
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / "records.jsonl";
+  const std::filesystem::path file = records_file_in(folder);
   if (!std::filesystem::exists(file))
     throw FileError(file.string() + ": no such file (a folder that bench --out wrote has it)");
   return std::move(read_record_lines(file).lines);

@@ -54,7 +54,7 @@ class RecordFiles {
   Journal journal_;
 };
 
-// The lines of a folder's records.jsonl. Throws FileError, also where there is none.
+// The lines of a folder's records, packed or not. Throws FileError, also where there is none.
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 
 // records.jsonl, results.csv and results.json of these; each file whole or not at all. Throws

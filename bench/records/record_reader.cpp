@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "bench/records/gzip.hpp"
 #include "bench/records/journal.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 
@@ -30,7 +32,17 @@ RecordLines record_lines_of(const std::string& text, const std::string& file) {
   return record_lines_of(journal_lines_of(text), file);
 }
 
+std::filesystem::path records_file_in(const std::filesystem::path& folder) {
+  std::filesystem::path file = folder / "records.jsonl", packed = folder / "records.jsonl.gz";
+  std::error_code error;
+  const bool is_packed =
+      !std::filesystem::exists(file, error) && std::filesystem::exists(packed, error);
+  return is_packed ? packed : file;
+}
+
 RecordLines read_record_lines(const std::filesystem::path& file) {
+  if (file.extension() == ".gz")
+    return record_lines_of(unpacked(file_text(file), file.string()), file.string());
   return record_lines_of(read_journal(file), file.string());
 }
 

@@ -20,7 +20,11 @@ struct RecordLines {
   bool torn = false;  // the last one was half written, and is not among them
 };
 
-// A file that is not there has no lines. Throws RecordError.
+// records.jsonl of a folder that bench wrote; records.jsonl.gz where it is packed.
+std::filesystem::path records_file_in(const std::filesystem::path& folder);
+
+// A file that is not there has no lines, one that ends in .gz is unpacked. Throws FileError;
+// RecordError: a line that is no record.
 RecordLines read_record_lines(const std::filesystem::path& file);
 // The same of a file's text; file is what messages name.
 RecordLines record_lines_of(const std::string& text, const std::string& file);

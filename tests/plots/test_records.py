@@ -1,4 +1,5 @@
 """The reader of records, and what follows from their keys.  /usr/bin/python3 -m unittest FILE"""
+import gzip
 import json
 import shutil
 import sys
@@ -52,6 +53,17 @@ class ReaderTest(RecordsTest):
         of_lines = records.rows_of(records.read(self.lines))
         self.assertEqual([vars(row) | {"line": row.line + 1} for row in of_lines],
                          [vars(row) for row in self.read(rows)])
+
+    def test_lines_that_gzip_packed_are_read_alike(self) -> None:
+        made_up.write_lines(self.lines, [made_up.record(case("Mesh0", "P2"))])
+        before = [vars(row) for row in records.rows_of(records.read_run(self.results))]
+        packed = self.results / "records.jsonl.gz"
+        packed.write_bytes(gzip.compress(self.lines.read_bytes()))
+        self.lines.unlink()
+        self.assertEqual(before, [vars(row) for row in records.rows_of(records.read_run(self.results))])
+        for damaged in (packed.read_bytes()[:-9], b"{}\n"):
+            packed.write_bytes(damaged)
+            self.assert_refused(f"{packed}: cannot be read: not of gzip", file=packed.name)
 
     def test_line_separators_of_unicode_end_no_line(self) -> None:
         self.lines.write_text("".join(

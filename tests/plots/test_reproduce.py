@@ -1,4 +1,5 @@
 """./run reproduce puts complete parts into results/, and says of each what it is."""
+import gzip
 import importlib.util
 import json
 import sys
@@ -53,6 +54,15 @@ class InstallTest(unittest.TestCase):
                       self.install(0))
         self.assertEqual({"records.jsonl", "figures"},
                          {file.name for file in (self.program.HERE / "first").iterdir()})
+
+    def test_many_records_are_packed_and_counted_as_before(self) -> None:
+        self.measured("first", "abc", ("growth.png",))
+        self.program.LARGE = 50
+        self.assertIn("| 1 | 1 ok | 0 | 2026-11-23T00:00:00Z | abc |", self.install(0))
+        whole = self.program.HERE / "first"
+        self.assertEqual({"records.jsonl.gz", "figures"}, {file.name for file in whole.iterdir()})
+        self.assertEqual((self.folder / "work/results/first/records.jsonl").read_bytes(),
+                         gzip.decompress((whole / "records.jsonl.gz").read_bytes()))
 
     def test_a_part_without_its_figure_is_left_as_it_is(self) -> None:
         (self.program.HERE / "first").mkdir()

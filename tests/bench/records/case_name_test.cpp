@@ -80,7 +80,7 @@ TEST(CaseName, OfEveryCommittedRecordGoesAround) {
   std::size_t count = 0;
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(testing::results_folder())) {
-    if (entry.path().filename() != "records.jsonl") continue;
+    if (entry.path().stem().stem() != "records") continue;
     std::set<std::string> names;
     for (const Record& record : read_records(entry.path(), Studies::include)) {
       const std::string name = name_of(record).text();

@@ -10,6 +10,7 @@
 #include "bench/exports/csv.hpp"
 #include "bench/measuring/memory_split.hpp"
 #include "bench/measuring/timed_run.hpp"
+#include "bench/records/gzip.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/running/progress.hpp"
@@ -116,7 +117,7 @@ TEST(Record, ComesBackFromJson) {
 // What committed records have is kept, by records that were written before some fields were.
 TEST(Record, OfEveryRunThatIsCommittedComesBack) {
   for (const char* run : {"paper", "error", "stability"}) {
-    const std::filesystem::path file = testing::results_folder() / run / "records.jsonl";
+    const std::filesystem::path file = records_file_in(testing::results_folder() / run);
     int compared = 0;
     for (const RecordLine& line : read_record_lines(file).lines) {
       if (++compared > 200) break;
@@ -133,8 +134,11 @@ TEST(Record, OfEveryRunThatIsCommittedComesBack) {
 TEST(Record, OfACommittedRunNamesNoFolderOfTheMachine) {
   for (const auto& entry :
        std::filesystem::recursive_directory_iterator(testing::results_folder())) {
-    if (entry.path().extension() != ".jsonl" && entry.path().extension() != ".json") continue;
-    const std::string text = file_text(entry.path());
+    const std::string extension = entry.path().extension();
+    if (!std::set<std::string>{".jsonl", ".json", ".gz", ".md", ".txt"}.contains(extension))
+      continue;
+    std::string text = file_text(entry.path());
+    if (extension == ".gz") text = unpacked(text, entry.path());
     for (const char* folder : {"\"/", "/home/", "/tmp/", "/root/", "/work/"})
       EXPECT_EQ(text.find(folder), text.npos)
           << entry.path() << ": " << text.substr(text.find(folder), 80);

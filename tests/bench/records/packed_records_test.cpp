@@ -1,0 +1,76 @@
+// Records that gzip has packed are read as if they were not, and never written to.
+#include <gtest/gtest.h>
+
+#include "bench/records/gzip.hpp"
+#include "bench/records/record_reader.hpp"
+#include "support/errors.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::packed_records_test {
+namespace {
+
+using testing::BenchCommand;
+using testing::TemporaryFolder;
+
+// By the program gzip, not by the library that unpacks.
+std::string packed(const std::string& text) {
+  const TemporaryFolder folder;
+  testing::write_text(folder / "text", text);
+  EXPECT_EQ(std::system(("gzip -9 -n '" + (folder / "text").string() + "'").c_str()), 0);
+  return testing::text_of(folder / "text.gz");
+}
+
+TEST(Gzip, UnpacksMembersOneAfterAnother) {
+  std::string large;
+  for (int line = 0; line < 20000; ++line) large += std::to_string(line * line) + "\n";
+  EXPECT_EQ(unpacked(packed(large), "f"), large);
+  EXPECT_EQ(unpacked(packed(""), "f"), "");
+  EXPECT_EQ(unpacked(packed("one\n") + packed("two\n"), "f"), "one\ntwo\n");
+}
+
+TEST(Gzip, RefusesWhatIsCutOrDamaged) {
+  const std::string text = "one\ntwo\nthree\n", whole = packed(text);
+  for (std::size_t length = 0; length < whole.size(); ++length)
+    EXPECT_THROW(unpacked(whole.substr(0, length), "f"), FileError) << length;
+  int refused = 0;
+  for (std::size_t at = 0; at < whole.size(); ++at)
+    for (int bit = 0; bit < 8; ++bit) {
+      std::string changed = whole;
+      changed[at] = static_cast<char>(changed[at] ^ 1 << bit);
+      try {
+        EXPECT_EQ(unpacked(changed, "f"), text) << at;  // time or system in the header
+      } catch (const FileError& why) {
+        EXPECT_EQ(std::string(why.what()).substr(0, 3), "f: ");
+        ++refused;
+      }
+    }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(PackedRecords, AreReadByEveryCommandAndNotWrittenTo) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=2 --out=o").code, 0);
+  const auto csv_of = [&](const std::string& folder) {
+    return bench.run("export " + folder + " --format=csv").out;
+  };
+  const std::string before = csv_of("o");
+  ASSERT_NE(before, "");
+  ASSERT_EQ(std::system(("gzip '" + bench.path("o/records.jsonl").string() + "'").c_str()), 0);
+  EXPECT_EQ(read_records(records_file_in(bench.path("o"))).size(), 2u);
+  EXPECT_EQ(csv_of("o"), before);
+  EXPECT_EQ(bench.run("claims o").code, 0);
+  EXPECT_EQ(bench.run("merge o --out=joined").code, 0);
+  EXPECT_EQ(csv_of("joined"), before);
+  for (const char* how : {"", " --append", " --resume"}) {
+    const auto refused = bench.run(std::string("--mesh=Mesh0 --method=HYBRID --out=o") + how);
+    EXPECT_EQ(refused.code, 2);
+    EXPECT_NE(refused.err.find("o/records.jsonl.gz: packed records are only read (allowed: another "
+                               "folder, or gunzip before)\n"),
+              std::string::npos)
+        << refused.err;
+    EXPECT_FALSE(std::filesystem::exists(bench.path("o/records.jsonl")));
+  }
+}
+
+}  // namespace
+}  // namespace airybench::packed_records_test
