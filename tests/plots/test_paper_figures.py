@@ -211,7 +211,7 @@ class PaperFiguresTest(unittest.TestCase):
                         status_reason="error_force 1.00e-03 is above the target 1e-06")
         words = self.draw(rows)[1]["figure4"]
         for part in ("median of 1 to 5 repetitions", "2 threads. Scene default.",
-                     "target error 1e-6", "an error above the target", "one tooth",
+                     "target error 1e-6", "an error, or its estimate, above the target", "one tooth",
                      "Finding tolerances and parameters is not in the time"):
             self.assertIn(part, words)
         words = self.draw([row | {"stop": "paper", "target_error": 1e-4} for row in rows])[1]
