@@ -3,19 +3,13 @@
 #include <algorithm>
 
 #include "peers/petsc/square_matrix.hpp"
+#include "solvers/condensation/contact_compliance.hpp"
 #include "solvers/condensation/hybridized_templates.hpp"
 
 namespace airybench {
 namespace {
 
 using namespace parallel;
-
-ElementStiffness whole(const double* lower) {
-  ElementStiffness K;
-  for (int j = 0; j < 12; ++j)
-    for (int i = j; i < 12; ++i) K(i, j) = K(j, i) = *lower++;
-  return K;
-}
 
 OwnedVec sequential(Eigen::Index size) {
   OwnedVec vector;
@@ -73,10 +67,12 @@ EdgeSystem::EdgeSystem(const BodyPart& part, const Visit& visit) : part_(part) {
   prescribed_force_ = new_vector();
   find_contact();
 
+  ContactCompliance near_contact(problem);
   Eigen::VectorXd of_prescribed = Eigen::VectorXd::Zero(local_.b.size());
   each_by_itself([&] {
     visit_stiffness<double>(problem, [&](int t, const HybridStiffness<double>& element) {
-      ElementStiffness K = whole(element.lower);
+      ElementStiffness K = from_lower(element.lower);
+      if (near_contact.asks_for(t)) near_contact.add(t, K);
       const std::array<int, 12> unknown = element_unknowns(problem, local_.unknown, t);
       const Eigen::Matrix<double, 12, 1> u0 = element_displacement(problem, local_, {}, t);
       const Eigen::Matrix<double, 12, 1> force = K * u0;
@@ -107,11 +103,22 @@ EdgeSystem::EdgeSystem(const BodyPart& part, const Visit& visit) : part_(part) {
   check(MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY));
   contact_triangle_of_ = {};
+  sum_compliance(near_contact.from_below());
   local_.b -= of_prescribed;
   add_tractions(problem, local_.unknown, local_.b);
   add_from_local(local_.b, b_);
   add_from_local(of_prescribed, prescribed_force_);
   prescribed_energy_ = sum(prescribed_energy_);
+}
+
+// of_part: of the part's rows of the boundary.
+void EdgeSystem::sum_compliance(const Eigen::Matrix4Xd& of_part) {
+  const auto rows = static_cast<Eigen::Index>(part_.boundary.mesh.boundary.size());
+  Eigen::Matrix4Xd of_boundary = Eigen::Matrix4Xd::Zero(4, rows);
+  for (std::size_t row = 0; row < part_.row_of_part.size(); ++row)
+    of_boundary.col(part_.row_of_part[row]) = of_part.col(static_cast<Eigen::Index>(row));
+  const Eigen::VectorXd summed = parallel::sum(of_boundary.reshaped());
+  compliance_from_below_ = at_contact_points(summed.reshaped(4, rows), part_.contact);
 }
 
 void EdgeSystem::create_matrix() {

@@ -48,6 +48,8 @@ class EdgeSystem {
   // For recover_stresses: the slots of local edges are its unknowns, it has no K.
   const HybridizedSystem& of_part() const { return local_; }
   const std::vector<PointLaw>& laws() const { return laws_; }
+  // Of every row of F_C (contact_compliance.hpp).
+  const Eigen::VectorXd& compliance_from_below() const { return compliance_from_below_; }
 
  private:
   struct ContactTriangle {
@@ -61,6 +63,7 @@ class EdgeSystem {
   };
 
   void create_matrix();
+  void sum_compliance(const Eigen::Matrix4Xd& of_part);
   std::vector<FramedPoint> points_of_slots() const;
   std::array<PetscInt, 12> slots_of(int triangle) const;
   PetscInt own_slot(int edge) const {  // of an edge of this rank, its first one
@@ -82,6 +85,7 @@ class EdgeSystem {
   parallel::OwnedScatter to_contact_triangles_, to_local_;
   parallel::OwnedVec contact_values_, local_values_;
   std::vector<PointLaw> laws_;
+  Eigen::VectorXd compliance_from_below_;
   bool slips_ = false;
 };
 

@@ -18,6 +18,15 @@ inline std::array<double, 2> centre_of(const Eigen::Matrix<double, 2, 3>& corner
   return {corners.row(0).mean(), corners.row(1).mean()};
 }
 
+// A symmetric 12×12 matrix from its lower triangle, by columns.
+template <typename Scalar>
+Eigen::Matrix<Scalar, 12, 12> from_lower(const Scalar* entry) {
+  Eigen::Matrix<Scalar, 12, 12> whole;
+  for (int j = 0; j < 12; ++j)
+    for (int i = j; i < 12; ++i) whole(i, j) = whole(j, i) = *entry++;
+  return whole;
+}
+
 template <typename Scalar>
 struct ElementMatricesIn {
   static constexpr int size = 12;

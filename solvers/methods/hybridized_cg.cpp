@@ -6,6 +6,7 @@
 #include "assembly/load_scale.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/base/method.hpp"
+#include "solvers/condensation/contact_compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/two_level/rows_check.hpp"
@@ -16,6 +17,7 @@ namespace {
 struct KrylovBody {
   HybridizedSystem system;
   EdgeMatrix matrix;
+  Eigen::VectorXd compliance;  // the diagonal of D from below
   std::unique_ptr<TwoLevelPreconditioner> two_levels;
   std::size_t coarse_matrix_bytes = 0;  // gone when the two levels are there
 };
@@ -43,6 +45,14 @@ void note_parameters(const CoarseDisplacements& coarse, Solution& solution) {
                         (coarse.factor().rounded() ? ", factor rounded" : "");
 }
 
+Eigen::VectorXd compliance_from_below(const Problem& problem, const ElementMatrices& K,
+                                      const ContactPoints& contact) {
+  ContactCompliance near_contact(problem);
+  for (int t = 0; t < K.count(); ++t)
+    if (near_contact.asks_for(t)) near_contact.add(t, from_lower(K.lower[t].data()));
+  return at_contact_points(near_contact.from_below(), contact);
+}
+
 // K is factorised nowhere: what is left of it is `matrix`, unless other loads come.
 void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBody& body,
                      Solution& solution) {
@@ -52,6 +62,7 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
   run_stage(solution.times, Stage::precondition, MemoryOwner::system_matrix, [&] {
     body.system = assemble_hybridized(problem, airy.contact);
     body.matrix = make_edge_matrix(problem, body.system, control.threads);
+    body.compliance = compliance_from_below(problem, body.system.K, airy.contact);
     const OwnerScope scope(MemoryOwner::preconditioner);
     coarse = std::make_unique<CoarseDisplacements>(problem, airy.contact, body.matrix,
                                                    coarse_kind_for(problem));
@@ -111,8 +122,8 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   });
   if (rows.converged)  // else the check's own solves would not end either
     run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
-      check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws, M,
-                        control, solution);
+      check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws,
+                        body.compliance, M, control, solution);
     });
   solution.iteration_times = M.times();
 }

@@ -33,14 +33,6 @@ void number_blocks(const Problem& problem, EdgeMatrix& K) {
   for (const auto& edges : of_triangle) std::ranges::for_each(edges, number);
 }
 
-Eigen::Matrix<double, 12, 12> whole_element(const ElementMatrices& K, int t) {
-  Eigen::Matrix<double, 12, 12> whole;
-  const double* entry = K.lower[t].data();
-  for (int j = 0; j < 12; ++j)
-    for (int i = j; i < 12; ++i) whole(i, j) = whole(j, i) = *entry++;
-  return whole;
-}
-
 }  // namespace
 
 EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& system, int threads) {
@@ -66,7 +58,7 @@ EdgeMatrix make_edge_matrix(const Problem& problem, const HybridizedSystem& syst
   K.diagonal.assign(edges, Eigen::Matrix4d::Zero());
   std::vector<int> next(K.start.begin(), K.start.end() - 1);
   for (std::size_t t = 0; t < of_triangle.size(); ++t) {
-    const Eigen::Matrix<double, 12, 12> K_e = whole_element(system.K, static_cast<int>(t));
+    const Eigen::Matrix<double, 12, 12> K_e = from_lower(system.K.lower[t].data());
     for (int k = 0; k < 3; ++k)
       K.diagonal[K.block_of_edge[of_triangle[t][k]]] += K_e.block<4, 4>(4 * k, 4 * k);
     visit_pairs(t, [&](int k, int l, int row, int column) {

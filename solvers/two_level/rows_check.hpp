@@ -7,10 +7,11 @@
 //
 //   √(e² + δᵀKδ − 2 δ·d) / ‖σ‖                stress, in the energy norm
 //   (‖δ‖_K + ‖δ_F‖_K) / √(F·M⁻¹F)             contact forces: Kδ = K δ_F + ΔF, and M⁻¹ ≤ K⁻¹
-//   ‖F − P(F − ρ r_c)‖ / ‖F‖                  contact law, with the displacements δ_F corrects
+//   ‖F − P(F − ρ r_c)‖ / ‖F‖                  contact law, with the displacements δ_F corrects and
+//                                             ρ from above (contact_compliance.hpp)
 //   ‖r‖_∞ / ‖forces‖_∞                        equilibrium
 //
-// with a half more on what is solved for, and the law's doubled for its rough ρ.
+// with a half more on what is solved for.
 #pragma once
 
 #include "solvers/condensation/hybridized.hpp"
@@ -18,9 +19,11 @@
 
 namespace airybench {
 
-// Sets the solution's estimate from its F_C, stress and contact displacements.
+// Sets the solution's estimate from its F_C, stress and contact displacements. compliance: the
+// diagonal of D from below.
 void check_rows_answer(const Problem& problem, const SlotSystem& slots, const EdgeUnknowns& unknown,
                        const UnbalancedForces& unbalanced, const std::vector<PointLaw>& laws,
-                       TwoLevelPreconditioner& M, const RunControl& control, Solution& solution);
+                       const Eigen::VectorXd& compliance, TwoLevelPreconditioner& M,
+                       const RunControl& control, Solution& solution);
 
 }  // namespace airybench

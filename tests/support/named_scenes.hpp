@@ -43,4 +43,14 @@ inline NamedScenes scene_variants() {
   });
 }
 
+// Four layers, every other one so many times as stiff as the steel between.
+inline Scene layered_scene(const Eigen::Vector2d& normal, double stiffness) {
+  Scene scene;
+  scene.layers.normal = normal;
+  scene.layers.count = 4;
+  scene.layer_materials.resize(2, scene.material);
+  scene.layer_materials[1].young_MPa *= stiffness;
+  return scene;
+}
+
 }  // namespace airybench::testing

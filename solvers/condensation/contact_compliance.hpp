@@ -1,0 +1,49 @@
+// The diagonal of D from below, without D: what moves where all is held but a few edges moves more
+// where nothing is.
+//
+//   D_jj = e_jᵀ K⁻¹ e_j ≥ e_jᵀ K_PP⁻¹ e_j     for any set P of unknowns, j among them
+//
+// K as in hybridized.hpp, contact forces given. P: the edges of the contact edge's triangle. The
+// natural map of the contact law grows with ρ: with ρ_j = 1 / (K_PP⁻¹)_jj it is at least that with
+// ρ_j = 1/D_jj, up to what friction's cone, as wide as the normal force, moves with ρ_n.
+#pragma once
+
+#include <unordered_map>
+#include <vector>
+
+#include "assembly/dual_system.hpp"
+#include "solvers/base/element_matrices.hpp"
+
+namespace airybench {
+
+class ContactCompliance {
+ public:
+  explicit ContactCompliance(const Problem& problem);
+  // Whether K_e of the triangle is asked for: at a contact edge, or beside a triangle that is.
+  bool asks_for(int triangle) const;
+  // Every triangle that is asked for, once.
+  void add(int triangle, const ElementMatrices::Matrix& K_e);
+  // Per row of Mesh::boundary, in a column: of the normal and tangential unknowns at start and end
+  // of a contact edge, mm/N; zero elsewhere. Inner edges with one triangle, as of a part of a body,
+  // count as held.
+  Eigen::Matrix4Xd from_below() const;
+
+ private:
+  struct Near {
+    Eigen::Matrix4d stiffness = Eigen::Matrix4d::Zero();  // block of K
+    int triangles = 0;
+  };
+  bool is_contact(int edge) const;
+  std::array<bool, 4> free_unknowns(int edge) const;
+
+  const Problem& problem_;
+  std::unordered_map<int, int> row_of_edge_;  // of Mesh::boundary
+  std::vector<bool> is_near_;                 // edges of triangles at contact edges
+  std::unordered_map<int, Near> near_;        // these
+  std::unordered_map<int, ElementMatrices::Matrix> at_contact_;  // K_e of those triangles
+};
+
+// Of every row of F_C.
+Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const ContactPoints& contact);
+
+}  // namespace airybench
