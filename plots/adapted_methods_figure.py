@@ -9,14 +9,14 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
 import study_parts as parts
-from atlas_figure import LETTER, MARKS, SIZE, draw_key
+from atlas_figure import LETTER, MARKS, SIZE, Key
 from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing
 from figure_table import csv_of
 from figure_words import plain, short
 from record_keys import Row
 from selection import by_mesh, of_scene
 
-CELL, NARROWEST, ROW, ABOVE, KEY, BETWEEN = 1.2, 1.02, 0.36, 0.6, 0.62, 0.1  # inches
+CELL, NARROWEST, ROW, ABOVE, BETWEEN = 1.2, 1.02, 0.36, 0.6, 0.1  # inches
 COLUMNS = ("mesh", "body", "n_phi", "error_total", "method", "outcome", "time_s",
            "peak_heap_bytes", "error_stress", "error_force", "condition_estimate")
 
@@ -61,7 +61,8 @@ def draw(rows: list[Row]) -> Figure:
     cell = min(CELL, room / most)
     blocks = [list(meshes.values())[k:k + most] for k in range(0, len(meshes), most)]
     block = ABOVE + ROW * len(methods)
-    body = 0.3 + len(blocks) * (block + BETWEEN) + KEY
+    key = Key(rows, PAGE_WIDTH, ("", "ok"))
+    body = 0.3 + len(blocks) * (block + BETWEEN) + key.height
     figure = parts.sheet(PAGE_WIDTH, body, "Methods on adapted meshes", [
         f"Scene {rows[0].scene}, {parts.threads(rows)}. A column is a mesh, with its total error. A "
         "cell: time of one solve; below it the larger of the relative errors of stresses and contact "
@@ -77,7 +78,7 @@ def draw(rows: list[Row]) -> Figure:
         axes.set_xticks([])
         axes.tick_params(length=0, pad=3)
         axes.spines[:].set_visible(False)
-    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.12, PAGE_WIDTH, of_ok=("", "ok"))
+    key.draw(figure, body - key.height + 0.12)
     return figure
 
 

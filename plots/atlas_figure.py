@@ -42,7 +42,7 @@ WORDS = {"other_solution": "another solution than the reference's",
          "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
          "machine_fault": "no process or no file to be had"}
-CELL, NARROWEST, ROW, TITLE, KEY, BETWEEN = 0.32, 0.112, 0.16, 0.42, 0.62, 0.25  # inches
+CELL, NARROWEST, ROW, TITLE, BETWEEN = 0.32, 0.112, 0.16, 0.42, 0.25  # inches
 WITH_DIGITS = 0.2  # inches: a cell in which an ok case's digits have room
 LETTER = 0.078  # inches: of a name's letter, about
 SIZE = 7.5
@@ -124,9 +124,11 @@ def draw(rows: list[Row]) -> Figure | str:
     above = 0.1 + max(width_of(row.method, SIZE) for row in rows) / 72
     below = 0.5  # counts
     block = above + grids[0].height + below
-    body = TITLE + len(grids) * (block + BETWEEN) + KEY
     methods = sum(len(grid.methods) for grid in grids)
     deep = grids[0].cell < WITH_DIGITS
+    key = Key(rows, PAGE_WIDTH, ("", "ok, deeper: more digits") if deep else
+              ("12", "ok, with the digits of its largest error"))
+    body = TITLE + len(grids) * (block + BETWEEN) + key.height
     figure = parts.sheet(PAGE_WIDTH, body, f"Stability on {rows[0].mesh}: {methods} methods in "
                          f"{len(scenes)} scenes", [
         "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
@@ -144,9 +146,7 @@ def draw(rows: list[Row]) -> Figure | str:
         own = [row for row in rows if row.method in grid.methods]
         draw_cells(axes, own, grid)
         draw_names(axes, own, grid)
-    draw_key(figure, rows, parts.MARGIN, body - KEY + 0.1, size[0],
-             of_ok=("", "ok, deeper: more digits") if deep else
-             ("12", "ok, with the digits of its largest error"))
+    key.draw(figure, body - key.height + 0.1)
     return figure
 
 
@@ -193,26 +193,38 @@ def draw_names(axes: Axes, rows: list[Row], grid: Grid) -> None:
                   textcoords="offset points", fontsize=SIZE, color="0.3")
 
 
-def draw_key(figure: Figure, rows: list[Row], left: float, top: float, width: float,
-             of_ok: tuple[str, str] = ("12", "ok, with the digits of its largest error")) -> None:
-    """The outcomes, with counts, in a line or two. of_ok: in its field, and beside it."""
-    height = figure.get_size_inches()[1]
-    count = Counter(row.outcome for row in rows)
-    x = left
-    for outcome in OUTCOMES:
-        if not count[outcome] and outcome != "wrong_success":
-            continue
-        letter, fill, ink = MARKS[outcome]
-        words = of_ok[1] if outcome == "ok" else WORDS.get(outcome, outcome.replace("_", " "))
-        words += f": {count[outcome]}"
-        needed = 0.36 + 0.066 * len(words) + 0.22
-        if x + needed > width:
-            x, top = left, top + 0.25
-        figure.add_artist(Rectangle((x / width, 1 - (top + 0.19) / height), 0.28 / width,
-                                    0.19 / height, facecolor=fill, edgecolor="0.5",
-                                    linewidth=0.5))
-        figure.text((x + 0.14) / width, 1 - (top + 0.1) / height, letter or of_ok[0], color=ink,
-                    ha="center", va="center", fontsize=SIZE, weight="bold" if letter else "normal")
-        figure.text((x + 0.36) / width, 1 - (top + 0.1) / height, words, va="center", fontsize=8,
-                    weight="bold" if outcome == "wrong_success" else "normal")
-        x += needed
+class Key:
+    """The outcomes, with counts, in lines as wide as the page. of_ok: in its field, and beside it."""
+
+    LINE = 0.25  # inches
+
+    def __init__(self, rows: list[Row], width: float, of_ok: tuple[str, str]) -> None:
+        count = Counter(row.outcome for row in rows)
+        self.width, self.of_ok = width, of_ok
+        self.places: list[tuple[str, str, float, int]] = []  # outcome, words, x, line
+        x, line = parts.MARGIN, 0
+        for outcome in OUTCOMES:
+            if not count[outcome] and outcome != "wrong_success":
+                continue
+            words = of_ok[1] if outcome == "ok" else WORDS.get(outcome, outcome.replace("_", " "))
+            words += f": {count[outcome]}"
+            needed = 0.36 + 0.066 * len(words) + 0.22
+            if x + needed > width:
+                x, line = parts.MARGIN, line + 1
+            self.places.append((outcome, words, x, line))
+            x += needed
+        self.height = 0.12 + self.LINE * (line + 1)
+
+    def draw(self, figure: Figure, top: float) -> None:
+        width, height = self.width, figure.get_size_inches()[1]
+        for outcome, words, x, line in self.places:
+            letter, fill, ink = MARKS[outcome]
+            y = top + self.LINE * line
+            figure.add_artist(Rectangle((x / width, 1 - (y + 0.19) / height), 0.28 / width,
+                                        0.19 / height, facecolor=fill, edgecolor="0.5",
+                                        linewidth=0.5))
+            figure.text((x + 0.14) / width, 1 - (y + 0.1) / height, letter or self.of_ok[0],
+                        color=ink, ha="center", va="center", fontsize=SIZE,
+                        weight="bold" if letter else "normal")
+            figure.text((x + 0.36) / width, 1 - (y + 0.1) / height, words, va="center", fontsize=8,
+                        weight="bold" if outcome == "wrong_success" else "normal")

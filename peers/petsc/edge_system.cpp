@@ -118,7 +118,8 @@ void EdgeSystem::sum_compliance(const Eigen::Matrix4Xd& of_part) {
   for (std::size_t row = 0; row < part_.row_of_part.size(); ++row)
     of_boundary.col(part_.row_of_part[row]) = of_part.col(static_cast<Eigen::Index>(row));
   const Eigen::VectorXd summed = parallel::sum(of_boundary.reshaped());
-  compliance_from_below_ = at_contact_points(summed.reshaped(4, rows), part_.contact);
+  compliance_from_below_ =
+      at_contact_points(summed.reshaped(4, rows), part_.boundary, part_.contact);
 }
 
 void EdgeSystem::create_matrix() {

@@ -2,6 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <limits>
+
+#include "assembly/rough_compliance.hpp"
 
 namespace airybench {
 
@@ -78,12 +81,16 @@ Eigen::Matrix4Xd ContactCompliance::from_below() const {
   return compliance;
 }
 
-Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const ContactPoints& contact) {
+Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const Problem& problem,
+                                  const ContactPoints& contact) {
+  double stiffest = std::numeric_limits<double>::infinity();
+  for (const Eigen::Matrix3d& C : problem.compliance) stiffest = std::min(stiffest, C(0, 0));
   const int m = contact.components;
   Eigen::VectorXd of_points(contact.size());
   for (int p = 0; p < contact.count; ++p)
     of_points.segment(m * p, m) = of_rows.col(contact.boundary[p]).segment(2 * (p % 2), m);
-  return of_points;
+  return of_points.cwiseMax(
+      0.5 * rough_compliance(Eigen::VectorXd::Constant(of_rows.cols(), stiffest), contact));
 }
 
 }  // namespace airybench

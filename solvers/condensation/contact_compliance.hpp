@@ -6,6 +6,10 @@
 // K as in hybridized.hpp, contact forces given. P: the edges of the contact edge's triangle. The
 // natural map of the contact law grows with ρ: with ρ_j = 1 / (K_PP⁻¹)_jj it is at least that with
 // ρ_j = 1/D_jj, up to what friction's cone, as wide as the normal force, moves with ρ_n.
+//
+// Of one material (K_PP⁻¹)_jj is 10 to 14 times too small. But a body is no stiffer than if all of
+// it were of its stiffest material: half the rough diagonal (rough_compliance.hpp) of that serves
+// too.
 #pragma once
 
 #include <unordered_map>
@@ -43,7 +47,8 @@ class ContactCompliance {
   std::unordered_map<int, ElementMatrices::Matrix> at_contact_;  // K_e of those triangles
 };
 
-// Of every row of F_C.
-Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const ContactPoints& contact);
+// Of every row of F_C, the larger of both; of_rows: from_below() of the whole boundary.
+Eigen::VectorXd at_contact_points(const Eigen::Matrix4Xd& of_rows, const Problem& problem,
+                                  const ContactPoints& contact);
 
 }  // namespace airybench

@@ -50,7 +50,7 @@ Eigen::VectorXd compliance_from_below(const Problem& problem, const ElementMatri
   ContactCompliance near_contact(problem);
   for (int t = 0; t < K.count(); ++t)
     if (near_contact.asks_for(t)) near_contact.add(t, from_lower(K.lower[t].data()));
-  return at_contact_points(near_contact.from_below(), contact);
+  return at_contact_points(near_contact.from_below(), problem, contact);
 }
 
 // K is factorised nowhere: what is left of it is `matrix`, unless other loads come.

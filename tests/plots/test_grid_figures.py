@@ -5,6 +5,8 @@ import unittest
 from collections import Counter
 from pathlib import Path
 
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
 import made_up  # noqa: E402; finds plots
@@ -55,6 +57,18 @@ class AtlasTest(studies.StudiesTest):
         for row in rows:
             self.assertIn(row.scene, words)
             self.assertIn(row.scene_group, words)
+
+    def test_the_caption_is_below_all_outcomes(self) -> None:
+        row = made_up.stability_study()[0]
+        rows = self.read([row | dict(outcome=outcome, scene=outcome)
+                          for outcome in atlas_figure.OUTCOMES])
+        figure = atlas_figure.draw(rows)
+        renderer = FigureCanvasAgg(figure).get_renderer()
+        boxes = {text.get_text(): text.get_window_extent(renderer) for text in figure.texts}
+        caption = max(box.y1 for words, box in boxes.items() if words.startswith("A column"))
+        named = [box for words, box in boxes.items() if words.endswith(": 1")]
+        self.assertEqual(len(named), len(atlas_figure.OUTCOMES))
+        self.assertLess(caption, min(box.y0 for box in named))
 
     def test_no_wrong_success_is_said_too(self) -> None:
         rows = [row for row in made_up.stability_study()[:99] if row["outcome"] != "wrong_success"]
