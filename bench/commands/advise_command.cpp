@@ -168,7 +168,7 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes};
   const std::vector<Prediction> expected =
-      forecast(planned, read_committed_records(options.out).records, limits).cases;
+      forecast(planned, read_committed_records(planned, options.out).records, limits).cases;
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });

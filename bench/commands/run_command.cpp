@@ -95,7 +95,7 @@ void print_left_out(const std::vector<Case>& plan, const Options& options) {
 void print_prediction(const std::vector<Case>& plan, const Options& options) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const PastRecords past = read_committed_records(options.out);
+  const PastRecords past = read_committed_records(planned, options.out);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
   const RunLimits limits = {least_repetitions(options), options.timeout_s, options.long_case_s,
                             options.memory_limit_bytes, options.study == Study::stability};

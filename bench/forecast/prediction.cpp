@@ -236,10 +236,20 @@ PastRecords read_past_records(const std::vector<std::filesystem::path>& folders)
   return past;
 }
 
-PastRecords read_committed_records(const std::filesystem::path& besides) {
-  const std::filesystem::path committed = data_folder("results");
-  return read_past_records(
-      {committed / "paper", committed / "direct", committed / "stability", besides});
+PastRecords read_committed_records(const std::vector<Record>& cases,
+                                   const std::filesystem::path& besides) {
+  const std::filesystem::path committed = data_folder("results"),
+                              stability_scenes = data_folder("scenes/stability");
+  std::vector<std::filesystem::path> folders = {committed / "paper", committed / "direct",
+                                                committed / "size", committed / "growth", besides};
+  // Most of all bytes; no law of a size comes from its two meshes.
+  if (std::any_of(cases.begin(), cases.end(), [&](const Record& c) {
+        std::error_code error;
+        return c.scene != "default" &&
+               std::filesystem::exists(stability_scenes / (c.scene + ".json"), error);
+      }))
+    folders.push_back(committed / "stability");
+  return read_past_records(folders);
 }
 
 double run_seconds(double time_s, double tuning_s, const RunLimits& limits) {

@@ -52,8 +52,9 @@ struct PastRecords {
   std::vector<std::string> passed_over;
 };
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders);
-// Of the committed runs, and of one folder besides.
-PastRecords read_committed_records(const std::filesystem::path& besides);
+// Of the committed runs that tell of these cases, and of one folder besides.
+PastRecords read_committed_records(const std::vector<Record>& cases,
+                                   const std::filesystem::path& besides);
 
 // Of cases as they are planned: blank records. Of several records of one case the last one counts,
 // but a study's only where there is no other: its runs do more than the method alone.

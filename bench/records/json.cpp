@@ -37,6 +37,11 @@ Json parse_json(const std::string& text) {
   return Json::parse(text);
 }
 
+void parse_json(const std::string& text, Json::json_sax_t& sax) {
+  check_text(text);
+  Json::sax_parse(text.data(), text.data() + text.size(), &sax);
+}
+
 bool is_utf8(std::string_view text) {
   try {
     return !Json(text).dump().empty();

@@ -14,6 +14,8 @@ using Json = nlohmann::ordered_json;
 
 // Throws Json::exception, also where arrays and objects are nested more than 32 deep.
 Json parse_json(const std::string& text);
+// Tells sax what is read, in its order, instead of keeping all.
+void parse_json(const std::string& text, Json::json_sax_t& sax);
 bool is_utf8(std::string_view text);
 // On one line; what is not UTF-8, in a file's name say, is replaced.
 std::string json_text(const Json& json);

@@ -22,6 +22,7 @@ struct Record {
 const std::vector<Field>& record_fields();
 // Those that have all of these uses.
 std::vector<const Field*> fields_with(unsigned uses);
+const Field* find_field(const std::string& name);   // nullptr: none is named so
 const Field& field_named(const std::string& name);  // throws std::out_of_range
 
 // Empty: it has none, or is no number.
@@ -42,6 +43,10 @@ struct RecordError : FileError {
 // are missing keep their defaults, and general_name and family follow from the method's name where
 // a record is older than they are. `place` is what a RecordError begins with.
 Record record_of(const Json& json, const std::string& place);
+// The same of a line's text, without all of its JSON in between.
+Record record_of_text(const std::string& text, const std::string& place);
+// A line's JSON. Throws RecordError: it is none.
+Json json_of_text(const std::string& text, const std::string& place);
 
 CaseName name_of(const Record& record);
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
+#include <unordered_map>
 
 #include "bench/records/record.hpp"
 #include "support/shortened.hpp"
@@ -268,11 +270,20 @@ const std::vector<Field>& record_fields() {
   return fields;
 }
 
+const Field* find_field(const std::string& name) {
+  static const auto by_name = [] {
+    std::unordered_map<std::string_view, const Field*> result;
+    for (const Field& field : record_fields()) result.emplace(field.name, &field);
+    return result;
+  }();
+  const auto found = by_name.find(name);
+  return found == by_name.end() ? nullptr : found->second;
+}
+
 const Field& field_named(const std::string& name) {
-  const auto found = std::find_if(record_fields().begin(), record_fields().end(),
-                                  [&](const Field& field) { return field.name == name; });
-  if (found == record_fields().end()) throw std::out_of_range("no field is named " + name);
-  return *found;
+  const Field* field = find_field(name);
+  if (field == nullptr) throw std::out_of_range("no field is named " + name);
+  return *field;
 }
 
 std::vector<const Field*> fields_with(unsigned uses) {
@@ -293,22 +304,6 @@ Json to_json(const Record& record, unsigned uses) {
   Json json = Json::object();
   for (const Field* field : fields_with(uses)) json[field->name] = field->value(record);
   return json;
-}
-
-Record record_of(const Json& json, const std::string& place) {
-  if (!json.is_object())
-    throw RecordError(
-        fmt::format("{}: {} (allowed: a JSON object)", place, shortened(json_text(json))));
-  static const Json null;
-  Record record;
-  for (const Field& field : record_fields()) {
-    const auto found = json.find(field.name);
-    field.read(found == json.end() ? null : *found, place, field.name, record);
-  }
-  if (record.general_name.empty()) record.general_name = record.method;
-  if (record.family.empty())
-    record.family = record.general_name.substr(0, record.general_name.find(':'));
-  return record;
 }
 
 }  // namespace airybench

@@ -10,20 +10,25 @@ namespace airybench {
 
 namespace {
 
+std::string place_of(const std::string& file, std::size_t line) {
+  return fmt::format("{}:{}", file, line + 1);
+}
+
 RecordLines record_lines_of(const JournalLines& journal, const std::string& file) {
   RecordLines result;
   result.torn = journal.torn;
   for (const std::string& text : journal.lines) {
     RecordLine& line = result.lines.emplace_back();
-    line.place = fmt::format("{}:{}", file, result.lines.size());
-    try {
-      line.json = parse_json(text);
-    } catch (const Json::exception& wrong) {
-      throw RecordError(fmt::format("{}: not JSON: {}", line.place, without_prefix(wrong)));
-    }
+    line.place = place_of(file, result.lines.size() - 1);
+    line.json = json_of_text(text, line.place);
     line.record = record_of(line.json, line.place);
   }
   return result;
+}
+
+JournalLines lines_of(const std::filesystem::path& file) {
+  if (file.extension() == ".gz") return journal_lines_of(unpacked(file_text(file), file.string()));
+  return read_journal(file);
 }
 
 }  // namespace
@@ -41,9 +46,7 @@ std::filesystem::path records_file_in(const std::filesystem::path& folder) {
 }
 
 RecordLines read_record_lines(const std::filesystem::path& file) {
-  if (file.extension() == ".gz")
-    return record_lines_of(unpacked(file_text(file), file.string()), file.string());
-  return record_lines_of(read_journal(file), file.string());
+  return record_lines_of(lines_of(file), file.string());
 }
 
 std::vector<Record> read_records(const std::filesystem::path& file, Studies studies) {
@@ -51,9 +54,11 @@ std::vector<Record> read_records(const std::filesystem::path& file, Studies stud
   if (!std::filesystem::is_regular_file(file, error))
     throw RecordError(file.string() + ": no such file (a folder that bench --out wrote has it)");
   std::vector<Record> records;
-  for (RecordLine& line : read_record_lines(file).lines)
-    if (studies == Studies::include || line.record.study.empty())
-      records.push_back(std::move(line.record));
+  const std::vector<std::string> lines = lines_of(file).lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    Record record = record_of_text(lines[i], place_of(file.string(), i));
+    if (studies == Studies::include || record.study.empty()) records.push_back(std::move(record));
+  }
   return records;
 }
 

@@ -282,6 +282,24 @@ TEST(PastRecords, ValuesThatCannotBeAreRefused) {
   }
 }
 
+TEST(PastRecords, TheCommittedOnesAreThoseThatTellOfTheCases) {
+  const TemporaryFolder folder;
+  Record planned;
+  planned.mesh = "Mesh0";
+  planned.method = planned.general_name = "P2";
+  const auto known = [&](const char* scene) {
+    planned.scene = scene;
+    const PastRecords past = read_committed_records({planned}, folder.path());
+    EXPECT_TRUE(past.passed_over.empty());
+    return std::any_of(past.records.begin(), past.records.end(), [&](const Record& record) {
+      return record.scene == planned.scene && record.method == planned.method;
+    });
+  };
+  EXPECT_TRUE(known("default"));
+  EXPECT_TRUE(known("layers_1e8"));
+  EXPECT_FALSE(known("nobody's"));
+}
+
 // Each mesh from the smaller ones, as when a series of runs goes up in size.
 struct CommittedFolder {
   const char* name;
