@@ -11,23 +11,40 @@
 
 namespace airybench {
 
-std::string sha256_hex(std::string_view bytes) {
-  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
-  SHA256_CTX hash;
-  SHA256_Init(&hash);
-  SHA256_Update(&hash, bytes.data(), bytes.size());
-  SHA256_Final(digest.data(), &hash);
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string hex;
-  for (const unsigned char byte : digest) {
-    hex += digits[byte >> 4];
-    hex += digits[byte & 15];
+namespace {
+
+class Sha256 {
+ public:
+  Sha256() { SHA256_Init(&state_); }
+  void add(std::string_view bytes) { SHA256_Update(&state_, bytes.data(), bytes.size()); }
+  std::string hex() {
+    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
+    SHA256_Final(digest.data(), &state_);
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string hex;
+    for (const unsigned char byte : digest) {
+      hex += digits[byte >> 4];
+      hex += digits[byte & 15];
+    }
+    return hex;
   }
-  return hex;
+
+ private:
+  SHA256_CTX state_;
+};
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) {
+  Sha256 hash;
+  hash.add(bytes);
+  return hash.hex();
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  return sha256_hex(file_text(file));
+  Sha256 hash;
+  read_parts(file, [&](std::string_view part) { hash.add(part); });
+  return hash.hex();
 }
 
 }  // namespace airybench
