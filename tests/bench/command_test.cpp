@@ -230,7 +230,9 @@ TEST(Command, ATimeoutTellsWhatWasDone) {
 
 TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   const BenchCommand bench;
-  const std::string methods = "3STEPCG3,SDTIC6,ALM:r=20,rho=20,BLIND:SKY,HYBRID";
+  const std::string methods = testing::sanitized
+                                  ? "3STEPCG3,BLIND:SKY,HYBRID"
+                                  : "3STEPCG3,SDTIC6,ALM:r=20,rho=20,BLIND:SKY,HYBRID";
   const auto counts = [&](const std::string& arguments, std::vector<const char*> keys) {
     EXPECT_EQ(
         bench.run("--mesh=Mesh0 --repetitions=1 --out=o --method=" + methods + arguments).code, 0);
@@ -242,7 +244,7 @@ TEST(Command, CountsAreTheSameInEveryRunAndOnTwoThreads) {
   const std::vector<const char*> every = {"linear_iterations", "contact_iterations",
                                           "uzawa_iterations", "tolerance", "error_force"};
   const auto first = counts("", every);
-  EXPECT_EQ(first.size(), 25u);
+  EXPECT_EQ(first.size(), testing::sanitized ? 15u : 25u);
   EXPECT_EQ(counts("", every), first);
   // On two threads too, but for the solves of the check: they correct roundings, and BLAS rounds
   // otherwise there.

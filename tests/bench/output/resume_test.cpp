@@ -15,6 +15,7 @@
 #include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::resume_test {
 namespace {
@@ -74,7 +75,7 @@ TEST(Resume, AfterKillAtRandomMomentsNothingIsLostOrRepeated) {
   std::mt19937 engine(5);
   std::size_t before = 0;
   int killed_at_work = 0;
-  for (int kills = 0; kills < 20; ++kills) {
+  for (int kills = 0; kills < (testing::sanitized ? 8 : 20); ++kills) {
     if (before == undisturbed.size()) {  // it came to the end: from the start again
       std::filesystem::remove_all(bench.path("o"));
       before = 0;

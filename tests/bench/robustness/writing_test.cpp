@@ -9,6 +9,7 @@
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"
 #include "tests/support/background_run.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::writing_test {
@@ -145,9 +146,10 @@ TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
 TEST(Records, DeletedDuringARunAreMissed) {
   for (const bool whole_folder : {false, true}) {
     const BenchCommand bench;
-    BackgroundRun run(bench,
-                      "--mesh=Mesh0 --method=HYBRID,3STEPD,BLIND,ALM,P2 --repetitions=5 "
-                      "--out=o");
+    // Long enough after its first record.
+    const std::string long_case = testing::sanitized ? "ALM:r=20,rho=20" : "ALM";
+    BackgroundRun run(bench, "--mesh=Mesh0 --method=HYBRID,3STEPD,BLIND,P2," + long_case +
+                                 " --repetitions=5 --out=o");
     wait_for([&] { return !bench.records().empty(); });
     fs::remove_all(bench.path(whole_folder ? "o" : "o/records.jsonl"));
     const int status = run.end(0);

@@ -6,6 +6,7 @@
 #include "bench/records/summary.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::listed_scenes_test {
 namespace {
@@ -55,7 +56,8 @@ TEST(ListedScenes, ASlideOf1e9mmHasTheForcesOfOneOf1mm) {
     const Record near = examined(sliding(1), method);
     ASSERT_EQ(near.outcome, "ok") << method.name << ": " << near.status_reason;
     EXPECT_LT(near.normal_resultant_N.value(), -100);
-    for (const double far : {100., 1e4, 1e9}) {
+    for (const double far : {1e9, 1e4, 100.}) {
+      if (testing::sanitized && far < 1e9) continue;
       const Record record = examined(sliding(far), method);
       EXPECT_EQ(record.outcome, "ok") << method.name << " " << far << ": " << record.status_reason;
       EXPECT_NEAR(*record.normal_resultant_N / *near.normal_resultant_N, 1, 2e-6) << method.name;
