@@ -6,9 +6,11 @@
 
 #include <chrono>
 #include <csignal>
+#include <optional>
 #include <string>
 #include <thread>
 
+#include "support/numbers.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::testing {
@@ -48,6 +50,14 @@ class BackgroundRun {
 template <typename Condition>
 void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+}
+
+// The first process that this one has begun and that has not ended.
+inline std::optional<pid_t> child_of(pid_t parent) {
+  const std::string id = std::to_string(parent);
+  const std::string children = text_of("/proc/" + id + "/task/" + id + "/children");
+  const std::optional<std::int64_t> child = parse_whole(children.substr(0, children.find(' ')));
+  return child ? std::optional(static_cast<pid_t>(*child)) : std::nullopt;
 }
 
 }  // namespace airybench::testing

@@ -5,6 +5,7 @@
 
 #include "mesh/msh_format.hpp"
 #include "support/sha256.hpp"
+#include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::model_runs_test {
@@ -165,6 +166,22 @@ TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
   testing::write_text(bench_.path("exit.geo"), "Exit;\n");
   expect_refusal("--mesh=part.geo,exit.geo --role clamped=displacement",
                  "exit.geo: the model ends Gmsh (Exit)");
+}
+
+// What plans is not caught up in what it waits for.
+TEST_F(ModelRuns, AnInterruptEndsThemWhileTheirModelIsMeshed) {
+  testing::write_text(bench_.path("part.geo"), "For i In {1:1e12}\n  x = i;\nEndFor\n");
+  std::signal(SIGINT, SIG_DFL);  // a shell's background jobs ignore it
+  testing::BackgroundRun run(bench_, part + quick + "--out=o");
+  std::optional<pid_t> meshgen;
+  testing::wait_for([&] { return (meshgen = testing::child_of(run.pid())).has_value(); });
+  const int status = run.end(SIGINT);
+  EXPECT_TRUE(WIFSIGNALED(status)) << bench_.content("bg_err.txt");
+  EXPECT_EQ(bench_.content("bg_out.txt"), "");
+  EXPECT_FALSE(fs::exists(bench_.path("o")));
+  // Nor does meshgen go on: an ended process has no command line.
+  const std::string command_line = "/proc/" + std::to_string(*meshgen) + "/cmdline";
+  testing::wait_for([&] { return testing::text_of(command_line).empty(); });
 }
 
 TEST_F(ModelRuns, WithoutMeshgenOneLineSaysWhatToInstall) {

@@ -4,7 +4,6 @@
 
 #include <map>
 
-#include "support/numbers.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
@@ -175,35 +174,18 @@ TEST(MachineFault, OfASilentProcess) {
   EXPECT_EQ(bench.records()[1]["status"], "ok") << bench.records()[1]["status_reason"];
 }
 
-// Planning is not caught up in what it makes.
-TEST(Interrupts, EndPlanning) {
-  const BenchCommand bench;
-  testing::write_text(bench.path("s.json"), R"({"mesh": {"refine": 4}})");
-  std::signal(SIGINT, SIG_DFL);  // a shell's background jobs ignore it
-  testing::BackgroundRun run(bench, "--mesh=Mesh4 --scene=s.json --method=HYBRID --dry-run");
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));  // it takes some seconds
-  const int status = run.end(SIGINT);
-  EXPECT_TRUE(WIFSIGNALED(status)) << bench.content("bg_err.txt");
-  EXPECT_EQ(bench.content("bg_out.txt"), "");
-}
-
 // A process that somebody stops is not waited for without end.
 TEST(MachineFault, OfAStoppedProcess) {
   for (const bool the_scenes : {true, false}) {
     const BenchCommand bench;
     testing::BackgroundRun run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o");
-    const auto child_of = [](pid_t parent) {
-      const std::string id = std::to_string(parent);
-      const std::string children = testing::text_of("/proc/" + id + "/task/" + id + "/children");
-      return parse_whole(children.substr(0, children.find(' ')));
-    };
-    std::optional<std::int64_t> scene, own;
+    std::optional<pid_t> scene, own;
     testing::wait_for([&] {
-      scene = child_of(run.pid());
-      own = scene ? child_of(static_cast<pid_t>(*scene)) : std::nullopt;
+      scene = testing::child_of(run.pid());
+      own = scene ? testing::child_of(*scene) : std::nullopt;
       return own.has_value();
     });
-    kill(static_cast<pid_t>(the_scenes ? *scene : *own), SIGSTOP);
+    kill(the_scenes ? *scene : *own, SIGSTOP);
     const int status = run.end(0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
