@@ -2,4 +2,4 @@
 // OpenCASCADE inside it keep global objects until the end.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libgmsh\nleak:libTK\n"; }
 // Standard error is the program's own.
-extern "C" const char* __lsan_default_options() { return "print_suppressions=0"; }
+extern "C" const char* __lsan_default_options() { return "print_suppressions=0:symbolize=0"; }

@@ -23,7 +23,7 @@ struct Work {
   double column[rows][rows];  // lower triangle: column[j][i], i ≥ j
   double values[sweep_length];
 };
-#define AIRYBENCH_NOT_SANITIZED [[gnu::no_sanitize("address"), gnu::no_sanitize("undefined")]]
+#define AIRYBENCH_NOT_SANITIZED __attribute__((no_sanitize("address", "undefined")))
 
 // A = L D Lᵀ in place, columns one after another, of A = I + 1 1ᵀ/rows; the sum of D.
 AIRYBENCH_NOT_SANITIZED double factorise(Work& work) {

@@ -81,7 +81,8 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
       },
       solution);
   if (!control.keep_body || !owner) return;
-  const auto body = std::make_shared<KeptAiryBody>(condensed, solve, refine, std::move(owner));
+  const auto body =
+      std::make_shared<KeptAiryBody>(KeptAiryBody{condensed, solve, refine, std::move(owner)});
   solution.solve_again = for_the_same_body(
       system,
       [body](const DualSystem& s, const RunControl& c) { return solve_load_case(*body, s, c); });

@@ -88,8 +88,8 @@ class Analysis {
     start_.push_back(0);
     for (int j = 0; j < n_; ++j) {
       const std::span<int> rows = below[j];
-      std::ranges::sort(rows);
-      row_.insert(row_.end(), rows.begin(), std::ranges::unique(rows).begin());
+      std::sort(rows.begin(), rows.end());
+      row_.insert(row_.end(), rows.begin(), std::unique(rows.begin(), rows.end()));
       start_.push_back(static_cast<int>(row_.size()));
     }
   }

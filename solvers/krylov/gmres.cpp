@@ -65,7 +65,8 @@ GmresResult solve_by_gmres(const ApplyTo& A, const ApplyTo& M_inverse, const Eig
   const OwnerScope scope(MemoryOwner::iteration);
   constexpr double rounding = 1e-7;  // of norms from differences of squares
   const int most = options.most_iterations;
-  auto& [Z, w] = space;
+  std::vector<Eigen::VectorXd>& Z = space.Z;
+  Eigen::VectorXd& w = space.w;
   Eigen::VectorXd h = Eigen::VectorXd::Zero(most + 1);
   Eigen::MatrixXd partial(most + 1, slices);
   GmresResult result;

@@ -11,6 +11,7 @@
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::dual_system_test {
@@ -61,7 +62,8 @@ TEST(DualSystem, FlexibilityIsEquilibratedSymmetricPositiveDefinite) {
 }
 
 TEST(DualSystem, ConstraintsHaveFullRank) {
-  for (const char* name : {"Mesh0", "Mesh4"}) {
+  const auto names = testing::sanitized ? std::vector{"Mesh0"} : std::vector{"Mesh0", "Mesh4"};
+  for (const char* name : names) {
     const DualSystem system = assemble(posed({}, testing::catalogue_mesh(name)));
     Eigen::MatrixXd C(system.n_f() + system.n_c(), system.n());
     C << Eigen::MatrixXd(system.C_F), Eigen::MatrixXd(system.C_C);

@@ -21,6 +21,7 @@ struct CommandResult {
 
 class BenchCommand {
  public:
+  BenchCommand() {}  // not `= default`: Clang has no constants of such a class
   // before: what the shell does first, "ulimit -f 8; ".
   CommandResult run(const std::string& arguments, const std::string& before = "") const {
     std::string command = "cd '";

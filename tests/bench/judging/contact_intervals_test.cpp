@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "assembly/scene.hpp"
@@ -92,7 +93,7 @@ Mesh pin(int first) {
   std::vector<BoundaryEdge> hole;
   for (BoundaryEdge& edge : mesh.boundary)
     if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact, hole.push_back(edge);
-  std::ranges::rotate(hole, hole.begin() + first);
+  std::rotate(hole.begin(), hole.begin() + first, hole.end());
   std::size_t next = 0;
   for (BoundaryEdge& edge : mesh.boundary)
     if (edge.role == BoundaryRole::contact) edge = hole[next++];

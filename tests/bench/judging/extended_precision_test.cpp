@@ -14,7 +14,6 @@
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/quad.hpp"
-#include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::extended_precision_test {
@@ -199,7 +198,7 @@ TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
 }
 
 // 128 bits are computed in software.
-INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Range(0, testing::sanitized ? 1 : 2));
+INSTANTIATE_TEST_SUITE_P(Mesh, ExtendedPrecision, ::testing::Range(0, 2));
 
 }  // namespace
 }  // namespace airybench::extended_precision_test
