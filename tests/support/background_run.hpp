@@ -6,11 +6,12 @@
 
 #include <chrono>
 #include <csignal>
-#include <optional>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <thread>
+#include <vector>
 
-#include "support/numbers.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::testing {
@@ -52,12 +53,16 @@ void wait_for(const Condition& condition) {
   while (!condition()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
 }
 
-// The first process that this one has begun and that has not ended.
-inline std::optional<pid_t> child_of(pid_t parent) {
+// The processes that this one has begun and that have not ended, oldest first.
+inline std::vector<pid_t> children_of(pid_t parent) {
   const std::string id = std::to_string(parent);
-  const std::string children = text_of("/proc/" + id + "/task/" + id + "/children");
-  const std::optional<std::int64_t> child = parse_whole(children.substr(0, children.find(' ')));
-  return child ? std::optional(static_cast<pid_t>(*child)) : std::nullopt;
+  std::istringstream children(text_of("/proc/" + id + "/task/" + id + "/children"));
+  return std::vector<pid_t>(std::istream_iterator<pid_t>(children), {});
+}
+
+inline bool is_there(pid_t pid) {
+  const std::string status = text_of("/proc/" + std::to_string(pid) + "/stat");
+  return !status.empty() && status.find(") Z ") == status.npos;  // a zombie runs no more
 }
 
 }  // namespace airybench::testing

@@ -23,6 +23,7 @@ namespace {
 using testing::BackgroundRun;
 using testing::BenchCommand;
 using testing::CommandResult;
+using testing::is_there;
 using testing::wait_for;
 
 const std::string six =
@@ -53,18 +54,11 @@ std::map<std::string, Json> by_name(const std::vector<Json>& records) {
 
 std::set<pid_t> descendants(pid_t of) {
   std::set<pid_t> found;
-  const std::string id = std::to_string(of);
-  std::istringstream children(testing::text_of("/proc/" + id + "/task/" + id + "/children"));
-  for (pid_t child; children >> child;) {
+  for (const pid_t child : testing::children_of(of)) {
     found.insert(child);
     found.merge(descendants(child));
   }
   return found;
-}
-
-bool is_there(pid_t pid) {
-  const std::string status = testing::text_of("/proc/" + std::to_string(pid) + "/stat");
-  return !status.empty() && status.find(") Z ") == status.npos;  // a zombie runs no more
 }
 
 TEST(Resume, AfterKillAtRandomMomentsNothingIsLostOrRepeated) {

@@ -179,13 +179,13 @@ TEST(MachineFault, OfAStoppedProcess) {
   for (const bool the_scenes : {true, false}) {
     const BenchCommand bench;
     testing::BackgroundRun run(bench, "--mesh=Mesh3 --method=SYMMLQ:NONE --repetitions=1 --out=o");
-    std::optional<pid_t> scene, own;
+    std::vector<pid_t> scenes, own;
     testing::wait_for([&] {
-      scene = testing::child_of(run.pid());
-      own = scene ? testing::child_of(*scene) : std::nullopt;
-      return own.has_value();
+      scenes = testing::children_of(run.pid());
+      if (!scenes.empty()) own = testing::children_of(scenes[0]);
+      return !own.empty();
     });
-    kill(the_scenes ? *scene : *own, SIGSTOP);
+    kill(the_scenes ? scenes[0] : own[0], SIGSTOP);
     const int status = run.end(0);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 1);
