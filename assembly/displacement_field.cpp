@@ -81,7 +81,7 @@ QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double are
   QuadraticStrain dual;
   for (int k = 0; k < 3; ++k)
     dual.middleRows<3>(3 * k) = area_mm2 / 12 * elasticity * (strain.middleRows<3>(3 * k) + sum);
-  return strain.transpose() * dual;
+  return strain.transpose().lazyProduct(dual);
 }
 
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance) {
@@ -110,7 +110,7 @@ StressField stress_of_displacement(const Problem& problem, const DisplacementFie
   for (int t = 0; t < static_cast<int>(field.size()); ++t) {
     const LocalCoefficients local = local_coefficients(problem, u, t);
     Eigen::Matrix3d strain;  // columns: corners
-    strain.reshaped() = quadratic_strain(problem.vertices_of(t)) * local.reshaped();
+    strain.reshaped() = quadratic_strain(problem.vertices_of(t)).lazyProduct(local.reshaped());
     const Eigen::Matrix3d corners = elasticity[problem.mesh.triangle_body[t]] * strain;
     for (int k = 0; k < 3; ++k)
       field[t].middleCols<3>(3 * k) << corners.col(k), corners.col((k + 1) % 3),
@@ -126,8 +126,10 @@ NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
     corners << stress[t].col(0), stress[t].col(3), stress[t].col(6);
     const Eigen::Matrix3d dual =
         problem.area_mm2(t) / 12 * (corners.colwise() + corners.rowwise().sum());
-    const Eigen::Matrix<double, 2, 6> force =
-        (quadratic_strain(problem.vertices_of(t)).transpose() * dual.reshaped()).reshaped(2, 6);
+    const Eigen::Matrix<double, 2, 6> force = quadratic_strain(problem.vertices_of(t))
+                                                  .transpose()
+                                                  .lazyProduct(dual.reshaped())
+                                                  .reshaped(2, 6);
     forces.largest = std::max(forces.largest, force.cwiseAbs().maxCoeff());
     const std::array<int, 6> nodes = triangle_nodes(problem, t);
     for (int m = 0; m < 6; ++m) forces.sum.col(nodes[m]) += force.col(m);

@@ -169,7 +169,7 @@ void build_load(DualSystem& system) {
       const HctStress stress = hct_stress(v, problem.edge_signs(t));
       const ElementStress dual = stress_dual(particular_element_stress(problem, t),
                                              problem.area_mm2(t), problem.compliance_of(t));
-      const Eigen::Matrix<double, 12, 1> load = stress.transpose() * dual.reshaped();
+      const Eigen::Matrix<double, 12, 1> load = stress.transpose().lazyProduct(dual.reshaped());
       const auto dofs = system.dofs.of_triangle(problem, t);
       for (int k = 0; k < 12; ++k)
         if (dofs[k] != DofNumbering::gauge) system.q(dofs[k]) -= load(k) * system.scale(dofs[k]);

@@ -18,7 +18,7 @@ StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorX
     const EdgeSigns outward = problem.edge_signs(t);
     subtract_affine_part(v, outward, local);
     const HctStress from_dofs = hct_stress(v, outward);
-    field[t].reshaped() = from_dofs * local;
+    field[t].reshaped() = from_dofs.lazyProduct(local);
     if (problem.loads.has_body_force()) field[t] += particular_element_stress(problem, t);
   }
   return field;

@@ -1,13 +1,14 @@
 #!/usr/bin/python3
 """Draws the figures of a run from its records.jsonl, or from its results.csv alone.
 
-    figures.py RESULTS_DIR [--out DIR]
+    figures.py RESULTS_DIR [--out DIR] [--only GLOB,...]
 
 The figures are those that the modules *_figure.py beside this program plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
 table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
-the records were measured, in words for a paper.
+the records were measured, in words for a paper. --only draws these of them, by name or glob, and
+says nothing of the others.
 
 Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
@@ -17,6 +18,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Callable
+from fnmatch import fnmatchcase
 from functools import partial
 from importlib import import_module
 from pathlib import Path
@@ -31,7 +33,7 @@ from figure_words import merged
 from measured import paragraph
 from paper_sizes import table1
 from record_keys import Row
-from records import read_run, rows_of
+from records import RecordsError, read_run, rows_of
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
@@ -58,10 +60,27 @@ def listed(rows: list[Row], drawn: list[Row]) -> str:
     return "; ".join(f"{merged(list(cases))} ({reason})" for reason, cases in reasons.items())
 
 
-def draw_all(rows: list[Row], out: Path) -> None:
+def selected(only: str | None, names: list[str]) -> list[str]:
+    """Those of the names that --only selects: all without it."""
+    globs = only.split(",") if only is not None else ["*"]
+    for glob in globs:
+        if not any(fnmatchcase(name, glob) for name in names):
+            raise RecordsError(f"--only: '{glob}' is no figure of these records "
+                               f"(there are: {', '.join(names)})")
+    return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
+
+
+def draw_all(rows: list[Row], out: Path, only: str | None) -> None:
     report, drawn = [], []
     writers: dict[str, Callable[[Path], object]] = {}
-    for drawing in drawings_of(rows):
+    drawings = drawings_of(rows)
+    sizes = table1([row for row in rows if not row.study])
+    cases = budgets.cases_of(rows)
+    names = selected(only, [*(drawing.name for drawing in drawings), *(["table1"] if sizes else []),
+                            *(["budget"] if cases else []), "measured"])
+    for drawing in drawings:
+        if drawing.name not in names:
+            continue
         result = drawing.draw(drawing.rows, **drawing.options)
         if isinstance(result, str):
             old = [drawing.name + suffix for suffix in drawing.suffixes
@@ -74,30 +93,35 @@ def draw_all(rows: list[Row], out: Path) -> None:
                     for suffix in drawing.suffixes}
         report.append(f"{out / drawing.name}{', '.join(drawing.suffixes)}: "
                       f"{len(drawing.rows)} cases")
-    sizes = table1([row for row in rows if not row.study])
-    if sizes:
+    if "table1" in names:
         writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
         report.append(f"{out / 'table1.md'}")
-    if cases := budgets.cases_of(rows):
+    if "budget" in names:
         for name, table in (("budget.csv", budgets.csv_table), ("budget.md", budgets.markdown)):
             writers[name] = partial(Path.write_text, data=table(cases), encoding="utf-8")
         report.append(f"{out / 'budget'}.csv, .md")
     writers["measured.md"] = lambda path: path.write_text(paragraph(rows), encoding="utf-8")
-    report.append(f"{out / 'measured.md'}")
+    if "measured" in names:
+        report.append(f"{out / 'measured.md'}")
     out.mkdir(parents=True, exist_ok=True)
     command.replace_all(out, writers)
-    undrawn = listed(rows, drawn)
+    undrawn = listed(rows, drawn) if only is None else ""
     print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
 
 
 def draw(args: argparse.Namespace) -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
-    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures")
+    draw_all(rows_of(read_run(args.results)), args.out or args.results / "figures", args.only)
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    command.results_and_out(parser)
+    parser.add_argument("--only", metavar="GLOB,...", help="these figures and tables")
 
 
 def main() -> None:
-    command.run(__doc__, command.results_and_out, draw, "a folder to write to")
+    command.run(__doc__, add_arguments, draw, "a folder to write to")
 
 
 if __name__ == "__main__":

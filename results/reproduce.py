@@ -221,18 +221,12 @@ def join(shop: Workshop, part: Part) -> None:
 
 def draw(whole: Path, part: Part) -> None:
     """The figures that the part is for, and what was said of them."""
-    def wanted(stem: str) -> bool:
-        return any(fnmatch.fnmatch(stem, glob) for glob in part.figures)
-
-    ran = call(PROJECT / "run", "figures", whole, cwd=PROJECT, capture_output=True, text=True)
+    ran = call(PROJECT / "run", "figures", whole, f"--only={','.join(part.figures)}", cwd=PROJECT,
+               capture_output=True, text=True)
     figures = whole / "figures"
     figures.mkdir(exist_ok=True)
-    for file in figures.iterdir():
-        if file.name != "measured.md" and not wanted(file.stem):
-            file.unlink()
-    said = (ran.stdout + ran.stderr).replace(f"{whole}/", "").splitlines()
-    of_these = [line for line in said if wanted(re.split(r"[.:,]", line.removeprefix("figures/"))[0])]
-    (figures / "drawn.txt").write_text("\n".join([*of_these, ""]), encoding="utf-8")
+    said = (ran.stdout + ran.stderr).replace(f"{whole}/", "")
+    (figures / "drawn.txt").write_text(said, encoding="utf-8")
 
 
 def missing(shop: Workshop, part: Part) -> list[str]:

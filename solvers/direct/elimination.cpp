@@ -25,7 +25,7 @@ IndexLists elements_of_unknowns(const ElementMatrices& K) {
 }
 
 // Neighbouring unknowns that the same elements have, on the same side of the trailing ones.
-struct Blocks {
+struct UnknownBlocks {
   std::vector<int> first;  // unknown of each block, and the end
   std::vector<int> of;     // of each unknown
   int inner = 0;           // blocks before the trailing ones
@@ -33,9 +33,9 @@ struct Blocks {
   int size(int block) const { return first[block + 1] - first[block]; }
 };
 
-Blocks find_blocks(const ElementMatrices& K, int trailing) {
+UnknownBlocks find_blocks(const ElementMatrices& K, int trailing) {
   const IndexLists elements = elements_of_unknowns(K);
-  Blocks blocks;
+  UnknownBlocks blocks;
   blocks.of.resize(static_cast<std::size_t>(K.order));
   for (int u = 0; u < K.order; ++u) {
     if (u == K.order - trailing) blocks.inner = static_cast<int>(blocks.first.size());
@@ -49,7 +49,7 @@ Blocks find_blocks(const ElementMatrices& K, int trailing) {
 }
 
 // The blocks of each element, ascending.
-IndexLists blocks_of_elements(const ElementMatrices& K, const Blocks& blocks) {
+IndexLists blocks_of_elements(const ElementMatrices& K, const UnknownBlocks& blocks) {
   IndexLists lists;
   lists.start.reserve(K.unknown.size() + 1);
   lists.entry.reserve(4 * K.unknown.size());
@@ -140,7 +140,8 @@ class Analysis {
 };
 
 // When each block is to be eliminated; the trailing ones last.
-std::vector<int> stages(const ElementMatrices& K, const IndexLists& own, const Blocks& blocks) {
+std::vector<int> stages(const ElementMatrices& K, const IndexLists& own,
+                        const UnknownBlocks& blocks) {
   std::vector<int> stage(static_cast<std::size_t>(blocks.count()), 0);
   if (K.count() > many_elements) stage = dissect(blocks.count(), own, K.centre);
   if (blocks.inner > 0 && blocks.inner < blocks.count()) {
@@ -151,8 +152,8 @@ std::vector<int> stages(const ElementMatrices& K, const IndexLists& own, const B
 }
 
 // Places, pivots and rows of the fronts, from supernodes of blocks.
-void expand(const cholmod_factor& supernodes, const Blocks& blocks, const std::vector<int>& order,
-            Elimination& result) {
+void expand(const cholmod_factor& supernodes, const UnknownBlocks& blocks,
+            const std::vector<int>& order, Elimination& result) {
   const int n = blocks.count();
   std::vector<int> start(static_cast<std::size_t>(n) + 1, 0);  // place of each block in the order
   result.place.resize(static_cast<std::size_t>(blocks.first.back()));
@@ -274,7 +275,7 @@ Elimination analyse_elimination(const ElementMatrices& K, int trailing) {
   Elimination result;
   result.trailing = trailing;
   if (K.order == 0) return result;
-  const Blocks blocks = find_blocks(K, trailing);
+  const UnknownBlocks blocks = find_blocks(K, trailing);
   const IndexLists own = blocks_of_elements(K, blocks);
   Analysis analysis(own, blocks.count());
   std::vector<int> order = analysis.by_minimum_degree(stages(K, own, blocks));

@@ -7,6 +7,25 @@
 namespace airybench::small_cholesky_test {
 namespace {
 
+// One type for all sizes: expressions of each would take the compiler seconds.
+template <typename Scalar>
+using Dense = Eigen::MatrixX<Scalar>;
+
+template <typename Scalar>
+Dense<Scalar> product(const Dense<Scalar>& A, const Dense<Scalar>& B) {
+  Dense<Scalar> C(A.rows(), B.cols());
+  for (Eigen::Index j = 0; j < C.cols(); ++j)
+    for (Eigen::Index i = 0; i < C.rows(); ++i) {
+      C(i, j) = 0;
+      for (Eigen::Index k = 0; k < A.cols(); ++k) C(i, j) += A(i, k) * B(k, j);
+    }
+  return C;
+}
+template <typename Scalar>
+Scalar distance(const Dense<Scalar>& A, const Dense<Scalar>& B) {
+  return (A - B).norm();
+}
+
 template <typename Size>
 class SmallCholeskyOf : public ::testing::Test {};
 template <typename Number, int rows>
@@ -20,28 +39,29 @@ TYPED_TEST_SUITE(SmallCholeskyOf, Sizes);
 TYPED_TEST(SmallCholeskyOf, FactorisesAndSolves) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n;
-  using Matrix = Eigen::Matrix<Scalar, n, n>;
   constexpr Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
   std::srand(1);
-  const Matrix A = Matrix::Random();
-  const Matrix S = A * A.transpose() + Matrix::Identity();
+  const Dense<Scalar> I = Dense<Scalar>::Identity(n, n), A = Dense<Scalar>::Random(n, n);
+  const Dense<Scalar> S = product<Scalar>(A, A.transpose()) + I;
   const SmallCholesky<Scalar, n> cholesky(S);
+  const Dense<Scalar> L = cholesky.L();
   EXPECT_GT(cholesky.last_pivot(), 0);
-  EXPECT_TRUE(cholesky.L().isLowerTriangular(0));
-  EXPECT_LT((cholesky.L() * cholesky.L().transpose() - S).norm(), rounding * S.norm());
-  Matrix X = Matrix::Identity(), Y = X;
-  cholesky.solve(X);
-  EXPECT_LT((S * X - Matrix::Identity()).norm(), rounding * S.norm() * X.norm());
-  cholesky.solve_lower(Y);
-  EXPECT_LT((cholesky.L() * Y - Matrix::Identity()).norm(), rounding * S.norm() * Y.norm());
+  EXPECT_TRUE(L.isLowerTriangular(0));
+  EXPECT_LT(distance(product<Scalar>(L, L.transpose()), S), rounding * S.norm());
+  Eigen::Matrix<Scalar, n, n> solution = I, forward = I;
+  cholesky.solve(solution);
+  const Dense<Scalar> X = solution;
+  EXPECT_LT(distance(product(S, X), I), rounding * S.norm() * X.norm());
+  cholesky.solve_lower(forward);
+  const Dense<Scalar> Y = forward;
+  EXPECT_LT(distance(product(L, Y), I), rounding * S.norm() * Y.norm());
 }
 
 TYPED_TEST(SmallCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n;
-  using Matrix = Eigen::Matrix<Scalar, n, n>;
   for (const Scalar pivot : {Scalar(0), Scalar(-1), std::numeric_limits<Scalar>::quiet_NaN()}) {
-    Matrix S = Matrix::Identity();
+    Dense<Scalar> S = Dense<Scalar>::Identity(n, n);
     S(n - 2, n - 2) = pivot;
     EXPECT_FALSE((SmallCholesky<Scalar, n>(S).last_pivot() > 0)) << pivot;
   }
@@ -50,34 +70,32 @@ TYPED_TEST(SmallCholeskyOf, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
 TYPED_TEST(SmallCholeskyOf, ARootHasTheFactorOfItsNormalMatrix) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n, rows = 2 * n;
-  using Root = Eigen::Matrix<Scalar, rows, n>;
   constexpr Scalar rounding = 100 * std::numeric_limits<Scalar>::epsilon();
   std::srand(1);
-  Root M = Root::Random();
+  Dense<Scalar> M = Dense<Scalar>::Random(rows, n);
   // Nearly dependent: the normal matrix itself would have lost this column's sine altogether.
   const Scalar sine = Scalar(1e-10);
   M.col(n - 1) = M.col(0) + sine * M.col(1);
-  M.col(1) = Root::Random().col(0);
-  const auto cholesky = SmallCholesky<Scalar, n>::of_root(M);
-  const auto S = (M.transpose() * M).eval();
-  EXPECT_TRUE(cholesky.L().isLowerTriangular(0));
-  EXPECT_LT((cholesky.L() * cholesky.L().transpose() - S).norm(), rounding * S.norm());
+  M.col(1) = Dense<Scalar>::Random(rows, 1);
+  const auto cholesky = SmallCholesky<Scalar, n>::of_root(Eigen::Matrix<Scalar, rows, n>(M));
+  const Dense<Scalar> S = product<Scalar>(M.transpose(), M), L = cholesky.L();
+  EXPECT_TRUE(L.isLowerTriangular(0));
+  EXPECT_LT(distance(product<Scalar>(L, L.transpose()), S), rounding * S.norm());
   EXPECT_GT(cholesky.independence(), sine / 100);
   EXPECT_LT(cholesky.independence(), sine * 100);
   // ‖M x‖ = ‖Lᵀ x‖ where x takes the dependent columns from each other.
-  Eigen::Matrix<Scalar, n, 1> x = Eigen::Matrix<Scalar, n, 1>::Zero();
+  Dense<Scalar> x = Dense<Scalar>::Zero(n, 1);
   x(0) = -1;
   x(n - 1) = 1;
-  const Scalar length = (M * x).norm();
-  EXPECT_LT(std::abs((cholesky.L().transpose() * x).norm() - length), length * rounding / sine);
+  const Scalar length = product(M, x).norm();
+  EXPECT_LT(std::abs(product<Scalar>(L.transpose(), x).norm() - length), length * rounding / sine);
 }
 
 TYPED_TEST(SmallCholeskyOf, ARootOfDependentColumnsIsSaidToBeOne) {
   using Scalar = typename TypeParam::Scalar;
   constexpr int n = TypeParam::n;
-  using Root = Eigen::Matrix<Scalar, 2 * n, n>;
   for (const Scalar entry : {Scalar(0), std::numeric_limits<Scalar>::quiet_NaN()}) {
-    Root M = Root::Random();
+    Eigen::Matrix<Scalar, 2 * n, n> M = Dense<Scalar>::Random(2 * n, n);
     M.col(1).setConstant(entry);
     EXPECT_FALSE((SmallCholesky<Scalar, n>::of_root(M).independence() > 0)) << entry;
   }

@@ -6,6 +6,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/base/anderson_acceleration.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/dense_operators.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/posed.hpp"
@@ -24,7 +25,7 @@ Solution solve(const DualSystem& system, const RunControl& control = {},
 }
 
 double force_error(const Solution& solution, const Solution& reference) {
-  return (solution.F_C - reference.F_C).norm() / reference.F_C.norm();
+  return testing::distance(solution.F_C, reference.F_C) / reference.F_C.norm();
 }
 
 NamedScenes scenes() {
@@ -170,14 +171,14 @@ TEST(AndersonAcceleration, SolvesALinearMapInAsManyStepsAsUnknowns) {
   std::mt19937 generator(1);
   const Eigen::MatrixXd A = 0.4 * testing::random_matrix(n, n, generator);
   const Eigen::VectorXd b = testing::random_matrix(n, 1, generator);
-  const Eigen::VectorXd exact = (Eigen::MatrixXd::Identity(n, n) - A).lu().solve(b);
+  const Eigen::VectorXd exact = testing::solved(Eigen::MatrixXd::Identity(n, n) - A, b);
   AndersonAcceleration acceleration(n, n);
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   double smallest = std::numeric_limits<double>::infinity();
   for (int k = 0; k < n + 4; ++k) {
     const Eigen::VectorXd g = A * x + b;
     x = acceleration.next(g, g - x);
-    smallest = std::min(smallest, (x - exact).norm() / exact.norm());
+    smallest = std::min(smallest, testing::distance(x, exact) / exact.norm());
   }
   EXPECT_LT(smallest, 1e-9);
 }

@@ -9,6 +9,7 @@
 #include "assembly/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
@@ -20,7 +21,7 @@ using Eigen::VectorXd;
 
 struct Dense {
   DualSystem system;
-  Eigen::PartialPivLU<MatrixXd> factors;
+  std::function<MatrixXd(MatrixXd)> solve_with;
 
   explicit Dense(const Scene& scene)
       : system(assemble(testing::posed(scene, testing::small_tooth(4, 3)))) {
@@ -31,13 +32,13 @@ struct Dense {
     matrix.topLeftCorner(n, n) = MatrixXd(system.S).selfadjointView<Eigen::Lower>();
     matrix.bottomLeftCorner(n_f + n_c, n) = C;
     matrix.topRightCorner(n, n_f + n_c) = C.transpose();
-    factors.compute(matrix);
+    solve_with = testing::factorised(matrix);
   }
   SaddleSolve solve() const {
     return [this](SaddleVector& v) {
       VectorXd all(system.n() + system.n_f() + system.n_c());
       all << v.x, v.lambda_F, v.lambda_C;
-      all = factors.solve(all).eval();
+      all = solve_with(all);
       v = {all.head(system.n()), all.segment(system.n(), system.n_f()), all.tail(system.n_c())};
     };
   }

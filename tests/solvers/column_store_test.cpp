@@ -9,6 +9,7 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -119,8 +120,8 @@ TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
     const Solution file = solve("3STEPD:FILE", system), lean = solve("3STEPD:LEAN", system);
     EXPECT_EQ(file.F_C, memory.F_C);  // the same operations on other pages
     EXPECT_EQ(file.phi, memory.phi);
-    EXPECT_LT((lean.F_C - memory.F_C).norm(), 1e-12 * memory.F_C.norm());
-    EXPECT_LT((lean.phi - memory.phi).norm(), 1e-9 * memory.phi.norm());
+    EXPECT_LT(testing::distance(lean.F_C, memory.F_C), 1e-12 * memory.F_C.norm());
+    EXPECT_LT(testing::distance(lean.phi, memory.phi), 1e-9 * memory.phi.norm());
     EXPECT_LT(matrix_bytes(lean), matrix_bytes(memory));
   }
 }
@@ -134,9 +135,11 @@ TEST(ColumnStore, BatchesOfAnySizeMakeTheSameCondensedSystem) {
   const ThreeStep whole = condense_in_three_steps(system, solve_S);
   for (const int batch : {1, 7, system.n_f() + system.n_c(), 10000}) {
     const ThreeStep part = condense_in_three_steps(system, solve_S, {KeepX::Where::nowhere, batch});
-    EXPECT_LT((part.condensed.D - whole.condensed.D).norm(), 1e-12 * whole.condensed.D.norm())
+    EXPECT_LT(testing::distance(part.condensed.D, whole.condensed.D),
+              1e-12 * whole.condensed.D.norm())
         << batch;
-    EXPECT_LT((part.condensed.G - whole.condensed.G).norm(), 1e-12 * whole.condensed.G.norm());
+    EXPECT_LT(testing::distance(part.condensed.G, whole.condensed.G),
+              1e-12 * whole.condensed.G.norm());
     EXPECT_EQ(part.X.bytes(), 0u);
   }
 }

@@ -9,23 +9,24 @@
 #include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 
 namespace airybench::condition_test {
 namespace {
 
+double norm_1(const Eigen::MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); }
+
 double exact_condition(const Eigen::MatrixXd& A) {
-  return A.cwiseAbs().colwise().sum().maxCoeff() *
-         A.inverse().cwiseAbs().colwise().sum().maxCoeff();
+  return norm_1(A) * norm_1(testing::factorised(A)(Eigen::MatrixXd::Identity(A.rows(), A.rows())));
 }
 
 double estimate(const Eigen::MatrixXd& A) {
   const Eigen::SparseMatrix<double> lower =
       Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
-  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(A);
-  return estimate_condition(lower,
-                            [&](Eigen::Ref<Eigen::MatrixXd> X) { X = lu.solve(X.eval()).eval(); });
+  const auto lu = testing::factorised(A);
+  return estimate_condition(lower, [&](Eigen::Ref<Eigen::MatrixXd> X) { X = lu(X); });
 }
 
 Eigen::MatrixXd equilibrated(const Eigen::MatrixXd& A) {
@@ -35,7 +36,7 @@ Eigen::MatrixXd equilibrated(const Eigen::MatrixXd& A) {
 
 // Random eigenvectors, eigenvalues from 1 down to 1/kappa.
 Eigen::MatrixXd random_definite(int n, double kappa) {
-  const Eigen::MatrixXd Q = Eigen::MatrixXd::Random(n, n).householderQr().householderQ();
+  const Eigen::MatrixXd Q = testing::orthogonal_factor(Eigen::MatrixXd::Random(n, n));
   const Eigen::VectorXd powers =
       Eigen::VectorXd::LinSpaced(n, 0, -std::log(kappa)).array().exp().matrix();
   return Q * powers.asDiagonal() * Q.transpose();

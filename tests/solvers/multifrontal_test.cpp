@@ -1,4 +1,5 @@
 #include "solvers/direct/multifrontal.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -89,7 +90,7 @@ TEST(Elimination, CountsTheFactor) {
   const Eigen::MatrixXd K_dense = dense(K);
   for (int i = 0; i < K.order; ++i)
     for (int j = 0; j < K.order; ++j) A(e.place[i], e.place[j]) = K_dense(i, j);
-  const Eigen::MatrixXd L = A.llt().matrixL();
+  const Eigen::MatrixXd L = testing::cholesky_factor(A);
   const auto filled = static_cast<std::int64_t>((L.array() != 0).count());
   EXPECT_GE(e.entries(), filled);
   EXPECT_LT(e.entries(), 2 * filled);
@@ -113,15 +114,16 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
           Eigen::MatrixXd schur = A.bottomRightCorner(trailing, trailing);
           if (inner > 0)
             schur -= A.bottomLeftCorner(trailing, inner) *
-                     A.topLeftCorner(inner, inner).llt().solve(A.topRightCorner(inner, trailing));
-          EXPECT_LE((L * L.transpose() - schur).norm(), 1e-13 * A.norm())
+                     testing::solved(A.topLeftCorner(inner, inner),
+                                     Eigen::MatrixXd(A.topRightCorner(inner, trailing)));
+          EXPECT_LE(testing::residual(L, L.transpose(), schur), 1e-13 * A.norm())
               << side << " " << trailing;
         }
         const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(n, -1, 2);
         Eigen::MatrixXd x(n, 2);
         x << b, -2 * b;
         cholesky.solve_in_place(x);
-        EXPECT_LT((A * x.col(0) - b).norm(), 1e-12 * b.norm());
+        EXPECT_LT(testing::residual(A, x.col(0), b), 1e-12 * b.norm());
         EXPECT_LT((A * x.col(1) + 2 * b).norm(), 1e-12 * b.norm());
         EXPECT_GE(cholesky.bytes(), static_cast<std::size_t>(cholesky.entries()) * sizeof(double));
       }
@@ -139,9 +141,9 @@ TEST(Multifrontal, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   Eigen::VectorXd z = cholesky.forward(b);
   z.tail(5) = cholesky.trailing_factor().transpose() * last;
   const Eigen::VectorXd x = cholesky.backward(z);
-  EXPECT_LT((x.tail(5) - last).norm(), 1e-13);
+  EXPECT_LT(testing::distance(x.tail(5), last), 1e-13);
   const int inner = K.order - 5;
-  EXPECT_LT((dense(K).topRows(inner) * x - b.head(inner)).norm(), 1e-12 * x.norm());
+  EXPECT_LT(testing::residual(dense(K).topRows(inner), x, b.head(inner)), 1e-12 * x.norm());
 }
 
 TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
@@ -154,9 +156,9 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
     Eigen::VectorXd y = cholesky.forward(b, Columns::inner);
     const Eigen::MatrixXd L = cholesky.trailing_factor();
-    y.tail(trailing) = (L * L.transpose()).llt().solve(y.tail(trailing)).eval();
+    y.tail(trailing) = testing::solved(L * L.transpose(), Eigen::VectorXd(y.tail(trailing)));
     const Eigen::VectorXd x = cholesky.backward(y, Columns::inner);
-    EXPECT_LT((dense(K) * x - b).norm(), 1e-12 * b.norm()) << trailing;
+    EXPECT_LT(testing::residual(dense(K), x, b), 1e-12 * b.norm()) << trailing;
   }
 }
 
@@ -170,7 +172,7 @@ TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   cholesky.factor(K);
   Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
   cholesky.solve_in_place(x);
-  EXPECT_LT((dense(K) * x.col(0) - Eigen::VectorXd::Ones(K.order)).norm(), 1e-12);
+  EXPECT_LT(testing::residual(dense(K), x.col(0), Eigen::VectorXd::Ones(K.order)), 1e-12);
 }
 
 // Solves with a rounded factor are those of a symmetric matrix near K.
@@ -186,12 +188,12 @@ TEST(Multifrontal, RoundedHalfTheMemoryAndSymmetric) {
   EXPECT_EQ(rounded.entries(), cholesky.entries());
   EXPECT_LE(rounded.bytes() + static_cast<std::size_t>(rounded.entries()) * sizeof(float),
             cholesky.bytes());
-  EXPECT_LT((rounded.trailing_factor() - cholesky.trailing_factor()).norm(),
+  EXPECT_LT(testing::distance(rounded.trailing_factor(), cholesky.trailing_factor()),
             1e-7 * cholesky.trailing_factor().norm());
   Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(K.order, K.order);
   rounded.solve_in_place(inverse);
-  EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-13 * inverse.norm());
-  const double error = (A * inverse - Eigen::MatrixXd::Identity(K.order, K.order)).norm();
+  EXPECT_LT(testing::distance(inverse, inverse.transpose()), 1e-13 * inverse.norm());
+  const double error = testing::residual(A, inverse, Eigen::MatrixXd::Identity(K.order, K.order));
   EXPECT_GT(error, 1e-8);  // it is rounded
   EXPECT_LT(error, 1e-3);
 }
@@ -216,7 +218,9 @@ TEST(Multifrontal, NotRoundedWhereSoftModesWouldSuffer) {
     EXPECT_EQ(cholesky.rounded(), rounds) << stiffness;
     Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
     cholesky.solve_in_place(x);
-    EXPECT_NEAR(x.sum() / dense(K).llt().solve(Eigen::VectorXd::Ones(K.order)).sum(), 1, 0.1)
+    EXPECT_NEAR(
+        x.sum() / testing::solved(dense(K), Eigen::VectorXd(Eigen::VectorXd::Ones(K.order))).sum(),
+        1, 0.1)
         << stiffness;
   }
 }

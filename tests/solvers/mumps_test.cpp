@@ -1,4 +1,5 @@
 #include "solvers/direct/mumps.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +47,7 @@ TEST(Mumps, SolvesIndefiniteSystemsForManyColumnsAndCountsNegativePivots) {
       Eigen::MatrixXd wide = Eigen::MatrixXd::Zero(M.rows() + 5, columns);  // with an outer stride
       wide.topRows(M.rows()) = b;
       factor.solve_in_place(wide.topRows(M.rows()));
-      EXPECT_LT((M * wide.topRows(M.rows()) - b).norm(), 1e-12 * b.norm()) << side;
+      EXPECT_LT(testing::residual(M, wide.topRows(M.rows()), b), 1e-12 * b.norm()) << side;
       EXPECT_TRUE(wide.bottomRows(5).isZero(0));
     }
     Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(M.rows(), 2);
@@ -64,30 +65,30 @@ TEST(Mumps, SchurComplementReductionAndExpansionAreThoseOfDenseAlgebra) {
       const Eigen::Index inner = size - trailing;
       const Eigen::MatrixXd A_II = M.topLeftCorner(inner, inner);
       const Eigen::MatrixXd A_CI = M.bottomLeftCorner(trailing, inner);
-      const auto lu = A_II.partialPivLu();
+      const auto lu = testing::factorised(A_II);
       const Eigen::MatrixXd schur =
-          M.bottomRightCorner(trailing, trailing) - A_CI * lu.solve(A_CI.transpose());
+          M.bottomRightCorner(trailing, trailing) - A_CI * lu(A_CI.transpose());
       MumpsFactor factor;
       factor.analyse(lower(M), static_cast<int>(trailing));
       factor.factor(lower(M));
       ASSERT_EQ(factor.schur().rows(), trailing);
-      EXPECT_LT((factor.schur() - schur).norm(), 1e-13 * M.norm()) << side << " " << trailing;
-      EXPECT_EQ((factor.schur() - factor.schur().transpose()).norm(), 0);
-      const Eigen::VectorXd eigenvalues =
-          Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A_II).eigenvalues();
+      EXPECT_LT(testing::distance(factor.schur(), schur), 1e-13 * M.norm())
+          << side << " " << trailing;
+      EXPECT_EQ(testing::distance(factor.schur(), factor.schur().transpose()), 0);
+      const Eigen::VectorXd eigenvalues = testing::eigenvalues(A_II);
       EXPECT_EQ(factor.negative_pivots(), (eigenvalues.array() < 0).count());
 
       const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(size, -1, 2);
       const Eigen::VectorXd reduced = factor.reduce(b);
-      EXPECT_LT((reduced - (b.tail(trailing) - A_CI * lu.solve(b.head(inner)))).norm(),
+      EXPECT_LT(testing::distance(reduced, b.tail(trailing) - A_CI * lu(b.head(inner))),
                 1e-12 * b.norm());
-      const Eigen::VectorXd x = factor.expand(schur.partialPivLu().solve(reduced));
-      EXPECT_LT((M * x - b).norm(), 1e-11 * b.norm());
+      const Eigen::VectorXd x = factor.expand(testing::solved(schur, reduced));
+      EXPECT_LT(testing::residual(M, x, b), 1e-11 * b.norm());
       // Whatever the trailing unknowns are, the inner equations hold.
       factor.reduce(b);
       const Eigen::VectorXd other = factor.expand(Eigen::VectorXd::Ones(trailing));
-      EXPECT_LT((other.tail(trailing) - Eigen::VectorXd::Ones(trailing)).norm(), 1e-15);
-      EXPECT_LT((M.topRows(inner) * other - b.head(inner)).norm(), 1e-11 * b.norm());
+      EXPECT_LT(testing::distance(other.tail(trailing), Eigen::VectorXd::Ones(trailing)), 1e-15);
+      EXPECT_LT(testing::residual(M.topRows(inner), other, b.head(inner)), 1e-11 * b.norm());
     }
   }
 }
@@ -146,7 +147,7 @@ TEST(Mumps, FactorsLiveBesideEachOther) {
   second.factor(lower(B));
   Eigen::VectorXd x = Eigen::VectorXd::Ones(A.rows());
   first.solve_in_place(x);
-  EXPECT_LT((A * x - Eigen::VectorXd::Ones(A.rows())).norm(), 1e-12);
+  EXPECT_LT(testing::residual(A, x, Eigen::VectorXd::Ones(A.rows())), 1e-12);
 }
 
 }  // namespace

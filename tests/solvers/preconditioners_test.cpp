@@ -9,6 +9,7 @@
 #include "solvers/preconditioners/drop_tolerance.hpp"
 #include "solvers/preconditioners/fill_level.hpp"
 #include "solvers/preconditioners/ssor.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/dense_operators.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
@@ -51,7 +52,9 @@ Eigen::MatrixXd dense(const IncompleteFactor& factor) {
   return L;
 }
 
-Eigen::MatrixXd cholesky(const SparseColumns& lower) { return whole(lower).llt().matrixL(); }
+Eigen::MatrixXd cholesky(const SparseColumns& lower) {
+  return testing::cholesky_factor(whole(lower));
+}
 
 Eigen::MatrixXd pattern(const Eigen::MatrixXd& L) {
   return (L.array() != 0).cast<double>().matrix();
@@ -92,7 +95,7 @@ TEST(DropTolerance, DroppingNothingIsTheCholeskyFactor) {
     const SparseColumns S = random_sparse(n, 3);
     const IncompleteFactor factor = drop_tolerance_factor(S, 0);
     const Eigen::MatrixXd L = cholesky(S);
-    EXPECT_LT((dense(factor) - L).norm(), 1e-12 * L.norm()) << n;
+    EXPECT_LT(testing::distance(dense(factor), L), 1e-12 * L.norm()) << n;
   }
 }
 
@@ -106,12 +109,12 @@ TEST(DropTolerance, IsTheThresholdedCholeskyFactor) {
     kept.diagonal() = L.diagonal();
     const Eigen::MatrixXd made = dense(factor);
     EXPECT_EQ(pattern(made), pattern(kept)) << x;
-    EXPECT_LT((made - kept).norm(), 1e-9 * L.norm()) << x;
+    EXPECT_LT(testing::distance(made, kept), 1e-9 * L.norm()) << x;
     EXPECT_EQ(factor.entries(), static_cast<std::size_t>(pattern(kept).sum()));
     EXPECT_LT(factor.entries(), before) << x;
     before = factor.entries();
     if (x == 6) {
-      EXPECT_LT((made - L).norm(), 1e-4 * L.norm());
+      EXPECT_LT(testing::distance(made, L), 1e-4 * L.norm());
     }
   }
 }
@@ -176,7 +179,7 @@ TEST(FillLevel, AllLevelsAreTheCholeskyFactor) {
     const SparseColumns S = random_sparse(n, 6);
     const FillLevelFactor made = fill_level_factor(S, n);
     EXPECT_EQ(made.shift, 0);
-    EXPECT_LT((dense(made.factor) - cholesky(S)).norm(), 1e-12 * cholesky(S).norm());
+    EXPECT_LT(testing::distance(dense(made.factor), cholesky(S)), 1e-12 * cholesky(S).norm());
   }
 }
 
@@ -223,14 +226,15 @@ TEST(Ssor, IsTheInverseOfItsFormula) {
       const Eigen::VectorXd scale = Eigen::VectorXd::LinSpaced(S.rows(), 0.5, 3);
       const Eigen::MatrixXd A = scale.asDiagonal() * whole(S) * scale.asDiagonal();
       const SparseColumns lower = lower_of(A);
-      const Eigen::MatrixXd D = A.diagonal().asDiagonal();
-      const Eigen::MatrixXd DL =
-          D + omega * Eigen::MatrixXd(A.triangularView<Eigen::StrictlyLower>());
-      const Eigen::MatrixXd M = DL * D.inverse() * DL.transpose() / (omega * (2 - omega));
+      Eigen::MatrixXd DL = omega * Eigen::MatrixXd(A.triangularView<Eigen::StrictlyLower>());
+      DL.diagonal() = A.diagonal();
+      const Eigen::MatrixXd M =
+          DL * A.diagonal().cwiseInverse().asDiagonal() * DL.transpose() / (omega * (2 - omega));
       const Preconditioner made = ssor_preconditioner(lower, omega);
       for (const int lanes : {1, most_lanes}) {
         const Eigen::MatrixXd product = M * matrix_of(made, A.rows(), lanes);
-        EXPECT_LT((product - Eigen::MatrixXd::Identity(A.rows(), A.rows())).norm(), 1e-9) << omega;
+        EXPECT_LT(testing::distance(product, Eigen::MatrixXd::Identity(A.rows(), A.rows())), 1e-9)
+            << omega;
       }
     }
 }
@@ -256,11 +260,11 @@ TEST_P(EveryPreconditioner, IsSymmetricPositiveDefiniteAndTheSameOnAnyNumberOfLa
   for (const SparseColumns& S : {random_sparse(testing::sanitized ? 100 : 300, 8), tooth()}) {
     const Preconditioner made = preconditioner_named(GetParam())(S, {});
     const Eigen::MatrixXd inverse = matrix_of(made, S.rows(), 1);
-    EXPECT_LT((inverse - inverse.transpose()).norm(), 1e-12 * inverse.norm());
-    const Eigen::VectorXd eigenvalues =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(inverse).eigenvalues();
+    EXPECT_LT(testing::distance(inverse, inverse.transpose()), 1e-12 * inverse.norm());
+    const Eigen::VectorXd eigenvalues = testing::eigenvalues(inverse);
     EXPECT_GT(eigenvalues(0), 0);
-    EXPECT_LT((inverse - matrix_of(made, S.rows(), most_lanes)).norm(), 1e-13 * inverse.norm());
+    EXPECT_LT(testing::distance(inverse, matrix_of(made, S.rows(), most_lanes)),
+              1e-13 * inverse.norm());
   }
 }
 
@@ -291,8 +295,9 @@ TEST(Preconditioners, SkyIsTheInverseAndNoneTheIdentity) {
   const Eigen::Index n = 300;
   const SparseColumns S = random_sparse(n, 10);
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(n, n);
-  EXPECT_LT((whole(S) * matrix_of(preconditioner_named("SKY")(S, {}), n, most_lanes) - I).norm(),
-            1e-12);
+  EXPECT_LT(
+      testing::residual(whole(S), matrix_of(preconditioner_named("SKY")(S, {}), n, most_lanes), I),
+      1e-12);
   EXPECT_EQ(matrix_of(preconditioner_named("NONE")(S, {}), n, most_lanes), I);
   SparseColumns indefinite = S;
   indefinite.coeffRef(5, 5) = -1;
@@ -306,9 +311,7 @@ TEST(Preconditioners, MoreOfTheFactorIsABetterPreconditioner) {
     const Eigen::MatrixXd inverse =
         matrix_of(preconditioner_named(name)(tooth(), {}), S.rows(), most_lanes);
     const Eigen::MatrixXd similar = L.transpose() * inverse * L;
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>((similar + similar.transpose()) / 2)
-            .eigenvalues();
+    const Eigen::VectorXd values = testing::eigenvalues(similar);
     return values(values.size() - 1) / values(0);
   };
   const std::vector<const char*> better = {"SKY", "DTIC6", "DTIC4", "DTIC3", "NONE"};

@@ -8,6 +8,7 @@
 #include "assembly/dual_system.hpp"
 #include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 
@@ -31,7 +32,7 @@ Eigen::SparseMatrix<double> lower(const Eigen::MatrixXd& A) {
 
 double relative_residual(const Eigen::MatrixXd& A, const Eigen::MatrixXd& x,
                          const Eigen::MatrixXd& b) {
-  return (A * x - b).norm() / (A.norm() * x.norm());
+  return testing::residual(A, x, b) / (A.norm() * x.norm());
 }
 
 TEST(Skyline, SolvesEveryShapeOfProfileWithEveryPanelSize) {
@@ -81,7 +82,7 @@ TEST(Skyline, DiagonalIsThatOfLDLT) {
       9, [](int) { return 0; }, generator);
   const SkylineFactor factor = factor_ldlt(analyse_skyline(lower(A), 48), lower(A));
   // One panel of equal rows keeps its order, so D is that of A itself: D_i = L_ii² of Cholesky.
-  const Eigen::MatrixXd L = A.llt().matrixL();
+  const Eigen::MatrixXd L = testing::cholesky_factor(A);
   for (int i = 0; i < 9; ++i) EXPECT_NEAR(factor.diagonal(i), L(i, i) * L(i, i), 1e-13);
 }
 

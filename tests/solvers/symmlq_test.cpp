@@ -6,6 +6,7 @@
 
 #include "assembly/scene.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/krylov_checks.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -34,7 +35,7 @@ TEST(Symmlq, SolvesIndefiniteSystemsWithAndWithoutAPreconditioner) {
           Eigen::MatrixXd X = B;
           const KrylovSummary summary = solve(A.matrix(), preconditioner, X, with(1e-13, lanes));
           EXPECT_TRUE(summary.converged) << n;
-          EXPECT_LT((X - A.inverse() * B).norm(), 1e-11 * X.norm())
+          EXPECT_LT(testing::distance(X, A.inverse() * B), 1e-11 * X.norm())
               << n << ", " << negative << " negative, " << lanes << " lanes";
         }
       }
@@ -83,8 +84,8 @@ TEST(Symmlq, FindsTheShortestSolutionOfASingularSystemThatHasSome) {
     for (const int lanes : {1, most_lanes}) {
       Eigen::MatrixXd X = B;
       EXPECT_TRUE(solve(A.matrix(), no_preconditioner(), X, with(1e-11, lanes)).converged);
-      EXPECT_LT((A.matrix() * X - B).norm(), 1e-10 * B.norm());
-      EXPECT_LT((X - A.inverse() * B).norm(), 1e-9 * X.norm());
+      EXPECT_LT(testing::residual(A.matrix(), X, B), 1e-10 * B.norm());
+      EXPECT_LT(testing::distance(X, A.inverse() * B), 1e-9 * X.norm());
     }
   }
 }
@@ -139,7 +140,7 @@ TEST(Symmlq, AnEigenvectorTakesOneIteration) {
   EXPECT_TRUE(summary.converged);
   EXPECT_EQ(summary.iterations, 12);
   EXPECT_EQ(summary.most_iterations, 1);
-  EXPECT_LT((X - 1e8 * A.Q * A.eigenvalues.cwiseInverse().asDiagonal()).norm(), 1e-6);
+  EXPECT_LT(testing::distance(X, 1e8 * A.Q * A.eigenvalues.cwiseInverse().asDiagonal()), 1e-6);
 }
 
 TEST(Symmlq, LanesAndThreadsAndNeighboursChangeNothing) {
@@ -202,7 +203,7 @@ TEST(Symmlq, TheAbsoluteValueOfTheMatrixIsPreconditionerForTwoIterations) {
   const KrylovSummary summary =
       solve(A.matrix(), preconditioner_of(A.absolute_inverse()), X, with(1e-10));
   EXPECT_EQ(summary.most_iterations, 2);
-  EXPECT_LT((X - A.inverse() * B).norm(), 1e-9 * X.norm());
+  EXPECT_LT(testing::distance(X, A.inverse() * B), 1e-9 * X.norm());
 }
 
 // The whole system, its load and unit contact forces.
@@ -233,7 +234,7 @@ TEST(SaddleOperator, IsTheWholeMatrix) {
     const LaneBlock X = random_matrix(A.n, lanes, generator);
     LaneBlock Y(A.n, lanes);
     A.multiply(X, Y);
-    EXPECT_LT((Y - saddle.dense() * X).norm(), 1e-14 * Y.norm() * std::sqrt(A.n));
+    EXPECT_LT(testing::distance(Y, saddle.dense() * X), 1e-14 * Y.norm() * std::sqrt(A.n));
   }
 }
 
@@ -263,9 +264,10 @@ TEST(SaddlePreconditioner, BlocksAreTheInversesOfTheirDefinition) {
           LaneBlock Y = B, top = B.topRows(saddle.n);
           M.applier(lanes)(Y);
           S_star.applier(lanes)(top);
-          EXPECT_LT((Y.topRows(saddle.n) - top).norm(), 1e-14 * top.norm());
+          EXPECT_LT(testing::distance(Y.topRows(saddle.n), top), 1e-14 * top.norm());
           const Eigen::MatrixXd bottom = B.bottomRows(saddle.m);
-          EXPECT_LT((block * Y.bottomRows(saddle.m) - bottom).norm(), 1e-10 * bottom.norm());
+          EXPECT_LT(testing::residual(block, Y.bottomRows(saddle.m), bottom),
+                    1e-10 * bottom.norm());
           EXPECT_GE(M.bytes, S_star.bytes);
         }
 }
@@ -282,7 +284,7 @@ TEST(SaddlePreconditioner, ExactBlocksLeaveThreeEigenvaluesAndThreeIterations) {
       solve_by_symmlq(saddle_operator(saddle.system), M, columns_of(X), with(1e-8, most_lanes));
   EXPECT_TRUE(summary.converged);
   EXPECT_EQ(summary.most_iterations, 3);
-  EXPECT_LT((saddle.dense() * X - B).norm(), 1e-6 * B.norm());
+  EXPECT_LT(testing::residual(saddle.dense(), X, B), 1e-6 * B.norm());
 }
 
 }  // namespace

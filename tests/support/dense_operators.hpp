@@ -1,11 +1,12 @@
 // Random symmetric matrices with known spectra, as the Krylov solvers take them.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <random>
 
 #include "solvers/krylov/symmlq.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
+#include "tests/support/dense_algebra.hpp"
 
 namespace airybench::testing {
 
@@ -22,23 +23,17 @@ struct Spectral {
 
   Spectral(Eigen::VectorXd of, std::mt19937& generator) : eigenvalues(std::move(of)) {
     const Eigen::Index n = eigenvalues.size();
-    Q = Eigen::HouseholderQR<Eigen::MatrixXd>(random_matrix(n, n, generator)).householderQ();
+    Q = orthogonal_factor(random_matrix(n, n, generator));
   }
-  Eigen::MatrixXd matrix() const {
-    return of([](double value) { return value; });
-  }
-  Eigen::MatrixXd inverse() const {
-    return of([](double value) { return value == 0 ? 0 : 1 / value; });
-  }
-  Eigen::MatrixXd absolute_inverse() const {
-    return of([](double value) { return 1 / std::abs(value); });
-  }
+  Eigen::MatrixXd matrix() const { return with_eigenvalues(Q, eigenvalues); }
+  Eigen::MatrixXd inverse() const { return with_eigenvalues(Q, reciprocals()); }
+  Eigen::MatrixXd absolute_inverse() const { return with_eigenvalues(Q, reciprocals().cwiseAbs()); }
 
  private:
-  template <typename F>
-  Eigen::MatrixXd of(F f) const {
-    const Eigen::MatrixXd A = Q * eigenvalues.unaryExpr(f).asDiagonal() * Q.transpose();
-    return (A + A.transpose()) / 2;
+  Eigen::VectorXd reciprocals() const {
+    Eigen::VectorXd values = eigenvalues;
+    for (double& value : values) value = value == 0 ? 0 : 1 / value;
+    return values;
   }
 };
 

@@ -17,6 +17,7 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/methods.hpp"
 #include "tests/bench/studies/expected_table.hpp"
+#include "tests/support/dense_algebra.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 
@@ -113,7 +114,7 @@ Ellipse fitted(const Face& face, double least, const std::function<double(int ed
   Eigen::MatrixX4d all(static_cast<Eigen::Index>(rows.size()), 4);
   for (std::size_t i = 0; i < rows.size(); ++i)
     all.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
-  const Eigen::Vector3d c = all.leftCols<3>().colPivHouseholderQr().solve(all.col(3));
+  const Eigen::VectorXd c = testing::least_squares(all.leftCols<3>(), all.col(3));
   const double height_squared = c(0) - c(1) * c(1) / (4 * c(2));
   return {std::sqrt(-height_squared / c(2)), std::sqrt(height_squared)};
 }
