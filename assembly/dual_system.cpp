@@ -128,9 +128,9 @@ void build_constraints(DualSystem& system) {
       for (int i = 0; i < 2; ++i) {
         const Eigen::Vector2d& axis = i == 0 ? frame.normal : frame.tangent;
         if (condition.component[i] == Known::contact_law)
-          on_contact.add(axis.transpose() * rows, edge.dofs, axis.dot(f));
+          on_contact.add(axis.transpose().lazyProduct(rows), edge.dofs, axis.dot(f));
         else if (condition.component[i] == Known::force)
-          on_force.add(axis.transpose() * rows, edge.dofs, -axis.dot(f));
+          on_force.add(axis.transpose().lazyProduct(rows), edge.dofs, -axis.dot(f));
       }
     }
   };

@@ -7,8 +7,8 @@ The figures are those that the modules *_figure.py beside this program plan: eac
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
 table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
-the records were measured, in words for a paper. --only draws these of them, by name or glob, and
-says nothing of the others.
+the records were measured, in words for a paper. --only draws these of the figures and tables, by
+name or glob, and says nothing of the others.
 
 Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
@@ -77,7 +77,7 @@ def draw_all(rows: list[Row], out: Path, only: str | None) -> None:
     sizes = table1([row for row in rows if not row.study])
     cases = budgets.cases_of(rows)
     names = selected(only, [*(drawing.name for drawing in drawings), *(["table1"] if sizes else []),
-                            *(["budget"] if cases else []), "measured"])
+                            *(["budget"] if cases else [])])
     for drawing in drawings:
         if drawing.name not in names:
             continue
@@ -101,7 +101,7 @@ def draw_all(rows: list[Row], out: Path, only: str | None) -> None:
             writers[name] = partial(Path.write_text, data=table(cases), encoding="utf-8")
         report.append(f"{out / 'budget'}.csv, .md")
     writers["measured.md"] = lambda path: path.write_text(paragraph(rows), encoding="utf-8")
-    if "measured" in names:
+    if only is None:
         report.append(f"{out / 'measured.md'}")
     out.mkdir(parents=True, exist_ok=True)
     command.replace_all(out, writers)

@@ -138,12 +138,12 @@ Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCo
     for (int m = 0; m < 6; ++m) difference.col(m) = w.col(nodes[m]) - own[t].col(m);
     const QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
     Eigen::Matrix3d corners;
-    corners.reshaped() = strain * difference.reshaped();
+    corners.reshaped() = strain.lazyProduct(difference.reshaped());
     const Eigen::Matrix3d dual = problem.area_mm2(t) / 12 *
                                  elasticity[problem.mesh.triangle_body[t]] *
                                  (corners.colwise() + corners.rowwise().sum());
     LocalCoefficients force;
-    force.reshaped() = strain.transpose() * dual.reshaped();
+    force.reshaped() = strain.transpose().lazyProduct(dual.reshaped());
     for (int m = 0; m < 6; ++m) gradient.col(nodes[m]) += force.col(m);
   }
   return gradient;

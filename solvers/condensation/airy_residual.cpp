@@ -57,7 +57,7 @@ TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, in
   result.phi = gather(system, x, result.dofs);
   subtract_affine_part(v, outward, result.phi);
   result.from_dofs = hct_stress<Long>(v, outward);
-  result.stress.reshaped() = result.from_dofs * result.phi;
+  result.stress.reshaped() = result.from_dofs.lazyProduct(result.phi);
   if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);
   return result;
 }
@@ -142,15 +142,15 @@ LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector&
     const TriangleStress at = triangle_stress(system, answer.x, t);
     const ElementStressIn<Long> dual =
         stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
-    const LongColumn<12> work = at.from_dofs.transpose() * dual.reshaped();
+    const LongColumn<12> work = at.from_dofs.transpose().lazyProduct(dual.reshaped());
     scatter(system, at.dofs, LongColumn<12>(-work), residual.x);
     const HctStress size = at.from_dofs.cast<double>().cwiseAbs();
+    const Eigen::Matrix<double, 12, 1> phi_size = at.phi.cast<double>().cwiseAbs();
     ElementStress stress_size;
-    stress_size.reshaped() = size * at.phi.cast<double>().cwiseAbs();
+    stress_size.reshaped() = size.lazyProduct(phi_size);
     const Eigen::Matrix3d compliance = problem.compliance_of(t).cwiseAbs();
-    const Eigen::Matrix<double, 12, 1> work_size =
-        size.transpose() *
-        stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped();
+    const Eigen::Matrix<double, 12, 1> work_size = size.transpose().lazyProduct(
+        stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped());
     scatter(system, at.dofs, work_size, magnitudes);
   }
   add_prescribed_displacements(system, residual.x);

@@ -4,6 +4,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+from collections.abc import Sequence
 from pathlib import Path
 from unittest import mock
 
@@ -86,9 +87,9 @@ class PaperFiguresTest(unittest.TestCase):
         self.write(rows)
         return records.rows_of(records.read(self.csv))
 
-    def assert_refused(self, *parts: str) -> None:
+    def assert_refused(self, *parts: str, arguments: Sequence[str] = ()) -> None:
         """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = run(figures, self.results)
+        status, out, err = run(figures, self.results, *arguments)
         self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
         for part in parts:
             self.assertIn(part, err)
@@ -225,6 +226,26 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertIn("| Mesh7 | 4 | 50483 | – | 920 | – | 640 | – |", table)
         self.assertIn("*n_C of Mesh0*: 40 instead of the printed 38", table)
 
+    def test_only_what_is_asked_for_is_drawn_and_told(self) -> None:
+        self.write(power_laws()[:9])
+        self.figures.mkdir()
+        (self.figures / "figure5.csv").write_text("earlier")
+        with drawn.without_minor_ticks(), mock.patch.object(figure_files, "VECTOR_DPI", 50):
+            status, out, err = run(figures, self.results, "--only=figure4,t*,figure3")
+        self.assertEqual((status, err), (0, ""))
+        names = {f"figure4.{kind}" for kind in ("svg", "png", "csv")}
+        self.assertEqual({path.name for path in self.figures.iterdir()},
+                         names | {"table1.md", "measured.md", "figure5.csv"})
+        self.assertEqual((self.figures / "figure5.csv").read_text(), "earlier")
+        self.assertEqual([Path(line.split(":")[0].split(",")[0]).stem for line in out.splitlines()],
+                         ["figure3", "figure4", "table1"])
+        self.assertIn("figure3: left out: ", out)
+
+    def test_a_figure_that_these_records_do_not_have(self) -> None:
+        self.write([case("Mesh0", "3STEPD")])
+        self.assert_refused("--only: 'figure9' is no figure of these records (there are: ",
+                            "figure4", arguments=["--only=figure4,figure9"])
+
     def test_wrong_option_and_unusable_out(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         for arguments, part in ((("--nonsense",), "--nonsense"),
@@ -298,8 +319,12 @@ class RunTest(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             done = subprocess.run([RUN, "figures", folder], capture_output=True,
                                   text=True, check=False)
+            wrong = subprocess.run([RUN, "figures", folder, "another"], capture_output=True,
+                                   text=True, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
+        self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
+        self.assertIn("another' (valid: a results folder, --only=GLOB,...)", wrong.stderr)
 
 
 if __name__ == "__main__":

@@ -19,8 +19,8 @@ void dgeqrf_(const int* m, const int* n, double* a, const int* lda, double* tau,
 void dgetrf_(const int* m, const int* n, double* a, const int* lda, int* pivots, int* info);
 void dgetrs_(const char* trans, const int* n, const int* columns, const double* a, const int* lda,
              const int* pivots, double* b, const int* ldb, int* info, std::size_t length_of_trans);
-void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda,
-             const double* tau, double* work, const int* lwork, int* info);
+void dorgqr_(const int* m, const int* n, const int* k, double* a, const int* lda, const double* tau,
+             double* work, const int* lwork, int* info);
 void dpotrf_(const char* uplo, const int* n, double* a, const int* lda, int* info,
              std::size_t length_of_uplo);
 void dsyev_(const char* jobz, const char* uplo, const int* n, double* a, const int* lda,
