@@ -15,7 +15,7 @@ namespace airybench {
 namespace {
 
 constexpr int rows = 128;
-constexpr int sweep_length = 1 << 20;  // doubles: 8 MiB
+constexpr int sweep_length = noise_sweep_length;
 
 // Plain arrays, and no sanitizer on what loops over them: calibration would take a sanitized run's
 // tests longer than what they test.

@@ -21,6 +21,14 @@ double run_noise_kernel(int threads);
 // The work itself; always the same number.
 double noise_kernel_checksum();
 
+// Doubles: 8 MiB. Fewer in a sanitized program, which is not timed: a sixth of a short run went
+// into getting their pages.
+#ifdef AIRYBENCH_SANITIZED
+inline constexpr int noise_sweep_length = 1 << 14;
+#else
+inline constexpr int noise_sweep_length = 1 << 20;
+#endif
+
 struct NoiseSummary {
   double median_s = 0, mad_s = 0;  // median absolute deviation from the median
   std::vector<double> samples;     // s, in order
