@@ -70,7 +70,7 @@ def selected(only: str | None, names: list[str]) -> list[str]:
     return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
 
 
-def draw_all(rows: list[Row], out: Path, only: str | None) -> None:
+def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
     report, drawn = [], []
     writers: dict[str, Callable[[Path], object]] = {}
     drawings = drawings_of(rows)
