@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
-
 #include "assembly/edge_forces.hpp"
 #include "assembly/stress_field.hpp"
 #include "mesh/msh_format.hpp"

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include "assembly/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/methods.hpp"

@@ -1,7 +1,8 @@
 #include "solvers/direct/cholmod.hpp"
-#include "tests/support/dense_algebra.hpp"
 
 #include <gtest/gtest.h>
+
+#include "tests/support/dense_algebra.hpp"
 
 namespace airybench::cholmod_test {
 namespace {

@@ -1,7 +1,6 @@
 // D and G from the Airy system, blindly and in three steps, and from the hybridized one.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <limits>
 
 #include "solvers/condensation/blind.hpp"

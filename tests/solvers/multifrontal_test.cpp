@@ -1,11 +1,11 @@
 #include "solvers/direct/multifrontal.hpp"
-#include "tests/support/dense_algebra.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
 #include <numeric>
 #include <random>
+
+#include "tests/support/dense_algebra.hpp"
 
 namespace airybench::multifrontal_test {
 namespace {

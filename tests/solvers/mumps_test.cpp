@@ -1,11 +1,10 @@
 #include "solvers/direct/mumps.hpp"
-#include "tests/support/dense_algebra.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <limits>
+
+#include "tests/support/dense_algebra.hpp"
 
 namespace airybench::mumps_test {
 namespace {
