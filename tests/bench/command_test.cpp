@@ -215,16 +215,22 @@ TEST(Command, AppendKeepsOtherRecordsAndReplacesTheSameCase) {
 }
 
 TEST(Command, ATimeoutTellsWhatWasDone) {
-  const BenchCommand bench;
-  const CommandResult result =
-      bench.run("--mesh=Mesh3 --method=3STEPCG:NONE --timeout=0.2 --repetitions=1 --out=o");
-  EXPECT_EQ(result.code, 1);
-  const auto record = bench.record();
-  EXPECT_EQ(record["status"], "timeout");
+  // However slow the machine: the limit is doubled until something is done within it.
+  double limit_s = 0.2;
+  Json record;
+  for (;; limit_s *= 2) {
+    const BenchCommand bench;
+    const CommandResult result =
+        bench.run("--mesh=Mesh3 --method=3STEPCG:NONE --repetitions=1 --out=o --timeout=" +
+                  std::to_string(limit_s));
+    ASSERT_EQ(result.code, 1);
+    record = bench.record();
+    ASSERT_EQ(record["status"], "timeout");
+    if (record["done_fraction"] > 0) break;
+  }
   EXPECT_TRUE(record["time_s"].is_null());
-  EXPECT_GT(record["done_fraction"], 0);
   EXPECT_LT(record["done_fraction"], 0.9);
-  EXPECT_GT(record["extrapolated_time_s"], 0.2);
+  EXPECT_GT(record["extrapolated_time_s"], limit_s);
   EXPECT_GT(record["error_so_far"], record["tolerance"].get<double>());
 }
 
