@@ -62,7 +62,9 @@ def listed(rows: list[Row], drawn: list[Row]) -> str:
 
 def selected(only: str | None, names: list[str]) -> list[str]:
     """Those of the names that --only selects: all without it."""
-    globs = only.split(",") if only is not None else ["*"]
+    if only is None:
+        return names
+    globs = only.split(",")
     for glob in globs:
         if not any(fnmatchcase(name, glob) for name in names):
             raise RecordsError(f"--only: '{glob}' is no figure of these records "

@@ -15,13 +15,12 @@ namespace airybench {
 namespace {
 
 constexpr int rows = 128;
-constexpr int sweep_length = noise_sweep_length;
 
 // Plain arrays, and no sanitizer on what loops over them: calibration would take a sanitized run's
 // tests longer than what they test.
 struct Work {
   double column[rows][rows];  // lower triangle: column[j][i], i ≥ j
-  double values[sweep_length];
+  double values[noise_sweep_length];
 };
 #define AIRYBENCH_NOT_SANITIZED __attribute__((no_sanitize("address", "undefined")))
 
@@ -47,10 +46,10 @@ AIRYBENCH_NOT_SANITIZED double factorise(Work& work) {
 // Writes every number, then reads them all.
 AIRYBENCH_NOT_SANITIZED double sweep(Work& work) {
   auto& values = work.values;
-  for (int i = 0; i < sweep_length; ++i) values[i] = i % 7;
+  for (int i = 0; i < noise_sweep_length; ++i) values[i] = i % 7;
   benchmark::ClobberMemory();  // or the two loops could become one without the memory
   double sums[8] = {};
-  for (int i = 0; i < sweep_length; i += 8)
+  for (int i = 0; i < noise_sweep_length; i += 8)
     for (int lane = 0; lane < 8; ++lane) sums[lane] += values[i + lane];
   double sum = 0;
   for (const double part : sums) sum += part;

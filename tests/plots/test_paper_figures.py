@@ -241,6 +241,14 @@ class PaperFiguresTest(unittest.TestCase):
                          ["figure3", "figure4", "table1"])
         self.assertIn("figure3: left out: ", out)
 
+    def test_records_without_any_figure_are_no_error(self) -> None:
+        self.write([case("Mesh0", "3STEPD")])
+        with mock.patch.object(figures, "drawings_of", lambda rows: []), \
+                mock.patch.object(figures, "table1", lambda rows: None):
+            status, out, err = run(figures, self.results)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("measured.md\n", out)
+
     def test_a_figure_that_these_records_do_not_have(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         self.assert_refused("--only: 'figure9' is no figure of these records (there are: ",
