@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from functools import cache
 
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
@@ -23,6 +24,7 @@ def plain(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+@cache
 def width_of(words: str, size_pt: float, weight: str = "normal") -> float:
     """In points."""
     font = FontProperties(size=size_pt, weight=weight)

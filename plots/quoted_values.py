@@ -4,6 +4,7 @@ from __future__ import annotations
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fnmatch import fnmatchcase
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -26,11 +27,12 @@ class QuoteError(Exception):
 
 
 class Runs:
-    """The committed runs, each read once."""
+    """The committed runs, each read once, and what was asked of them."""
 
     def __init__(self, results: Path) -> None:
         self.results = results
         self.tables: dict[str, pd.DataFrame] = {}
+        self.values: dict[str, tuple[float, str]] = {}  # of an expression
 
     def of(self, folder: str) -> pd.DataFrame:
         if folder not in self.tables:
@@ -41,6 +43,7 @@ class Runs:
 def chosen(cases: pd.DataFrame, **wanted: str) -> pd.DataFrame:
     """Key = pattern, or patterns between |."""
     for key, patterns in wanted.items():
+        @cache
         def fits(value: object) -> bool:
             text = "" if value is None else str(value)
             return any(fnmatchcase(text, pattern) for pattern in patterns.split("|"))
@@ -56,6 +59,12 @@ def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
 
 def value_of(expression: str, runs: Runs) -> tuple[float, str]:
     """What the records give, and how it is rounded."""
+    if expression not in runs.values:
+        runs.values[expression] = found_value(expression, runs)
+    return runs.values[expression]
+
+
+def found_value(expression: str, runs: Runs) -> tuple[float, str]:
     match = EXPRESSION.fullmatch(expression)
     if not match:
         raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "

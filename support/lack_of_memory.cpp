@@ -8,15 +8,15 @@
 namespace airybench {
 namespace {
 
-const char* line = "";
-int code = 0;
+const char* last_words = "";
+int last_code = 0;
 
 [[noreturn]] void end() {
   try {
     if (std::current_exception() != nullptr) throw;
   } catch (const std::bad_alloc&) {
-    std::fputs(line, stderr);
-    std::_Exit(code);
+    std::fputs(last_words, stderr);
+    std::_Exit(last_code);
   } catch (...) {
   }
   std::abort();
@@ -25,8 +25,8 @@ int code = 0;
 }  // namespace
 
 void end_for_lack_of_memory_with(const char* message, int exit_code) {
-  line = message;
-  code = exit_code;
+  last_words = message;
+  last_code = exit_code;
   std::set_terminate(end);
 }
 

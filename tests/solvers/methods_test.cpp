@@ -138,7 +138,7 @@ TEST_P(EveryKindOfMethod, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
 TEST_P(EveryKindOfMethod, AgreesWithAnotherKindOfMethodOnEveryScene) {
   int turn = 0;
   for (const auto& [name, scene] : scene_variants()) {
-    if (testing::sanitized && turn++ % 3 != 0) continue;
+    if (testing::left_out(turn++)) continue;
     const auto problem = posed(scene);
     const Solution solution = solve(problem);
     ASSERT_EQ(solution.status, Status::ok) << name << ": " << solution.message;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 extern "C" {
@@ -88,14 +89,13 @@ Eigen::MatrixXd orthogonal_factor(Eigen::MatrixXd A) {
   return A;
 }
 
-Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A) {
+Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd A) {
   const Shape shape(A);
-  Eigen::MatrixXd L = A;
   int info = 0;
-  dpotrf_("L", &shape.rows, L.data(), &shape.rows, &info, 1);
+  dpotrf_("L", &shape.rows, A.data(), &shape.rows, &info, 1);
   demand(info, "dpotrf");
-  for (int j = 1; j < shape.columns; ++j) L.col(j).head(j).setZero();
-  return L;
+  for (int j = 1; j < shape.columns; ++j) A.col(j).head(j).setZero();
+  return A;
 }
 
 std::function<Eigen::MatrixXd(Eigen::MatrixXd B)> factorised(Eigen::MatrixXd A) {
@@ -113,11 +113,8 @@ std::function<Eigen::MatrixXd(Eigen::MatrixXd B)> factorised(Eigen::MatrixXd A) 
   };
 }
 
-Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  return factorised(A)(B);
-}
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
-  return factorised(A)(b).col(0);
+Eigen::MatrixXd solved(Eigen::MatrixXd A, Eigen::MatrixXd B) {
+  return factorised(std::move(A))(std::move(B));
 }
 
 Eigen::VectorXd least_squares(Eigen::MatrixXd A, Eigen::VectorXd b) {

@@ -23,12 +23,11 @@ Eigen::MatrixXd with_eigenvalues(const Eigen::MatrixXd& Q, const Eigen::VectorXd
 Eigen::MatrixXd orthogonal_factor(Eigen::MatrixXd A);
 
 // L of A = L Lᵀ; of A, which is symmetric positive definite, the lower triangle is read.
-Eigen::MatrixXd cholesky_factor(const Eigen::MatrixXd& A);
+Eigen::MatrixXd cholesky_factor(Eigen::MatrixXd A);
 
 // B → A⁻¹ B by LU with row exchanges; the factors are kept.
 std::function<Eigen::MatrixXd(Eigen::MatrixXd B)> factorised(Eigen::MatrixXd A);
-Eigen::MatrixXd solved(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
-Eigen::VectorXd solved(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
+Eigen::MatrixXd solved(Eigen::MatrixXd A, Eigen::MatrixXd B);
 
 // x that makes ‖A x − b‖ smallest; A has full column rank.
 Eigen::VectorXd least_squares(Eigen::MatrixXd A, Eigen::VectorXd b);

@@ -1,6 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
 #include <thread>
 
 #include "bench/heap/heap_probe.hpp"
@@ -29,6 +34,26 @@ TEST(NoiseKernel, OnSeveralThreadsEndsWithTheLastAndKeepsNothing) {
   const std::int64_t before = heap::live_bytes();
   EXPECT_GT(run_noise_kernel(3), 0);
   EXPECT_LT(heap::live_bytes(), before + (1 << 20));  // threads keep a little of their own
+}
+
+// A pass beside a case of another process times no copies of pages.
+TEST(NoiseKernel, TakesNoNewPagesAfterAFork) {
+  const auto faults = [] {
+    rusage usage;
+    getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_minflt;
+  };
+  run_noise_kernel();
+  const pid_t other = fork();
+  if (other == 0) {
+    pause();
+    _exit(0);
+  }
+  const auto before = faults();
+  run_noise_kernel();
+  EXPECT_LT(faults() - before, 16);
+  kill(other, SIGKILL);
+  waitpid(other, nullptr, 0);
 }
 
 TEST(NoiseKernel, SummaryIsMedianAndDeviation) {
