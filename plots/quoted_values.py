@@ -4,7 +4,6 @@ from __future__ import annotations
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fnmatch import fnmatchcase
-from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -43,7 +42,6 @@ class Runs:
 def chosen(cases: pd.DataFrame, **wanted: str) -> pd.DataFrame:
     """Key = pattern, or patterns between |."""
     for key, patterns in wanted.items():
-        @cache
         def fits(value: object) -> bool:
             text = "" if value is None else str(value)
             return any(fnmatchcase(text, pattern) for pattern in patterns.split("|"))
