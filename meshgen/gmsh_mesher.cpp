@@ -97,7 +97,7 @@ Mesh mesh_interior(const BoundaryPolygon& polygon, const SizeField& size,
                               "Mesh.MeshSizeExtendFromBoundary"})
       gmsh::option::setNumber(option, 0);  // the callback alone says
     gmsh::option::setNumber("Mesh.Algorithm", static_cast<int>(recipe.algorithm));
-    gmsh::model::mesh::setSizeCallback([&](int, int, double x, double, double) {
+    gmsh::model::mesh::setSizeCallback([&](int, int, double x, auto...) {
       return recipe.size_factor * size.at(x, recipe.grading_exponent);
     });
     gmsh::model::mesh::generate(2);

@@ -5,11 +5,14 @@ peers=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 mkdir -p "$1"
 
 siconos=/usr/include/siconos
-version=$(dpkg-query --show --showformat='${Version}' libsiconos-numerics-dev)
-g++ -std=c++20 -O2 -Wall -Wextra -DSICONOS_VERSION="\"$version\"" -isystem "$siconos" \
-  -isystem "$siconos/numerics" -isystem /usr/include/hdf5/serial "$peers/siconos/siconos.cpp" \
-  -o "$1/siconos" -lsiconos_numerics -lhdf5_serial
+if [[ -d $siconos ]]; then # not packaged in every release of Debian
+  version=$(dpkg-query --show --showformat='${Version}' libsiconos-numerics-dev)
+  # shellcheck disable=SC2046 # flags are words
+  g++ -std=c++20 -O2 -Wall -Wextra -DSICONOS_VERSION="\"$version\"" -isystem "$siconos" \
+    -isystem "$siconos/numerics" "$peers/siconos/siconos.cpp" -o "$1/siconos" -lsiconos_numerics \
+    $(pkg-config --cflags --libs hdf5-serial)
+fi
 
 (cd "$peers/fortran" &&
   gfortran -O2 -Wall -I/usr/include -J"$1" contact_sweeps.f90 matrix_market.f90 airy_mumps.f90 \
-    -o "$1/airy_mumps" -ldmumps_seq -lopenblas)
+    -o "$1/airy_mumps" -ldmumps_seq -llapack -lblas)

@@ -8,7 +8,7 @@ namespace airybench {
 
 // "meshes", "scenes/stability", "results": that folder of ../share/airybench, beside the folder of
 // the running executable: in the build tree links to the sources, after an installation copies. So
-// no object file holds a path of the machine that compiled it.
+// no object file holds a path of the machine that compiled it. FileError: it cannot be reached.
 std::filesystem::path data_folder(std::string_view name);
 
 }  // namespace airybench

@@ -45,11 +45,21 @@ Run run_of(const Record& record, std::size_t family) {
   return run;
 }
 
+// Since Google Benchmark 1.8 a failed run is a skipped one.
+template <typename AnyRun>
+void fail(AnyRun& run, const std::string& message) {
+  if constexpr (requires { run.skip_message; }) {
+    run.skipped = decltype(run.skipped)::SkippedWithError;
+    run.skip_message = message;
+  } else {
+    run.error_occurred = true;
+    run.error_message = message;
+  }
+}
+
 Run failed_run(const Record& record, std::size_t family) {
   Run run = run_of(record, family);
-  run.error_occurred = true;
-  run.error_message =
-      printable(fmt::format("{}: {}", name_of(record.status), record.status_reason));
+  fail(run, printable(fmt::format("{}: {}", name_of(record.status), record.status_reason)));
   return run;
 }
 

@@ -12,6 +12,10 @@
 namespace airybench {
 namespace {
 
+// Since Google Benchmark 1.8, which has State::skipped(), a time needs its unit; before, it had none.
+template <typename State>
+constexpr const char* no_time = requires(State& state) { state.skipped(); } ? "0s" : "0";
+
 // Which benchmarks ran; why none did it says to the reporter's stream.
 class Names : public benchmark::BenchmarkReporter {
  public:
@@ -34,7 +38,7 @@ void initialize_benchmark(bool interleave) {
       "--benchmark_filter=all",
       "--benchmark_list_tests=false",
       "--benchmark_repetitions=1",
-      "--benchmark_min_time=0",
+      fmt::format("--benchmark_min_time={}", no_time<benchmark::State>),
       "--benchmark_min_warmup_time=0",
       "--benchmark_report_aggregates_only=false",
       "--benchmark_display_aggregates_only=false",

@@ -15,6 +15,15 @@ cholmod_sparse view_of(const Eigen::SparseMatrix<double>& lower) {
   return Eigen::viewAsCholmod(lower.selfadjointView<Eigen::Lower>());
 }
 
+// CHOLMOD's workspace of numbers, which version 5 and later count in bytes.
+template <typename Common>
+std::size_t workspace_doubles(const Common& common) {
+  if constexpr (requires { common.xworkbytes; })
+    return common.xworkbytes / sizeof(double);
+  else
+    return common.xworksize;
+}
+
 }  // namespace
 
 CholmodFactor::CholmodFactor() {
@@ -66,7 +75,7 @@ void CholmodFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline
 
 std::size_t CholmodFactor::bytes() const {
   if (factor_ == nullptr) return 0;
-  std::size_t doubles = factor_->xsize + common_.xworksize;
+  std::size_t doubles = factor_->xsize + workspace_doubles(common_);
   for (const cholmod_dense* workspace : {solution_, permuted_, gathered_})
     if (workspace != nullptr) doubles += workspace->nzmax;
   // Rows and starts of the supernodes; permutation and column counts; CHOLMOD's workspace.

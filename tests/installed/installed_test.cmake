@@ -1,6 +1,6 @@
 # Installs the project, builds a program outside of it with the installed copy, runs that and the
 # installed command.
-#   cmake -D BUILD=... -D SOURCE=... -D PLACE=... -P installed_test.cmake
+#   cmake -D BUILD=... -D GENERATOR=... -D SOURCE=... -D PLACE=... -P installed_test.cmake
 file(REMOVE_RECURSE ${PLACE})
 set(prefix ${PLACE}/prefix)
 function(step)
@@ -13,12 +13,23 @@ function(step)
 endfunction()
 file(MAKE_DIRECTORY ${PLACE})
 step(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
-step(${CMAKE_COMMAND} -S ${SOURCE} -B outside -D CMAKE_PREFIX_PATH=${prefix})
+step(${CMAKE_COMMAND} -S ${SOURCE} -B outside -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${prefix})
 step(${CMAKE_COMMAND} --build outside)
 step(outside/outside ${prefix}/share/airybench/meshes/Mesh0.msh 3STEPD)
 if(NOT said MATCHES "^3STEPD: resultant -[0-9.]+ N, error of the stresses [0-9.]+e-1[0-9]")
   message(FATAL_ERROR "outside: ${said}")
 endif()
+# What the installed configuration names is found again on the machine of its user.
+file(GLOB exported ${prefix}/lib*/cmake/airybench/airybenchTargets*.cmake)
+if(NOT exported)
+  message(FATAL_ERROR "no exported targets in ${prefix}")
+endif()
+foreach(file IN LISTS exported)
+  file(STRINGS ${file} absolute REGEX "[\";]/[a-z]|INTERFACE_COMPILE_(OPTIONS|DEFINITIONS)")
+  if(absolute)
+    message(FATAL_ERROR "${file}: ${absolute}")
+  endif()
+endforeach()
 set(ENV{AIRYBENCH_CACHE_DIR} ${PLACE}/cache)
 set(meshes Mesh0)
 if(EXISTS ${prefix}/bin/airybench-meshgen)

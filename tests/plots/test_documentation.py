@@ -1,5 +1,6 @@
 """README.md and docs/: every relative link leads somewhere, quoted files are quoted as they are.  /usr/bin/python3 -m unittest FILE"""
 import re
+import subprocess
 import unittest
 from pathlib import Path
 
@@ -22,7 +23,7 @@ def anchors(text: str) -> set[str]:
 def broken_links(file: Path) -> list[str]:
     broken = []
     for link in LINK.findall(without_code(file.read_text(encoding="utf-8"))):
-        if re.match(r"[a-z]+:", link):
+        if re.match(r"[a-z]+:|\.\./\.\./actions/", link):  # outside, and the badge's workflow
             continue
         path, _, anchor = link.partition("#")
         target = (file.parent / path).resolve() if path else file
@@ -34,6 +35,11 @@ def broken_links(file: Path) -> list[str]:
 
 
 QUOTED_FILE = re.compile(r"^<!-- file: (\S+) -->\n```\w*\n(.*?)^```$", re.M | re.S)
+
+READS_VARIABLES = re.compile(r"(^run|CMakeLists\.txt|\.(cpp|hpp|py|sh))$")
+# In a shell, C++, Python and CMake.
+VARIABLE = re.compile(r'\$\{(AIRYBENCH_\w+):-|(?:getenv|envname|folder_of_variable)\("(AIRYBENCH_\w+)"'
+                      r'|environ(?:\.get)?[\[(]"(AIRYBENCH_\w+)"|option\((AIRYBENCH_\w+)')
 
 
 class DocumentationTest(unittest.TestCase):
@@ -52,6 +58,18 @@ class DocumentationTest(unittest.TestCase):
     def test_the_example_of_a_method_is_short(self) -> None:
         example = PROJECT / "tests/solvers/example/three_step_simplicial.cpp"
         self.assertLessEqual(len(example.read_text(encoding="utf-8").splitlines()), 40)
+
+    def test_every_variable_is_in_the_table(self) -> None:
+        text = (PROJECT / "docs/building-and-testing.md").read_text(encoding="utf-8")
+        rows = re.findall(r"^\| (`AIRYBENCH_\w+`(?:, `AIRYBENCH_\w+`)*) \|", text, re.M)
+        documented = {name for row in rows for name in re.findall(r"AIRYBENCH_\w+", row)}
+        tracked = subprocess.run(["git", "ls-files", "-z"], cwd=PROJECT, capture_output=True, text=True,
+                                 check=True).stdout.split("\0")
+        read = {name for file in tracked if READS_VARIABLES.search(file)
+                for names in VARIABLE.findall((PROJECT / file).read_text(encoding="utf-8"))
+                for name in names if name}
+        self.assertGreater(len(read), 10)
+        self.assertEqual(documented, read)
 
     def test_the_readme_is_short_enough_to_be_read(self) -> None:
         self.assertLessEqual(len((PROJECT / "README.md").read_text(encoding="utf-8").split()), 1500)

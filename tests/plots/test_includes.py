@@ -1,4 +1,4 @@
-"""Files include what their room may use, and the rooms one way only.  /usr/bin/python3 -m unittest FILE"""
+"""Files include what their room may use, the rooms one way only; CMake lists every file.  /usr/bin/python3 -m unittest FILE"""
 import re
 import unittest
 from pathlib import Path
@@ -117,6 +117,20 @@ class IncludesTest(unittest.TestCase):
             for user, used in table.items():
                 for below in used:
                     self.assertLess(order.index(below), order.index(user), user)
+
+    def test_cmake_lists_every_source(self) -> None:
+        listed = set()
+        for file in PROJECT.rglob("CMakeLists.txt"):
+            text = file.read_text(encoding="utf-8").replace("${PROJECT_SOURCE_DIR}/", f"{PROJECT}/")
+            listed |= {(file.parent / name).resolve()
+                       for name in re.findall(r"[\w./-]+\.cpp", text.replace("${CMAKE_CURRENT_SOURCE_DIR}/", ""))}
+            listed |= {file.parent / "plots" / f"{name}.py" for name in re.findall(r"^ +(test_\w+)", text, re.M)}
+        sources = {file for folder in (*ROOMS, "tests", "peers/petsc") for pattern in ("*.cpp", "test_*.py")
+                   for file in (PROJECT / folder).rglob(pattern)
+                   if file.suffix == ".cpp" or file.parent.name == "plots"}
+        self.assertGreater(len(sources), 300)
+        included = set((PROJECT / "tests/solvers/example").iterdir())  # by example_test.cpp
+        self.assertEqual(set(), sources - listed - included)
 
 
 if __name__ == "__main__":

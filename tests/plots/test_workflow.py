@@ -1,34 +1,45 @@
-"""What the nightly workflow runs is named by its content.  /usr/bin/python3 -m unittest FILE"""
+"""What the workflows run is named by its content.  /usr/bin/python3 -m unittest FILE"""
 import re
 import subprocess
 import unittest
 from pathlib import Path
 
-FILE = Path(__file__).resolve().parents[2] / ".github" / "workflows" / "nightly.yml"
+PROJECT = Path(__file__).resolve().parents[2]
+FOLDER = PROJECT / ".github" / "workflows"
+NIGHTLY = (FOLDER / "nightly.yml").read_text(encoding="utf-8")
+CI = (FOLDER / "ci.yml").read_text(encoding="utf-8")
 
 
 class WorkflowTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.text = FILE.read_text(encoding="utf-8")
-
     def test_actions_and_containers_have_a_digest(self) -> None:
-        actions = re.findall(r"uses: (.*)", self.text)
-        self.assertGreater(len(actions), 4)
+        self.assertEqual(sorted(file.name for file in FOLDER.iterdir()), ["ci.yml", "nightly.yml"])
+        actions = re.findall(r"uses: (.*)", NIGHTLY + CI)
+        self.assertGreater(len(actions), 5)
         for action in actions:
             self.assertRegex(action, r"^actions/[a-z-]+@[0-9a-f]{40}  # v\d+\.\d+\.\d+$")
-        for container in re.findall(r"container: (.*)", self.text):
-            self.assertRegex(container, r"^debian:12@sha256:[0-9a-f]{64}  # ")
+        images = re.findall(r"(?:container|image): (debian.*)", NIGHTLY + CI)
+        self.assertEqual(len(images), 4)
+        for image in images:
+            self.assertRegex(image, r"^debian:1[23]@sha256:[0-9a-f]{64}  # ")
+
+    def test_every_push_runs_the_commands_of_the_readme(self) -> None:
+        readme = (PROJECT / "README.md").read_text(encoding="utf-8")
+        commands = re.search(r"\n\n((?:    \./run .*\n)+)\n", readme)[1].split("\n")[:-1]
+        self.assertEqual(len(commands), 2)
+        for command in commands:
+            self.assertIn(f"{command.strip()}\n", CI)
 
     def test_no_credentials_stay(self) -> None:
-        self.assertEqual(self.text.count("actions/checkout@"),
-                         self.text.count("          persist-credentials: false\n"))
+        for text in (NIGHTLY, CI):
+            self.assertEqual(text.count("actions/checkout@"),
+                             text.count("          persist-credentials: false\n"))
 
     def test_the_night_is_kept_whatever_comes_before(self) -> None:
-        keep = self.text[self.text.index("Keep all that was measured"):]
+        keep = NIGHTLY[NIGHTLY.index("Keep all that was measured"):]
         self.assertIn("if: ${{ !cancelled() }}", keep[:keep.index("with:")])
 
     def test_steps_are_bash(self) -> None:
-        for step in re.findall(r"run: \|\n((?: {10}.*\n|\n)+)", self.text):
+        for step in re.findall(r"run: \|\n((?: {10}.*\n|\n)+)", NIGHTLY + CI):
             checked = subprocess.run(["bash", "-n"], input=step, text=True, capture_output=True,
                                      check=False)
             self.assertEqual((checked.returncode, checked.stderr), (0, ""), step)

@@ -39,7 +39,7 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
     EXPECT_GE(r["smallest_angle_deg"].get<double>(),
               0.5 * records[0]["smallest_angle_deg"].get<double>());
     const auto file = bench_.path("o") / r["mesh_file"].get<std::string>();
-    EXPECT_EQ(sha256_of_file(file), r["mesh_sha256"]);
+    EXPECT_EQ(r["mesh_sha256"], sha256_of_file(file));
     EXPECT_EQ(mesh_sizes(read_msh(file)).n_phi, r["n_phi"]);
   }
   const Json& last = records[records.size() - 2];

@@ -85,22 +85,53 @@ TEST(AddressSpace, ThatIsTooSmallForBlasIsRefused) {
 }
 #endif
 
+// The program and a mesh where another user can start it: the build tree may be in a home that only
+// its owner enters.
+void copied_into(const std::filesystem::path& folder) {
+  const std::filesystem::path meshes = folder / "share" / "airybench" / "meshes";
+  std::filesystem::create_directories(meshes);
+  std::filesystem::create_directories(folder / "bin");
+  std::filesystem::copy(testing::bench_executable(), folder / "bin" / "bench");
+  std::filesystem::copy(testing::mesh_file("Mesh0"), meshes);
+  std::filesystem::permissions(folder, std::filesystem::perms::all);
+}
+
+// The exit code of what a shell does in the test's folder, as another user than root.
+int as_user(const BenchCommand& bench, const std::string& shell) {
+  std::filesystem::permissions(bench.path(""), std::filesystem::perms::all);
+  const std::string user = geteuid() == 0 ? "setpriv --reuid=54321 --clear-groups " : "";
+  const std::string command = "cd '" + bench.path("").string() + "' && exec 9<bin/bench && " +
+                              "timeout -s KILL 60 " + user + "bash -c '" + shell +
+                              "' >out.txt 2>err.txt";
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 // OpenMP would end the case's process, and BLAS this one.
 TEST(Processes, ThatAreTooFewForTheThreadsAreRefused) {
   const BenchCommand bench;
-  std::filesystem::permissions(bench.path(""), std::filesystem::perms::all);
-  std::string as_user;
-  if (geteuid() == 0) as_user = "setpriv --reuid=54321 --clear-groups ";  // root is not limited
-  const std::string command = "cd '" + bench.path("").string() + "' && timeout -s KILL 60 " +
-                              as_user + "bash -c 'ulimit -u 8; OPENBLAS_NUM_THREADS=1 exec \"" +
-                              testing::bench_executable().string() + "\" " + two +
-                              "--threads=6' >out.txt 2>err.txt";
-  const int status = std::system(command.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 2) << bench.content("err.txt");
+  copied_into(bench.path(""));
+  EXPECT_EQ(
+      as_user(bench, "ulimit -u 8; OPENBLAS_NUM_THREADS=1 exec bin/bench " + two + "--threads=6"),
+      2)
+      << bench.content("err.txt");
   EXPECT_NE(bench.content("err.txt").find("bench: --threads: 6 (allowed: fewer"), std::string::npos)
       << bench.content("err.txt");
   EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
+}
+
+// Descriptor 9 is the program, which its user can start, but not look around.
+TEST(Processes, OfAProgramInAFolderThatOthersCannotEnterSayWhatIsMissing) {
+  if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
+  const BenchCommand bench;
+  copied_into(bench.path(""));
+  EXPECT_EQ(as_user(bench, "exec /proc/self/fd/9 " + two), 0) << bench.content("err.txt");
+  std::filesystem::permissions(bench.path("bin"), std::filesystem::perms::owner_all);
+  std::filesystem::permissions(bench.path("share"), std::filesystem::perms::owner_all);
+  EXPECT_EQ(as_user(bench, "exec /proc/self/fd/9 --list"), 2);
+  EXPECT_EQ(bench.content("err.txt"),
+            "bench: " + bench.path("share/airybench/meshes").string() +
+                ": the program's data cannot be read: Permission denied\n");
 }
 
 TEST(Environment, OfGoogleBenchmarkIsIgnored) {
