@@ -65,7 +65,7 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER "airybench")
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-    "libeigen3-dev, libsuitesparse-dev, libmumps-seq-dev, libopenblas-dev, libboost-dev, libfmt-dev, libssl-dev")
+    "libeigen3-dev, libsuitesparse-dev, libmumps-seq-dev, libblas-dev, liblapack-dev, libboost-dev, libfmt-dev, libssl-dev")
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 include(CPack)

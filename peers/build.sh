@@ -12,4 +12,4 @@ g++ -std=c++20 -O2 -Wall -Wextra -DSICONOS_VERSION="\"$version\"" -isystem "$sic
 
 (cd "$peers/fortran" &&
   gfortran -O2 -Wall -I/usr/include -J"$1" contact_sweeps.f90 matrix_market.f90 airy_mumps.f90 \
-    -o "$1/airy_mumps" -ldmumps_seq -lopenblas)
+    -o "$1/airy_mumps" -ldmumps_seq -llapack -lblas)
