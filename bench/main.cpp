@@ -19,7 +19,7 @@
 #include "bench/commands/track_command.hpp"
 #include "bench/isolation/isolated_scene.hpp"
 #include "bench/isolation/threads_at_hand.hpp"
-#include "solvers/base/blas_kernels.hpp"
+#include "solvers/base/blas_library.hpp"
 #include "support/lack_of_memory.hpp"
 #include "support/standard_streams.hpp"
 

@@ -1,6 +1,5 @@
 #include "bench/isolation/threads_at_hand.hpp"
 
-#include <cblas.h>
 #include <fmt/format.h>
 #include <sys/resource.h>
 
@@ -10,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -41,15 +41,16 @@ std::string lack_of_address_space(int threads) {
   // A thread's stack and BLAS's buffer of 128 MiB; the program itself.
   constexpr std::uint64_t of_thread = 136 * MiB, of_program = 96 * MiB;
   rlimit limit = {};
-  threads = std::max(threads, openblas_get_num_threads());
-  const std::uint64_t needed = of_program + static_cast<std::uint64_t>(threads) * of_thread;
+  const int most = std::max(threads, blas_threads());
+  const std::uint64_t needed = of_program + static_cast<std::uint64_t>(most) * of_thread;
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
       limit.rlim_cur >= needed)
     return {};
   return fmt::format(
       "the address space is limited to {} MiB (ulimit -v; allowed: from {} MiB on for BLAS on {} "
-      "threads, fewer with OPENBLAS_NUM_THREADS=1)",
-      limit.rlim_cur / MiB, needed / MiB, threads);
+      "threads{})",
+      limit.rlim_cur / MiB, needed / MiB, most,
+      most > threads ? ", fewer with OPENBLAS_NUM_THREADS=1" : "");
 }
 
 void require_threads(int threads) {

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "bench/judging/verifier.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
@@ -17,7 +18,7 @@ Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
 }
 
 double siconos_error(const GivenContact& given, const Eigen::VectorXd& F) {
-  const Eigen::VectorXd r = -F, u = given.b - given.D * F;
+  const Eigen::VectorXd r = -F, u = given.b - times(given.D, F);
   double squared = 0;
   for (std::size_t p = 0; p < given.friction.size(); ++p) {
     const double mu = given.friction[p];
@@ -41,9 +42,9 @@ Verification verify_given_contact(const DualSystem& system, const Solution& solu
   Verification result;
   result.equilibrium_residual.reset();
   note_contact_forces(system.contact, F, result);
-  note_contact_law(system.contact, F, given.D * F - given.b, diagonal, scale, result);
+  note_contact_law(system.contact, F, times(given.D, F) - given.b, diagonal, scale, result);
   result.friction_coupling = friction_coupling(system.contact, given.D);
-  result.strain_energy_Nmm = F.dot(given.D * F) / 2;
+  result.strain_energy_Nmm = F.dot(times(given.D, F)) / 2;
   result.siconos_error = siconos_error(given, F);
   return result;
 }

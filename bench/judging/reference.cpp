@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "assembly/load_scale.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/refinement.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -44,7 +45,7 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
   }
   if (reference.F_C.size() == 0)
     throw Breakdown("no reference: its contact law has no finite solution");
-  reference.condensed.G = D * reference.F_C - refined.u.tail(system.n_c).cast<double>();
+  reference.condensed.G = times(D, reference.F_C) - refined.u.tail(system.n_c).cast<double>();
   return error;
 }
 

@@ -7,6 +7,7 @@
 #include "assembly/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "bench/judging/moments_check.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {
@@ -117,7 +118,7 @@ void verify_contact(const ContactPoints& contact, const Solution& solution,
   note_contact_forces(contact, F, result);
   if (reference == nullptr) return;
   const CondensedSystem& condensed = reference->condensed;
-  note_contact_law(contact, F, condensed.D * F - condensed.G, condensed.D.diagonal(), scale,
+  note_contact_law(contact, F, times(condensed.D, F) - condensed.G, condensed.D.diagonal(), scale,
                    result);
   result.error_force = relative_error(D_norm(condensed.D, F - reference->F_C),
                                       D_norm(condensed.D, reference->F_C), scale.energy_norm);

@@ -1,5 +1,5 @@
 // How fast our own factorisations are, as a fraction of dgemm on the same machine in the same run
-// (OpenBLAS, one thread): the skyline's of S, its solves, and the multifrontal one of HYBRID.
+// (BLAS on one thread): the skyline's of S, its solves, and the multifrontal one of HYBRID.
 //
 //   factor_benchmark [Google Benchmark's options]         sizes: all meshes below
 //
@@ -8,7 +8,6 @@
 // pivot)², their forming and gathering not counted. What the skyline's panels pad, and the leading
 // zeros that solves skip, is not credited: solves here are on dense right-hand sides.
 #include <benchmark/benchmark.h>
-#include <cblas.h>
 
 #include <chrono>
 #include <functional>
@@ -19,7 +18,8 @@
 #include "assembly/scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
-#include "solvers/base/blas_kernels.hpp"
+#include "solvers/base/blas_library.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/direct/multifrontal.hpp"
 #include "solvers/direct/skyline.hpp"
@@ -46,7 +46,7 @@ double seconds(const std::function<void()>& work) {
 double dgemm_rate() {
   static const Eigen::MatrixXd a = Eigen::MatrixXd::Random(dgemm_size, dgemm_size);
   static Eigen::MatrixXd c = Eigen::MatrixXd::Zero(dgemm_size, dgemm_size);
-  const double spent = seconds([] { c.noalias() += a * a; });
+  const double spent = seconds([] { add_product(1, a, a, c); });
   benchmark::DoNotOptimize(c.data());
   return 2.0 * dgemm_size * dgemm_size * dgemm_size / spent;
 }
@@ -127,7 +127,7 @@ void add(const std::string& name, const std::function<void(benchmark::State&)>& 
 
 int main(int argc, char** argv) {
   restart_with_better_blas_core(argv);
-  openblas_set_num_threads(1);
+  set_blas_threads(1);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   for (const std::string mesh : mesh_names) {

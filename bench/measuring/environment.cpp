@@ -1,7 +1,6 @@
 #include "bench/measuring/environment.hpp"
 
 #include <benchmark/benchmark.h>
-#include <cblas.h>
 #include <cholmod.h>
 #include <dmumps_c.h>
 #include <fmt/chrono.h>
@@ -20,6 +19,7 @@
 
 #include "bench/heap/heap_probe.hpp"
 #include "bench/measuring/build_info.hpp"
+#include "solvers/base/blas_library.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "support/errors.hpp"
 #include "support/sha256.hpp"
@@ -60,7 +60,7 @@ std::string host_name() {
 }  // namespace
 
 void set_threads(int threads) {
-  openblas_set_num_threads(threads);
+  set_blas_threads(threads);
   // CHOLMOD asks for a fixed number of threads in its regions; only the nesting level stops that.
   omp_set_max_active_levels(threads == 1 ? 0 : 1);
   omp_set_num_threads(threads);
@@ -81,10 +81,10 @@ Context describe_environment(int threads) {
       {"cholmod",
        fmt::format("{}.{}.{}", CHOLMOD_MAIN_VERSION, CHOLMOD_SUB_VERSION, CHOLMOD_SUBSUB_VERSION)},
       {"mumps", MUMPS_VERSION},
-      {"blas", openblas_get_config()},
-      {"blas_core", openblas_get_corename()},
+      {"blas", blas_name()},
+      {"blas_core", blas_core()},
       {"hybrid_kernels", hybrid_kernels<double>().name},
-      {"blas_threads", std::to_string(openblas_get_num_threads())},
+      {"blas_threads", std::to_string(blas_threads())},
       {"google_benchmark", build_info.benchmark_version},
       {"cpu", cpu_model()},
       {"cpus", std::to_string(std::thread::hardware_concurrency())},

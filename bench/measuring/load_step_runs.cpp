@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "solvers/base/dense_products.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -18,7 +19,8 @@ Solution answer_of(const Reference& reference) {
   answer.F_C = reference.F_C;
   answer.stress = reference.stress;
   if (reference.F_C.size() > 0)
-    answer.contact_displacement = reference.condensed.D * reference.F_C - reference.condensed.G;
+    answer.contact_displacement =
+        times(reference.condensed.D, reference.F_C) - reference.condensed.G;
   return answer;
 }
 

@@ -88,7 +88,7 @@ double timed_pass(Work& work) {
 double noise_kernel_checksum() { return factorise(own_work) + sweep(own_work); }
 
 double run_noise_kernel() {
-  static const double first_touch_s = [] {
+  static double first_touch_s = [] {
     take_pages(own_work);
     return timed_pass(own_work);
   }();

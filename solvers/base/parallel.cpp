@@ -1,12 +1,11 @@
 #include "solvers/base/parallel.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <exception>
 #include <thread>
 #include <vector>
 
+#include "solvers/base/blas_library.hpp"
 #include "solvers/base/solution.hpp"
 #include "support/memory_owner.hpp"
 
@@ -16,13 +15,13 @@ namespace {
 // BLAS on one thread while threads of our own call it.
 class SingleThreadedBlas {
  public:
-  SingleThreadedBlas() { openblas_set_num_threads(1); }
-  ~SingleThreadedBlas() { openblas_set_num_threads(before_); }
+  SingleThreadedBlas() { set_blas_threads(1); }
+  ~SingleThreadedBlas() { set_blas_threads(before_); }
   SingleThreadedBlas(const SingleThreadedBlas&) = delete;
   SingleThreadedBlas& operator=(const SingleThreadedBlas&) = delete;
 
  private:
-  int before_ = openblas_get_num_threads();
+  int before_ = blas_threads();
 };
 
 struct Range {

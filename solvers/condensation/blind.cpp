@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "assembly/sparse_bytes.hpp"
 #include "solvers/direct/condition.hpp"
@@ -122,9 +123,10 @@ CondensedSystem condense_blindly(const Eigen::MatrixXd& schur,
                                  const Eigen::VectorXd& reduced_load) {
   CondensedSystem condensed;
   if (schur.size() == 0) return condensed;
-  const auto llt = cholesky(-schur, "blind condensation: W");
-  condensed.D = inverse_from_factor(llt.matrixLLT());
-  condensed.G = llt.solve(-reduced_load);
+  Eigen::MatrixXd L = cholesky(-schur, "blind condensation: W");
+  condensed.G = -reduced_load;
+  solve_by_cholesky(L, condensed.G);
+  condensed.D = inverse_from_factor(std::move(L));
   return condensed;
 }
 

@@ -1,5 +1,6 @@
 #include "solvers/condensation/finish.hpp"
 
+#include "solvers/base/dense_products.hpp"
 #include "solvers/base/kept_body.hpp"
 
 namespace airybench {
@@ -98,7 +99,7 @@ void finish_in_displacements(const Problem& problem, const ContactPoints& contac
   finish(
       condensed, contact, control,
       [&] {
-        if (contact.size() > 0) u_C = condensed.D * solution.F_C - condensed.G;
+        if (contact.size() > 0) u_C = times(condensed.D, solution.F_C) - condensed.G;
         Eigen::VectorXd u = all_displacements(factor, u_C);
         solution.contact_displacement = u_C;
         const OwnerScope scope(MemoryOwner::answer);

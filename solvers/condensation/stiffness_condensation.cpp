@@ -11,7 +11,8 @@ CondensedSystem condense(const StiffnessFactor& factor) {
   CondensedSystem condensed;
   Eigen::MatrixXd L = factor.cholesky.trailing_factor();
   if (L.rows() == 0) return condensed;
-  condensed.G = -L.triangularView<Eigen::Lower>().transpose().solve(factor.y.tail(L.rows()));
+  condensed.G = -factor.y.tail(L.rows());
+  solve_lower_transposed(L, condensed.G);
   condensed.D = inverse_from_factor(std::move(L));
   return condensed;
 }
@@ -20,7 +21,8 @@ void condense_load(const Eigen::VectorXd& b, StiffnessFactor& factor, CondensedS
   factor.y = factor.cholesky.forward(b);
   const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
   if (L.rows() == 0) return;
-  condensed.G = -L.triangularView<Eigen::Lower>().transpose().solve(factor.y.tail(L.rows()));
+  condensed.G = -factor.y.tail(L.rows());
+  solve_lower_transposed(L, condensed.G);
 }
 
 CondensedSystem factorise_and_condense(const ElementMatrices& K, const Eigen::VectorXd& b, int n_c,
@@ -51,7 +53,7 @@ Eigen::VectorXd all_displacements(StiffnessFactor& factor,
   Eigen::VectorXd u = factor.y;
   if (contact_displacement.size() > 0)
     u.tail(contact_displacement.size()) =
-        factor.cholesky.trailing_factor().transpose() * contact_displacement;
+        transposed_times(factor.cholesky.trailing_factor(), contact_displacement);
   return factor.cholesky.backward(u);
 }
 

@@ -124,9 +124,7 @@ Preconditioner saddle_preconditioner(const DualSystem& system, const Preconditio
       X.topRows(n) = top;
       if (factor->dense.size() > 0) {
         columns = X.bottomRows(m);
-        const auto L = factor->dense.triangularView<Eigen::Lower>();
-        L.solveInPlace(columns);
-        L.transpose().solveInPlace(columns);
+        solve_by_cholesky(factor->dense, columns);
         X.bottomRows(m) = columns;
       } else {
         bottom = X.bottomRows(m);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "solvers/direct/dense_cholesky.hpp"
 
@@ -65,7 +66,7 @@ Eigen::VectorXd times_or_zero(const SparseRows& C, const Eigen::VectorXd& v) {
 std::size_t ThreeStep::bytes() const {
   return X.heap_bytes() + row_of_column.size() * sizeof(int) +
          static_cast<std::size_t>(x.size() + lambda_0.size() + K_FF_inverse_K_FC.size() +
-                                  (K_FF ? K_FF->matrixLLT().size() : 0)) *
+                                  K_FF_factor.size()) *
              sizeof(double);
 }
 
@@ -86,12 +87,15 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
   // Step 2.
   if (n_f > 0) {
     const auto K_FF = K.topLeftCorner(n_f, n_f);
-    steps.K_FF = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
-    if (n_c > 0) steps.K_FF_inverse_K_FC = steps.K_FF->solve(K.topRightCorner(n_f, n_c));
+    steps.K_FF_factor = cholesky((K_FF + K_FF.transpose()) / 2, "three-step condensation: K_FF");
+    if (n_c > 0) {
+      steps.K_FF_inverse_K_FC = K.topRightCorner(n_f, n_c);
+      solve_by_cholesky(steps.K_FF_factor, steps.K_FF_inverse_K_FC);
+    }
     if (system.q.size() > 0 || system.F.size() > 0) {
       steps.lambda_0 = times_or_zero(system.C_F, steps.x);
       if (system.F.size() > 0) steps.lambda_0 -= system.F;
-      steps.lambda_0 = steps.K_FF->solve(steps.lambda_0);
+      solve_by_cholesky(steps.K_FF_factor, steps.lambda_0);
     }
   }
 
@@ -101,12 +105,13 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
     Eigen::MatrixXd W = K.bottomRightCorner(n_c, n_c);
     Eigen::VectorXd g = times_or_zero(system.C_C, steps.x);
     if (system.F0.size() > 0) g += system.F0;
-    if (n_f > 0) W.noalias() -= K_CF * steps.K_FF_inverse_K_FC;
-    if (steps.lambda_0.size() > 0) g.noalias() -= K_CF * steps.lambda_0;
+    if (n_f > 0) add_product(-1, K_CF, steps.K_FF_inverse_K_FC, W);
+    if (steps.lambda_0.size() > 0) add_product(-1, K_CF, steps.lambda_0, g);
     const OwnerScope scope_of_D(MemoryOwner::condensed);
-    const auto llt = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
-    steps.condensed.D = inverse_from_factor(llt.matrixLLT());
-    steps.condensed.G = llt.solve(g);
+    Eigen::MatrixXd L = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
+    solve_by_cholesky(L, g);
+    steps.condensed.G = std::move(g);
+    steps.condensed.D = inverse_from_factor(std::move(L));
   }
   return steps;
 }
@@ -123,7 +128,7 @@ void subtract_multipliers(const ThreeStep& steps, const DualSystem& system,
       const int row = steps.row_of_column[static_cast<std::size_t>(k)];
       by_column(k) = row < n_f ? v.lambda_F(row) : v.lambda_C(row - n_f);
     }
-    v.x.noalias() -= steps.X.matrix() * by_column;
+    add_product(-1, steps.X.matrix(), by_column, v.x);
     return;
   }
   Eigen::VectorXd forces = system.C_F.transpose() * v.lambda_F;
@@ -141,8 +146,8 @@ SaddleVector recover_airy_unknowns(const ThreeStep& steps, const DualSystem& sys
                  Eigen::VectorXd::Zero(n_c)};
   if (steps.x.size() > 0) v.x = steps.x;
   if (steps.lambda_0.size() > 0) v.lambda_F = steps.lambda_0;
-  if (n_c > 0) v.lambda_C = steps.condensed.G - steps.condensed.D * F_C;
-  if (n_c > 0 && n_f > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
+  if (n_c > 0) v.lambda_C = steps.condensed.G - times(steps.condensed.D, F_C);
+  if (n_c > 0 && n_f > 0) add_product(-1, steps.K_FF_inverse_K_FC, v.lambda_C, v.lambda_F);
   subtract_multipliers(steps, system, solve, v);
   return v;
 }
@@ -154,12 +159,12 @@ void solve_saddle(const ThreeStep& steps, const DualSystem& system, const SolveI
   v.lambda_F = system.C_F * v.x - v.lambda_F;
   v.lambda_C = system.C_C * v.x - v.lambda_C;
   if (system.n_c() > 0) {
-    if (system.n_f() > 0) v.lambda_C.noalias() -= steps.K_FF_inverse_K_FC.transpose() * v.lambda_F;
-    v.lambda_C = (steps.condensed.D * v.lambda_C).eval();
+    if (system.n_f() > 0) add_transposed_times(-1, steps.K_FF_inverse_K_FC, v.lambda_F, v.lambda_C);
+    v.lambda_C = times(steps.condensed.D, v.lambda_C);
   }
   if (system.n_f() > 0) {
-    v.lambda_F = steps.K_FF->solve(v.lambda_F);
-    if (system.n_c() > 0) v.lambda_F.noalias() -= steps.K_FF_inverse_K_FC * v.lambda_C;
+    solve_by_cholesky(steps.K_FF_factor, v.lambda_F);
+    if (system.n_c() > 0) add_product(-1, steps.K_FF_inverse_K_FC, v.lambda_C, v.lambda_F);
   }
   subtract_multipliers(steps, system, solve, v);
 }

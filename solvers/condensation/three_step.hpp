@@ -11,9 +11,8 @@
 // proposes; or not at all, a batch of columns giving way to the next once it is in K.
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <functional>
-#include <optional>
 
 #include "assembly/dual_system.hpp"
 #include "solvers/condensation/column_store.hpp"
@@ -36,8 +35,8 @@ struct ThreeStep {
   ColumnStore X;                      // n × (n_f + n_c), or empty if it is kept nowhere
   Eigen::VectorXd x;                  // S⁻¹ q; empty: zero
   Eigen::MatrixXd K_FF_inverse_K_FC;  // n_f × n_c
-  std::optional<Eigen::LLT<Eigen::MatrixXd>> K_FF;  // factorised; none without force rows
-  Eigen::VectorXd lambda_0;                         // K_FF⁻¹ (C_F x − F); empty: zero
+  Eigen::MatrixXd K_FF_factor;        // its Cholesky factor; none without force rows
+  Eigen::VectorXd lambda_0;           // K_FF⁻¹ (C_F x − F); empty: zero
 
   std::size_t bytes() const;  // on the heap, without D and G
 };

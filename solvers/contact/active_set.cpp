@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 #include "solvers/direct/dense_lu.hpp"
@@ -50,7 +51,7 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
         matrix(i, k) = column(row[i]) + ratio[k] * along(row[i]);
     }
   }
-  const Eigen::VectorXd violation = r + D * (next - F);
+  const Eigen::VectorXd violation = r + times(D, next - F);
   const Eigen::VectorXd change = solve_by_lu(std::move(matrix), violation(row));
   for (Eigen::Index k = 0; k < closed; ++k) {
     next(row[k]) -= change(k);
@@ -67,7 +68,7 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
   int since_best = 0;
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
-    const Eigen::VectorXd u = condensed.D * F - condensed.G;
+    const Eigen::VectorXd u = times(condensed.D, F) - condensed.G;
     const double relative = relative_natural_map(contact, condensed.D.diagonal(), F, u);
     const double before = result.natural_map_residual;
     if (step == 0 || relative < before) {

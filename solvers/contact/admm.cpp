@@ -1,8 +1,9 @@
 #include "solvers/contact/admm.hpp"
 
-#include <Eigen/Cholesky>
+#include <utility>
 
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/direct/dense_cholesky.hpp"
 
 namespace airybench {
 
@@ -16,17 +17,18 @@ ContactResult solve_contact_by_admm(const CondensedSystem& condensed, const Cont
     for (int p = 0; p < contact.count; ++p)
       weight.segment<2>(2 * p).setConstant(weight.segment<2>(2 * p).mean());
 
-  Eigen::LLT<Eigen::MatrixXd> cholesky;
+  Eigen::MatrixXd L;
   const auto factorise = [&] {
-    Eigen::MatrixXd shifted = condensed.D;
-    shifted.diagonal() += weight;
-    cholesky.compute(shifted);
+    L = condensed.D;
+    L.diagonal() += weight;
+    L = cholesky(std::move(L), "ADMM: D with weights on its diagonal");
   };
   factorise();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(contact.size());
   int iteration = 0, next_change = 1, pause = 1;
   return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& z) {
-    const Eigen::VectorXd F = cholesky.solve(offset + weight.cwiseProduct(z - y));
+    Eigen::VectorXd F = offset + weight.cwiseProduct(z - y);
+    solve_by_cholesky(L, F);
     const Eigen::VectorXd projected = project_on_coulomb(contact, F + y);
     const Eigen::VectorXd root = weight.cwiseSqrt();
     const double gap = root.cwiseProduct(F - projected).norm();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/admm.hpp"
 #include "solvers/contact/anderson.hpp"
@@ -13,7 +14,7 @@
 namespace airybench {
 
 double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
-  return std::sqrt(std::max(0.0, F.dot(D * F)));
+  return std::sqrt(std::max(0.0, F.dot(times(D, F))));
 }
 
 Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPoints& contact) {
@@ -22,7 +23,8 @@ Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPo
 
 double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
                             const Eigen::VectorXd& F) {
-  return relative_natural_map(contact, condensed.D.diagonal(), F, condensed.D * F - condensed.G);
+  return relative_natural_map(contact, condensed.D.diagonal(), F,
+                              times(condensed.D, F) - condensed.G);
 }
 
 ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,

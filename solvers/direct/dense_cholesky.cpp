@@ -1,7 +1,5 @@
 #include "solvers/direct/dense_cholesky.hpp"
 
-#include <cblas.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -15,17 +13,6 @@ namespace airybench {
 namespace {
 
 constexpr int narrow = 8;  // columns
-constexpr int small = 64;  // rows, where twice the work of dgemm takes less time than dsyrk
-
-int length(Eigen::Index n) { return static_cast<int>(n); }
-
-// C ← C − A Bᵀ.
-void subtract_product(const ConstDenseBlock& A, const ConstDenseBlock& B, DenseBlock C) {
-  if (C.size() == 0) return;
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, length(C.rows()), length(C.cols()),
-              length(A.cols()), -1, A.data(), length(A.outerStride()), B.data(),
-              length(B.outerStride()), 1, C.data(), length(C.outerStride()));
-}
 
 bool factorise_narrow(DenseBlock A) {
   const Eigen::Index n = A.cols();
@@ -65,11 +52,14 @@ void divide_rows(const double* L, std::ptrdiff_t stride, std::ptrdiff_t columns,
 
 }  // namespace
 
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name) {
-  Eigen::LLT<Eigen::MatrixXd> llt(matrix);
-  if (llt.info() != Eigen::Success || !matrix.allFinite())
-    throw Breakdown(name + " is not positive definite to rounding");
-  return llt;
+Eigen::MatrixXd cholesky(Eigen::MatrixXd matrix, const std::string& name) {
+  if (!factorise_in_place(matrix)) throw Breakdown(name + " is not positive definite to rounding");
+  return matrix;
+}
+
+void solve_by_cholesky(const ConstDenseBlock& L, DenseBlock X) {
+  solve_lower(L, X);
+  solve_lower_transposed(L, X);
 }
 
 bool factorise_in_place(DenseBlock A) {
@@ -82,22 +72,14 @@ bool factorise_in_place(DenseBlock A) {
   const Eigen::Index half = (n / 2 + narrow - 1) / narrow * narrow, rest = n - half;
   if (!factorise_in_place(A.leftCols(half))) return false;
   DenseBlock top = A.block(half, 0, rest, half), bottom = A.block(n, 0, below, half);
-  if (rest > small) {
-    subtract_square(top, A.block(half, half, rest, rest));
-    subtract_product(bottom, top, A.block(n, half, below, rest));
+  if (rest > few_rows) {
+    add_square(-1, top, A.block(half, half, rest, rest));
+    add_times_transposed(-1, bottom, top, A.block(n, half, below, rest));
   } else {
-    subtract_product(A.bottomLeftCorner(rest + below, half), top,
-                     A.bottomRightCorner(rest + below, rest));
+    add_times_transposed(-1, A.bottomLeftCorner(rest + below, half), top,
+                         A.bottomRightCorner(rest + below, rest));
   }
   return factorise_in_place(A.bottomRightCorner(rest + below, rest));
-}
-
-void subtract_square(const ConstDenseBlock& A, DenseBlock C) {
-  if (A.rows() <= small)
-    subtract_product(A, A, C);
-  else
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasNoTrans, length(A.rows()), length(A.cols()), -1,
-                A.data(), length(A.outerStride()), 1, C.data(), length(C.outerStride()));
 }
 
 Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {

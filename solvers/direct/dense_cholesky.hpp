@@ -1,16 +1,18 @@
 // Cholesky factorisation of a dense block, and the inverse from it.
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <string>
+
+#include "solvers/base/dense_products.hpp"
 
 namespace airybench {
 
-// Throws Breakdown naming the block when it is not positive definite to rounding.
-Eigen::LLT<Eigen::MatrixXd> cholesky(const Eigen::MatrixXd& matrix, const std::string& name);
+// L of L Lᵀ = matrix in the lower triangle; what is above means nothing. Throws Breakdown naming
+// the block when it is not positive definite to rounding.
+Eigen::MatrixXd cholesky(Eigen::MatrixXd matrix, const std::string& name);
 
-using DenseBlock = Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-using ConstDenseBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+// X ← (L Lᵀ)⁻¹ X.
+void solve_by_cholesky(const ConstDenseBlock& L, DenseBlock X);
 
 // The first columns of a Cholesky factorisation in place of those of a symmetric matrix, whose
 // lower part A has, m × n, m ≥ n:
@@ -23,9 +25,6 @@ using ConstDenseBlock = Eigen::Ref<const Eigen::MatrixXd, 0, Eigen::OuterStride<
 // of it are matrix products: OpenBLAS has dtrsm at a third of dgemm's rate on AVX-512. False: not
 // positive definite to rounding, or not finite.
 bool factorise_in_place(DenseBlock A);
-
-// C ← C − A Aᵀ in the lower triangle. What is above is not read, and lost.
-void subtract_square(const ConstDenseBlock& A, DenseBlock C);
 
 // (L Lᵀ)⁻¹, exactly symmetric, from the lower triangle of L. Throws Breakdown where L has a zero on
 // its diagonal.

@@ -1,5 +1,5 @@
-// What is used of LAPACK: OpenBLAS has it, but brings no header for it. Column by column, integers
-// of 32 bits; triangle "L": the lower one.
+// What is used of LAPACK, which brings no header. Column by column, integers of 32 bits; triangle
+// "L": the lower one.
 #pragma once
 
 #include <cstddef>

@@ -122,7 +122,7 @@ class Fronts {
           "multifrontal Cholesky: the matrix is not positive definite in the front at " +
           std::to_string(front.first + 1) + " of " + std::to_string(elimination_.place.size()) +
           " pivots");
-    subtract_square(panel.bottomRows(front.below()), update);
+    add_square(-1, panel.bottomRows(front.below()), update);
   }
 
   // The place is below, and may overlap.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "solvers/base/dense_products.hpp"
 #include "solvers/base/parallel.hpp"
 
 namespace airybench {
@@ -87,16 +88,13 @@ void eliminate_left(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> w, 
       const int from = std::max(first, group.column), inner = earlier.row - from;
       if (count <= 0 || inner <= 0) continue;
       const auto& block = group.begin == 0 ? l.tall : l.rest;
-      w.middleCols(earlier.row + begin - first, count).noalias() -=
-          w.middleCols(from - first, inner) *
-          block.block(begin - group.begin, from - group.column, count, inner).transpose();
+      add_times_transposed(-1, w.middleCols(from - first, inner),
+                           block.block(begin - group.begin, from - group.column, count, inner),
+                           w.middleCols(earlier.row + begin - first, count));
     }
     const int size = earlier.rows - reached;
-    auto target = w.middleCols(earlier.row + reached - first, size);
-    l.corner.bottomRightCorner(size, size)
-        .triangularView<Eigen::UnitLower>()
-        .transpose()
-        .solveInPlace<Eigen::OnTheRight>(target);
+    solve_lower_transposed_right(l.corner.bottomRightCorner(size, size),
+                                 w.middleCols(earlier.row + reached - first, size), Diagonal::unit);
   }
 }
 
@@ -113,17 +111,18 @@ void factor_panel(SkylineFactor& factor, std::size_t k, Eigen::MatrixXd& scaled)
   l_tall =
       own.tall *
       factor.diagonal.segment(panel.column, panel.row - panel.column).cwiseInverse().asDiagonal();
-  own.corner.topLeftCorner(panel.tall, panel.tall).noalias() -= l_tall * own.tall.transpose();
+  add_times_transposed(-1, l_tall, own.tall, own.corner.topLeftCorner(panel.tall, panel.tall));
   if (short_rows > 0 && shared > 0) {
-    own.corner.bottomLeftCorner(short_rows, panel.tall).noalias() -=
-        own.rest * l_tall.rightCols(shared).transpose();
+    add_times_transposed(-1, own.rest, l_tall.rightCols(shared),
+                         own.corner.bottomLeftCorner(short_rows, panel.tall));
   }
   own.tall = l_tall;
   if (short_rows > 0 && shared > 0) {
     auto l_rest = scaled.topLeftCorner(short_rows, shared);
     l_rest =
         own.rest * factor.diagonal.segment(panel.short_column, shared).cwiseInverse().asDiagonal();
-    own.corner.bottomRightCorner(short_rows, short_rows).noalias() -= l_rest * own.rest.transpose();
+    add_times_transposed(-1, l_rest, own.rest,
+                         own.corner.bottomRightCorner(short_rows, short_rows));
     own.rest = l_rest;
   }
   factor_corner(own.corner, panel.row);
@@ -176,9 +175,7 @@ Eigen::Index first_nonzero_row(const Eigen::Ref<const Eigen::MatrixXd>& x) {
   return first;
 }
 
-// Columns: a matrix, or a vector, for which BLAS has faster products.
-template <typename Columns>
-void solve_columns(const SkylineFactor& factor, Columns x, const Deadline& deadline) {
+void solve_columns(const SkylineFactor& factor, DenseBlock x, const Deadline& deadline) {
   const SkylineProfile& profile = factor.profile;
   const auto first_row = first_nonzero_row(x);
   if (first_row == profile.n) return;  // all zero
@@ -194,11 +191,10 @@ void solve_columns(const SkylineFactor& factor, Columns x, const Deadline& deadl
       const int count = group.end - group.begin;
       if (count == 0 || inner <= 0) continue;
       const auto& block = group.begin == 0 ? l.tall : l.rest;
-      x.middleRows(panel.row + group.begin, count).noalias() -=
-          block.rightCols(inner) * x.middleRows(from, inner);
+      add_product(-1, block.rightCols(inner), x.middleRows(from, inner),
+                  x.middleRows(panel.row + group.begin, count));
     }
-    auto solved = x.middleRows(panel.row, panel.rows);
-    l.corner.triangularView<Eigen::UnitLower>().solveInPlace(solved);
+    solve_lower(l.corner, x.middleRows(panel.row, panel.rows), Diagonal::unit);
   }
   deadline.check("the skyline solves");
   for (Eigen::Index j = 0; j < x.cols(); ++j)  // z = D⁻¹ y
@@ -207,13 +203,13 @@ void solve_columns(const SkylineFactor& factor, Columns x, const Deadline& deadl
     const SkylinePanel& panel = profile.panels[k];
     const PanelBlocks<const double> l(factor.values[k].data(), panel);
     auto solved = x.middleRows(panel.row, panel.rows);
-    l.corner.triangularView<Eigen::UnitLower>().transpose().solveInPlace(solved);
+    solve_lower_transposed(l.corner, solved, Diagonal::unit);
     for (const RowGroup& group : row_groups(panel)) {
       const int inner = panel.row - group.column, count = group.end - group.begin;
       if (count == 0 || inner == 0) continue;
       const auto& block = group.begin == 0 ? l.tall : l.rest;
-      x.middleRows(group.column, inner).noalias() -=
-          block.transpose() * solved.middleRows(group.begin, count);
+      add_transposed_times(-1, block, solved.middleRows(group.begin, count),
+                           x.middleRows(group.column, inner));
     }
   }
   permute_rows(profile, x, true);
@@ -257,14 +253,10 @@ double visit_ldlt_rows(const Eigen::SparseMatrix<double>& lower, const VisitRow&
 
 void solve_in_place(const SkylineFactor& factor, Eigen::Ref<Eigen::MatrixXd> X,
                     const Deadline& deadline, int threads) {
-  if (X.cols() == 1) {
-    solve_columns(factor, Eigen::Ref<Eigen::VectorXd>(X.col(0)), deadline);
-    return;
-  }
   const auto solve_range = [&](int begin, int end) {
     for (int j = begin; j < end; j += skyline_columns_at_once) {
       const int columns = std::min(skyline_columns_at_once, end - j);
-      solve_columns(factor, Eigen::Ref<Eigen::MatrixXd>(X.middleCols(j, columns)), deadline);
+      solve_columns(factor, X.middleCols(j, columns), deadline);
     }
   };
   in_parallel(threads, static_cast<int>(X.cols()), std::cref(solve_range));  // allocates nothing

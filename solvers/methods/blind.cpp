@@ -2,6 +2,7 @@
 // that MUMPS leaves. BLIND:SKY: with the skyline LDLᵀ factorisation, multipliers numbered so that
 // it needs no pivoting.
 #include "solvers/condensation/blind.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/direct/factor_counts.hpp"
 
@@ -66,7 +67,7 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
       [&](const Eigen::VectorXd& F_C) {
         Eigen::VectorXd x = load;
         if (n_c > 0)
-          x = factor.expand(condensed.G - condensed.D * F_C);
+          x = factor.expand(condensed.G - times(condensed.D, F_C));
         else
           factor.solve_in_place(x, control.deadline);
         return by_blocks(system, blind, x);
@@ -75,7 +76,7 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
                                                                  SaddleVector& v) {
         Eigen::VectorXd x = in_one(of, blind, v);
         if (of.n_c() > 0)
-          x = factor.expand(-condensed.D * factor.reduce(x));
+          x = factor.expand(-times(condensed.D, factor.reduce(x)));
         else
           factor.solve_in_place(x, deadline);
         v = by_blocks(of, blind, x);

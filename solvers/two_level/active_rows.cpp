@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "assembly/rough_compliance.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
@@ -24,8 +25,8 @@ std::vector<PointLaw> first_laws(const SlotSystem& s, TwoLevelPreconditioner& M,
   const ContactResult of_coarse = solve_contact_by_newton(coarse.condensed, coarse.points, rough);
   result.sweeps = of_coarse.iterations;
   const Eigen::VectorXd& F = of_coarse.F_C;
-  const Eigen::VectorXd r =
-      relative_to_gap(coarse.points, Eigen::VectorXd(coarse.condensed.D * F - coarse.condensed.G));
+  const Eigen::VectorXd r = relative_to_gap(
+      coarse.points, Eigen::VectorXd(times(coarse.condensed.D, F) - coarse.condensed.G));
   const std::vector<PointLaw> at_coarse =
       laws_of(coarse.points, F - r.cwiseQuotient(coarse.condensed.D.diagonal()));
   for (std::size_t p = 0; p < laws.size(); ++p)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solvers/direct/dense_cholesky.hpp"
+
 namespace airybench {
 namespace {
 
@@ -21,9 +23,7 @@ Eigen::MatrixXd lower_of_product(const Eigen::MatrixXd& L) {
   const Eigen::Index n = L.rows();
   Eigen::MatrixXd S = Eigen::MatrixXd::Zero(n, n);
   for (Eigen::Index k = 0; k < n; k += width)
-    S.bottomRightCorner(n - k, n - k)
-        .selfadjointView<Eigen::Lower>()
-        .rankUpdate(L.block(k, k, n - k, std::min(width, n - k)));
+    add_square(1, L.block(k, k, n - k, std::min(width, n - k)), S.bottomRightCorner(n - k, n - k));
   return S;
 }
 
@@ -232,8 +232,8 @@ void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
   const bool all = now.size() == free.size();
   if (now != free_ && !all && !now.empty()) {
     const OwnerScope scope(MemoryOwner::preconditioner);
-    on_free_.compute(S_(now, now));
-    if (on_free_.info() != Eigen::Success)
+    on_free_factor_ = S_(now, now);
+    if (!factorise_in_place(on_free_factor_))
       throw Breakdown("the coarse problem of the contact rows is not positive definite");
   }
   free_ = std::move(now);
@@ -310,7 +310,7 @@ void CoarseDisplacements::correct(const Eigen::VectorXd& r, Eigen::VectorXd& x) 
   if (columns == Columns::inner) {
     auto last = y.tail(trailing);
     Eigen::VectorXd u = last(free_);
-    if (!free_.empty()) on_free_.solveInPlace(u);
+    if (!free_.empty()) solve_by_cholesky(on_free_factor_, u);
     last.setZero();
     last(free_) = u;
   }
@@ -357,14 +357,15 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
       const auto group = static_cast<int>(i) / in_group;
       N(unknown_[met[i]][k] - first_trailing_, m * group + k) = 1 / nodes[group];
     }
-  L.triangularView<Eigen::Lower>().solveInPlace(N);
-  coarse.condensed.D.noalias() = N.transpose() * N;
-  coarse.condensed.G = -N.transpose() * factor_.forward(restricted(b)).tail(L.rows());
+  solve_lower(L, N);
+  coarse.condensed.D.setZero(N.cols(), N.cols());
+  add_transposed_times(1, N, N, coarse.condensed.D);
+  coarse.condensed.G = -transposed_times(N, factor_.forward(restricted(b)).tail(L.rows()));
   return coarse;
 }
 
 std::size_t CoarseDisplacements::bytes() const {
-  return static_cast<std::size_t>(S_.size() + on_free_.rows() * on_free_.cols()) * sizeof(double) +
+  return static_cast<std::size_t>(S_.size() + on_free_factor_.size()) * sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
          block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +
          boundary_.size() * sizeof(BoundaryBlock);

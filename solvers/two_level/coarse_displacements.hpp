@@ -13,7 +13,7 @@
 // the free ones only (stiffness_condensation.hpp has the algebra).
 #pragma once
 
-#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <map>
 
 #include "solvers/condensation/stiffness_condensation.hpp"
@@ -93,9 +93,9 @@ class CoarseDisplacements {
   std::vector<BoundaryBlock> boundary_;
   std::vector<int> node_of_point_;  // per contact point
   MultifrontalFactor factor_;
-  Eigen::MatrixXd S_;                    // Schur complement on trailing unknowns, lower triangle
-  std::vector<int> free_;                // trailing unknowns that are not held, from the first on
-  Eigen::LLT<Eigen::MatrixXd> on_free_;  // of S's rows and columns of these
+  Eigen::MatrixXd S_;               // Schur complement on trailing unknowns, lower triangle
+  std::vector<int> free_;           // trailing unknowns that are not held, from the first on
+  Eigen::MatrixXd on_free_factor_;  // Cholesky factor of S's rows and columns of these
 };
 
 }  // namespace airybench

@@ -2,10 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cblas.h>
 #include <array>
 #include <limits>
 
+#include "solvers/base/blas_library.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/krylov_checks.hpp"
 
@@ -227,13 +227,14 @@ TEST(RightHandSidesInParallel, OneTimeoutSumsUpAllRangesAndAnyOtherFailureWins) 
 
 // Threads of BLAS and ours are not multiplied: beside ours BLAS has one each.
 TEST(RightHandSidesInParallel, LeaveBlasOneThreadEach) {
-  const int before = openblas_get_num_threads();
-  openblas_set_num_threads(2);
+  const int before = blas_threads();
+  set_blas_threads(2);
+  const int most = blas_threads();  // 1: this BLAS has no more
   std::array<int, 2> seen = {};
-  in_parallel(2, 2, [&](int begin, int) { seen[begin] = openblas_get_num_threads(); });
+  in_parallel(2, 2, [&](int begin, int) { seen[begin] = blas_threads(); });
   EXPECT_EQ(seen, (std::array<int, 2>{1, 1}));
-  EXPECT_EQ(openblas_get_num_threads(), 2);
-  openblas_set_num_threads(before);
+  EXPECT_EQ(blas_threads(), most);
+  set_blas_threads(before);
 }
 
 }  // namespace

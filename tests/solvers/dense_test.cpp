@@ -5,6 +5,7 @@
 #include <limits>
 #include <random>
 
+#include "solvers/base/dense_products.hpp"
 #include "solvers/direct/dense_cholesky.hpp"
 #include "solvers/direct/dense_lu.hpp"
 #include "tests/support/dense_algebra.hpp"
@@ -12,10 +13,64 @@
 namespace airybench::dense_test {
 namespace {
 
-Eigen::MatrixXd random_matrix(int n) {
+Eigen::MatrixXd random_matrix(int rows, int columns) {
   std::mt19937 bits(11);
   std::uniform_real_distribution<double> number(-1, 1);
-  return Eigen::MatrixXd::NullaryExpr(n, n, [&] { return number(bits); });
+  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return number(bits); });
+}
+
+Eigen::MatrixXd random_matrix(int n) { return random_matrix(n, n); }
+
+// Blocks of arrays that have more rows; any of them may be empty.
+TEST(DenseProducts, AreThoseOfTheDefinition) {
+  for (const int m : {0, 1, 5, 70})
+    for (const int n : {0, 1, 4})
+      for (const int inner : {0, 1, 9}) {
+        const Eigen::MatrixXd room = random_matrix(m + n + inner + 3, m + n + inner);
+        const auto A = room.block(1, 0, m, inner), B = room.block(2, 0, inner, n);
+        const Eigen::MatrixXd product = A.lazyProduct(B), C = room.topRightCorner(m, n);
+        const Eigen::MatrixXd A_transposed = A.transpose(), B_transposed = B.transpose();
+        Eigen::MatrixXd plain = C, right = C, left = C;
+        add_product(-2, A, B, plain);
+        add_times_transposed(-2, A, B_transposed, right);
+        add_transposed_times(-2, A_transposed, B, left);
+        const Eigen::MatrixXd exact = C - 2 * product;
+        for (const Eigen::MatrixXd& result : {plain, right, left})
+          EXPECT_LE((result - exact).norm(), 1e-14 * (1 + exact.norm())) << m << n << inner;
+        if (n == 1) {
+          const Eigen::VectorXd x = B;
+          EXPECT_LE((times(A, x) - product).norm(), 1e-14 * (1 + product.norm()));
+          EXPECT_LE((transposed_times(A_transposed, x) - product).norm(),
+                    1e-14 * (1 + product.norm()));
+        }
+        Eigen::MatrixXd square = Eigen::MatrixXd::Zero(m, m);
+        add_square(2, A, square);
+        const Eigen::MatrixXd exact_square = 2 * A.lazyProduct(A.transpose());
+        for (int j = 0; j < m; ++j)
+          EXPECT_LE((square - exact_square).col(j).tail(m - j).norm(),
+                    1e-14 * (1 + exact_square.norm()));
+      }
+}
+
+TEST(TriangularSolves, UndoProductsByTheLowerTriangle) {
+  for (const int n : {0, 1, 7, 40})
+    for (const int columns : {1, 3})
+      for (const Diagonal diagonal : {Diagonal::given, Diagonal::unit}) {
+        Eigen::MatrixXd room = random_matrix(n + 2, n) / 8;
+        auto L = room.topRows(n);
+        L.diagonal().setConstant(diagonal == Diagonal::unit ? 7 : 2);
+        Eigen::MatrixXd lower = L.triangularView<Eigen::StrictlyLower>();
+        lower.diagonal().setConstant(diagonal == Diagonal::unit ? 1 : 2);
+        const Eigen::MatrixXd exact = random_matrix(n, columns);
+        Eigen::MatrixXd forward = lower.lazyProduct(exact),
+                        backward = lower.transpose().lazyProduct(exact),
+                        right = exact.transpose().lazyProduct(lower.transpose());
+        solve_lower(L, forward, diagonal);
+        solve_lower_transposed(L, backward, diagonal);
+        solve_lower_transposed_right(L, right, diagonal);
+        for (const Eigen::MatrixXd& X : {forward, backward, Eigen::MatrixXd(right.transpose())})
+          EXPECT_LE((X - exact).norm(), 1e-13 * exact.norm()) << n << " " << columns;
+      }
 }
 
 // Small ones in double, large ones in float and refined; scaled out of a float's range.
@@ -72,7 +127,7 @@ TEST(DenseCholesky, IsTheFirstColumnsOfAFactorOfAnySize) {
       Eigen::MatrixXd rest = A.bottomRightCorner(below, below);
       rest.triangularView<Eigen::StrictlyUpper>().setConstant(
           std::numeric_limits<double>::quiet_NaN());
-      subtract_square(L.bottomRows(below), rest);
+      add_square(-1, L.bottomRows(below), rest);
       const Eigen::MatrixXd exact =
           A.bottomRightCorner(below, below) - L.bottomRows(below) * L.bottomRows(below).transpose();
       for (int j = 0; j < below; ++j)

@@ -1,7 +1,7 @@
 // Tests solve with the kernels of BLAS that bench would take.
 #include <gtest/gtest.h>
 
-#include "solvers/base/blas_kernels.hpp"
+#include "solvers/base/blas_library.hpp"
 
 int main(int argc, char** argv) {
   airybench::restart_with_better_blas_core(argv);
