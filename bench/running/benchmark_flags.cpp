@@ -12,9 +12,12 @@
 namespace airybench {
 namespace {
 
-// Since Google Benchmark 1.8, which has State::skipped(), a time needs its unit; before, it had none.
+// Since Google Benchmark 1.8, whose State has skipped(), a time needs its unit; before, it had
+// none.
 template <typename State>
-constexpr const char* no_time = requires(State& state) { state.skipped(); } ? "0s" : "0";
+constexpr bool takes_unit = requires(State& state) {
+  state.skipped();
+};
 
 // Which benchmarks ran; why none did it says to the reporter's stream.
 class Names : public benchmark::BenchmarkReporter {
@@ -38,7 +41,7 @@ void initialize_benchmark(bool interleave) {
       "--benchmark_filter=all",
       "--benchmark_list_tests=false",
       "--benchmark_repetitions=1",
-      fmt::format("--benchmark_min_time={}", no_time<benchmark::State>),
+      fmt::format("--benchmark_min_time={}", takes_unit<benchmark::State> ? "0s" : "0"),
       "--benchmark_min_warmup_time=0",
       "--benchmark_report_aggregates_only=false",
       "--benchmark_display_aggregates_only=false",

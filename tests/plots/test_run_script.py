@@ -8,10 +8,27 @@ from pathlib import Path
 RUN = Path(__file__).resolve().parents[2] / "run"
 
 
+def function(name: str) -> str:
+    """The text of a function of ./run."""
+    return re.search(rf"^{name}\(\) [({{].*?^[)}}]$", RUN.read_text(encoding="utf-8"), re.M | re.S)[0]
+
+
 class RunScriptTest(unittest.TestCase):
+    def call(self, name: str, *arguments: str, stubs: dict[str, str], **environment: str):
+        """Calls a function of ./run, with these shell scripts in place of programs."""
+        with tempfile.TemporaryDirectory() as folder:
+            for stub, text in stubs.items():
+                Path(folder, stub).write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+                Path(folder, stub).chmod(0o755)
+            tree = Path(folder, "build", "release")
+            tree.mkdir(parents=True)
+            (tree / ".ninja_log").touch()
+            script = f"set -euo pipefail\nproject='{folder}'\n{function(name)}\n{name} \"$@\""
+            return subprocess.run(["bash", "-c", script, "run", *arguments], text=True, capture_output=True,
+                                  env={"PATH": f"{folder}:/usr/bin:/bin", **environment}, check=False)
+
     def names_a_model(self, *arguments: str, folder: str = ".") -> bool:
-        function = re.search(r"^names_a_model\(\) \(.*?^\)$", RUN.read_text(encoding="utf-8"), re.M | re.S)
-        script = f"set -euo pipefail\n{function[0]}\nnames_a_model \"$@\""
+        script = f"set -euo pipefail\n{function('names_a_model')}\nnames_a_model \"$@\""
         status = subprocess.run(["bash", "-c", script, "run", *arguments], cwd=folder).returncode
         self.assertIn(status, (0, 1))
         return status == 0
@@ -31,6 +48,29 @@ class RunScriptTest(unittest.TestCase):
                 self.assertEqual(self.names_a_model("--mesh=Mesh0,part.msh", folder=folder), is_model)
             Path(folder, "empty.msh").write_bytes(b"")
             self.assertTrue(self.names_a_model("--mesh=empty.msh", folder=folder))
+
+    def test_a_build_in_which_nothing_is_compiled_is_silent(self) -> None:
+        ninja = """case "$*" in
+  *" -n") echo "[1/4] Noting revision and compiler"
+          echo "[2/4] Building CXX object bench/build_info.cpp.o"; %s ;;
+  *--quiet) ;;
+  *) echo "[1/4] Building" ;;
+esac"""
+        for planned, said in ((":", ""), ("echo '[3/4] Building CXX object a.cpp.o'", "[1/4] Building\n")):
+            ran = self.call("build", "release", "bench", stubs={"cmake": ninja % planned})
+            self.assertEqual((ran.returncode, ran.stdout, ran.stderr), (0, "", said))
+
+    def test_what_is_installed_is_said_before(self) -> None:
+        stubs = {"dpkg-query": "echo 'installed git'; exit 1", "apt-get": 'echo "apt-get $1"',
+                 "sudo": 'exec "$@"'}
+        ran = self.call("need", "git", "cmake", "g++", stubs=stubs)
+        lines = ran.stderr.splitlines()
+        self.assertEqual((ran.returncode, ran.stdout, lines[1:]), (0, "", ["apt-get update", "apt-get install"]))
+        self.assertRegex(lines[0], r"^run: installing .*AIRYBENCH_INSTALL=no.*: cmake g\+\+$")
+        self.assertEqual(self.call("need", "git", stubs=stubs).stderr, "")
+        ran = self.call("need", "git", "cmake", "g++", stubs=stubs, AIRYBENCH_INSTALL="no")
+        self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
+                         (2, "", "run: missing packages: cmake g++ (apt-get install them)\n"))
 
 
 if __name__ == "__main__":
