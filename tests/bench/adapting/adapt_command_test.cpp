@@ -68,8 +68,8 @@ TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
   for (std::size_t i = 0; i < of_run.size(); ++i) {
     EXPECT_EQ(of_whole[i]["mesh_file"], of_run[i]["mesh_file"]);
     EXPECT_EQ(
-        sha256_of_file(bench_.path("deep/whole") / of_whole[i]["mesh_file"].get<std::string>()),
-        of_whole[i]["mesh_sha256"]);
+        of_whole[i]["mesh_sha256"],
+        sha256_of_file(bench_.path("deep/whole") / of_whole[i]["mesh_file"].get<std::string>()));
   }
   EXPECT_EQ(of_whole.back()["mesh_file"], "Mesh0.msh");
 
