@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <new>
 #include <system_error>
 
 namespace airybench {
@@ -41,6 +42,7 @@ struct BlasLibrary {
     if (dgemm != nullptr && dladdr(dgemm, &found) != 0) {
       file = found.dli_fname;
       library = dlopen(file, RTLD_LAZY | RTLD_NOLOAD);
+      if (library == nullptr) throw std::bad_alloc();  // it is loaded: nothing else is in the way
     }
     find(library, "openblas_get_config", openblas_config);
     find(library, "openblas_get_corename", openblas_core);
@@ -100,10 +102,9 @@ std::string better_blas_core() {
   return "";
 }
 
-void restart_with_better_blas_core(char* const* argv) {
+void restart_with_better_blas_core(char* const* argv) try {
   const std::string better = better_blas_core();
   if (better.empty()) return;
-  // Without allocation: what comes of a lack of memory is told later.
   static std::array<char, 64> entry;
   static std::array<char*, 4096> environment;
   std::snprintf(entry.data(), entry.size(), "%s=%s", setting, better.c_str());
@@ -114,6 +115,7 @@ void restart_with_better_blas_core(char* const* argv) {
     environment[count++] = *inherited;
   }
   execve("/proc/self/exe", argv, environment.data());
+} catch (const std::bad_alloc&) {  // what comes of a lack of memory is told later
 }
 
 }  // namespace airybench
