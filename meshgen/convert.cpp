@@ -12,6 +12,7 @@
 
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
+#include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/open_model.hpp"
 
 namespace airybench {
@@ -294,12 +295,13 @@ ConvertedModel convert_model(const std::filesystem::path& model, const ModelOpti
   try {
     const OpenModel open(model, options);
     mesh = mesh_of_open_model(options, converted.notes);
-  } catch (const std::string& message) {
+  } catch (const InputError& complaint) {
+    throw MeshError(model.string() + ": " + complaint.what());
+  } catch (...) {
+    const std::string message = message_of_gmsh();
     const bool starts_program = message.find("aborting system call") != message.npos;
     throw MeshError(model.string() + ": Gmsh: " + message +
                     (starts_program ? " (a model may start no programs)" : ""));
-  } catch (const InputError& complaint) {
-    throw MeshError(model.string() + ": " + complaint.what());
   }
   mesh.name = model.string();  // for validate() to complain about
   check(mesh);

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include <stdexcept>
 #include <unordered_map>
+
+#include "support/errors.hpp"
 
 namespace airybench {
 namespace {
@@ -89,6 +92,18 @@ std::string gmsh_version() {
   return version;
 }
 
+std::string message_of_gmsh() {
+  try {
+    throw;
+  } catch (const std::string& message) {
+    return message;
+  } catch (const InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+}
+
 Mesh mesh_interior(const BoundaryPolygon& polygon, const SizeField& size,
                    const InteriorRecipe& recipe, const std::string& name) {
   try {
@@ -103,8 +118,8 @@ Mesh mesh_interior(const BoundaryPolygon& polygon, const SizeField& size,
     gmsh::model::mesh::generate(2);
     gmsh::model::mesh::removeSizeCallback();
     return extract_mesh(polygon, name);
-  } catch (const std::string& message) {
-    throw MeshError(name + ": Gmsh: " + message);
+  } catch (...) {
+    throw MeshError(name + ": Gmsh: " + message_of_gmsh());
   }
 }
 

@@ -27,6 +27,10 @@ class GmshSession {
 // The library's version, "4.8.4"; needs a session, as everything here.
 std::string gmsh_version();
 
+// The message of the exception being handled, which Gmsh threw: a std::string, since 4.9 a
+// std::runtime_error. Others, InputError among them, are thrown on.
+std::string message_of_gmsh();
+
 enum class MeshAlgorithm { delaunay = 5, frontal_delaunay = 6 };  // Gmsh's own numbers
 
 // What can be varied inside, the boundary edges being given.

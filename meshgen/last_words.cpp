@@ -5,6 +5,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <string>
+
+#include "meshgen/gmsh_mesher.hpp"
 
 namespace airybench {
 namespace {
@@ -23,9 +26,7 @@ void at_exit() {
 
 [[noreturn]] void at_terminate() {
   try {
-    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
-  } catch (const std::string& message) {
-    end_with(("Gmsh: " + message).c_str());
+    if (std::current_exception()) end_with(("Gmsh: " + message_of_gmsh()).c_str());
   } catch (const std::exception& error) {
     end_with(error.what());
   } catch (...) {

@@ -12,6 +12,7 @@
 #include "mesh/model_settings.hpp"
 #include "meshgen/commands.hpp"
 #include "support/data_folder.hpp"
+#include "support/numbers.hpp"
 #include "support/standard_streams.hpp"
 
 namespace {
@@ -108,7 +109,12 @@ void declare(CLI::App& app, Arguments& a) {
     return app.add_option(name, value, help)->needs(tooth)->group("With --tooth");
   };
   const auto count = [&](const char* name, int& value, const char* help) {
-    return of_tooth(name, value, help)->check(CLI::Range(1, 1'000'000));
+    return of_tooth(name, value, help)->check([](const std::string& text) {
+      const auto number = airybench::parse_whole(text);  // CLI11 says what is none
+      return !number || (*number >= 1 && *number <= 1'000'000)
+                 ? ""
+                 : fmt::format("Value {} not in range 1 to 1000000", text);
+    });
   };
   const auto length = [&](const char* name, double& value, const char* help) {
     of_tooth(name, value, help)->type_name("MM")->capture_default_str();
