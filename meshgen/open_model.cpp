@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "mesh/mesh.hpp"
 #include "mesh/model_format.hpp"
 #include "meshgen/geo_script.hpp"
 #include "meshgen/quiet_stdout.hpp"
@@ -78,6 +79,53 @@ void name_parts_of_cad(const ModelOptions& options) {
                                  std::to_string(curve));
 }
 
+// A straight curve from a to b.
+struct StraightLine {
+  int curve;
+  Eigen::Vector2d a, b;
+};
+
+// The straight curves around a surface, a body's own or a hole's.
+std::vector<StraightLine> straight_lines_around(int surface) {
+  std::vector<StraightLine> lines;
+  gmsh::vectorpair curves, ends;
+  gmsh::model::getBoundary({{2, surface}}, curves, /*combined=*/false, /*oriented=*/false);
+  for (const auto& [dimension, curve] : curves) {
+    std::string type;
+    gmsh::model::getType(dimension, curve, type);
+    gmsh::model::getBoundary({{dimension, curve}}, ends, false, false);
+    if (type != "Line" || ends.size() != 2) continue;
+    const auto place = [&](std::size_t end) {
+      std::vector<double> xyz;
+      gmsh::model::getValue(0, ends[end].second, {}, xyz);
+      return Eigen::Vector2d(xyz.at(0), xyz.at(1));
+    };
+    lines.push_back({curve, place(0), place(1)});
+  }
+  return lines;
+}
+
+// Inside both, not in an end of one: there other curves meet it.
+bool cross(const StraightLine& one, const StraightLine& other) {
+  const auto on_both_sides = [](const StraightLine& of, const StraightLine& ends) {
+    return cross_area(of.a, of.b, ends.a) * cross_area(of.a, of.b, ends.b) < 0;
+  };
+  return on_both_sides(one, other) && on_both_sides(other, one);
+}
+
+// Of a surface in a plane z = constant. Gmsh tries to mend such a boundary: 4.8 gives up, 4.13 does
+// not end.
+void refuse_crossing_lines() {
+  for (const int surface : numbers_of(entities(2))) {
+    const std::vector<StraightLine> lines = straight_lines_around(surface);
+    for (std::size_t i = 0; i < lines.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (cross(lines[k], lines[i]))
+          throw InputError(fmt::format("curves {} and {} around surface {} cross", lines[k].curve,
+                                       lines[i].curve, surface));
+  }
+}
+
 bool has_mesh() {
   std::vector<int> types;
   std::vector<std::vector<std::size_t>> elements, nodes;
@@ -104,6 +152,7 @@ void set_sizes(const ModelOptions& options) {
 void mesh_surfaces(const ModelOptions& options) {
   if (!has_mesh()) {
     set_sizes(options);
+    refuse_crossing_lines();
     gmsh::model::mesh::generate(2);
   } else if (options.size_factor || options.longest_edge_mm) {
     throw InputError("--mesh-size: it has a mesh already (bench --adapt refines one)");

@@ -1,10 +1,15 @@
 #include "bench/isolation/threads_at_hand.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
+#include <sched.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <future>
+#include <string_view>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -30,6 +35,38 @@ bool can_start(int threads) {
   return all;
 }
 
+rlim_t address_space() {
+  rlimit limit = {};
+  return getrlimit(RLIMIT_AS, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
+}
+
+// most: threads of BLAS; asked: those that the user asked for.
+std::string lack_of_address_space(int most, int asked) {
+  constexpr std::uint64_t MiB = 1024 * 1024;
+  // A thread's stack and BLAS's buffer of 128 MiB; the program itself.
+  constexpr std::uint64_t of_thread = 136 * MiB, of_program = 96 * MiB;
+  const std::uint64_t needed = of_program + static_cast<std::uint64_t>(most) * of_thread;
+  const rlim_t limit = address_space();
+  if (limit == RLIM_INFINITY || limit >= needed) return {};
+  return fmt::format(
+      "the address space is limited to {} MiB (ulimit -v; allowed: from {} MiB on for BLAS on {} "
+      "threads{})",
+      limit / MiB, needed / MiB, most, most > asked ? ", fewer with OPENBLAS_NUM_THREADS=1" : "");
+}
+
+// Those that it starts when it is initialised.
+int threads_of_openblas(char** environment) {
+  cpu_set_t processors;
+  const int all =
+      sched_getaffinity(0, sizeof processors, &processors) == 0 ? CPU_COUNT(&processors) : 1;
+  for (const std::string_view name : {"OPENBLAS_NUM_THREADS=", "OMP_NUM_THREADS="})
+    for (char** variable = environment; *variable != nullptr; ++variable)
+      if (std::string_view(*variable).starts_with(name))
+        if (const int asked = std::atoi(*variable + name.size()); asked > 0)
+          return std::min(asked, all);
+  return all;
+}
+
 }  // namespace
 
 int processors_at_hand() {
@@ -37,20 +74,17 @@ int processors_at_hand() {
 }
 
 std::string lack_of_address_space(int threads) {
-  constexpr std::uint64_t MiB = 1024 * 1024;
-  // A thread's stack and BLAS's buffer of 128 MiB; the program itself.
-  constexpr std::uint64_t of_thread = 136 * MiB, of_program = 96 * MiB;
-  rlimit limit = {};
-  const int most = std::max(threads, blas_threads());
-  const std::uint64_t needed = of_program + static_cast<std::uint64_t>(most) * of_thread;
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY ||
-      limit.rlim_cur >= needed)
-    return {};
-  return fmt::format(
-      "the address space is limited to {} MiB (ulimit -v; allowed: from {} MiB on for BLAS on {} "
-      "threads{})",
-      limit.rlim_cur / MiB, needed / MiB, most,
-      most > threads ? ", fewer with OPENBLAS_NUM_THREADS=1" : "");
+  return lack_of_address_space(std::max(threads, blas_threads()), threads);
+}
+
+void end_for_lack_of_address_space(int, char**, char** environment) {
+  if (address_space() == RLIM_INFINITY || dlsym(RTLD_DEFAULT, "openblas_get_config") == nullptr)
+    return;
+  const std::string lack = lack_of_address_space(threads_of_openblas(environment), 1);
+  if (lack.empty()) return;
+  const std::string line = "bench: " + lack + "\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, line.data(), line.size());
+  _exit(wrong_usage);
 }
 
 void require_threads(int threads) {

@@ -14,6 +14,11 @@ int processors_at_hand();
 // started by itself; empty: it is not.
 std::string lack_of_address_space(int threads);
 
+// As lack_of_address_space, before libraries are initialised, which OpenBLAS 0.3.29 does not end
+// without its memory: a function for the program's .preinit_array, which ends the program with a
+// line and exit code 2. Nothing is asked where there is no limit, or another BLAS.
+void end_for_lack_of_address_space(int, char**, char** environment);
+
 // Throws UsageError: not enough address space, or threads (ulimit -u).
 void require_threads(int threads);
 

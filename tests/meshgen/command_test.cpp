@@ -262,7 +262,7 @@ TEST_F(Command, AModelStartsNoPrograms) {
   EXPECT_EQ(files(), Names{"a.geo"});
 }
 
-TEST_F(Command, WhatEndsGmshIsToldInOneLine) {
+TEST_F(Command, WhatEndsGmshOrNeverEndsItIsToldInOneLine) {
   write_text(folder / "exit.geo", "Exit;\n");
   expect_refusal("--convert=exit.geo --out=a.msh", 1, {"exit.geo: the model ends Gmsh (Exit)"});
   write_text(folder / "crossed.geo", R"(
@@ -271,7 +271,7 @@ Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
 Physical Curve("displacement") = {1:4}; Physical Surface("a") = {1};
 )");
-  expect_refusal("--convert=crossed.geo --out=a.msh", 1, {"crossed.geo: Gmsh: Unable to recover"});
+  expect_refusal("--convert=crossed.geo --out=a.msh", 1, {"crossed.geo: curves 1 and 3 around surface 1 cross"});
   EXPECT_EQ(files(), (Names{"crossed.geo", "exit.geo"}));
 }
 
