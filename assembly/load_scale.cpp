@@ -49,4 +49,8 @@ double relative_error(double error, double quantity, double scale) {
   return error == 0 ? 0 : error / (quantity > 0 ? quantity : scale);
 }
 
+double larger_error(double one, double other) {
+  return one > other || std::isnan(one) ? one : other;
+}
+
 }  // namespace airybench

@@ -15,4 +15,7 @@ LoadScale load_scale(const Problem& problem);
 // error / quantity, or error / scale where the quantity is zero. A zero error is zero.
 double relative_error(double error, double quantity, double scale);
 
+// NaN where one of them is: an error that cannot be told is the worst.
+double larger_error(double one, double other);
+
 }  // namespace airybench

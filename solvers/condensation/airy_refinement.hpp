@@ -20,7 +20,13 @@
 //   ‖F − P(F − ρ r)‖ / ‖F‖              contact law, with the corrected displacements
 //   ‖(r_F, r_C)‖_∞ / ‖(F, F_C)‖_∞       equilibrium on the boundary
 //
-// or relative to the loads where there is no stress (load_scale.hpp).
+// or relative to the loads where there is no stress (load_scale.hpp). ‖·‖_S is a sum over the
+// elements' stresses: on slivers xᵀSx is rounding, and may be negative. Where factors are too stiff
+// δx is smaller than the error e,  S e = r − Cᵀ δλ.  By Cauchy and Schwarz
+//
+//   |δx·(r − Cᵀ δλ)| / ‖δx‖_S ≤ ‖e‖_S,
+//
+// which is ‖δx‖_S for e = δx. The larger of both is taken.
 //
 // Refinement applies the correction, takes a Newton step of the contact law (active_set.hpp) with
 // the corrected displacements, and repeats while the estimate falls.

@@ -1,7 +1,9 @@
 #include "solvers/condensation/airy_residual.hpp"
 
+#include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/row_order.hpp"
@@ -12,15 +14,18 @@ namespace {
 using Long = long double;
 template <int rows>
 using LongColumn = Eigen::Matrix<Long, rows, 1>;
+template <typename Scalar>
+using Column = Eigen::VectorX<Scalar>;
 
 // φ of some unknowns; the gauge is zero.
-template <std::size_t count>
-LongColumn<static_cast<int>(count)> gather(const DualSystem& system, const LongVector& x,
-                                           const std::array<int, count>& dofs) {
-  LongColumn<static_cast<int>(count)> phi;
+template <typename Scalar, std::size_t count>
+Eigen::Matrix<Scalar, static_cast<int>(count), 1> gather(const DualSystem& system,
+                                                         const Column<Scalar>& x,
+                                                         const std::array<int, count>& dofs) {
+  Eigen::Matrix<Scalar, static_cast<int>(count), 1> phi;
   for (std::size_t k = 0; k < count; ++k)
     phi(static_cast<int>(k)) =
-        dofs[k] == DofNumbering::gauge ? 0 : Long(system.scale(dofs[k])) * x(dofs[k]);
+        dofs[k] == DofNumbering::gauge ? 0 : Scalar(system.scale(dofs[k])) * x(dofs[k]);
   return phi;
 }
 
@@ -41,23 +46,33 @@ void add_rounding(const Eigen::VectorXd& magnitudes, int number, LongVector& r) 
     r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(magnitudes(i));
 }
 
+template <typename Scalar>
 struct TriangleStress {
-  HctStressIn<Long> from_dofs;
-  LongColumn<12> phi;            // without its affine part
-  ElementStressIn<Long> stress;  // with the particular stress
+  HctStressIn<Scalar> from_dofs;
+  Eigen::Matrix<Scalar, 12, 1> phi;  // without its affine part
+  ElementStressIn<Scalar> stress;
   std::array<int, 12> dofs;
 };
 
-TriangleStress triangle_stress(const DualSystem& system, const LongVector& x, int t) {
+// Without the particular stress.
+template <typename Scalar>
+TriangleStress<Scalar> homogeneous_stress(const DualSystem& system, const Column<Scalar>& x,
+                                          int t) {
   const Problem& problem = *system.problem;
   const TriangleVertices v = problem.vertices_of(t);
   const EdgeSigns outward = problem.edge_signs(t);
-  TriangleStress result;
+  TriangleStress<Scalar> result;
   result.dofs = system.dofs.of_triangle(problem, t);
-  result.phi = gather(system, x, result.dofs);
+  result.phi = gather<Scalar>(system, x, result.dofs);
   subtract_affine_part(v, outward, result.phi);
-  result.from_dofs = hct_stress<Long>(v, outward);
+  result.from_dofs = hct_stress<Scalar>(v, outward);
   result.stress.reshaped() = result.from_dofs.lazyProduct(result.phi);
+  return result;
+}
+
+TriangleStress<Long> triangle_stress(const DualSystem& system, const LongVector& x, int t) {
+  const Problem& problem = *system.problem;
+  TriangleStress<Long> result = homogeneous_stress<Long>(system, x, t);
   if (problem.loads.has_body_force()) result.stress += particular_element_stress<Long>(problem, t);
   return result;
 }
@@ -102,7 +117,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
   const auto visit = [&](int row) {
     const EdgeCondition condition = system.problem->condition(row);
     const EdgeRows edge = edge_rows(system, row);
-    const LongColumn<4> forces = edge.forces * gather(system, answer.x, edge.dofs);
+    const LongColumn<4> forces = edge.forces * gather<Long>(system, answer.x, edge.dofs);
     LongColumn<4> u = LongColumn<4>::Zero();  // −λ in x and y
     for (int end = 0; end < 2; ++end) {
       const EdgeFrameIn<Long> frame = system.problem->frame_of_moment<Long>(row, end);
@@ -132,16 +147,18 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
 
 }  // namespace
 
-LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                               const Eigen::VectorXd& F_C, int number) {
+AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
+                           const Eigen::VectorXd& F_C, int number) {
   const Problem& problem = *system.problem;
   LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
                             LongVector::Zero(system.n_c())};
+  Long stress_squared = 0;
   Eigen::VectorXd magnitudes = Eigen::VectorXd::Zero(system.n());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const TriangleStress at = triangle_stress(system, answer.x, t);
+    const TriangleStress<Long> at = triangle_stress(system, answer.x, t);
     const ElementStressIn<Long> dual =
         stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
+    stress_squared += at.stress.cwiseProduct(dual).sum();
     const LongColumn<12> work = at.from_dofs.transpose().lazyProduct(dual.reshaped());
     scatter(system, at.dofs, LongColumn<12>(-work), residual.x);
     const HctStress size = at.from_dofs.cast<double>().cwiseAbs();
@@ -156,7 +173,20 @@ LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector&
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
   add_rounding(magnitudes, number, residual.x);
-  return residual;
+  return {std::move(residual), static_cast<double>(std::sqrt(stress_squared))};
+}
+
+double airy_stress_norm(const DualSystem& system, const Eigen::VectorXd& x) {
+  const Problem& problem = *system.problem;
+  double squared = 0;
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const ElementStress stress = homogeneous_stress<double>(system, x, t).stress;
+    squared += stress
+                   .cwiseProduct(
+                       stress_dual<double>(stress, problem.area_mm2(t), problem.compliance_of(t)))
+                   .sum();
+  }
+  return std::sqrt(squared);
 }
 
 StressField airy_stress(const DualSystem& system, const LongVector& x) {

@@ -12,12 +12,21 @@ struct LongSaddleVector {
   LongVector x, lambda_F, lambda_C;
 };
 
+struct AiryResidual {
+  LongSaddleVector residual;
+  double stress_norm = 0;  // of the answer, with the particular stress, √(N mm)
+};
+
 // r, r_F, r_C as in airy_refinement.hpp, and r moved by about as much as it is uncertain: by ± the
 // rounding of a long double in the terms |σ(φ_i)|:|C|:Σ|σ(φ_j) φ_j| that it sums. So corrections do
 // not fall below what rounding, through the system's condition, makes of the answer. number: of the
 // correction; each has other signs.
-LongSaddleVector airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                               const Eigen::VectorXd& F_C, int number = 0);
+AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
+                           const Eigen::VectorXd& F_C, int number = 0);
+
+// √∫ σ:C:σ of the stresses σ of x, without the particular stress, √(N mm). A sum over elements: in
+// exact arithmetic √(xᵀSx), which on slivers is rounding, and often that of a negative number.
+double airy_stress_norm(const DualSystem& system, const Eigen::VectorXd& x);
 
 // The stresses of x, rounded to double.
 StressField airy_stress(const DualSystem& system, const LongVector& x);

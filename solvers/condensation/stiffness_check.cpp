@@ -1,6 +1,5 @@
 #include "solvers/condensation/stiffness_check.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "assembly/load_scale.hpp"
@@ -21,15 +20,16 @@ void check_stiffness_answer(const Problem& problem, const ContactPoints& contact
   // e² + δ·(r − d), d the defect; a hundredth of e besides, as far as K's factor may be wrong.
   const double squared = unbalanced.defect_energy + delta.dot(load) -
                          (unbalanced.defect.size() > 0 ? 2 * delta.dot(unbalanced.defect) : 0);
-  double error = std::sqrt(std::max(0.0, squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
+  double error =
+      (squared < 0 ? 0 : std::sqrt(squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
   double estimate = relative_error(r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N);
   if (solution.F_C.size() > 0) {
     const ContactCheck check = check_contact(condensed.D, contact, solution.F_C,
                                              displacement + delta.tail(displacement.size()), scale);
     error += check.energy_norm;
-    estimate = std::max(estimate, check.relative);
+    estimate = larger_error(estimate, check.relative);
   }
-  estimate = std::max(
+  estimate = larger_error(
       estimate, relative_error(error, std::sqrt(stress_norm_squared(problem, solution.stress)),
                                scale.energy_norm));
   judge_by_own_estimate(estimate, control, solution);

@@ -1,6 +1,5 @@
 #include "solvers/contact/condensed.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -14,7 +13,8 @@
 namespace airybench {
 
 double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
-  return std::sqrt(std::max(0.0, F.dot(times(D, F))));
+  const double squared = F.dot(times(D, F));
+  return squared < 0 ? 0 : std::sqrt(squared);  // NaN is no zero
 }
 
 Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPoints& contact) {

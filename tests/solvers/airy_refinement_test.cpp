@@ -4,8 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "assembly/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
+#include "solvers/condensation/three_step.hpp"
+#include "solvers/direct/factor_counts.hpp"
+#include "solvers/direct/skyline.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/posed.hpp"
@@ -67,17 +72,40 @@ struct Dense {
   }
   // The estimate of an answer, and what is said about it, for a target.
   Solution checked(const SaddleVector& answer, const VectorXd& F_C, double target) const {
+    return checked_with(D(), solve(), answer, F_C, target);
+  }
+  Solution checked_with(const MatrixXd& own_D, const SaddleSolve& own_solve,
+                        const SaddleVector& answer, const VectorXd& F_C, double target) const {
+    Solution result = unjudged(answer, F_C);
+    RunControl control;
+    control.target_error = target;
+    check_airy_answer(system, own_D, own_solve, answer, control, result);
+    return result;
+  }
+  Solution unjudged(const SaddleVector& answer, const VectorXd& F_C) const {
     Solution result;
     result.status = Status::ok;
     result.F_C = F_C;
     result.stress = stress_of_airy_function(*system.problem, airy_function(system, answer.x));
-    RunControl control;
-    control.target_error = target;
-    check_airy_answer(system, D(), solve(), answer, control, result);
     return result;
   }
   double energy_norm(const VectorXd& x) const {
     return std::sqrt(x.dot(system.S.selfadjointView<Eigen::Lower>() * x));
+  }
+  // A stress without forces on the boundary, so that the energy norm measures it alone: the
+  // response to a compatibility residual.
+  VectorXd self_stress(double norm) const {
+    SaddleVector v = {VectorXd::Random(system.n()), VectorXd::Zero(system.n_f()),
+                      VectorXd::Zero(system.n_c())};
+    solve()(v);
+    return norm / energy_norm(v.x) * v.x;
+  }
+  // What refinement with this solve makes of an answer.
+  Solution refined(const MatrixXd& own_D, const SaddleSolve& own_solve, const SaddleVector& answer,
+                   const VectorXd& F_C) const {
+    Solution result = unjudged(answer, F_C);
+    refine_airy_answer(system, own_D, own_solve, answer, {}, result);
+    return result;
   }
 };
 
@@ -106,7 +134,7 @@ TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
     const VectorXd x = VectorXd::Random(s.n()), lambda_F = VectorXd::Random(s.n_f()),
                    lambda_C = VectorXd::Random(s.n_c()), F_C = VectorXd::Random(s.n_c());
     const LongSaddleVector r =
-        airy_residual(s, {in_long(x), in_long(lambda_F), in_long(lambda_C)}, F_C);
+        airy_residual(s, {in_long(x), in_long(lambda_F), in_long(lambda_C)}, F_C).residual;
     const auto expect_same = [](const LongVector& found, const VectorXd& by_blocks) {
       ASSERT_EQ(found.size(), by_blocks.size());
       EXPECT_LE((found.cast<double>() - by_blocks).norm(), 1e-10 * by_blocks.norm());
@@ -145,19 +173,131 @@ TEST(AiryRefinement, EstimatesAKnownErrorAndSaysWhenItIsAboveTheTarget) {
   };
   for (const double error : {1e-3, 1e-6, 1e-9}) {
     SCOPED_TRACE(error);
-    // A stress without forces on the boundary, so that the energy norm measures it alone: the
-    // response to a compatibility residual.
-    SaddleVector self_stress = {VectorXd::Random(d.system.n()), VectorXd::Zero(d.system.n_f()),
-                                VectorXd::Zero(d.system.n_c())};
-    d.solve()(self_stress);
     SaddleVector wrong = exact;
-    wrong.x += error * d.energy_norm(exact.x) / d.energy_norm(self_stress.x) * self_stress.x;
+    wrong.x += d.self_stress(error * d.energy_norm(exact.x));
     expect_estimate(wrong, F_C, error);
 
     // Contact forces that are not the law's, everything else as they want it: displacements follow,
     // and the natural map is off by about as much.
     const VectorXd F_wrong = (1 + error) * F_C;
     expect_estimate(d.answer(F_wrong), F_wrong, error);
+  }
+}
+
+// On slivers S is indefinite, by rounding: xᵀSx is negative for a correction as large as the
+// answer.
+TEST(AiryRefinement, MeasuresCorrectionsByTheirStressesAndNotByS) {
+  Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  const SaddleVector exact = d.answer(F_C);
+  const VectorXd off = d.self_stress(1e-3 * d.energy_norm(exact.x));
+  SaddleVector wrong = exact;
+  wrong.x += off;
+  const MatrixXd D = d.D();
+  const MatrixXd S = MatrixXd(d.system.S).selfadjointView<Eigen::Lower>();
+  const VectorXd S_off = S * off;
+  const MatrixXd indefinite = S - 2 / off.dot(S_off) * S_off * S_off.transpose();
+  d.system.S = MatrixXd(indefinite.triangularView<Eigen::Lower>()).sparseView();
+  ASSERT_LT(off.dot(indefinite * off), 0);
+
+  const Solution checked = d.checked(wrong, F_C, 1e-6);
+  EXPECT_EQ(checked.status, Status::inaccurate);
+  EXPECT_NEAR(checked.error_estimate.value_or(0), 1e-3, 1e-5);
+  // Corrections that never end.
+  const SaddleSolve lost = [&](SaddleVector& v) {
+    v = {off, VectorXd::Zero(d.system.n_f()), VectorXd::Zero(d.system.n_c())};
+  };
+  const Solution refined = d.refined(D, lost, wrong, F_C);
+  EXPECT_EQ(refined.status, Status::inaccurate);
+  EXPECT_GE(refined.error_estimate.value_or(0), 1e-4);
+}
+
+// On slivers the factor may be hundreds of times as stiff as S in one direction, or indefinite.
+TEST(AiryRefinement, MeasuresWhatAFactorThatIsTooStiffDoesNotCorrect) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  const SaddleVector exact = d.answer(F_C);
+  SaddleVector wrong = exact;
+  wrong.x += d.self_stress(1e-3 * d.energy_norm(exact.x));
+  for (const double stiffness : {1.0, 300.0, -300.0, 1e9}) {
+    SCOPED_TRACE(stiffness);
+    const SaddleSolve stiff = [&](SaddleVector& v) {
+      d.solve()(v);
+      v.x /= stiffness;
+    };
+    const Solution checked = d.checked_with(d.D(), stiff, wrong, F_C, 1e-6);
+    EXPECT_EQ(checked.status, Status::inaccurate);
+    EXPECT_GE(checked.error_estimate.value_or(0), 0.9e-3);
+    EXPECT_LE(checked.error_estimate.value_or(1), 1e-2);
+    if (stiffness == 1) continue;
+    const Solution refined = d.refined(d.D(), stiff, wrong, F_C);
+    EXPECT_EQ(refined.status, Status::inaccurate);
+    EXPECT_GE(refined.error_estimate.value_or(0), 0.9e-3);
+  }
+}
+
+// Rounding makes W, and D with it, a matrix that is only half right, or nothing like it; contact
+// forces, recovery and corrections are all made with that.
+TEST(AiryRefinement, AWrongDIsMendedOrNoticed) {
+  const Dense d(Scene{});
+  const VectorXd F_exact = d.solution().F_C;
+  Solution stages;
+  const SkylineFactor factor = factor_in_stages(d.system.S, {}, stages);
+  const SolveInPlace solve_S = [&](Eigen::Ref<MatrixXd> X) { solve_in_place(factor, X, {}, 1); };
+  ThreeStep steps = condense_in_three_steps(d.system, solve_S);
+  const CondensedSystem right = steps.condensed;
+  const VectorXd soft = VectorXd::Random(d.system.n_c()).normalized();
+  for (const double size : {1e-9, 1e-6, 1e-3, 0.5, 3.0, 1e3, 1e8, 1e15}) {
+    for (const bool all : {true, false}) {
+      SCOPED_TRACE(::testing::Message() << size << (all ? " in all" : " in one direction"));
+      MatrixXd D = right.D;
+      if (all)
+        D *= 1 + size;
+      else
+        D += size * D.norm() * soft * soft.transpose();
+      steps.condensed = {.D = D, .G = D * testing::solved(right.D, right.G)};
+      const SaddleSolve solve = [&](SaddleVector& v) { solve_saddle(steps, d.system, solve_S, v); };
+      Solution solution;
+      solve_condensed_contact(steps.condensed, d.system.contact, {}, solution);
+      const SaddleVector answer = recover_airy_unknowns(steps, d.system, solution.F_C, solve_S);
+      const auto expect_honest = [&](const Solution& found) {
+        if (found.status == Status::ok)
+          EXPECT_LE((found.F_C - F_exact).norm(), 1e-5 * F_exact.norm());
+        else
+          EXPECT_EQ(found.status, Status::inaccurate) << found.message;
+      };
+      expect_honest(d.refined(D, solve, answer, solution.F_C));
+      expect_honest(d.checked_with(D, solve, answer, solution.F_C, 1e-6));
+    }
+  }
+}
+
+TEST(AiryRefinement, ErrorsAreRelativeToTheRefinedStress) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  SaddleVector answer = d.answer(F_C);
+  const double norm = d.energy_norm(answer.x);
+  const VectorXd left = d.self_stress(1e-3 * norm);
+  answer.x += d.self_stress(1e10 * norm);
+  const SaddleSolve poor = [&](SaddleVector& v) {
+    d.solve()(v);
+    v.x += left;
+  };
+  const Solution refined = d.refined(d.D(), poor, answer, F_C);
+  EXPECT_EQ(refined.status, Status::inaccurate);
+  EXPECT_GE(refined.error_estimate.value_or(0), 5e-4);
+}
+
+TEST(AiryRefinement, ACorrectionThatIsNotANumberIsNoSmallOne) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  const SaddleVector exact = d.answer(F_C);
+  for (const bool in_x : {true, false}) {
+    const SaddleSolve broken = [&](SaddleVector& v) {
+      (in_x ? v.x : v.lambda_C).setConstant(std::numeric_limits<double>::quiet_NaN());
+    };
+    EXPECT_EQ(d.refined(d.D(), broken, exact, F_C).status, Status::inaccurate);
+    EXPECT_EQ(d.checked_with(d.D(), broken, exact, F_C, 1e-6).status, Status::inaccurate);
   }
 }
 
