@@ -239,7 +239,8 @@ Verification verify(const DualSystem& system, const Solution& solution,
 WorstMeasure worst_measure(const Verification& v) {
   WorstMeasure worst{"equilibrium_residual", v.equilibrium_residual.value_or(0)};
   const auto consider = [&](const char* name, std::optional<double> value) {
-    if (value && !(*value <= worst.value)) worst = {name, *value};  // NaN is worst
+    if (value && !std::isnan(worst.value) && !(*value <= worst.value))  // NaN is worst
+      worst = {name, *value};
   };
   consider("error_stress", v.error_stress);
   consider("error_force", v.error_force);

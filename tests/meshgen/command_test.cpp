@@ -271,7 +271,8 @@ Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
 Curve Loop(1) = {1:4}; Plane Surface(1) = {1};
 Physical Curve("displacement") = {1:4}; Physical Surface("a") = {1};
 )");
-  expect_refusal("--convert=crossed.geo --out=a.msh", 1, {"crossed.geo: curves 1 and 3 around surface 1 cross"});
+  expect_refusal("--convert=crossed.geo --out=a.msh", 1,
+                 {"crossed.geo: curves 1 and 3 around surface 1 cross"});
   EXPECT_EQ(files(), (Names{"crossed.geo", "exit.geo"}));
 }
 

@@ -113,6 +113,10 @@ TEST_F(Verifier, NaNIsTheWorstMeasure) {
   pose_scene({});
   solution_.F_C(0) = std::nan("");
   EXPECT_TRUE(std::isnan(worst_measure(verified()).value));
+  Verification first;
+  first.equilibrium_residual = std::nan("");
+  first.error_stress = 0.5;
+  EXPECT_TRUE(std::isnan(worst_measure(first).value));
 }
 
 TEST_F(Verifier, EnergiesAreClapeyrons) {
