@@ -88,7 +88,8 @@ class Browser:
              "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
              "--disable-background-networking",
              "--host-resolver-rules=MAP * ~NOTFOUND",  # nothing leaves this machine
-             f"--user-data-dir={folder}", f"--log-net-log={self.log}", "--remote-debugging-pipe"],
+             f"--user-data-dir={folder}", f"--log-net-log={self.log}", "--remote-debugging-pipe",
+             "about:blank"],  # not the page of a new tab, which asks for things of its own
             env=environment | {"XDG_CONFIG_HOME": str(folder), "XDG_CACHE_HOME": str(folder)},
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self.stderr)
         self.calls = 0

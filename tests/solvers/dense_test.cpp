@@ -26,7 +26,7 @@ TEST(DenseProducts, AreThoseOfTheDefinition) {
   for (const int m : {0, 1, 5, 70})
     for (const int n : {0, 1, 4})
       for (const int inner : {0, 1, 9}) {
-        const Eigen::MatrixXd room = random_matrix(m + n + inner + 3, m + n + inner);
+        const Eigen::MatrixXd room = random_matrix(m + n + inner + 3, m + n + inner + 1);
         const auto A = room.block(1, 0, m, inner), B = room.block(2, 0, inner, n);
         const Eigen::MatrixXd product = A.lazyProduct(B), C = room.topRightCorner(m, n);
         const Eigen::MatrixXd A_transposed = A.transpose(), B_transposed = B.transpose();
