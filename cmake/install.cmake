@@ -6,6 +6,9 @@ set(data ${CMAKE_INSTALL_DATADIR}/airybench)
 
 # `bench` is no name for a command among others.
 set(man ${PROJECT_BINARY_DIR}/man)
+if(BUILD_SHARED_LIBS)
+  set_target_properties(bench PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+endif()
 foreach(program IN ITEMS bench meshgen)
   if(NOT TARGET ${program})
     continue()
@@ -13,14 +16,16 @@ foreach(program IN ITEMS bench meshgen)
   set(name_of_bench airybench)
   set(name_of_meshgen airybench-meshgen)
   set(name ${name_of_${program}})
-  install(PROGRAMS $<TARGET_FILE:${program}> DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ${name})
-  add_custom_command(OUTPUT ${man}/${name}.1 VERBATIM
+  install(TARGETS ${program})
+  set(installed "\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_BINDIR}")
+  install(CODE "file(RENAME \"${installed}/${program}\" \"${installed}/${name}\")")
+  add_custom_command(OUTPUT ${man}/${name}.1.gz VERBATIM
     COMMAND ${CMAKE_COMMAND} -D PROGRAM=$<TARGET_FILE:${program}> -D NAME=${name}
-            -D VERSION=${PROJECT_VERSION} -D OUTPUT=${man}/${name}.1
+            -D VERSION=${PROJECT_VERSION} -D OUTPUT=${man}/${name}.1.gz
             -P ${PROJECT_SOURCE_DIR}/cmake/man_page.cmake
     DEPENDS ${program} ${PROJECT_SOURCE_DIR}/cmake/man_page.cmake)
-  list(APPEND man_pages ${man}/${name}.1)
-  install(FILES ${man}/${name}.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+  list(APPEND man_pages ${man}/${name}.1.gz)
+  install(FILES ${man}/${name}.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endforeach()
 add_custom_target(man_pages ALL DEPENDS ${man_pages})
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
@@ -28,7 +33,7 @@ install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-co
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME airybench-meshgen)
 install(DIRECTORY meshgen/meshes results docs/bodies DESTINATION ${data}
-        PATTERN "figures" EXCLUDE)
+        PATTERN "figures" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 list(TRANSFORM studies_with_scenes PREPEND bench/scenes/)
 install(DIRECTORY ${studies_with_scenes} DESTINATION ${data}/scenes)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
@@ -75,10 +80,10 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${maintainer})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Contact with dry friction, solved in stresses: an Airy function on Hsieh-Clough-Tocher
-triangles, four families of solvers and a dozen preconditioners, compared with
-hybridized and displacement methods on the same problems. No time is shown
-without the error that belongs to it.")
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "Contact with dry friction, solved in stresses: an Airy function on
+Hsieh-Clough-Tocher triangles, four families of solvers and a dozen
+preconditioners, compared with hybridized and displacement methods on the same
+problems. No time is shown without the error that belongs to it.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS

@@ -52,7 +52,8 @@ foreach(word_and_offers IN ITEMS "--mes:--mesh --mesh-size" "ex:export export-pr
     message(FATAL_ERROR "completion of ${word}: ${said}")
   endif()
 endforeach()
-file(READ ${prefix}/share/man/man1/airybench.1 page)
+execute_process(COMMAND gzip -dc ${prefix}/share/man/man1/airybench.1.gz OUTPUT_VARIABLE page
+                COMMAND_ERROR_IS_FATAL ANY)
 if(NOT page MATCHES "\\.SH NAME\nairybench " OR NOT page MATCHES "mesh")
   message(FATAL_ERROR "manual page: ${page}")
 endif()
