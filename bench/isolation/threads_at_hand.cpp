@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
-#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -56,15 +55,12 @@ std::string lack_of_address_space(int most, int asked) {
 
 // Those that it starts when it is initialised.
 int threads_of_openblas(char** environment) {
-  cpu_set_t processors;
-  const int all =
-      sched_getaffinity(0, sizeof processors, &processors) == 0 ? CPU_COUNT(&processors) : 1;
   for (const std::string_view name : {"OPENBLAS_NUM_THREADS=", "OMP_NUM_THREADS="})
     for (char** variable = environment; *variable != nullptr; ++variable)
       if (std::string_view(*variable).starts_with(name))
         if (const int asked = std::atoi(*variable + name.size()); asked > 0)
-          return std::min(asked, all);
-  return all;
+          return std::min(asked, processors_at_hand());
+  return processors_at_hand();
 }
 
 }  // namespace
