@@ -17,8 +17,10 @@ Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
   return {n, std::copysign(mu * n, r.y())};
 }
 
-double siconos_error(const GivenContact& given, const Eigen::VectorXd& F) {
-  const Eigen::VectorXd r = -F, u = given.b - times(given.D, F);
+// DF: D F.
+double siconos_error(const GivenContact& given, const Eigen::VectorXd& F,
+                     const Eigen::VectorXd& DF) {
+  const Eigen::VectorXd r = -F, u = given.b - DF;
   double squared = 0;
   for (std::size_t p = 0; p < given.friction.size(); ++p) {
     const double mu = given.friction[p];
@@ -36,16 +38,16 @@ double siconos_error(const GivenContact& given, const Eigen::VectorXd& F) {
 Verification verify_given_contact(const DualSystem& system, const Solution& solution) {
   const GivenContact& given = *system.problem->given;
   const Eigen::VectorXd& F = solution.F_C;
-  const Eigen::VectorXd diagonal = given.D.diagonal();
+  const Eigen::VectorXd DF = times(given.D, F), diagonal = given.D.diagonal();
   LoadScale scale;  // forces that would undo b point by point
   scale.force_N = given.b.cwiseQuotient(diagonal).norm();
   Verification result;
   result.equilibrium_residual.reset();
   note_contact_forces(system.contact, F, result);
-  note_contact_law(system.contact, F, times(given.D, F) - given.b, diagonal, scale, result);
+  note_contact_law(system.contact, F, DF - given.b, diagonal, scale, result);
   result.friction_coupling = friction_coupling(system.contact, given.D);
-  result.strain_energy_Nmm = F.dot(times(given.D, F)) / 2;
-  result.siconos_error = siconos_error(given, F);
+  result.strain_energy_Nmm = F.dot(DF) / 2;
+  result.siconos_error = siconos_error(given, F, DF);
   return result;
 }
 
