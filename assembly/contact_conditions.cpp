@@ -34,33 +34,29 @@ std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
   return {a, (a + b) / 2, b};
 }
 
-// The direction in which an edge of outward normal m meets its wall at x; m where there is none.
-Eigen::Vector2d law_normal(const EdgeValues& values, const Eigen::Vector2d& x,
-                           const Eigen::Vector2d& m) {
-  if (!values.wall) return m;
-  return direction_towards(*values.wall, x).value_or(m);
+// Of an edge whose group has a wall.
+FacingEdge facing(const Mesh& mesh, int row, const EdgeValues& values) {
+  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
+  return {x[0], x[2], edge_frame(x[0], x[2]).normal, *values.wall, values.face};
 }
 
-// From the face to the wall, without clearance; none: out of reach.
-std::optional<ThreePoints> wall_distances(const Mesh& mesh, int row, const EdgeValues& values,
-                                          double reach_mm) {
-  const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
-  const Eigen::Vector2d m = edge_frame(x[0], x[2]).normal;
-  constexpr double least_cosine = 0.05;
-  std::array<std::optional<double>, 3> met;
-  std::optional<double> largest;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Eigen::Vector2d n = law_normal(values, x[k], m);
-    if (!(n.dot(m) > least_cosine)) continue;  // it faces away
-    met[k] = distance_along(*values.wall, x[k], n);
-    if (met[k] && std::abs(*met[k]) > reach_mm) met[k].reset();
-    if (!met[k]) continue;
-    if (values.face) *met[k] -= distance_to_either_side(*values.face, x[k], n).value_or(0);
-    largest = std::max(largest.value_or(*met[k]), *met[k]);
-  }
-  if (!largest) return {};
-  return ThreePoints{met[0].value_or(*largest), met[1].value_or(*largest),
-                     met[2].value_or(*largest)};
+// From the face to the wall at three points, without clearance. Where a point meets none, the
+// largest of the others; where none does, of all that lies between them.
+ThreePoints wall_distances(const FacingEdge& edge, const std::vector<GapPiece>& pieces) {
+  const std::array<std::optional<double>, 3> met = {edge.gap_mm(0), edge.gap_mm(0.5),
+                                                    edge.gap_mm(1)};
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const std::optional<double>& gap : met) largest = std::max(largest, gap.value_or(largest));
+  if (std::isinf(largest))
+    for (const GapPiece& piece : pieces)
+      if (piece.is_met) largest = std::max({largest, piece.gap_mm[0], piece.gap_mm[2]});
+  return {met[0].value_or(largest), met[1].value_or(largest), met[2].value_or(largest)};
+}
+
+bool is_reached(const std::vector<GapPiece>& pieces, double reach_mm) {
+  return std::ranges::any_of(pieces, [&](const GapPiece& piece) {
+    return piece.is_met && std::min(piece.gap_mm[0], piece.gap_mm[2]) <= reach_mm;
+  });
 }
 
 void check_face(const Mesh& mesh, int row, const std::string& label, const Wall& face,
@@ -118,15 +114,20 @@ Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
     const std::string label = boundary_label(mesh, mesh.boundary[row]);
     const EdgeValues values = values_of(mesh, row, conditions, defaults);
     if (!values.wall) continue;
-    const auto distances = wall_distances(mesh, row, values, farthest * diameter);
-    met[label] += distances ? 1 : 0;
-    if (!distances) {
+    const FacingEdge edge = facing(mesh, row, values);
+    const std::vector<GapPiece> pieces = gap_pieces(edge);
+    const bool reached = is_reached(pieces, farthest * diameter);
+    met[label] += reached ? 1 : 0;
+    if (!reached) {
       free.push_back(row);
       continue;
     }
     if (values.face) check_face(mesh, row, label, *values.face, face_share * diameter);
-    for (std::size_t k = 0; k < 3; ++k)  // without clearance, which load steps may change
-      check_interference(label, points_of(mesh, row)[k], (*distances)[k], diameter);
+    for (const GapPiece& piece : pieces) {  // without clearance, which load steps may change
+      if (!piece.is_met) continue;
+      check_interference(label, edge.at(piece.start), piece.gap_mm[0], diameter);
+      check_interference(label, edge.at(piece.end), piece.gap_mm[2], diameter);
+    }
   }
   for (const auto& [label, count] : met)
     if (count == 0)
@@ -139,9 +140,12 @@ Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
   return mesh;
 }
 
-std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
-    const Mesh& mesh, const BoundaryConditions& conditions, const ContactDefaults& defaults) {
+ContactGap contact_gap(const Mesh& mesh, const BoundaryConditions& conditions,
+                       const ContactDefaults& defaults) {
+  constexpr double rounding = 1e-12;
   std::vector<EdgeGap> gaps(mesh.boundary.size());
+  ContactGap result;
+  result.detail.resize(mesh.boundary.size());
   const double curvature = defaults.crown_radius_mm ? 1 / *defaults.crown_radius_mm : 0;
   for (const std::vector<int>& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     const Eigen::Vector2d middle =
@@ -154,15 +158,23 @@ std::function<double(const Eigen::Vector2d& x, int boundary_row)> contact_gap(
       gap.curvature = curvature;
       if (!values.wall) continue;
       const auto [a, m, b] = points_of(mesh, row);
-      gap.wall = wall_distances(mesh, row, values, std::numeric_limits<double>::infinity());
+      const FacingEdge edge = facing(mesh, row, values);
+      const std::vector<GapPiece> pieces = gap_pieces(edge);
+      gap.wall = wall_distances(edge, pieces);
       gap.start = a;
       gap.along = (b - a) / (b - a).squaredNorm();
+      const WallDetail detail = wall_detail(pieces, *gap.wall);
+      if (!detail.is_nothing(rounding * (b - a).norm()))
+        result.detail[static_cast<std::size_t>(row)] = detail;
     }
   }
-  if (std::ranges::all_of(gaps, &EdgeGap::is_zero)) return {};
-  return [gaps = std::move(gaps)](const Eigen::Vector2d& x, int row) {
-    return gaps[static_cast<std::size_t>(row)].at(x);
-  };
+  if (std::ranges::all_of(result.detail, [](const WallDetail& d) { return d.is_nothing(0); }))
+    result.detail.clear();
+  if (!std::ranges::all_of(gaps, &EdgeGap::is_zero))
+    result.gap_mm = [gaps = std::move(gaps)](const Eigen::Vector2d& x, int row) {
+      return gaps[static_cast<std::size_t>(row)].at(x);
+    };
+  return result;
 }
 
 std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryConditions& conditions,
@@ -174,7 +186,9 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryCond
     const EdgeValues values = values_of(mesh, row, conditions, defaults);
     const auto [a, middle, b] = points_of(mesh, row);
     const Eigen::Vector2d m = edge_frame(a, b).normal;
-    const auto at = [&](const Eigen::Vector2d& x) { return law_normal(values, x, m); };
+    const auto at = [&](const Eigen::Vector2d& x) {
+      return values.wall ? direction_towards(*values.wall, x).value_or(m) : m;
+    };
     normals[static_cast<std::size_t>(row)] = {{at(a), at(middle), at(b)},
                                               {at((2 * a + b) / 3), at((a + 2 * b) / 3)}};
     constexpr double rounding = 1e-12;

@@ -65,8 +65,7 @@ ControlPoints control_points(const Problem& problem) {
         friction.push_back(problem.friction_at(row));
         gap.push_back(gaps[k]);
         motion.push_back(problem.motion.at(a + k * (b - a) / 2));  // ρ is linear: its coefficients
-        const auto& slid_mm = problem.loads.slid_mm;
-        slid.push_back(slid_mm.empty() ? 0 : slid_mm[static_cast<std::size_t>(row)][k]);
+        slid.push_back(problem.slid_at(row)[k]);
       } else {
         const int p = found->second;
         points.normal[p] = (points.normal[p] + frame.normal).normalized();

@@ -41,13 +41,10 @@ Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_ro
                                        const EdgeFrame& frame) const {
   const Eigen::Vector2d rho = motion.at(x);
   const double gap = loads.gap_mm ? loads.gap_mm(x, boundary_row) : 0;
-  double slid = 0;
-  if (!loads.slid_mm.empty()) {
-    const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
-    const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
-    const double s = (x - start).norm() / frame.length_mm;
-    slid = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
-  }
+  const auto [a, m, b] = slid_at(boundary_row);
+  const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
+  const double s = (x - start).norm() / frame.length_mm;
+  const double slid = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
   return {gap - frame.normal.dot(rho), slid - frame.tangent.dot(rho)};
 }
 

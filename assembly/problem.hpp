@@ -25,6 +25,7 @@
 #include "assembly/elasticity.hpp"
 #include "assembly/hct.hpp"
 #include "assembly/rigid_motion.hpp"
+#include "assembly/wall_gap.hpp"
 #include "mesh/mesh.hpp"
 
 namespace airybench {
@@ -38,7 +39,8 @@ struct Loads {
                                 int boundary_row)>
       traction_MPa;  // f on Γ_F; linear on every edge
   std::function<double(const Eigen::Vector2d& x, int boundary_row)>
-      gap_mm;                 // g0 on Γ_C; quadratic on every edge
+      gap_mm;                           // g0 on Γ_C, quadratic on every edge …
+  std::vector<WallDetail> wall_detail;  // … and what that leaves out, per row; empty: nothing
   std::vector<bool> rollers;  // per row of Mesh::boundary: an edge of Γ_D that rolls; empty: none
   // Per row of Mesh::boundary: u_t on Γ_C that slip is measured from, that of the load step before,
   // as Bernstein coefficients at start, middle and end of the edge's walk; empty: zero.
@@ -105,6 +107,16 @@ struct Problem {
   }
   bool has_friction() const { return !friction.empty(); }
   bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
+  // What the quadratic gap of an edge of Γ_C leaves out of its wall.
+  WallDetail wall_detail_at(int boundary_row) const {
+    return loads.wall_detail.empty() ? WallDetail{}
+                                     : loads.wall_detail[static_cast<std::size_t>(boundary_row)];
+  }
+  // Bernstein coefficients of u_t on an edge of Γ_C that slip is measured from.
+  std::array<double, 3> slid_at(int boundary_row) const {
+    return loads.slid_mm.empty() ? std::array<double, 3>{0, 0, 0}
+                                 : loads.slid_mm[static_cast<std::size_t>(boundary_row)];
+  }
   // How far w may go at x on an edge of Γ_C, along its outward normal and, without slipping, its
   // tangent: (g0 − ρ_n, s0 − ρ_t), s0 the tangential displacement that slip is measured from.
   Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,

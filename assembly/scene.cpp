@@ -213,7 +213,9 @@ Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh) 
   of_scene(scene, prefix + "boundary",
            [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
-  loads.gap_mm = contact_gap(mesh, scene.boundary, contact_defaults(scene));
+  ContactGap gap = contact_gap(mesh, scene.boundary, contact_defaults(scene));
+  loads.gap_mm = std::move(gap.gap_mm);
+  loads.wall_detail = std::move(gap.detail);
   return loads;
 }
 

@@ -13,10 +13,6 @@ struct Crossing {
   Eigen::Vector2d normal;
 };
 
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 std::vector<Crossing> crossings(const FlatWall& wall, const Eigen::Vector2d& x,
                                 const Eigen::Vector2d& m) {
   const Eigen::Vector2d n = wall.normal.stableNormalized();

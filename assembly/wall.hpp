@@ -33,6 +33,11 @@ struct PolylineWall {
 };
 using Wall = std::variant<FlatWall, CircularWall, PolylineWall>;
 
+// a × b.
+inline double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 // Throws TransformError, "key: …: value (allowed: …)": a normal that is zero, a radius that is not
 // positive, fewer than two points, two successive ones that are one, numbers that are not finite.
 void check_curve(const std::string& key, const std::optional<Wall>& wall);

@@ -39,8 +39,8 @@ std::optional<Status> status_of(std::string_view name);
 // Ended with an answer, whose time and memory count: ok, inaccurate or unstressed.
 bool has_answer(Status status);
 
-// When an iterative method stops: by a tolerance that is tightened until the error is below its
-// target; or as the paper does it.
+// When an iterative method stops: by a tolerance that is tightened until the method's own
+// estimate is below the target; or as the paper does it.
 enum class Stop { target, paper };
 std::string_view name_of(Stop stop);  // "paper"
 std::optional<Stop> stop_of(std::string_view name);

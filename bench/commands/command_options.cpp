@@ -149,9 +149,10 @@ Options parse_options(int argc, const char* const* argv) {
                  "scaling (every method on 1, 2, … threads)")
       ->check(CLI::IsMember(names_of(all_studies)))
       ->excludes(app.get_option("--figure"));
-  add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
-             "every iterative method is tightened until its errors and residuals are below this; a "
-             "case that stays above is `inaccurate`");
+  add_number(
+      app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
+      "every iterative method is tightened until its own estimate of its error is below this; a "
+      "case whose errors, as verified, are above is `inaccurate`");
   std::string stop = "target";
   app.add_option("--stop", stop,
                  "when iterative methods stop: target (see --target-error), or paper (the paper's "

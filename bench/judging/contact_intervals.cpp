@@ -79,18 +79,18 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
 }
 
 // Where the pressure at the ends of contact edges is largest.
-struct Peak {
+struct LargestPressure {
   double pressure_MPa = -std::numeric_limits<double>::infinity();
   int triangle = 0;
   Eigen::Vector2d normal = {0, 0};
 };
 
-Peak largest_pressure(const Problem& problem, const StressField& stress) {
+LargestPressure largest_pressure(const Problem& problem, const StressField& stress) {
   std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), -1);
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
     if (problem.mesh.boundary[row].role == BoundaryRole::contact)
       contact_row[problem.edges.of_boundary[row]] = row;
-  Peak peak;
+  LargestPressure peak;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t)
     for (int k = 0; k < 3; ++k) {
       const int row = contact_row[problem.edges.of_triangle[t][k]];
@@ -106,8 +106,10 @@ Peak largest_pressure(const Problem& problem, const StressField& stress) {
 void set_largest_pressure(const Problem& problem, const StressField& stress,
                           const DisplacementField& u, const ConstitutiveError& error,
                           ContactIntervals& result) {
-  const Peak of_stress = largest_pressure(problem, stress),
-             of_u = largest_pressure(problem, stress_of_displacement(problem, u));
+  const LargestPressure of_stress = largest_pressure(problem, stress);
+  result.largest_pressure_MPa = of_stress.pressure_MPa;
+  if (result.peak != ContactIntervals::Peak::bounded) return;
+  const LargestPressure of_u = largest_pressure(problem, stress_of_displacement(problem, u));
   const int t = of_stress.triangle;
   const Eigen::Vector2d& n = of_stress.normal;
   const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // as a strain
@@ -115,8 +117,85 @@ void set_largest_pressure(const Problem& problem, const StressField& stress,
                delta = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
                                  problem.area_mm2(t));
   const auto [low, high] = std::minmax(of_stress.pressure_MPa, of_u.pressure_MPa);
-  result.largest_pressure_MPa = of_stress.pressure_MPa;
-  result.largest_pressure_within_MPa = {std::max(0.0, low - delta), high + delta};
+  result.largest_pressure_within_MPa = Bracket{std::max(0.0, low - delta), high + delta};
+}
+
+// The pressure along a face as it is walked, linear on every edge.
+class PressureAlongFace {
+ public:
+  PressureAlongFace(const DualSystem& system, const Eigen::VectorXd& F_C,
+                    const std::vector<int>& rows, const std::vector<int>& point_of_row) {
+    const Mesh& mesh = system.problem->mesh;
+    const bool is_closed =
+        mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
+    for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // it goes on before and behind
+      for (const int row : rows) {
+        const double length = frame_of(mesh, row).length_mm;
+        const int m = system.contact.components, p = m * point_of_row[row];
+        edges_.push_back({end_, length, -2 / length * F_C(p), -2 / length * F_C(p + m)});
+        end_ += length;
+      }
+    const std::size_t count = rows.size(), first = is_closed ? count : 0;
+    for (std::size_t k = first; k < first + count; ++k)
+      for (const bool at_end : {false, true})
+        if (const double p = at_end ? edges_[k].last : edges_[k].first; p > highest_) {
+          highest_ = p;
+          place_ = edges_[k].start + (at_end ? edges_[k].length : 0);
+          shortest_ = edges_[k].length;
+        }
+    length_ = end_ / (is_closed ? 3 : 1);
+  }
+
+  double highest() const { return highest_; }
+
+  ContactIntervals::Peak peak() const {
+    constexpr double slower = 0.8;     // than at a cusp as √x
+    constexpr double smallest = 0.01;  // of the mean: below, noise
+    constexpr int windows = 4;
+    if (std::ldexp(shortest_, windows - 1) > length_) return ContactIntervals::Peak::not_seen;
+    std::array<double, windows> mean{};
+    for (int k = 0; k < windows; ++k) mean[k] = mean_within(std::ldexp(shortest_, k));
+    const double last = mean[0] - mean[1], before = mean[1] - mean[2], first = mean[2] - mean[3];
+    const bool grows =
+        last > smallest * mean[0] && last > slower * before && before > slower * first;
+    return grows ? ContactIntervals::Peak::unbounded : ContactIntervals::Peak::bounded;
+  }
+
+ private:
+  struct Edge {
+    double start, length, first, last;
+  };
+
+  double mean_within(double reach) const {
+    const double from = std::max(0.0, place_ - reach), to = std::min(end_, place_ + reach);
+    double sum = 0;
+    for (const Edge& e : edges_) {
+      const double a = std::max(from, e.start), b = std::min(to, e.start + e.length);
+      if (!(a < b)) continue;
+      const double middle = ((a + b) / 2 - e.start) / e.length;
+      sum += (b - a) * ((1 - middle) * e.first + middle * e.last);
+    }
+    return sum / (to - from);
+  }
+
+  std::vector<Edge> edges_;
+  double end_ = 0, length_ = 0, highest_ = 0, place_ = 0, shortest_ = 0;
+};
+
+ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const Mesh& mesh = system.problem->mesh;
+  std::vector<int> point_of_row(mesh.boundary.size(), 0);
+  for (int p = 0; p < system.contact.count; p += 2) point_of_row[system.contact.boundary[p]] = p;
+  double highest = 0;
+  ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // without any pressure
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
+    const PressureAlongFace face(system, F_C, rows, point_of_row);
+    if (face.highest() > highest) {
+      highest = face.highest();
+      peak = face.peak();
+    }
+  }
+  return peak;
 }
 
 // The ends on one face; rows of Mesh::boundary as it is walked.
@@ -199,6 +278,7 @@ std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
     if (system.contact.components == 2)
       result.tangential_resultant_N = resultant(problem, mean, of_mean, true);
   }
+  result.peak = kind_of_peak(system, F_C);
   set_largest_pressure(problem, stress, u, error, result);
   result.ends = contact_ends(system, F_C);
   return result;

@@ -13,6 +13,10 @@
 //
 // The others are estimates. *Pressure:* its largest value at contact points by σ and by Aε(u), and
 // beyond both δ with δ² = A_nnnn e_T² / |T|, what e_T² of the triangle there allows for on average.
+// At the edge of a punch or a kink of a wall the exact pressure is infinite, and there is no such
+// interval: it is told from the mean pressure over windows of 1, 2, 4 … edge lengths about the
+// peak. Towards the peak each doubles the detail: at a smooth one the mean grows by a quarter of
+// the step before, at a cusp as √x by 0.7, where it grows as log x by as much, as x^−α by more.
 // *Ends:* between two contact points of different states, an edge more on each side.
 #pragma once
 
@@ -40,10 +44,16 @@ struct ContactEnd {
 struct ContactIntervals {
   bool guaranteed = false;  // the resultants'
   std::optional<Bracket> normal_resultant_N, tangential_resultant_N;
-  double largest_pressure_MPa = 0;  // of σ
-  Bracket largest_pressure_within_MPa{};
+  double largest_pressure_MPa = 0;                                         // of σ
+  enum class Peak { bounded, unbounded, not_seen } peak = Peak::not_seen;  // not seen: few edges
+  std::optional<Bracket> largest_pressure_within_MPa;                      // of a bounded one
   std::vector<ContactEnd> ends;
 };
+
+constexpr const char* name_of(ContactIntervals::Peak peak) {
+  constexpr std::array<const char*, 3> names = {"bounded", "unbounded", "not seen"};
+  return names[static_cast<std::size_t>(peak)];
+}
 
 // Empty without contact. stress, F_C, u: what `error` has been made of.
 std::optional<ContactIntervals> contact_intervals(const DualSystem& system,

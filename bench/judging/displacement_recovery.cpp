@@ -158,6 +158,7 @@ struct Barrier {
 struct ContactNode {
   std::vector<Barrier> walls;                                 // one or two
   Eigen::Vector2d motion;                                     // ρ
+  double slid = 0;                                            // what slip is measured from
   Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
   double friction = std::numeric_limits<double>::infinity();  // the smaller μ of its edges
 };
@@ -179,11 +180,13 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
     };
     const Eigen::Vector2d start = force_at(0, at_start), end = force_at(1, at_end);
     const std::array<double, 3> gap = gap_coefficients(problem, row);
+    const WallDetail detail = problem.wall_detail_at(row);
     for (int k = 0; k < 3; ++k) {
       ContactNode& node = contact[nodes[k]];
       node.motion = problem.motion.at(a + k * (b - a) / 2);
       const Eigen::Vector2d normal = problem.frame_at_node(row, k).normal;
-      node.walls.push_back({normal, gap[k] - normal.dot(node.motion)});
+      node.slid = problem.slid_at(row)[k];
+      node.walls.push_back({normal, gap[k] - detail.lowered_mm[k] - normal.dot(node.motion)});
       node.friction = std::min(node.friction, system.contact.friction_at(point));
       node.force += of_start[k] * start + of_start[2 - k] * end;
     }
@@ -207,15 +210,16 @@ Eigen::Vector2d behind(const std::vector<Barrier>& walls, const Eigen::Vector2d&
          sine;
 }
 
-// The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||w_t + ρ_t| + F_t (w_t + ρ_t) behind the
-// walls: the two contact terms of e² and what moving w costs in the first one. A closed node goes
-// to the wall, a sticking one back to where it was.
+// The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||Δ| + F_t Δ, Δ = w_t + ρ_t − s, behind
+// the walls: the two contact terms of e² and what moving w costs in the first one. A closed node
+// goes to the wall, a sticking one back to where it was.
 Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vector2d& w_0) {
   Eigen::Vector2d n = node.walls.front().normal;
   if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
   const Eigen::Vector2d t(-n.y(), n.x());
   const double slope = node.friction * std::abs(n.dot(node.force)) / k,
-               at_rest = -t.dot(node.motion), slid = t.dot(w_0 - node.force / k) - at_rest;
+               at_rest = node.slid - t.dot(node.motion),
+               slid = t.dot(w_0 - node.force / k) - at_rest;
   const double w_n = n.dot(w_0 - node.force / k),
                w_t = at_rest + std::copysign(std::max(0.0, std::abs(slid) - slope), slid);
   return behind(node.walls, w_n * n + w_t * t);

@@ -12,7 +12,8 @@
 // contact terms of e²: with F = ∫ σn B, w_n moves by −F_n/k towards the wall and no further, w_t by
 // −F_t/k and then up to μ|F_n|/k back to where the body has not slid. Terms that would be of first
 // order in the error of w, as σ_n (u_n − g0) where the contact is closed, so become quadratic.
-// Every contact edge's own u_n ≤ g0 holds, on curved faces, too.
+// Every contact edge's own u_n ≤ g0 holds, on curved faces, too, and between the points that its
+// quadratic gap knows: another one is below all of the wall (wall_gap.hpp).
 //
 // One damped Jacobi step on ‖σ − Aε(w)‖² follows, with the same on Γ_D and Γ_C. e is then about 1.1
 // times that with P2's displacement, which without friction is the least (measured; 1.4 without

@@ -80,6 +80,22 @@ void note_what_is_idle(const Problem& problem, Record& record) {
   }
 }
 
+void note_large_strains(const Problem& problem, const StressField& stress, Record& record) {
+  constexpr double largest_small = 0.1;
+  double largest = 0;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    // Triangles' means: corners are singular on any mesh.
+    const Eigen::Vector3d strain = problem.compliance_of(t) * stress[t].rowwise().mean();
+    const double middle = (strain(0) + strain(1)) / 2,
+                 radius = std::hypot((strain(0) - strain(1)) / 2, strain(2) / 2);
+    largest = std::max(largest, std::abs(middle) + radius);
+  }
+  if (!(largest > largest_small)) return;
+  record.status_reason += fmt::format(
+      "{}strains of up to {:.2g} %: small strains, which all of this assumes, do not hold",
+      record.status_reason.empty() ? "" : "; ", 100 * largest);
+}
+
 void note(const ConstitutiveError& error, const char* by, Record& record) {
   if (error.flaw.empty()) {
     record.error_discretisation = error.relative;
@@ -106,8 +122,11 @@ void note(const ContactIntervals& intervals, Record& record) {
     record.tangential_resultant_high_N = tangential->high;
   }
   record.largest_pressure_MPa = intervals.largest_pressure_MPa;
-  record.largest_pressure_low_MPa = intervals.largest_pressure_within_MPa.low;
-  record.largest_pressure_high_MPa = intervals.largest_pressure_within_MPa.high;
+  record.largest_pressure_is = name_of(intervals.peak);
+  if (const auto& within = intervals.largest_pressure_within_MPa) {
+    record.largest_pressure_low_MPa = within->low;
+    record.largest_pressure_high_MPa = within->high;
+  }
   record.contact_ends = Json::array();
   for (const ContactEnd& end : intervals.ends)
     record.contact_ends.push_back({{"face", end.face},

@@ -21,5 +21,7 @@ void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // Of an ok case, after the verification: nothing touches, nothing can touch, nothing is free.
 void note_what_is_idle(const Problem& problem, Record& record);
+// The same: strains for which linear elasticity does not hold.
+void note_large_strains(const Problem& problem, const StressField& stress, Record& record);
 
 }  // namespace airybench

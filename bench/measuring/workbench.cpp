@@ -299,6 +299,7 @@ void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const
                                : "the body has no stress: nothing touches or loads it";
   } else {
     note_what_is_idle(*problem_, record);
+    if (!problem_->given) note_large_strains(*problem_, run.solution.stress, record);
   }
 }
 

@@ -100,6 +100,8 @@ class Workbench {
   void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
   // What is known of the discretisation error.
   void note_discretisation(const Method& method, const Solution& solution, Record& record);
+  // Nothing above 100 % is ok, and what has no other error than this one says why there is none.
+  static void judge_discretisation(const Method& method, Record& record);
   // Of another's displacements, made admissible.
   void note_error_of_displacement(const Solution& solution, Record& record);
   // The method's own, recovered from its edge moments, or the one that is known of the solution.

@@ -1,4 +1,6 @@
 // What a Workbench knows of the mesh's own error, and the fields that it writes with it.
+#include <fmt/format.h>
+
 #include "bench/judging/displacement_recovery.hpp"
 #include "bench/measuring/field_files.hpp"
 #include "bench/measuring/record_notes.hpp"
@@ -30,8 +32,18 @@ std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound
   if (own.status != Status::ok) return {};
   Discretisation result;
   if (bound == Bound::p2) {
+    const auto& [stress, F_C] = std::tie(reference()->stress, reference()->F_C);
     result.u = own.displacement;
-    result.error = constitutive_error(system, reference()->stress, reference()->F_C, result.u);
+    result.error = constitutive_error(system, stress, F_C, result.u);
+    if (result.error.flaw.empty()) return result;
+    // Its law is at its nodes, at a corner of two walls about their mean normal: that goes through
+    // what stands out between them.
+    DisplacementField behind = admissible_displacement(system, F_C, own.displacement);
+    ConstitutiveError error = constitutive_error(system, stress, F_C, behind);
+    if (error.flaw.empty()) {
+      result.u = std::move(behind);
+      result.error = std::move(error);
+    }
     return result;
   }
   result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
@@ -60,13 +72,28 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
     return note_error_of_displacement(solution, record);
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound) : nullptr;
-  if (known == nullptr) return;
-  if (record.other_solution) {
+  if (record.other_solution)
     record.no_discretisation_error = "it is known for the reference's solution only";
-    return;
+  else if (known != nullptr)
+    note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
+  else if (method.in_displacements)
+    record.no_discretisation_error =
+        no_reference_.empty() ? "it is not made for load steps" : no_reference_;
+  if (known != nullptr && known->intervals && !record.other_solution)
+    note(*known->intervals, record);
+  judge_discretisation(method, record);
+}
+
+void Workbench::judge_discretisation(const Method& method, Record& record) {
+  if (record.status != Status::ok) return;
+  if (record.error_discretisation.value_or(0) > 1) {
+    record.status = Status::inaccurate;
+    record.status_reason = fmt::format("its total error is {:.0f} %: nothing of it is known",
+                                       100 * *record.error_discretisation);
+  } else if (method.in_displacements && !record.error_discretisation &&
+             record.status_reason.empty()) {
+    record.status_reason = "its total error is not known: " + record.no_discretisation_error;
   }
-  note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
-  if (known->intervals) note(*known->intervals, record);
 }
 
 std::optional<DisplacementField> Workbench::displacement_of(const DualSystem& system,

@@ -10,7 +10,7 @@ namespace airybench {
 void summarise(Record& record);
 
 // `wrong_success` where the method said ok and the verifier disagrees, `unverified` where that has
-// no reference to say; else the status.
+// no reference to say; else the status. A mesh on which nothing is known is not the method's fault.
 std::string outcome_of(const Record& record);
 
 std::string column_of_stage(const std::string& stage);  // "stage_factor_s"

@@ -70,15 +70,14 @@ bool any_has(const std::vector<Record>& records, const char* field) {
       records, [&](const Record& r) { return !field_named(field).value(r).is_null(); });
 }
 
-// The total error is that of the mesh for most methods: shown where it tells them apart.
+// The total error is that of the mesh for most methods: shown where it tells them apart, or where a
+// method has no other.
 std::vector<Column> columns_for(const std::vector<Record>& records) {
   std::vector<Column> columns;
   for (const Column& c : table_columns)
     if (c.field == nullptr || any_has(records, c.field)) columns.push_back(c);
   const bool total =
-      any_has(records, "adapt_level") || std::ranges::any_of(records, [](const Record& r) {
-        return r.in_displacements && !r.program.empty();
-      });
+      any_has(records, "adapt_level") || std::ranges::any_of(records, &Record::in_displacements);
   if (total)
     for (const Column& c : columns_of_errors)
       if (any_has(records, c.field)) columns.insert(columns.end() - 1, c);

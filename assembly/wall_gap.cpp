@@ -1,0 +1,204 @@
+#include "assembly/wall_gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/control_points.hpp"
+
+namespace airybench {
+namespace {
+
+// Where the rays from the edge, each to the wall in its own direction, pass through p.
+std::optional<double> seen_from(const FacingEdge& edge, const Eigen::Vector2d& p) {
+  const auto* round = std::get_if<CircularWall>(&edge.wall);
+  const Eigen::Vector2d ray =
+      round ? Eigen::Vector2d(p - round->centre_mm) : edge.direction_at(edge.a);
+  const double slope = cross(edge.b - edge.a, ray);
+  if (slope == 0) return {};
+  return cross(p - edge.a, ray) / slope;
+}
+
+// Where g0 may have a kink or a jump: corners, and where parallel rays touch a circle.
+void add_kinks(const FacingEdge& edge, const Wall& curve, std::vector<double>& places) {
+  const auto add = [&](const Eigen::Vector2d& p) {
+    if (const std::optional<double> s = seen_from(edge, p); s && *s > 0 && *s < 1)
+      places.push_back(*s);
+  };
+  if (const auto* line = std::get_if<PolylineWall>(&curve))
+    for (const Eigen::Vector2d& p : line->points_mm) add(p);
+  if (const auto* round = std::get_if<CircularWall>(&curve)) {
+    const Eigen::Vector2d n = edge.direction_at(edge.a), aside(-n.y(), n.x());
+    add(round->centre_mm + round->radius_mm * aside);
+    add(round->centre_mm - round->radius_mm * aside);
+  }
+}
+
+bool is_round(const Wall& curve) { return std::holds_alternative<CircularWall>(curve); }
+
+// Halves a part until one quadratic is g0 on it. Samples are inside: g0 may jump at the ends.
+class Pieces {
+ public:
+  explicit Pieces(const FacingEdge& edge)
+      : edge_(edge),
+        length_mm_((edge.b - edge.a).norm()),
+        curved_(is_round(edge.wall) || (edge.face && is_round(*edge.face))) {}
+
+  void add(double start, double end, int depth = 0) {
+    constexpr int most = 20;
+    constexpr std::array<double, 5> places = {1. / 8, 1. / 4, 1. / 2, 3. / 4, 7. / 8};
+    std::array<double, 5> g{};
+    int met = 0;
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (const auto gap = edge_.gap_mm(start + places[k] * (end - start))) {
+        g[k] = *gap;
+        ++met;
+      }
+    GapPiece piece{start, end, met == 5, {0, 0, 0}, 0};
+    bool done = met == 0;
+    if (piece.is_met) {
+      // v = (u − 1/2) / (3/8) for u from 0 to 1: −1, 0, 1 at the samples of which q is made.
+      const double slope = (g[4] - g[0]) / 2, bend = (g[0] - 2 * g[2] + g[4]) / 2;
+      const auto q = [&](double u) {
+        const double v = (u - 0.5) / 0.375;
+        return g[2] + slope * v + bend * v * v;
+      };
+      piece.gap_mm = {q(0), 2 * g[2] - (q(0) + q(1)) / 2, q(1)};
+      // The term of third order is 2.8 times as large at the ends.
+      constexpr double at_ends = 4;
+      piece.off_mm =
+          at_ends * std::max(std::abs(q(places[1]) - g[1]), std::abs(q(places[3]) - g[3]));
+      done = piece.off_mm <= (curved_ ? enough * length_mm_ : rounding_mm(g));
+    }
+    if (!done && piece.is_met && depth >= most) {  // a jump, which its neighbours end at
+      piece.gap_mm.fill(std::ranges::min(g));
+      piece.off_mm = 0;
+    }
+    if (done || depth >= most) {
+      pieces_.push_back(piece);
+    } else {
+      add(start, (start + end) / 2, depth + 1);
+      add((start + end) / 2, end, depth + 1);
+    }
+  }
+  std::vector<GapPiece> take() { return std::move(pieces_); }
+
+ private:
+  double rounding_mm(const std::array<double, 5>& g) const {
+    return 1e-12 * (edge_.a.norm() + edge_.b.norm()) + 1e-9 * (length_mm_ + std::abs(g[2]));
+  }
+
+  static constexpr double enough = 1e-6;  // of the edge, on curves
+  const FacingEdge& edge_;
+  double length_mm_;
+  bool curved_;
+  std::vector<GapPiece> pieces_;
+};
+
+// Bernstein coefficients over [start, end] of a quadratic that has c over [0, 1].
+std::array<double, 3> restricted(const std::array<double, 3>& c, double start, double end) {
+  const auto polar = [&](double s, double t) {
+    return (1 - s) * (1 - t) * c[0] + ((1 - s) * t + s * (1 - t)) * c[1] + s * t * c[2];
+  };
+  return {polar(start, start), polar(start, end), polar(end, end)};
+}
+
+double largest_of(const std::array<double, 3>& c) {
+  const double bend = c[0] - 2 * c[1] + c[2];
+  const double ends = std::max(c[0], c[2]), place = (c[0] - c[1]) / bend;
+  if (!(bend < 0) || !(place > 0 && place < 1)) return ends;
+  return c[0] + place * (c[1] - c[0]);  // c0 − (c1 − c0)²/bend
+}
+
+// WallDetail::lowered_mm. rise: max (q − g0).
+std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::array<double, 3>& q,
+                              double rise) {
+  // Lines between these are below g0 on every piece: control points of a Bernstein form are.
+  std::vector<std::pair<double, double>> below;  // s, mm
+  for (const GapPiece& piece : pieces)
+    for (int k = 0; k < 3 && piece.is_met; ++k)
+      below.emplace_back(piece.start + k * (piece.end - piece.start) / 2,
+                         piece.gap_mm[k] - piece.off_mm);
+  if (below.empty()) return {0, 0, 0};
+  double least = below.front().second, first = least, last = below.back().second;
+  for (const auto& [s, gap] : below) {
+    least = std::min(least, gap);
+    if (s == below.front().first) first = std::min(first, gap);
+    if (s == below.back().first) last = std::min(last, gap);
+  }
+  double middle =
+      (first + last) / 2;  // at most: convex, and so below the lines where it is below the points
+  for (const auto& [s, gap] : below)
+    if (s > 0 && s < 1)
+      middle =
+          std::min(middle, (gap - (1 - s) * (1 - s) * first - s * s * last) / (2 * s * (1 - s)));
+  std::array<double, 3> best = {rise, rise, rise};
+  const std::array<std::array<double, 3>, 2> others = {
+      {{least, least, least}, {first, middle, last}}};
+  for (const std::array<double, 3>& c : others) {
+    const std::array<double, 3> down = {q[0] - c[0], q[1] - c[1], q[2] - c[2]};
+    if (down[0] + down[1] + down[2] < best[0] + best[1] + best[2]) best = down;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::optional<double> FacingEdge::gap_mm(double s) const {
+  constexpr double least_cosine = 0.05;
+  const Eigen::Vector2d x = at(s), n = direction_at(x);
+  if (!(n.dot(m) > least_cosine)) return {};  // it faces away
+  std::optional<double> t = distance_along(wall, x, n);
+  if (t && face) *t -= distance_to_either_side(*face, x, n).value_or(0);
+  return t;
+}
+
+std::vector<GapPiece> gap_pieces(const FacingEdge& edge) {
+  constexpr double shortest = 1e-12;
+  std::vector<double> places = {0, 1};
+  add_kinks(edge, edge.wall, places);
+  if (edge.face) add_kinks(edge, *edge.face, places);
+  std::ranges::sort(places);
+  Pieces pieces(edge);
+  double start = 0;
+  for (const double end : places)
+    if (end - start > shortest) {
+      pieces.add(start, end);
+      start = end;
+    }
+  return pieces.take();
+}
+
+bool WallDetail::is_nothing(double rounding_mm) const {
+  const auto is_small = [&](double value) { return std::abs(value) <= rounding_mm; };
+  return std::ranges::all_of(lowered_mm, is_small) && std::ranges::all_of(moments_mm, is_small) &&
+         unmet[0] + unmet[1] == 0;
+}
+
+WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<double, 3>& q) {
+  const std::array<double, 3> of_edge = edge_coefficients(q[0], q[1], q[2]);
+  WallDetail detail;
+  double rise = -std::numeric_limits<double>::infinity();
+  for (const GapPiece& piece : pieces) {
+    const double middle = (piece.start + piece.end) / 2, half = (piece.end - piece.start) / 2;
+    if (!piece.is_met) {
+      detail.unmet[0] += 4 * half * (1 - middle);  // N_a is 1 − s
+      detail.unmet[1] += 4 * half * middle;
+      continue;
+    }
+    std::array<double, 3> above = restricted(of_edge, piece.start, piece.end);  // q − g0
+    for (std::size_t k = 0; k < 3; ++k) above[k] -= piece.gap_mm[k];
+    rise = std::max(rise, largest_of(above) + piece.off_mm);
+    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {  // cubic: exact
+      const double u = (1 + xi) / 2, s = middle + half * xi;
+      const double below = piece.off_mm - ((1 - u) * (1 - u) * above[0] +
+                                           2 * u * (1 - u) * above[1] + u * u * above[2]);
+      detail.moments_mm[0] += 2 * half * (1 - s) * below;
+      detail.moments_mm[1] += 2 * half * s * below;
+    }
+  }
+  detail.lowered_mm = lowered(pieces, of_edge, std::max(0.0, rise));
+  return detail;
+}
+
+}  // namespace airybench

@@ -1,0 +1,53 @@
+// The gap between a straight edge of a contact face and the wall in front of it, as it is: corners
+// of a polyline, steps and ends of a wall between the points that a discrete problem asks.
+//
+//   g0(s) = t_wall(x(s)) − t_face(x(s)),   x(s) = (1 − s) a + s b,   0 ≤ s ≤ 1      (wall.hpp)
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "assembly/wall.hpp"
+
+namespace airybench {
+
+// A straight edge a→b with the outward normal m, its wall, and the curve that it stands for.
+struct FacingEdge {
+  Eigen::Vector2d a, b, m;
+  const Wall& wall;
+  const std::optional<Wall>& face;
+
+  Eigen::Vector2d at(double s) const { return (1 - s) * a + s * b; }
+  // Towards the wall: m where the wall has no direction of its own.
+  Eigen::Vector2d direction_at(const Eigen::Vector2d& x) const {
+    return direction_towards(wall, x).value_or(m);
+  }
+  // g0; none: no wall is met at less than 87° to m.
+  std::optional<double> gap_mm(double s) const;
+};
+
+// A part of an edge on which g0 is smooth; pieces follow one another from 0 to 1.
+struct GapPiece {
+  double start = 0, end = 1;
+  bool is_met = false;
+  std::array<double, 3> gap_mm{};  // Bernstein coefficients over the piece
+  double off_mm = 0;               // g0 is at most so far from them: zero but for round curves
+};
+std::vector<GapPiece> gap_pieces(const FacingEdge& edge);
+
+// What a quadratic q through three points of an edge leaves out of the wall.
+struct WallDetail {
+  // A quadratic that is nowhere above g0 where a wall is met: so much below q, by Bernstein
+  // coefficients. Of q − max (q − g0), the least g0, and the convex one from g0 at one end to g0 at
+  // the other that which is highest in the mean.
+  std::array<double, 3> lowered_mm{0, 0, 0};
+  std::array<double, 2> moments_mm{0, 0};  // (2/L) ∫ N_k (g0 − q) ds where a wall is met, or above
+  std::array<double, 2> unmet{0, 0};       // (2/L) ∫ N_k ds where none is
+
+  bool is_nothing(double rounding_mm) const;
+};
+// q: values at start, middle and end.
+WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<double, 3>& q);
+
+}  // namespace airybench
