@@ -9,6 +9,7 @@
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/displacement_recovery.hpp"
 #include "bench/judging/marking.hpp"
+#include "bench/measuring/load_step_runs.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refinement.hpp"
@@ -49,6 +50,20 @@ BisectedMesh refined(const Mesh& mesh, const std::vector<double>& parts, double 
 
 }  // namespace
 
+void AdaptiveLoop::StepErrors::add(const ConstitutiveError& error, const std::string& prefix) {
+  if (flaw.empty() && !error.flaw.empty()) flaw = prefix + error.flaw;
+  of_triangle_Nmm.resize(error.of_triangle_Nmm.size());
+  for (std::size_t t = 0; t < of_triangle_Nmm.size(); ++t)
+    of_triangle_Nmm[t] += error.of_triangle_Nmm[t];
+  const double squared = std::max(0.0, error.squared_Nmm());
+  squared_Nmm += squared;
+  if (error.relative > 0) of_stress_Nmm += squared / (error.relative * error.relative);
+}
+
+double AdaptiveLoop::StepErrors::relative() const {
+  return of_stress_Nmm > 0 ? std::sqrt(squared_Nmm / of_stress_Nmm) : 0;
+}
+
 AdaptiveLoop::AdaptiveLoop(Scene scene, Mesh mesh, Method method, AdaptiveSettings settings)
     : scene_(std::move(scene)),
       mesh_(std::move(mesh)),
@@ -59,8 +74,8 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   if (reached() || !ended_.empty()) return {};
   const auto start = std::chrono::steady_clock::now();
   if (!history_.empty() && !refine()) return {};
-  const DualSystem system =
-      assemble(std::make_shared<const Problem>(pose(scene_, mesh_)), Blocks::contact_points);
+  const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
+  DualSystem system = assemble(problem, Blocks::contact_points);
 
   RunControl control;
   control.deadline = Deadline::after(settings_.timeout_s);
@@ -68,22 +83,15 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   std::optional<heap::Limit> limit;
   if (settings_.memory_limit_bytes)
     limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
-  const Solution solution = run(method_, system, control);
+  StepErrors errors;
+  solve_load_steps(method_.solve, system, control,
+                   [&](int step, const DualSystem& posed, const Solution& answer) {
+                     limit.reset();
+                     judge_step(step_prefix(static_cast<std::size_t>(step), *problem), posed,
+                                answer, errors);
+                   });
   limit.reset();
-  if (solution.status != Status::ok) {
-    ended_ = fmt::format("{} on {} unknowns: {}: {}", method_.name, mesh_sizes(mesh_).n_phi,
-                         name_of(solution.status), solution.message);
-    return {};
-  }
-  if (solution.edge_moments.cols() == 0)
-    throw UsageError(fmt::format(
-        "--adapt-by: {} (allowed: a method with edge displacements, as HYBRID)", method_.name));
-
-  const auto estimating = std::chrono::steady_clock::now();
-  const DisplacementField w =
-      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  ConstitutiveError error = constitutive_error(system, solution.stress, solution.F_C, w);
-  estimate_s_ += seconds_since(estimating);  // first: whatever comes between, it is a part
+  if (!ended_.empty()) return {};
   time_s_ += seconds_since(start);
   AdaptiveLevel level;
   level.mesh = mesh_;
@@ -92,18 +100,35 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   level.smallest_angle_deg = mesh_quality(mesh_).smallest_angle_deg;
   level.time_s = time_s_;
   level.estimate_s = estimate_s_;
-  if (error.flaw.empty())
-    level.error = error.relative;
+  if (errors.flaw.empty())
+    level.error = errors.relative();
   else
-    ended_ = "nothing can be said of the error: " + error.flaw;
-  squared_Nmm_ = error.squared_Nmm();
-  parts_Nmm_ = std::move(error.of_triangle_Nmm);
-  edges_ = system.problem->edges;
+    ended_ = "nothing can be said of the error: " + errors.flaw;
+  squared_Nmm_ = errors.squared_Nmm;
+  parts_Nmm_ = std::move(errors.of_triangle_Nmm);
+  edges_ = problem->edges;
   if (expected_.squared > 0)
     more_squared_ = std::sqrt(  // most of what was missed was seen on the way
         std::clamp(squared_Nmm_ / expected_.squared, 1 / most_correction, most_correction));
   judge_progress(level);
   return level;
+}
+
+void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& system,
+                              const Solution& solution, StepErrors& errors) {
+  if (solution.status != Status::ok) {
+    ended_ = fmt::format("{} on {} unknowns: {}{}: {}", method_.name, mesh_sizes(mesh_).n_phi,
+                         prefix, name_of(solution.status), solution.message);
+    return;
+  }
+  if (solution.edge_moments.cols() == 0)
+    throw UsageError(fmt::format(
+        "--adapt-by: {} (allowed: a method with edge displacements, as HYBRID)", method_.name));
+  const auto estimating = std::chrono::steady_clock::now();
+  const DisplacementField w =
+      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  errors.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
+  estimate_s_ += seconds_since(estimating);
 }
 
 // Sets which goals are reached, and ends what gets nowhere.

@@ -11,6 +11,9 @@
 // two. What was expected of the last level and what became of it, in triangles and in e², corrects
 // what is expected of the next.
 //
+// A path of load steps is solved whole on every level, and marked by the sum of e² over its steps;
+// its error is √(Σ e² / Σ ‖σ‖²).
+//
 // With a marking share, bulk marking instead: the triangles that hold this share of e². A marked
 // triangle is cut 1 + ⌊log₄(its part / the least marked part)⌋ times: a cut divides the part by
 // eight where the solution is smooth and by two to four at corners, and what sticks out far need
@@ -23,6 +26,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/cases/adapt_goal.hpp"
+#include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/expected_parts.hpp"
 #include "solvers/methods.hpp"
 
@@ -39,10 +43,11 @@ struct AdaptiveSettings {
 
 struct AdaptiveLevel {
   Mesh mesh;
-  int number = 0;               // 0: the mesh it began with
-  int unknowns = 0;             // n_φ
-  std::optional<double> error;  // e / ‖σ‖; empty: the fields say nothing, see why_ended()
-  bool reaches_goal = false;    // one that no level before did
+  int number = 0;    // 0: the mesh it began with
+  int unknowns = 0;  // n_φ
+  std::optional<double>
+      error;  // e / ‖σ‖, of a path over its steps; empty: the fields say nothing, see why_ended()
+  bool reaches_goal = false;  // one that no level before did
   double smallest_angle_deg = 0;
   double time_s = 0, estimate_s = 0;  // of all levels up to this one, and what the estimates took
 };
@@ -59,6 +64,16 @@ class AdaptiveLoop {
   const std::string& why_ended() const { return ended_; }           // before it; else empty
 
  private:
+  // Of all load steps: e² and ‖σ‖² summed.
+  struct StepErrors {
+    std::vector<double> of_triangle_Nmm;
+    double squared_Nmm = 0, of_stress_Nmm = 0;
+    std::string flaw;
+    void add(const ConstitutiveError& error, const std::string& prefix);
+    double relative() const;
+  };
+  void judge_step(const std::string& prefix, const DualSystem& system, const Solution& solution,
+                  StepErrors& errors);
   bool refine();
   BisectedMesh marked_and_bisected() const;
   BisectedMesh bisected_as_expected();

@@ -78,9 +78,6 @@ std::vector<PosedScene> pose_and_adapt(const Options& options, std::vector<std::
   if (options.adapt.empty()) return posed;
   std::vector<PosedScene> levels;
   for (const PosedScene& start : posed) {
-    if (!start.problem->later_steps.empty())
-      throw UsageError(fmt::format("--adapt: the scene {} (allowed: scenes without load_steps)",
-                                   start.scene_name));
     AdaptedScenes adapted = adapted_scenes(start, options);
     std::ranges::move(adapted.levels, std::back_inserter(levels));
     if (!adapted.why_not_reached.empty()) short_of.push_back(adapted.why_not_reached);

@@ -62,8 +62,7 @@ std::optional<DisplacementField> lifted(const Problem& problem, bool tangential)
 }
 
 std::optional<Bracket> resultant(const Problem& problem, const StressField& mean, double error,
-                                 bool tangential) {
-  const std::optional<DisplacementField> v = lifted(problem, tangential);
+                                 const std::optional<DisplacementField>& v) {
   if (!v) return {};
   const StressField strained = stress_of_displacement(problem, *v);
   double work = -work_of_loads(problem, *v);
@@ -262,21 +261,26 @@ std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::Vect
 
 }  // namespace
 
-std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
-                                                  const StressField& stress,
-                                                  const Eigen::VectorXd& F_C,
-                                                  const DisplacementField& u,
-                                                  const ConstitutiveError& error) {
+ResultantLifts resultant_lifts(const Problem& problem) {
+  if (!problem.contact_normals.empty() || !can_be_moved_as_one(problem.mesh)) return {};
+  ResultantLifts lifts;
+  lifts.normal = lifted(problem, false);
+  if (problem.has_friction()) lifts.tangential = lifted(problem, true);
+  return lifts;
+}
+
+std::optional<ContactIntervals> contact_intervals(
+    const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+    const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts) {
   if (system.contact.count == 0) return {};
   const Problem& problem = *system.problem;
   ContactIntervals result;
   result.guaranteed = error.guaranteed;
-  if (problem.contact_normals.empty() && can_be_moved_as_one(problem.mesh)) {
+  if (lifts.normal) {
     const StressField mean = mean_stress(problem, stress, u);
     const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm()));
-    result.normal_resultant_N = resultant(problem, mean, of_mean, false);
-    if (system.contact.components == 2)
-      result.tangential_resultant_N = resultant(problem, mean, of_mean, true);
+    result.normal_resultant_N = resultant(problem, mean, of_mean, lifts.normal);
+    result.tangential_resultant_N = resultant(problem, mean, of_mean, lifts.tangential);
   }
   result.peak = kind_of_peak(system, F_C);
   set_largest_pressure(problem, stress, u, error, result);

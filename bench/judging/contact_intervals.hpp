@@ -55,11 +55,16 @@ constexpr const char* name_of(ContactIntervals::Peak peak) {
   return names[static_cast<std::size_t>(peak)];
 }
 
+// The displacements v of a body that the resultants are found by, whatever its loads. Empty: there
+// are none.
+struct ResultantLifts {
+  std::optional<DisplacementField> normal, tangential;
+};
+ResultantLifts resultant_lifts(const Problem& problem);
+
 // Empty without contact. stress, F_C, u: what `error` has been made of.
-std::optional<ContactIntervals> contact_intervals(const DualSystem& system,
-                                                  const StressField& stress,
-                                                  const Eigen::VectorXd& F_C,
-                                                  const DisplacementField& u,
-                                                  const ConstitutiveError& error);
+std::optional<ContactIntervals> contact_intervals(
+    const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+    const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts);
 
 }  // namespace airybench

@@ -8,11 +8,12 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
+#include "bench/judging/vertex_stars.hpp"
 
 namespace airybench {
 namespace {
 
-using LocalCoefficients = Eigen::Matrix<double, 2, 6>;
+using LocalCoefficients = VertexStars::OfTriangle;
 
 // The L² projection on linear fields of a stress that is linear on each third; columns: corners.
 Eigen::Matrix3d linear_stress(const ElementStress& stress) {
@@ -231,6 +232,15 @@ class Constraints {
   Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)
       : given_(prescribed_displacement(*system.problem)), contact_(contact_nodes(system, F_C)) {}
 
+  // Per node: it has some.
+  std::vector<bool> nodes(std::size_t count) const {
+    std::vector<bool> nodes = given_.at;
+    nodes.resize(count, false);
+    for (const auto& [node, normal] : given_.normal) nodes[static_cast<std::size_t>(node)] = true;
+    for (const auto& [node, contact] : contact_) nodes[static_cast<std::size_t>(node)] = true;
+    return nodes;
+  }
+
   // stiffness: per node, k of in_contact().
   void apply(const Eigen::VectorXd& stiffness, DisplacementField& w) const {
     for (Eigen::Index node = 0; node < w.cols(); ++node)
@@ -287,6 +297,10 @@ DisplacementField recovered_displacement(const DualSystem& system, const StressF
   stiffness /= damping;
   w.array() -= half_gradient(problem, own, w).array().rowwise() / stiffness.transpose().array();
   constraints.apply(stiffness, w);
+  if (VertexStars::are_needed(problem)) {
+    VertexStars stars(problem, own, constraints.nodes(static_cast<std::size_t>(nodes)));
+    for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w);
+  }
   return w;
 }
 

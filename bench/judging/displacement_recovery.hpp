@@ -19,6 +19,10 @@
 // times that with P2's displacement, which without friction is the least (measured; 1.4 without
 // this step).
 //
+// Where ν is near ½, two sweeps over vertex stars (vertex_stars.hpp) then move all that no
+// constraint is on; e is at most 1.7 times that with P2's displacement up to ν = 0.4999 (14
+// without).
+//
 // The idea of averaging is Zienkiewicz & Zhu's (1987), that of going from stresses to an admissible
 // displacement Ladevèze's (discretisation_error.hpp): whatever the field, if it is admissible, e is
 // the error that is said there.

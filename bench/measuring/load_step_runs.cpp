@@ -11,19 +11,6 @@
 namespace airybench {
 namespace {
 
-// The reference as an answer that a path can go on from.
-Solution answer_of(const Reference& reference) {
-  Solution answer;
-  answer.status = Status::ok;
-  answer.message.clear();
-  answer.F_C = reference.F_C;
-  answer.stress = reference.stress;
-  if (reference.F_C.size() > 0)
-    answer.contact_displacement =
-        times(reference.condensed.D, reference.F_C) - reference.condensed.G;
-  return answer;
-}
-
 template <typename T>
 void add(const std::optional<T>& more, std::optional<T>& sum) {
   if (more) sum = sum.value_or(0) + *more;
@@ -84,6 +71,18 @@ class PathTotals {
 
 }  // namespace
 
+Solution answer_of(const Reference& reference) {
+  Solution answer;
+  answer.status = Status::ok;
+  answer.message.clear();
+  answer.F_C = reference.F_C;
+  answer.stress = reference.stress;
+  if (reference.F_C.size() > 0)
+    answer.contact_displacement =
+        times(reference.condensed.D, reference.F_C) - reference.condensed.G;
+  return answer;
+}
+
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most) {
   ReferencePath path;
   const Solve solve = [&](const DualSystem& system, const RunControl&) {
@@ -132,10 +131,11 @@ std::string step_prefix(std::size_t step, const Problem& first) {
 }
 
 std::size_t worst_step(const std::vector<JudgedStep>& steps) {
+  const auto error_of = [](const JudgedStep& step) { return worst_measure(step.seen()).value; };
   std::size_t worst = 0;
-  double largest = worst_measure(steps.front().verification).value;
+  double largest = error_of(steps.front());
   for (std::size_t k = 1; k < steps.size(); ++k)
-    if (const double value = worst_measure(steps[k].verification).value; !(value <= largest)) {
+    if (const double value = error_of(steps[k]); !(value <= largest)) {
       worst = k;
       largest = value;
     }
@@ -145,14 +145,17 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps) {
 Json steps_of(const std::vector<JudgedStep>& steps) {
   const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
   Json list = Json::array();
-  for (const auto& [claimed, v] : steps)
-    list.push_back({{"claimed_status", name_of(claimed)},
+  for (const JudgedStep& step : steps) {
+    const Verification& v = step.seen();
+    list.push_back({{"claimed_status", name_of(step.claimed_status)},
                     {"error", worst_measure(v).value},
                     {"normal_resultant_N", or_null(v.normal_resultant_N)},
                     {"tangential_resultant_N", or_null(v.tangential_resultant_N)},
                     {"n_open", or_null(v.n_open)},
                     {"n_stick", or_null(v.n_stick)},
-                    {"n_slip", or_null(v.n_slip)}});
+                    {"n_slip", or_null(v.n_slip)},
+                    {"dissipation_Nmm", step.dissipation_Nmm}});
+  }
   return list;
 }
 

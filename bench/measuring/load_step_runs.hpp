@@ -26,9 +26,18 @@ struct ReferencePath {
 // error_at_most: of every reference, by its own estimate.
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most);
 
+// The reference as an answer that a path can go on from.
+Solution answer_of(const Reference& reference);
+
 struct JudgedStep {
   Status claimed_status;
   Verification verification;
+  // Against the solution nearest to it, where the law is met by other forces than the reference's:
+  // along the method's own path, whose past may be another, too.
+  std::optional<Verification> as_other = {};
+  double dissipation_Nmm = 0;
+
+  const Verification& seen() const { return as_other ? *as_other : verification; }
 };
 
 // The answer of the last step, with the times and iterations of all, the largest storage and error
@@ -40,7 +49,8 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
 // "load step 3 of 20: ", or nothing where there is one only.
 std::string step_prefix(std::size_t step, const Problem& first);
 
-// The step whose worst measure is largest, a NaN above all; steps: some.
+// The step whose worst measure is largest, a NaN above all; steps: some. The others count that are
+// there.
 std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
 // Record::steps.

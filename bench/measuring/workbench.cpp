@@ -183,7 +183,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
   if (is_answered(run.solution) && (problem_->given || reference() != nullptr)) {
     verify_run(blocks, run);
-    attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].verification).value;
+    attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
   }
   record.attempts.push_back(std::move(attempt));
 }
@@ -226,9 +226,12 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
 JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
   if (problem_->given) return {solution.status, verify_given_contact(system, solution)};
-  if (solution.displacement.cols() == 0)
-    return {solution.status, verify(system, solution, reference(step))};
-  JudgedStep result = {solution.status, verify_displacement(system, solution)};
+  const double dissipation = dissipation_Nmm(system, solution);
+  if (solution.displacement.cols() == 0) {
+    const Verification v = verify(system, solution, reference(step));
+    return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
+  }
+  JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
     // Another's discrete law is not ours; how far it is from it, in N, is said.
     result.verification.natural_map_residual.reset();
@@ -242,43 +245,41 @@ void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
   if (run.judged.empty()) run.judged.push_back(judged(0, *blocks.system, run.solution));
 }
 
-std::optional<Verification> Workbench::verify_as_other_solution(const AssembledBlocks& blocks,
-                                                                const Run& run) {
-  const Verification& v = run.judged.back().verification;
-  // Only where the law is met with the reference's D and G, but by other forces; not of a path.
-  if (problem_->given || run.judged.size() > 1 || !v.friction_coupling ||
-      !(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0)) <=
-        options_.target_error))
+std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem& system,
+                                                                const Solution& solution,
+                                                                const Verification& v) {
+  const auto is_small = [&](double error) { return error <= options_.target_error; };
+  // Only where the law is met with the reference's D and G, but by other forces.
+  if (is_small(worst_measure(v).value) || !v.friction_coupling ||
+      !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
   try {
-    const ActivityScope scope(board_, Activity::verification);
-    const DualSystem system = assemble(problem_, Blocks::contact_points);
-    const Reference other = compute_reference(system, run.solution.F_C);
+    const DualSystem posed = assemble(system.problem, Blocks::contact_points);
+    const Reference other = compute_reference(posed, solution.F_C);
     if (!(other.error_estimate <= reference_error_at_most())) return {};
-    const Verification seen = verify(*blocks.system, run.solution, &other);
-    return worst_measure(seen).value <= options_.target_error ? std::optional(seen) : std::nullopt;
+    const Verification seen = verify(system, solution, &other);
+    return is_small(worst_measure(seen).value) ? std::optional(seen) : std::nullopt;
   } catch (const Breakdown&) {
     return {};
   }
 }
 
-void Workbench::judge(const Method& method, const AssembledBlocks& blocks, const Run& run,
-                      Record& record) {
-  const Verification& v = run.judged.back().verification;
+void Workbench::judge(const Method& method, const Run& run, Record& record) {
+  const Verification& v = run.judged.back().seen();
   note(v, record);
   if (record.status != Status::ok) return;
   const std::size_t at = worst_step(run.judged);
-  const WorstMeasure worst = worst_measure(run.judged[at].verification);
-  if (!(worst.value <= options_.target_error)) {
-    if (const auto other = verify_as_other_solution(blocks, run)) {
-      note(*other, record);
-      record.other_solution = true;
-      record.status_reason = fmt::format(
-          "another solution than the reference's, {:.1e} of its stress away; errors are to this "
-          "one",
-          v.error_stress.value_or(0));
-      return;
-    }
+  const WorstMeasure worst = worst_measure(run.judged[at].seen());
+  const auto other = std::ranges::find_if(
+      run.judged, [](const JudgedStep& step) { return step.as_other.has_value(); });
+  if (worst.value <= options_.target_error && other != run.judged.end()) {
+    record.other_solution = true;
+    record.status_reason = fmt::format(
+        "{}another solution than the reference's, {:.1e} of its stress away; errors are to this "
+        "one",
+        step_prefix(static_cast<std::size_t>(other - run.judged.begin()), *problem_),
+        other->verification.error_stress.value_or(0));
+  } else if (!(worst.value <= options_.target_error)) {
     record.status = Status::inaccurate;
     record.status_reason =
         fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
@@ -343,7 +344,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
   if (is_answered(solution)) {
     verify_run(assembled, run);
-    judge(method, assembled, run, record);
+    judge(method, run, record);
     if (!problem_->given) note_discretisation(method, solution, record);
     if (!fields.empty() && !problem_->given)
       write_fields_of(method, *assembled.system, solution, record, fields);

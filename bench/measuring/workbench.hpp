@@ -76,10 +76,11 @@ class Workbench {
   double reference_error_at_most() const;
   // Null when there is none; no_reference_ says why.
   const Reference* reference(int step = 0);
-  struct Discretisation {
+  struct Discretisation {  // of the last load step
     ConstitutiveError error;
     DisplacementField u;
     std::optional<ContactIntervals> intervals;  // of recovery, where the error is one
+    Json of_steps = Json::array();              // what Record::steps has of each
   };
   // Whose displacements the discretisation error of the method's record is made with.
   std::optional<Bound> bound_for(const Method& method) const;
@@ -97,7 +98,7 @@ class Workbench {
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
-  void judge(const Method& method, const AssembledBlocks& blocks, const Run& run, Record& record);
+  void judge(const Method& method, const Run& run, Record& record);
   // What is known of the discretisation error.
   void note_discretisation(const Method& method, const Solution& solution, Record& record);
   // Nothing above 100 % is ok, and what has no other error than this one says why there is none.
@@ -111,8 +112,9 @@ class Workbench {
   void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
                        const Record& record, const std::filesystem::path& file);
   // Against the solution that is nearest to it, where that is none of the reference's.
-  std::optional<Verification> verify_as_other_solution(const AssembledBlocks& blocks,
-                                                       const Run& run);
+  std::optional<Verification> verify_as_other_solution(const DualSystem& system,
+                                                       const Solution& solution,
+                                                       const Verification& v);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;

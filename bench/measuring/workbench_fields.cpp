@@ -1,6 +1,9 @@
 // What a Workbench knows of the mesh's own error, and the fields that it writes with it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <tuple>
+
 #include "bench/judging/displacement_recovery.hpp"
 #include "bench/measuring/field_files.hpp"
 #include "bench/measuring/record_notes.hpp"
@@ -18,38 +21,82 @@ std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const
 
 const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
   const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && problem_->later_steps.empty() && reference() != nullptr &&
-      left_out_.discretisation.empty())
+  if (is_new && reference() != nullptr && left_out_.discretisation.empty())
     found->second = compute_discretisation(bound);
   return found->second ? &*found->second : nullptr;
 }
 
+namespace {
+
+// Null where an answer has none.
+Json shown(const ConstitutiveError& error) {
+  const auto or_null = [](bool is_there, double value) { return is_there ? Json(value) : Json(); };
+  return {{"error_discretisation", or_null(error.flaw.empty(), error.relative)},
+          {"lower_bound_Nmm", or_null(error.guaranteed, error.lower_bound_Nmm)},
+          {"upper_bound_Nmm", or_null(error.guaranteed, error.upper_bound_Nmm)}};
+}
+
+void add_intervals(const ContactIntervals& intervals, Json& step) {
+  for (const auto& [name, interval] : {std::pair("normal_resultant", intervals.normal_resultant_N),
+                                       {"tangential_resultant", intervals.tangential_resultant_N}})
+    if (interval) {
+      step[std::string(name) + "_low_N"] = interval->low;
+      step[std::string(name) + "_high_N"] = interval->high;
+    }
+}
+
+// Of P2 against the stresses of the reference.
+std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& system,
+                                                            const Solution& reference,
+                                                            const DisplacementField& u) {
+  ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
+  if (error.flaw.empty()) return {std::move(error), u};
+  // Its law is at its nodes, at a corner of two walls about their mean normal: that goes through
+  // what stands out between them.
+  DisplacementField behind = admissible_displacement(system, reference.F_C, u);
+  ConstitutiveError of_it = constitutive_error(system, reference.stress, reference.F_C, behind);
+  if (of_it.flaw.empty()) return {std::move(of_it), std::move(behind)};
+  return {std::move(error), u};
+}
+
+}  // namespace
+
+// Every step against a system whose slip is measured from the stresses' own past.
 std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
   const ActivityScope scope(board_, Activity::discretisation);
-  const DualSystem system = assemble(problem_, Blocks::contact_points);
-  const char* method = bound == Bound::p2 ? "P2" : options_.adapt_by.c_str();
-  const Solution own = run(select_methods(method).front(), system, {});
-  if (own.status != Status::ok) return {};
-  Discretisation result;
+  std::vector<DisplacementField> of_p2;
+  Solve solve = select_methods(bound == Bound::p2 ? "P2" : options_.adapt_by).front().solve;
   if (bound == Bound::p2) {
-    const auto& [stress, F_C] = std::tie(reference()->stress, reference()->F_C);
-    result.u = own.displacement;
-    result.error = constitutive_error(system, stress, F_C, result.u);
-    if (result.error.flaw.empty()) return result;
-    // Its law is at its nodes, at a corner of two walls about their mean normal: that goes through
-    // what stands out between them.
-    DisplacementField behind = admissible_displacement(system, F_C, own.displacement);
-    ConstitutiveError error = constitutive_error(system, stress, F_C, behind);
-    if (error.flaw.empty()) {
-      result.u = std::move(behind);
-      result.error = std::move(error);
-    }
-    return result;
+    solve_load_steps(select_methods("P2").front(), problem_, {},
+                     [&](int, const DualSystem&, const Solution& answer) {
+                       if (answer.status == Status::ok) of_p2.push_back(answer.displacement);
+                     });
+    if (std::ssize(of_p2) < count_of_steps(*problem_)) return {};
+    solve = [this, step = 0](const DualSystem&, const RunControl&) mutable {
+      return answer_of(*reference(step++));
+    };
   }
-  result.u = recovered_displacement(system, own.stress, own.F_C, own.edge_moments);
-  result.error = constitutive_error(system, own.stress, own.F_C, result.u);
-  if (result.error.flaw.empty())
-    result.intervals = contact_intervals(system, own.stress, own.F_C, result.u, result.error);
+  Discretisation result;
+  std::optional<ResultantLifts> lifts;
+  DualSystem system = assemble(problem_, Blocks::contact_points);
+  solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
+    if (own.status != Status::ok) return;
+    if (bound == Bound::p2) {
+      std::tie(result.error, result.u) =
+          error_of_p2(posed, own, of_p2[static_cast<std::size_t>(step)]);
+    } else {
+      result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
+      result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
+    }
+    result.of_steps.push_back(shown(result.error));
+    result.intervals.reset();
+    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (!lifts) lifts = resultant_lifts(*problem_);
+    result.intervals =
+        contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
+    if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
+  });
+  if (std::ssize(result.of_steps) < count_of_steps(*problem_)) return {};
   return result;
 }
 
@@ -79,8 +126,11 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
   else if (method.in_displacements)
     record.no_discretisation_error =
         no_reference_.empty() ? "it is not made for load steps" : no_reference_;
-  if (known != nullptr && known->intervals && !record.other_solution)
-    note(*known->intervals, record);
+  if (known != nullptr && !record.other_solution) {
+    if (known->intervals) note(*known->intervals, record);
+    for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
+      record.steps[k].update(known->of_steps[k]);
+  }
   judge_discretisation(method, record);
 }
 

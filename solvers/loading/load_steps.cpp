@@ -53,6 +53,17 @@ std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const So
   return slid;
 }
 
+double dissipation_Nmm(const DualSystem& system, const Solution& answer) {
+  const Problem& problem = *system.problem;
+  if (!problem.has_friction() || answer.contact_displacement.size() == 0) return 0;
+  const ContactPoints law =
+      answer.displacement.cols() > 0 ? control_points(problem).law : system.contact;
+  const Eigen::VectorXd slip = relative_to_gap(law, answer.contact_displacement);
+  double work = 0;
+  for (int p = 0; p < law.count; ++p) work -= answer.F_C(2 * p + 1) * slip(2 * p + 1);
+  return work;
+}
+
 Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
                           const VisitStep& visit) {
   const std::shared_ptr<const Problem> first = system.problem;

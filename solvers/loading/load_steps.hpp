@@ -20,6 +20,9 @@ namespace airybench {
 // s of the next step: Bernstein coefficients on Γ_C, as in Loads. Empty without friction.
 std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer);
 
+// What friction takes in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
+double dissipation_Nmm(const DualSystem& system, const Solution& answer);
+
 // step: from 0. The system is that of the step, its slip measured from this path's own past.
 using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
 

@@ -29,7 +29,8 @@ struct Judged {
         hybrid(run(select_methods("HYBRID").front(), system, {})),
         u(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)),
         error(constitutive_error(system, hybrid.stress, hybrid.F_C, u)),
-        intervals(contact_intervals(system, hybrid.stress, hybrid.F_C, u, error)) {
+        intervals(contact_intervals(system, hybrid.stress, hybrid.F_C, u, error,
+                                    resultant_lifts(*system.problem))) {
     EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
   }
   double resultant(int component) const {
