@@ -14,7 +14,7 @@ from looks import Look
 
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
-COMPLETED = STATUSES[:2]
+COMPLETED = STATUSES[:3]
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
 CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")

@@ -29,14 +29,18 @@ class OwnBodies : public ::testing::TestWithParam<const char*> {
 
 TEST_P(OwnBodies, FromTheModelToTablePicturesAndAdaptedMeshes) {
   const testing::CommandResult result = run("--adapt=3% --fields");
-  ASSERT_EQ(result.code, 0) << result.err << result.out;
   const std::vector<Json> records = bench_.records();
-  ASSERT_GE(records.size(), 2u);
+  ASSERT_GE(records.size(), 2u) << result.err << result.out;
+  bool all_ok = true;
   for (const Json& record : records) {
-    EXPECT_EQ(record["status"], "ok") << record;
+    // The first mesh of L meets its disc at one point: nothing is known there.
+    const bool known = record["error_discretisation"].get<double>() <= 1;
+    EXPECT_EQ(record["status"], known ? "ok" : "inaccurate") << record;
+    all_ok &= known;
     EXPECT_GT(record["n_stick"].get<int>() + record["n_slip"].get<int>(), 0) << record;
     EXPECT_TRUE(fs::exists(bench_.path("o") / record["mesh_file"].get<std::string>())) << record;
   }
+  EXPECT_EQ(result.code, all_ok ? 0 : 1) << result.err << result.out;
   double error = 1;
   for (const Json& record : records)
     if (record["method"] == "HYBRID") error = record["error_discretisation"];

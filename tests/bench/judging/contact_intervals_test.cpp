@@ -79,6 +79,24 @@ TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
   }
 }
 
+// A wall that ends within the face, at vertices; a crowned one.
+TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
+  Scene punch = with_friction(0), crown = with_friction(0);
+  punch.crown_radius_mm.reset();
+  punch.wall = PolylineWall{{{10, 2.5}, {10, 7.5}}};
+  crown.crown_radius_mm = 400;
+  Mesh mesh = testing::small_block(12, 12, 0);
+  for (int level = 0; level < 2; ++level) {
+    mesh = uniformly_refined(mesh);
+    const Judged pressed(punch, mesh), rolled(crown, mesh);
+    ASSERT_TRUE(pressed.intervals && rolled.intervals);
+    EXPECT_EQ(pressed.intervals->peak, ContactIntervals::Peak::unbounded) << level;
+    EXPECT_FALSE(pressed.intervals->largest_pressure_within_MPa);
+    EXPECT_EQ(rolled.intervals->peak, ContactIntervals::Peak::bounded) << level;
+    EXPECT_TRUE(rolled.intervals->largest_pressure_within_MPa);
+  }
+}
+
 TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
   Scene bent = with_friction(0);
   Mesh mesh = testing::small_tooth(6, 5);

@@ -53,6 +53,59 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   }
 }
 
+// Without friction nothing is remembered: the last of several equal steps is the one of all of
+// them.
+TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
+  Scene scene;
+  scene.friction = 0;
+  const auto examined_in = [&](int steps, const char* method) {
+    scene.equal_steps = steps;
+    Options options;
+    options.repetitions = 1;
+    options.fields = true;
+    Workbench bench(testing::posed(scene), options);
+    return bench.examine(select_methods(method).front(), {}).record;
+  };
+  for (const char* method : {"HYBRID", "P2"}) {
+    const Record once = examined_in(1, method), path = examined_in(3, method);
+    ASSERT_TRUE(once.error_discretisation && path.error_discretisation) << method;
+    EXPECT_NEAR(*path.error_discretisation / *once.error_discretisation, 1, 1e-6) << method;
+    EXPECT_NEAR(*path.lower_bound_Nmm / *once.lower_bound_Nmm, 1, 1e-9);
+    ASSERT_EQ(path.steps.size(), 3u);
+    EXPECT_EQ(path.steps[2].at("error_discretisation"), *path.error_discretisation);
+    for (const Json& step : path.steps)
+      EXPECT_LT(step.at("lower_bound_Nmm").get<double>(), step.at("upper_bound_Nmm").get<double>());
+  }
+  const Record path = examined_in(3, "HYBRID");
+  for (const Json& step : path.steps) {
+    EXPECT_LE(step.at("normal_resultant_low_N").get<double>(),
+              step.at("normal_resultant_N").get<double>());
+    EXPECT_EQ(step.at("dissipation_Nmm"), 0);
+  }
+}
+
+// u_t is less what slipped before: the way back would else have an error of its own past.
+TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
+  Options options;
+  options.repetitions = 1;
+  options.fields = true;
+  Workbench bench(sheared_and_back(), options);
+  for (const char* method : {"HYBRID", "P2"}) {
+    const Record record = bench.examine(select_methods(method).front(), {}).record;
+    ASSERT_EQ(record.steps.size(), 3u);
+    const auto error = [&](int k) {
+      return record.steps[k].at("error_discretisation").get<double>();
+    };
+    EXPECT_LT(error(2), 1.3 * error(0)) << method;
+    double dissipated = 0;
+    for (const Json& step : record.steps) {
+      EXPECT_GE(step.at("dissipation_Nmm").get<double>(), -1e-12);
+      dissipated += step.at("dissipation_Nmm").get<double>();
+    }
+    EXPECT_GT(dissipated, 1e-4) << method;
+  }
+}
+
 TEST(LoadStepRuns, AStepThatIsWrongSpoilsTheCase) {
   Method method = select_methods("HYBRID").front();
   // Says ok of every step, but the second, the sheared one, has contact forces too large.

@@ -129,7 +129,10 @@ void compare(const std::string& name, const Expected& expected, const Record& re
     std::cout << "better: " << what << "\n";
   if (!expected.greatest || rank(found.outcome) < rank("inaccurate")) return;
   ASSERT_TRUE(found.greatest) << what;
-  EXPECT_LE(*found.greatest, level_growth * std::max(*expected.greatest, rounding)) << what;
+  constexpr double no_digit = 1;  // beyond, one answer is as wrong as another
+  EXPECT_LE(std::min(*found.greatest, no_digit),
+            level_growth * std::max(*expected.greatest, rounding))
+      << what;
 }
 
 class StabilityOutcomes : public ::testing::TestWithParam<std::string> {};

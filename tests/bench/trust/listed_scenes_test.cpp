@@ -7,6 +7,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/small_meshes.hpp"
 
 namespace airybench::listed_scenes_test {
 namespace {
@@ -190,6 +191,88 @@ TEST(ListedScenes, AnotherSolutionIsNotWrong) {
     return solution;
   };
   EXPECT_EQ(examined(problem, finds_the_other).outcome, "wrong_success");
+}
+
+// The same at a second load step of its own past.
+TEST(ListedScenes, AnotherSolutionOfAPathIsNotWrong) {
+  const auto changes = [](double pressed) {
+    return [pressed](Scene& s) {
+      s.friction = 1.5;
+      s.displacement_mm = {pressed, 0.03};
+      s.crown_radius_mm.reset();
+      s.later_steps.resize(1);
+      s.later_steps[0].displacement_mm = Eigen::Vector2d(pressed, 0.031);
+    };
+  };
+  const Reference pressed =
+      compute_reference(assemble(posed(changes(0.002)), Blocks::contact_points));
+  Method finds_the_other = select_methods("HYBRID").front();
+  finds_the_other.solve = [&](const DualSystem& system, const RunControl&) {
+    return answer_of(
+        compute_reference(assemble(system.problem, Blocks::contact_points), pressed.F_C));
+  };
+  const Record record = examined(posed(changes(0)), finds_the_other);
+  EXPECT_EQ(record.outcome, "other_solution") << record.status_reason;
+  EXPECT_TRUE(record.status_reason.starts_with("load step 1 of 2: another solution"))
+      << record.status_reason;
+  ASSERT_EQ(record.steps.size(), 2u);
+  for (const Json& step : record.steps) {
+    EXPECT_LT(step.at("error").get<double>(), 1e-9);
+    EXPECT_LT(step.at("normal_resultant_N").get<double>(), -1);
+  }
+}
+
+// Between three walls without friction the stress is uniform: HYBRID has it. P2 knows one normal at
+// a corner, and was ok without an error.
+TEST(ListedScenes, WhatP2CannotMeetInACornerIsInItsTotalError) {
+  Mesh mesh = testing::small_block(4, 4, 0);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact;
+  Scene scene;
+  scene.friction = 0;
+  scene.material = {1000, 0.3};
+  scene.displacement_mm = {0.01, 0};
+  scene.crown_radius_mm.reset();
+  const auto problem = testing::posed(scene, mesh);
+  const Record hybrid = examined(problem, select_methods("HYBRID").front(), Study::error),
+               p2 = examined(problem, select_methods("P2").front(), Study::error);
+  // Plane strain, u_y = 0: σ_xx = −E (1 − ν) / ((1 + ν)(1 − 2ν)) u/L, σ_yy = ν/(1 − ν) σ_xx; on a
+  // side of 10 mm, and on two.
+  const double across = -1000 * 0.7 / (1.3 * 0.4) * 0.001 * 10;
+  EXPECT_NEAR(*hybrid.normal_resultant_N, across * (1 + 2 * 0.3 / 0.7), 1e-6);
+  ASSERT_TRUE(p2.error_discretisation) << p2.no_discretisation_error;
+  const double off = std::abs(*p2.normal_resultant_N / *hybrid.normal_resultant_N - 1);
+  EXPECT_GT(off, 0.005);
+  EXPECT_GT(*p2.error_discretisation, off);
+}
+
+// A bump that no node touches: P2's displacements go through it, and its total error of 176 % was
+// ok.
+TEST(ListedScenes, NothingAbove100PercentIsOk) {
+  Scene scene;
+  scene.friction = 0;
+  scene.displacement_mm = {0.01, 0};
+  scene.crown_radius_mm.reset();
+  scene.wall = PolylineWall{{{10, -2}, {10, 2.4}, {9.99, 2.5}, {10, 2.6}, {10, 12}}};
+  const Record record =
+      examined(testing::posed(scene, testing::small_block(3, 3, 0)), select_methods("P2").front());
+  ASSERT_TRUE(record.error_discretisation);
+  EXPECT_GT(*record.error_discretisation, 1);
+  EXPECT_EQ(record.outcome, "inaccurate");
+  EXPECT_NE(record.status_reason.find("total error"), std::string::npos) << record.status_reason;
+}
+
+TEST(ListedScenes, StrainsThatAreNotSmallAreSaid) {
+  for (const double far : {0.02, 3.}) {
+    const auto problem = posed([far](Scene& s) {
+      s.displacement_mm = {far, 0};
+      s.crown_radius_mm.reset();
+    });
+    const Record record = examined(problem, select_methods("HYBRID").front());
+    EXPECT_EQ(record.outcome, "ok") << record.status_reason;
+    EXPECT_EQ(record.status_reason.find("small strains") != std::string::npos, far > 1)
+        << record.status_reason;
+  }
 }
 
 }  // namespace
