@@ -1,0 +1,116 @@
+// The promise: where bounds are called guaranteed they hold, whatever the wall does between the
+// points of a mesh, at every step of a path, up to ν = 0.4999. Here on blocks at random, each on
+// its mesh and refined three times: no lower bound of one is above an upper bound of another.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <iostream>
+#include <limits>
+#include <random>
+
+#include "bench/judging/discretisation_error.hpp"
+#include "bench/judging/displacement_recovery.hpp"
+#include "mesh/refinement.hpp"
+#include "solvers/loading/load_steps.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::random_bounds_test {
+namespace {
+
+constexpr int scenes = testing::sanitized ? 4 : 60, refinements = testing::sanitized ? 1 : 3;
+
+class Dice {
+ public:
+  explicit Dice(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+  }
+  int below(int count) { return static_cast<int>(between(0, count)); }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+// In front of the side x = 10 and beyond its ends, with features from a hundredth of an edge on;
+// steps stand upright.
+PolylineWall random_profile(Dice& dice) {
+  const double rough = dice.below(3) == 0 ? 0 : dice.between(0.001, 0.02),
+               features = dice.below(2) == 0 ? 0.05 : 1;
+  PolylineWall wall{{{10, -3}}};
+  for (double y = -2; y < 12; y += features * dice.between(0.5, 1.5)) {
+    wall.points_mm.emplace_back(10 + rough * dice.between(-1, 1), y);
+    if (dice.below(5) == 0) wall.points_mm.emplace_back(10 + rough * dice.between(-1, 1), y);
+  }
+  wall.points_mm.emplace_back(10, 13);
+  std::erase_if(wall.points_mm, [last = Eigen::Vector2d(0, 0)](const Eigen::Vector2d& p) mutable {
+    const bool again = p == last;
+    last = p;
+    return again;
+  });
+  return wall;
+}
+
+Scene random_scene(Dice& dice) {
+  constexpr std::array<double, 6> poisson = {0, 0.3, 0.45, 0.49, 0.499, 0.4999};
+  Scene scene;
+  scene.material.poisson = poisson[static_cast<std::size_t>(dice.below(6))];
+  scene.friction = 0;
+  scene.crown_radius_mm.reset();
+  scene.wall = random_profile(dice);
+  scene.displacement_mm = {dice.between(0.002, 0.03), dice.between(-0.01, 0.01)};
+  if (dice.below(3) == 0) scene.body_force_N_per_mm3 = {dice.between(-5, 5), dice.between(-5, 5)};
+  scene.equal_steps = 1 + dice.below(3);
+  return scene;
+}
+
+struct Bounds {
+  double below = -std::numeric_limits<double>::infinity(),
+         above = std::numeric_limits<double>::infinity();
+};
+
+// A step's bounds on one mesh after the other.
+void narrow(const Scene& scene, const Mesh& mesh, std::vector<Bounds>& of_step, int& guaranteed,
+            int& judged) {
+  solve_load_steps(
+      select_methods("HYBRID").front(), testing::posed(scene, mesh), {},
+      [&](int step, const DualSystem& system, const Solution& hybrid) {
+        ASSERT_EQ(hybrid.status, Status::ok) << hybrid.message;
+        const ConstitutiveError error = constitutive_error(
+            system, hybrid.stress, hybrid.F_C,
+            recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments));
+        EXPECT_EQ(error.flaw, "");
+        ++judged;
+        if (!error.guaranteed) return;
+        ++guaranteed;
+        Bounds& bounds = of_step[static_cast<std::size_t>(step)];
+        bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
+        bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
+      });
+}
+
+TEST(RandomBounds, OfOneMeshHoldForAnother) {
+  int judged = 0, guaranteed = 0;
+  for (int k = 0; k < scenes; ++k) {
+    Dice dice(static_cast<unsigned>(1000 + k));
+    Mesh mesh = testing::small_block(2 + dice.below(3), 2 + dice.below(3), 0);
+    const Scene scene = random_scene(dice);
+    std::vector<Bounds> of_step(static_cast<std::size_t>(scene.equal_steps));
+    for (int level = 0; level <= refinements; ++level) {
+      if (level > 0) mesh = uniformly_refined(mesh);
+      narrow(scene, mesh, of_step, guaranteed, judged);
+      for (std::size_t step = 0; step < of_step.size(); ++step)
+        EXPECT_LE(of_step[step].below, of_step[step].above)
+            << "scene " << k << ", level " << level << ", step " << step + 1 << ", nu "
+            << scene.material.poisson;
+    }
+  }
+  std::cout << fmt::format("{} scenes, {} answers judged, {} with guaranteed bounds\n", scenes,
+                           judged, guaranteed);
+  EXPECT_EQ(guaranteed, judged);
+}
+
+}  // namespace
+}  // namespace airybench::random_bounds_test
