@@ -5,15 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
-#include <random>
+
+#include "tests/support/dice.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::wall_gap_test {
 namespace {
 
 using Eigen::Vector2d;
 
-constexpr int points = 100000;
+constexpr int points = 20000, lines = testing::sanitized ? 20 : 200;
 
 // The detail by midpoints, and how far what `detail` says is below the wall is above it
 // at most.
@@ -66,29 +67,28 @@ struct Turned {
 };
 
 // Corners from left of the edge to right of it, or not so far; one in five is above the one before.
-PolylineWall random_line(std::mt19937_64& engine, const Turned& turned) {
-  const auto unit = [&] { return static_cast<double>(engine() >> 11) * 0x1p-53; };
-  const int corners = 2 + static_cast<int>(12 * unit());
-  double x = -1 + 1.5 * unit(), y = 0;
+PolylineWall random_line(testing::Dice& dice, const Turned& turned) {
+  const int corners = 2 + static_cast<int>(12 * dice.unit());
+  double x = -1 + 1.5 * dice.unit(), y = 0;
   PolylineWall line;
   for (int k = 0; k < corners; ++k) {
-    y = -0.3 + 0.35 * unit();
+    y = -0.3 + 0.35 * dice.unit();
     line.points_mm.push_back(turned.at(x, y));
-    if (unit() > 0.2) x += 0.1 + 0.8 * unit();
+    if (dice.unit() > 0.2) x += 0.1 + 0.8 * dice.unit();
   }
-  line.points_mm.push_back(turned.at(x + 0.1 + unit(), y));
+  line.points_mm.push_back(turned.at(x + 0.1 + dice.unit(), y));
   return line;
 }
 
 TEST(WallGap, OfRandomPolylinesIsWhatManyPointsSay) {
-  std::mt19937_64 engine(7);
+  testing::Dice dice(7);
   const std::optional<Wall> no_face;
-  for (int k = 0; k < 200; ++k) {
+  for (int k = 0; k < lines; ++k) {
     const Turned turned{Eigen::Rotation2Dd(0.37 * k)};
-    const Wall wall = random_line(engine, turned);
+    const Wall wall = random_line(dice, turned);
     expect_as_sampled(turned.edge(wall, no_face), 2e-4, "wall " + std::to_string(k));
     const Wall flat = FlatWall{turned.at(0, -0.1), turned.turn * Vector2d(0.2, 1)};
-    const std::optional<Wall> face = random_line(engine, turned);
+    const std::optional<Wall> face = random_line(dice, turned);
     expect_as_sampled(turned.edge(flat, face), 2e-4, "face " + std::to_string(k));
     const Wall disc = CircularWall{turned.at(0.7, -5.2), 5, CircularWall::Bodies::outside};
     expect_as_sampled(turned.edge(disc, face), 2e-4, "face on a disc " + std::to_string(k));

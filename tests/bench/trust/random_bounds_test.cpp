@@ -6,13 +6,13 @@
 
 #include <iostream>
 #include <limits>
-#include <random>
 
 #include "bench/judging/discretisation_error.hpp"
 #include "bench/judging/displacement_recovery.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/dice.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -22,17 +22,7 @@ namespace {
 
 constexpr int scenes = testing::sanitized ? 4 : 60, refinements = testing::sanitized ? 1 : 3;
 
-class Dice {
- public:
-  explicit Dice(unsigned seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
-  }
-  int below(int count) { return static_cast<int>(between(0, count)); }
-
- private:
-  std::mt19937_64 engine_;
-};
+using testing::Dice;
 
 // In front of the side x = 10 and beyond its ends, with features from a hundredth of an edge on;
 // steps stand upright.
@@ -94,7 +84,7 @@ void narrow(const Scene& scene, const Mesh& mesh, std::vector<Bounds>& of_step, 
 TEST(RandomBounds, OfOneMeshHoldForAnother) {
   int judged = 0, guaranteed = 0;
   for (int k = 0; k < scenes; ++k) {
-    Dice dice(static_cast<unsigned>(1000 + k));
+    Dice dice(static_cast<std::uint32_t>(1000 + k));
     Mesh mesh = testing::small_block(2 + dice.below(3), 2 + dice.below(3), 0);
     const Scene scene = random_scene(dice);
     std::vector<Bounds> of_step(static_cast<std::size_t>(scene.equal_steps));
