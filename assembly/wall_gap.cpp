@@ -34,6 +34,17 @@ void add_kinks(const FacingEdge& edge, const Wall& curve, std::vector<double>& p
   }
 }
 
+// Of the coordinates that a distance is computed from, mm.
+double size_of(const Wall& curve) {
+  if (const auto* flat = std::get_if<FlatWall>(&curve)) return flat->point_mm.norm();
+  if (const auto* round = std::get_if<CircularWall>(&curve))
+    return round->centre_mm.norm() + round->radius_mm;
+  double size = 0;
+  for (const Eigen::Vector2d& p : std::get<PolylineWall>(curve).points_mm)
+    size = std::max(size, p.norm());
+  return size;
+}
+
 bool is_round(const Wall& curve) { return std::holds_alternative<CircularWall>(curve); }
 
 // Halves a part until one quadratic is g0 on it. Samples are inside: g0 may jump at the ends.
@@ -42,6 +53,8 @@ class Pieces {
   explicit Pieces(const FacingEdge& edge)
       : edge_(edge),
         length_mm_((edge.b - edge.a).norm()),
+        size_mm_(std::max({edge.a.norm(), edge.b.norm(), size_of(edge.wall),
+                           edge.face ? size_of(*edge.face) : 0})),
         curved_(is_round(edge.wall) || (edge.face && is_round(*edge.face))) {}
 
   void add(double start, double end, int depth = 0) {
@@ -68,7 +81,8 @@ class Pieces {
       constexpr double at_ends = 4;
       piece.off_mm =
           at_ends * std::max(std::abs(q(places[1]) - g[1]), std::abs(q(places[3]) - g[3]));
-      done = piece.off_mm <= (curved_ ? enough * length_mm_ : rounding_mm(g));
+      // What is not finite ends here, too: no part of it would be better.
+      done = !(piece.off_mm > allowed_mm(g)) || !std::isfinite(piece.off_mm);
     }
     if (!done && piece.is_met && depth >= most) {  // a jump, which its neighbours end at
       piece.gap_mm.fill(std::ranges::min(g));
@@ -84,13 +98,14 @@ class Pieces {
   std::vector<GapPiece> take() { return std::move(pieces_); }
 
  private:
-  double rounding_mm(const std::array<double, 5>& g) const {
-    return 1e-12 * (edge_.a.norm() + edge_.b.norm()) + 1e-9 * (length_mm_ + std::abs(g[2]));
+  // Rounding; on curves what is good enough.
+  double allowed_mm(const std::array<double, 5>& g) const {
+    const double share = curved_ ? 1e-6 : 1e-9;
+    return 1e-12 * size_mm_ + share * (length_mm_ + std::abs(g[2]));
   }
 
-  static constexpr double enough = 1e-6;  // of the edge, on curves
   const FacingEdge& edge_;
-  double length_mm_;
+  double length_mm_, size_mm_;
   bool curved_;
   std::vector<GapPiece> pieces_;
 };

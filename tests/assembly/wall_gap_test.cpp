@@ -109,6 +109,21 @@ TEST(WallGap, OfRoundCurvesIsWithinWhatItSays) {
   }
 }
 
+// Corners as far away as numbers go cost no more pieces: what rounding does to them is no corner.
+TEST(WallGap, FarCornersAreNoReasonToHalve) {
+  const std::optional<Wall> no_face;
+  for (const double far : {1e3, 1e6, 1e9, 1e15, 1e200, 1e308}) {
+    const Turned turned{Eigen::Rotation2Dd(0.3)};
+    const Vector2d along = turned.turn * Vector2d(1, 0.001);
+    const Wall line = PolylineWall{{turned.at(0, -0.2) - far * along, turned.at(1, -0.2),
+                                    turned.at(0, -0.2) + far * along}},
+               disc = CircularWall{turned.at(0, -0.2) - far * (turned.turn * Vector2d(0, 1)), far,
+                                   CircularWall::Bodies::outside};
+    EXPECT_LT(gap_pieces(turned.edge(line, no_face)).size(), 100u) << far;
+    EXPECT_LT(gap_pieces(turned.edge(disc, no_face)).size(), 100u) << far;
+  }
+}
+
 TEST(WallGap, ABumpBetweenThePointsIsSeen) {
   const Turned turned{Eigen::Rotation2Dd(0)};
   const std::optional<Wall> no_face;
