@@ -115,8 +115,10 @@ void Workbench::note_error_of_displacement(const Solution& solution, Record& rec
 
 void Workbench::note_discretisation(const Method& method, const Solution& solution,
                                     Record& record) {
-  if (method.in_displacements && solution.program)
-    return note_error_of_displacement(solution, record);
+  if (method.in_displacements && solution.program) {
+    note_error_of_displacement(solution, record);
+    return judge_discretisation(method, record);
+  }
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound) : nullptr;
   if (record.other_solution)
@@ -124,8 +126,9 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
   else if (known != nullptr)
     note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
   else if (method.in_displacements)
-    record.no_discretisation_error =
-        no_reference_.empty() ? "it is not made for load steps" : no_reference_;
+    record.no_discretisation_error = !no_reference_.empty()             ? no_reference_
+                                     : left_out_.discretisation.empty() ? "P2 has no answer"
+                                                                        : left_out_.discretisation;
   if (known != nullptr && !record.other_solution) {
     if (known->intervals) note(*known->intervals, record);
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
