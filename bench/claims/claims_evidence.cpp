@@ -1,6 +1,7 @@
 #include "bench/claims/claims_evidence.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "bench/problems/problem_files.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <optional>

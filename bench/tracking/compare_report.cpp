@@ -1,6 +1,7 @@
 #include "bench/tracking/compare_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
