@@ -120,8 +120,8 @@ TEST_P(EveryKindOfMethod, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
     testing::ExactField exact;
     exact.body_force.setZero();
     exact.stress = [=](const Eigen::Vector2d&) { return stress; };
-    exact.displacement = [=, slip = slip](const Eigen::Vector2d& x) {
-      return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slip);
+    exact.displacement = [=, slid = slip](const Eigen::Vector2d& x) {
+      return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slid);
     };
     const auto problem = std::make_shared<const Problem>(
         make_problem(small_tooth(5, 4), {c}, testing::loads_of(exact), mu));
