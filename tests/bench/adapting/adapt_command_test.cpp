@@ -142,7 +142,9 @@ TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStresses
 
 #ifndef AIRYBENCH_SANITIZED  // no limit on the heap there
 TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
-  if (blas_name().find("BLIS") != std::string::npos)
+  // Debian's libblas.so.3 of BLIS hides its own functions: its folder tells.
+  if (blas_name().find("BLIS") != std::string::npos ||
+      blas_name().find("blis") != std::string::npos)
     GTEST_SKIP() << "BLIS ends the process where it is granted no memory";
   EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
                   "--repetitions=1 --out=o"),
