@@ -55,7 +55,8 @@ ThreePoints wall_distances(const FacingEdge& edge, const std::vector<GapPiece>& 
 
 bool is_reached(const std::vector<GapPiece>& pieces, double reach_mm) {
   return std::ranges::any_of(pieces, [&](const GapPiece& piece) {
-    return piece.is_met && std::min(piece.gap_mm[0], piece.gap_mm[2]) <= reach_mm;
+    return piece.is_met &&
+           std::min(std::abs(piece.gap_mm[0]), std::abs(piece.gap_mm[2])) <= reach_mm;
   });
 }
 
@@ -187,7 +188,7 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryCond
     const auto [a, middle, b] = points_of(mesh, row);
     const Eigen::Vector2d m = edge_frame(a, b).normal;
     const auto at = [&](const Eigen::Vector2d& x) {
-      return values.wall ? direction_towards(*values.wall, x).value_or(m) : m;
+      return values.wall ? facing(mesh, row, values).direction_at(x) : m;
     };
     normals[static_cast<std::size_t>(row)] = {{at(a), at(middle), at(b)},
                                               {at((2 * a + b) / 3), at((a + 2 * b) / 3)}};

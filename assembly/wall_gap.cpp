@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/control_points.hpp"
+#include "assembly/displacement_field.hpp"
 
 namespace airybench {
 namespace {
@@ -141,8 +141,8 @@ std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::ar
     if (s == below.front().first) first = std::min(first, gap);
     if (s == below.back().first) last = std::min(last, gap);
   }
-  double middle =
-      (first + last) / 2;  // at most: convex, and so below the lines where it is below the points
+  // At most the mean: then it is convex, and below the lines where it is below the points.
+  double middle = (first + last) / 2;
   for (const auto& [s, gap] : below)
     if (s > 0 && s < 1)
       middle =

@@ -45,8 +45,8 @@ struct AdaptiveLevel {
   Mesh mesh;
   int number = 0;    // 0: the mesh it began with
   int unknowns = 0;  // n_φ
-  std::optional<double>
-      error;  // e / ‖σ‖, of a path over its steps; empty: the fields say nothing, see why_ended()
+  // e / ‖σ‖, of a path over its steps; empty: the fields say nothing, see why_ended().
+  std::optional<double> error;
   bool reaches_goal = false;  // one that no level before did
   double smallest_angle_deg = 0;
   double time_s = 0, estimate_s = 0;  // of all levels up to this one, and what the estimates took

@@ -233,9 +233,8 @@ class Constraints {
       : given_(prescribed_displacement(*system.problem)), contact_(contact_nodes(system, F_C)) {}
 
   // Per node: it has some.
-  std::vector<bool> nodes(std::size_t count) const {
+  std::vector<bool> nodes() const {
     std::vector<bool> nodes = given_.at;
-    nodes.resize(count, false);
     for (const auto& [node, normal] : given_.normal) nodes[static_cast<std::size_t>(node)] = true;
     for (const auto& [node, contact] : contact_) nodes[static_cast<std::size_t>(node)] = true;
     return nodes;
@@ -298,7 +297,7 @@ DisplacementField recovered_displacement(const DualSystem& system, const StressF
   w.array() -= half_gradient(problem, own, w).array().rowwise() / stiffness.transpose().array();
   constraints.apply(stiffness, w);
   if (VertexStars::are_needed(problem)) {
-    VertexStars stars(problem, own, constraints.nodes(static_cast<std::size_t>(nodes)));
+    VertexStars stars(problem, own, constraints.nodes());
     for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w);
   }
   return w;

@@ -49,8 +49,8 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
 // "load step 3 of 20: ", or nothing where there is one only.
 std::string step_prefix(std::size_t step, const Problem& first);
 
-// The step whose worst measure is largest, a NaN above all; steps: some. The others count that are
-// there.
+// The step whose worst measure is largest, a NaN above all; steps: some. Where a step is
+// another solution, its measures are to that one.
 std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
 // Record::steps.
