@@ -48,6 +48,38 @@ Eigen::Vector2<Scalar> mean(const Corners<Scalar>& v) {
   return (v.col(0) + v.col(1) + v.col(2)) / Scalar(3);
 }
 
+// α with  α_0 V_i + α_1 V_j + α_2 V_4 = n,  the normal of edge V_i V_j: its derivative at the
+// edge's middle is 3/4 Σ_p α_p (c_{200+p} + 2 c_{110+p} + c_{020+p}).
+template <typename Scalar>
+Eigen::Vector3<Scalar> normal_direction(const Eigen::Vector2<Scalar>& i,
+                                        const Eigen::Vector2<Scalar>& j,
+                                        const Eigen::Vector2<Scalar>& centroid) {
+  using Vector = Eigen::Vector2<Scalar>;
+  const Vector edge = j - i;
+  const Vector normal = Vector(edge.y(), -edge.x()) / edge.norm();
+  return barycentric_gradients<Scalar>(i, j, centroid).transpose() * normal;
+}
+
+// Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
+// (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
+constexpr int near_corner[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
+
+// The stress at corner m of a third from those six: second derivatives are
+// 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}. Rows φ,yy  φ,xx  −φ,xy.
+template <typename Scalar>
+Eigen::Matrix<Scalar, 3, 6> stress_weights(const Corners<Scalar>& gradients) {
+  const Corners<Scalar>& g = gradients;
+  Eigen::Matrix<Scalar, 3, 6> weights;
+  for (int p = 0; p < 3; ++p)
+    weights.col(p) << g(1, p) * g(1, p), g(0, p) * g(0, p), -g(0, p) * g(1, p);
+  for (int k = 0; k < 3; ++k) {
+    const int p = k == 2 ? 1 : 0, q = k == 0 ? 1 : 2;
+    weights.col(3 + k) << 2 * g(1, p) * g(1, q), 2 * g(0, p) * g(0, q),
+        -g(0, p) * g(1, q) - g(0, q) * g(1, p);
+  }
+  return weights * Scalar(6);
+}
+
 }  // namespace hct_formulas
 
 template <typename Scalar>
@@ -69,11 +101,8 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& ve
     extrapolate<Scalar>(c, 3 + 2 * t, i, edge / three);
     extrapolate<Scalar>(c, 4 + 2 * t, j, edge / -three);
 
-    // The derivative along α_i V_i + α_j V_j + α_4 V_4 = n at the edge's middle is
-    // 3/4 Σ_p α_p (c_{200+p} + 2 c_{110+p} + c_{020+p}); solve for c_111, which comes with α_4.
-    const Vector normal = Vector(edge.y(), -edge.x()) / edge.norm();
-    const Eigen::Vector3<Scalar> alpha =
-        barycentric_gradients<Scalar>(v.col(i), v.col(j), centroid).transpose() * normal;
+    // Solved for c_111, which comes with α_2.
+    const Eigen::Vector3<Scalar> alpha = normal_direction<Scalar>(v.col(i), v.col(j), centroid);
     for (int dof = 0; dof < 12; ++dof) {
       const auto at = [&](int row) { return c(row, dof); };
       Scalar inner = dof == 9 + t ? Scalar(outward[t] * 4) / three : Scalar(0);
@@ -97,28 +126,17 @@ HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& vertices
                                      const EdgeSignsFor<Scalar>& outward) {
   using namespace hct_formulas;
   const Corners<Scalar> v = at_origin<Scalar>(vertices);
-  // Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
-  // (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
-  constexpr int at[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
   const HctCoefficientsIn<Scalar> c = hct_coefficients<Scalar>(vertices, outward);
   const Eigen::Vector2<Scalar> centroid = mean(v);
   HctStressIn<Scalar, dofs> stress;
   for (int t = 0; t < 3; ++t) {
-    const Corners<Scalar> g = barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid);
-    // Second derivatives at corner m: 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}.
-    Eigen::Matrix<Scalar, 3, 6> weights;  // rows φ,yy  φ,xx  −φ,xy
-    for (int p = 0; p < 3; ++p)
-      weights.col(p) << g(1, p) * g(1, p), g(0, p) * g(0, p), -g(0, p) * g(1, p);
-    for (int k = 0; k < 3; ++k) {
-      const int p = k == 2 ? 1 : 0, q = k == 0 ? 1 : 2;
-      weights.col(3 + k) << 2 * g(1, p) * g(1, q), 2 * g(0, p) * g(0, q),
-          -g(0, p) * g(1, q) - g(0, q) * g(1, p);
-    }
-    weights *= Scalar(6);
+    const Eigen::Matrix<Scalar, 3, 6> weights =
+        stress_weights<Scalar>(barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid));
     const std::array<int, 10> third = hct_third(t);
     for (int m = 0; m < 3; ++m) {
       Eigen::Matrix<Scalar, 6, dofs> near;
-      for (int k = 0; k < 6; ++k) near.row(k) = c.row(third[at[m][k]]).template tail<dofs>();
+      for (int k = 0; k < 6; ++k)
+        near.row(k) = c.row(third[near_corner[m][k]]).template tail<dofs>();
       stress.template middleRows<3>(3 * (3 * t + m)) = weights.lazyProduct(near);
     }
   }

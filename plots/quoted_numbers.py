@@ -183,11 +183,13 @@ def table(rows: list[Row]) -> str:
     """As `bench` prints it (support/text_table.cpp), a line of dots between meshes."""
     def number(value: float | None, show: str) -> str:
         return "-" if value is None else format(value, show)
-    cells = [["case", "n_phi", "time", "±", "heap", "error stress", "error force", "status"]]
+    cells = [["case", "n_phi", "time", "±", "unchecked", "heap", "error stress", "error force",
+              "status"]]
     for row in rows:
         heap = None if row.peak_heap_bytes is None else row.peak_heap_bytes / 2**20
         cells.append([case_name(vars(row)), str(row.n_phi), seconds(row.time_s),
                       "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
+                      seconds(row.time_s - (row.stage_check_s or 0)),
                       number(heap, ".1f") + " MiB", number(row.error_stress, ".1e"),
                       number(row.error_force, ".1e"), row.status])
     widths = [max(map(len, column)) for column in zip(*cells)]
@@ -195,7 +197,7 @@ def table(rows: list[Row]) -> str:
     for i, line in enumerate(cells):
         if i > 1 and rows[i - 1].mesh != rows[i - 2].mesh:
             lines.append("…")
-        lines.append("  ".join(cell.rjust(width) if 1 <= column < 7 else cell.ljust(width)
+        lines.append("  ".join(cell.rjust(width) if 1 <= column < 8 else cell.ljust(width)
                                for column, (cell, width) in enumerate(zip(line, widths))).rstrip())
     return "```\n" + "\n".join(lines) + "\n```\n"
 

@@ -77,6 +77,8 @@ const std::vector<Method>& methods() {
         METHOD(three_step_lean),
         METHOD(three_step_cholmod),
         METHOD(hybrid),
+        METHOD(hybrid_cholmod),
+        METHOD(hybrid_mumps),
         METHOD(hybrid_cg),
         METHOD(p2),
     };

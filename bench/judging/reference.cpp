@@ -55,22 +55,21 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
-  StiffnessFactor factor;
-  {
-    const ElementMatrices K = rounded<double>(system.K);
-    factor.cholesky.analyse(K, system.n_c);
-    factor.cholesky.factor(K);
-  }
+  ElementMatrices K = rounded<double>(system.K);
+  MultifrontalStiffness factor(K, system.n_c);
+  factor.analyse();
+  factor.factor({});
+  K = {};
   Reference reference;
   Refined refined;
   double force_error = 0;
   if (system.n_c > 0) {
-    factor.y = factor.cholesky.forward(system.b.cast<double>());
-    reference.condensed = condense(factor);
-    force_error = solve_contact_to_rounding(system, airy.contact, scale, start, factor.cholesky,
+    reference.condensed.G = factor.load(system.b.cast<double>());
+    reference.condensed.D = factor.compliance({});
+    force_error = solve_contact_to_rounding(system, airy.contact, scale, start, factor.cholesky(),
                                             reference, refined);
   } else {
-    refine(system, factor.cholesky, {}, refined);
+    refine(system, factor.cholesky(), {}, refined);
   }
   reference.stress = hybridized_stress(problem, system, refined.u);
   const double stress_error =

@@ -40,13 +40,19 @@ std::string whole(const std::optional<std::int64_t>& number) {
   return number ? fmt::format("{}", *number) : "-";
 }
 
-constexpr std::array<Column, 13> table_columns = {{
+// Without the method's check of itself.
+std::optional<double> unchecked_s(const Record& r) {
+  return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
+}
+
+constexpr std::array<Column, 14> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
     {"time", nullptr, [](const Record& r) { return show_seconds(r.time_s); }},
     {"±", nullptr,
      [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},
+    {"unchecked", "stage_check_s", [](const Record& r) { return show_seconds(unchecked_s(r)); }},
     {"heap", nullptr, [](const Record& r) { return show_bytes(r.peak_heap_bytes); }},
     {"program", "program_s", [](const Record& r) { return show_seconds(r.program_s); }},
     {"its memory", "program_s",

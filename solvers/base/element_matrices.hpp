@@ -9,6 +9,7 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <vector>
 
 namespace airybench {
@@ -106,18 +107,44 @@ void add_product(const ElementMatricesIn<Scalar>& K, const Eigen::VectorX<Scalar
 template <typename Scalar>
 Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
   constexpr int size = ElementMatricesIn<Scalar>::size;
-  std::vector<Eigen::Triplet<Scalar>> entries;
-  entries.reserve(K.lower.size() * K.lower[0].size());
-  for (int e = 0; e < K.count(); ++e) {
-    const Scalar* entry = K.lower[e].data();
+  // The elements' columns, by unknown.
+  std::vector<int> first(static_cast<std::size_t>(K.order) + 1, 0);
+  for (const auto& unknown : K.unknown)
+    for (const int u : unknown)
+      if (u >= 0) ++first[u + 1];
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  std::vector<int> columns(static_cast<std::size_t>(first.back()));  // size e + j
+  std::vector<int> next(first.begin(), first.end() - 1);
+  for (int e = 0; e < K.count(); ++e)
     for (int j = 0; j < size; ++j)
-      for (int i = j; i < size; ++i, ++entry) {
-        const auto [column, row] = std::minmax(K.unknown[e][i], K.unknown[e][j]);
-        if (column >= 0) entries.emplace_back(row, column, *entry);
-      }
-  }
+      if (const int u = K.unknown[e][j]; u >= 0) columns[next[u]++] = size * e + j;
+  // Each column of K by itself, on a vector that is zero between them.
+  const auto place = [](int i, int j) { return j * size - j * (j - 1) / 2 + i - j; };
   Eigen::SparseMatrix<Scalar> lower(K.order, K.order);
-  lower.setFromTriplets(entries.begin(), entries.end());
+  std::vector<Scalar> sum(static_cast<std::size_t>(K.order), 0);
+  std::vector<bool> met(static_cast<std::size_t>(K.order), false);
+  std::vector<int> rows;
+  for (int column = 0; column < K.order; ++column) {
+    rows.clear();
+    for (int k = first[column]; k < first[column + 1]; ++k) {
+      const int e = columns[k] / size, j = columns[k] % size;
+      for (int i = 0; i < size; ++i) {
+        const int row = K.unknown[e][i];
+        if (row < column) continue;
+        if (!met[row]) rows.push_back(row);
+        met[row] = true;
+        sum[row] += K.lower[e][place(std::max(i, j), std::min(i, j))];
+      }
+    }
+    std::sort(rows.begin(), rows.end());
+    lower.startVec(column);
+    for (const int row : rows) {
+      lower.insertBack(row, column) = sum[row];
+      sum[row] = 0;
+      met[row] = false;
+    }
+  }
+  lower.finalize();
   return lower;
 }
 

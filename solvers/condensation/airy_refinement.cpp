@@ -17,6 +17,7 @@ double largest(const Eigen::VectorXd& v) { return v.lpNorm<Eigen::Infinity>(); }
 // One correction, and the estimate of what it and those before it correct. F_C keeps.
 struct Correction {
   SaddleVector delta;
+  Eigen::VectorXd S_delta;
   double energy_norm = 0;  // of the error that δx stands for, √(N mm)
   double estimate = 0;
 };
@@ -26,8 +27,8 @@ using CheckContact =
     std::function<ContactCheck(const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement)>;
 
 // The larger of ‖δx‖_S and |δx·(r − Cᵀ δλ)| / ‖δx‖_S.
-double error_norm(const DualSystem& system, const SaddleVector& delta, const LongVector& r) {
-  const double norm = airy_stress_norm(system, delta.x);
+double error_norm(const DualSystem& system, const SaddleVector& delta, double norm,
+                  const LongVector& r) {
   const double work = delta.x.dot(r.cast<double>()) - delta.lambda_F.dot(system.C_F * delta.x) -
                       delta.lambda_C.dot(system.C_C * delta.x);
   return norm == 0 ? 0 : larger_error(norm, std::abs(work) / norm);
@@ -39,25 +40,28 @@ struct Checked {
   CheckContact law;
   LoadScale scale;
   const SaddleSolve& solve;
+  Eigen::VectorXd terms;  // of the first answer's residual
 };
 
-// number: of the correction, from 0.
-Correction correction(const Checked& of, const LongSaddleVector& answer, const Eigen::VectorXd& F_C,
-                      int number, double corrected_before = 0) {
+// Of an answer with such a residual, F_C and λ'.
+Correction correction(const Checked& of, const AiryResidual& at, const Eigen::VectorXd& F_C,
+                      const Eigen::VectorXd& lambda_C, double corrected_before = 0) {
   const DualSystem& system = of.system;
-  const auto [residual, stress_norm] = airy_residual(system, answer, F_C, number);
-  Correction result{{residual.x.cast<double>(), residual.lambda_F.cast<double>(),
-                     residual.lambda_C.cast<double>()}};
+  const auto& [residual, stress_norm] = at;
+  Correction result;
+  result.delta = {residual.x.cast<double>(), residual.lambda_F.cast<double>(),
+                  residual.lambda_C.cast<double>()};
   const double force_scale = std::max(largest(system.F), largest(F_C));
   const double unbalanced =
       std::max(largest(result.delta.lambda_F), largest(result.delta.lambda_C));
   of.solve(result.delta);
-  result.energy_norm = error_norm(system, result.delta, residual.x);
+  AiryProduct product = airy_product(system, result.delta.x);
+  result.energy_norm = error_norm(system, result.delta, product.stress_norm, residual.x);
+  result.S_delta = std::move(product.S_x);
   double error = corrected_before + result.energy_norm;
   result.estimate = relative_error(unbalanced, force_scale, of.scale.force_N);
   if (F_C.size() > 0) {
-    const ContactCheck check =
-        of.law(F_C, -(answer.lambda_C.cast<double>() + result.delta.lambda_C));
+    const ContactCheck check = of.law(F_C, -(lambda_C + result.delta.lambda_C));
     error += check.energy_norm;
     result.estimate = larger_error(result.estimate, check.relative);
   }
@@ -69,6 +73,18 @@ Correction correction(const Checked& of, const LongSaddleVector& answer, const E
 LongSaddleVector in_long(const SaddleVector& answer) {
   return {answer.x.cast<long double>(), answer.lambda_F.cast<long double>(),
           answer.lambda_C.cast<long double>()};
+}
+
+// The residual of a corrected answer, from the one before: r ← r − [S Cᵀ; C 0] δ, in double. Of a
+// correction that is enough.
+void subtract_product(const DualSystem& system, const Correction& of, LongSaddleVector& r) {
+  const SaddleVector& delta = of.delta;
+  Eigen::VectorXd product = of.S_delta;
+  product.noalias() += system.C_F.transpose() * delta.lambda_F;
+  product.noalias() += system.C_C.transpose() * delta.lambda_C;
+  r.x -= product.cast<long double>();
+  r.lambda_F -= (system.C_F * delta.x).cast<long double>();
+  r.lambda_C -= (system.C_C * delta.x).cast<long double>();
 }
 
 void add(LongSaddleVector& answer, const SaddleVector& delta) {
@@ -89,13 +105,15 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
            Solution& solution) {
   constexpr double trusted = 1e-10, little = 0.1;
   constexpr int most_corrections = 6;
-  LongSaddleVector trial = in_long(answer);
-  Correction next = correction(of, trial, solution.F_C, 0);
+  AiryResidual at = airy_residual(of.system, in_long(answer), solution.F_C, of.terms);
+  Eigen::VectorXd lambda_C = answer.lambda_C;
+  Correction next = correction(of, at, solution.F_C, lambda_C);
   double estimate = next.estimate, corrected = next.energy_norm;
   for (int k = 1; k < most_corrections && estimate > trusted; ++k) {
     control.deadline.check("the check of the answer");
-    add(trial, next.delta);
-    next = correction(of, trial, solution.F_C, k, corrected);
+    subtract_product(of.system, next, at.residual);
+    lambda_C += next.delta.lambda_C;
+    next = correction(of, at, solution.F_C, lambda_C, corrected);
     estimate = larger_error(estimate, next.estimate);
     if (!(next.energy_norm > little * corrected)) break;
     corrected += next.energy_norm;
@@ -108,7 +126,8 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
 void check_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D, const SaddleSolve& solve,
                        const SaddleVector& answer, const RunControl& control, Solution& solution) {
   const LoadScale scale = load_scale(*system.problem);
-  check({system, with_D(system, D, scale), scale, solve}, answer, control, solution);
+  check({system, with_D(system, D, scale), scale, solve, residual_terms(system, answer.x)}, answer,
+        control, solution);
 }
 
 void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
@@ -125,7 +144,8 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
     result.relative = multiple * relative_error(off.norm(), F_C.norm(), scale.force_N);
     return result;
   };
-  check({system, check_law, scale, solve}, answer, control, solution);
+  check({system, check_law, scale, solve, residual_terms(system, answer.x)}, answer, control,
+        solution);
 }
 
 void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
@@ -133,10 +153,15 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
   const LoadScale scale = load_scale(*system.problem);
-  const Checked of{system, with_D(system, D, scale), scale, solve};
+  const Checked of{system, with_D(system, D, scale), scale, solve,
+                   residual_terms(system, answer.x)};
   LongSaddleVector trial = in_long(answer), best = trial;
   Eigen::VectorXd F = solution.F_C;
-  Correction next = correction(of, trial, F, 0);
+  const auto next_correction = [&](int number) {
+    return correction(of, airy_residual(system, trial, F, of.terms, number), F,
+                      trial.lambda_C.cast<double>());
+  };
+  Correction next = next_correction(0);
   double estimate = next.estimate;
   for (int step = 0; step < most_steps && estimate > 0 && std::isfinite(next.estimate); ++step) {
     control.deadline.check("refinement");
@@ -150,7 +175,7 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
       solve(change);
       add(trial, change);
     }
-    next = correction(of, trial, F, step + 1);
+    next = next_correction(step + 1);
     if (!(next.estimate < estimate)) break;
     const bool slow = next.estimate > estimate / 2;
     estimate = next.estimate;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assembly/edge_forces.hpp"
+#include "assembly/hct_action.hpp"
 #include "assembly/row_order.hpp"
 
 namespace airybench {
@@ -37,19 +38,18 @@ void scatter(const DualSystem& system, const std::array<int, count>& dofs, const
       r(dofs[k]) += system.scale(dofs[k]) * values(static_cast<int>(k));
 }
 
-// Moves sums of terms of such magnitudes as rounding may have: to which side is as good as random,
+// Moves sums of such terms as rounding may have: to which side is as good as random,
 // and the same in every run.
-void add_rounding(const Eigen::VectorXd& magnitudes, int number, LongVector& r) {
+void add_rounding(const Eigen::VectorXd& terms, int number, LongVector& r) {
   std::minstd_rand sign(static_cast<unsigned>(number) + 1);
   constexpr Long part = std::numeric_limits<Long>::epsilon() / 4;
   for (Eigen::Index i = 0; i < r.size(); ++i)
-    r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(magnitudes(i));
+    r(i) += (sign() % 2 == 0 ? 1 : -1) * part * Long(terms(i));
 }
 
 template <typename Scalar>
 struct TriangleStress {
-  HctStressIn<Scalar> from_dofs;
-  Eigen::Matrix<Scalar, 12, 1> phi;  // without its affine part
+  HctAction<Scalar> of_dofs;
   ElementStressIn<Scalar> stress;
   std::array<int, 12> dofs;
 };
@@ -61,13 +61,11 @@ TriangleStress<Scalar> homogeneous_stress(const DualSystem& system, const Column
   const Problem& problem = *system.problem;
   const TriangleVertices v = problem.vertices_of(t);
   const EdgeSigns outward = problem.edge_signs(t);
-  TriangleStress<Scalar> result;
-  result.dofs = system.dofs.of_triangle(problem, t);
-  result.phi = gather<Scalar>(system, x, result.dofs);
-  subtract_affine_part(v, outward, result.phi);
-  result.from_dofs = hct_stress<Scalar>(v, outward);
-  result.stress.reshaped() = result.from_dofs.lazyProduct(result.phi);
-  return result;
+  const std::array<int, 12> dofs = system.dofs.of_triangle(problem, t);
+  Eigen::Matrix<Scalar, 12, 1> phi = gather<Scalar>(system, x, dofs);
+  subtract_affine_part(v, outward, phi);
+  const HctAction<Scalar> of_dofs(v, outward);
+  return {of_dofs, of_dofs.stress(phi), dofs};
 }
 
 TriangleStress<Long> triangle_stress(const DualSystem& system, const LongVector& x, int t) {
@@ -147,46 +145,58 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
 
 }  // namespace
 
+Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& x) {
+  const Problem& problem = *system.problem;
+  Eigen::VectorXd terms = Eigen::VectorXd::Zero(system.n());
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    const EdgeSigns outward = problem.edge_signs(t);
+    const std::array<int, 12> dofs = system.dofs.of_triangle(problem, t);
+    Eigen::Matrix<double, 12, 1> phi = gather<double>(system, x, dofs);
+    subtract_affine_part(v, outward, phi);
+    const HctStress size = hct_stress(v, outward).cwiseAbs();
+    ElementStress stress;
+    stress.reshaped() = size.lazyProduct(phi.cwiseAbs());
+    const Eigen::Matrix<double, 12, 1> work = size.transpose().lazyProduct(
+        stress_dual<double>(stress, problem.area_mm2(t), problem.compliance_of(t).cwiseAbs())
+            .reshaped());
+    scatter(system, dofs, work, terms);
+  }
+  return terms;
+}
+
 AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                           const Eigen::VectorXd& F_C, int number) {
+                           const Eigen::VectorXd& F_C, const Eigen::VectorXd& terms, int number) {
   const Problem& problem = *system.problem;
   LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
                             LongVector::Zero(system.n_c())};
   Long stress_squared = 0;
-  Eigen::VectorXd magnitudes = Eigen::VectorXd::Zero(system.n());
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
     const TriangleStress<Long> at = triangle_stress(system, answer.x, t);
     const ElementStressIn<Long> dual =
         stress_dual<Long>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
     stress_squared += at.stress.cwiseProduct(dual).sum();
-    const LongColumn<12> work = at.from_dofs.transpose().lazyProduct(dual.reshaped());
-    scatter(system, at.dofs, LongColumn<12>(-work), residual.x);
-    const HctStress size = at.from_dofs.cast<double>().cwiseAbs();
-    const Eigen::Matrix<double, 12, 1> phi_size = at.phi.cast<double>().cwiseAbs();
-    ElementStress stress_size;
-    stress_size.reshaped() = size.lazyProduct(phi_size);
-    const Eigen::Matrix3d compliance = problem.compliance_of(t).cwiseAbs();
-    const Eigen::Matrix<double, 12, 1> work_size = size.transpose().lazyProduct(
-        stress_dual<double>(stress_size, problem.area_mm2(t), compliance).reshaped());
-    scatter(system, at.dofs, work_size, magnitudes);
+    scatter(system, at.dofs, LongColumn<12>(-at.of_dofs.transposed(dual)), residual.x);
   }
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
-  add_rounding(magnitudes, number, residual.x);
+  add_rounding(terms, number, residual.x);
   return {std::move(residual), static_cast<double>(std::sqrt(stress_squared))};
 }
 
-double airy_stress_norm(const DualSystem& system, const Eigen::VectorXd& x) {
+AiryProduct airy_product(const DualSystem& system, const Eigen::VectorXd& x) {
   const Problem& problem = *system.problem;
+  AiryProduct result{0, Eigen::VectorXd::Zero(system.n())};
   double squared = 0;
   for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const ElementStress stress = homogeneous_stress<double>(system, x, t).stress;
-    squared += stress
-                   .cwiseProduct(
-                       stress_dual<double>(stress, problem.area_mm2(t), problem.compliance_of(t)))
-                   .sum();
+    const TriangleStress<double> at = homogeneous_stress<double>(system, x, t);
+    const ElementStress dual =
+        stress_dual<double>(at.stress, problem.area_mm2(t), problem.compliance_of(t));
+    squared += at.stress.cwiseProduct(dual).sum();
+    scatter(system, at.dofs, at.of_dofs.transposed(dual), result.S_x);
   }
-  return std::sqrt(squared);
+  result.stress_norm = std::sqrt(squared);
+  return result;
 }
 
 StressField airy_stress(const DualSystem& system, const LongVector& x) {

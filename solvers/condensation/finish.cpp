@@ -100,7 +100,7 @@ void finish_in_displacements(const Problem& problem, const ContactPoints& contac
       condensed, contact, control,
       [&] {
         if (contact.size() > 0) u_C = times(condensed.D, solution.F_C) - condensed.G;
-        Eigen::VectorXd u = all_displacements(factor, u_C);
+        Eigen::VectorXd u = factor.recover(solution.F_C, u_C);
         solution.contact_displacement = u_C;
         const OwnerScope scope(MemoryOwner::answer);
         recover(std::move(u));

@@ -13,7 +13,7 @@ namespace airybench {
 template <typename System>
 struct StiffnessBody {
   System system;
-  StiffnessFactor factor;
+  std::unique_ptr<StiffnessFactor> factor;
   CondensedSystem condensed;
 };
 
@@ -29,7 +29,7 @@ void keep_if_told(const DualSystem& first, const RunControl& control,
         Solution other;
         run_stage(other.times, Stage::contact, MemoryOwner::system_matrix, [&] {
           set_load_case(*load_case.problem, body->system);
-          condense_load(body->system.b, body->factor, body->condensed);
+          body->condensed.G = body->factor->load(body->system.b);
         });
         finish(load_case, again, *body, other);
         return other;

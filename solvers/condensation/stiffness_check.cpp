@@ -16,7 +16,7 @@ void check_stiffness_answer(const Problem& problem, const ContactPoints& contact
   Eigen::VectorXd load = r;
   if (unbalanced.defect.size() > 0) load += unbalanced.defect;
   Eigen::VectorXd delta = load;
-  factor.cholesky.solve_in_place(delta, control.deadline);
+  factor.solve_in_place(delta, control.deadline);
   // e² + δ·(r − d), d the defect; a hundredth of e besides, as far as K's factor may be wrong.
   const double squared = unbalanced.defect_energy + delta.dot(load) -
                          (unbalanced.defect.size() > 0 ? 2 * delta.dot(unbalanced.defect) : 0);

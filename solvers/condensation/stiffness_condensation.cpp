@@ -7,54 +7,46 @@
 
 namespace airybench {
 
-CondensedSystem condense(const StiffnessFactor& factor) {
-  CondensedSystem condensed;
-  Eigen::MatrixXd L = factor.cholesky.trailing_factor();
-  if (L.rows() == 0) return condensed;
-  condensed.G = -factor.y.tail(L.rows());
-  solve_lower_transposed(L, condensed.G);
-  condensed.D = inverse_from_factor(std::move(L));
-  return condensed;
+Eigen::MatrixXd MultifrontalStiffness::compliance(const Deadline&) {
+  return n_c_ > 0 ? inverse_from_factor(factor_.trailing_factor()) : Eigen::MatrixXd();
 }
 
-void condense_load(const Eigen::VectorXd& b, StiffnessFactor& factor, CondensedSystem& condensed) {
-  factor.y = factor.cholesky.forward(b);
-  const Eigen::MatrixXd L = factor.cholesky.trailing_factor();
-  if (L.rows() == 0) return;
-  condensed.G = -factor.y.tail(L.rows());
-  solve_lower_transposed(L, condensed.G);
+Eigen::VectorXd MultifrontalStiffness::load(const Eigen::VectorXd& b) {
+  {
+    const OwnerScope scope(MemoryOwner::factor);
+    y_ = factor_.forward(b);
+  }
+  Eigen::VectorXd G = -y_.tail(n_c_);
+  if (n_c_ > 0) solve_lower_transposed(factor_.trailing_factor(), G);
+  return G;
 }
 
-CondensedSystem factorise_and_condense(const ElementMatrices& K, const Eigen::VectorXd& b, int n_c,
+Eigen::VectorXd MultifrontalStiffness::recover(const Eigen::VectorXd&, const Eigen::VectorXd& u_C) {
+  Eigen::VectorXd u = y_;
+  if (n_c_ > 0) u.tail(n_c_) = transposed_times(factor_.trailing_factor(), u_C);
+  return factor_.backward(u);
+}
+
+void MultifrontalStiffness::count(Solution& solution) const {
+  count_factor(factor_, solution);
+  solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(y_.size()) * sizeof(double);
+}
+
+CondensedSystem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
                                        const std::string& system, const RunControl& control,
-                                       StiffnessFactor& factor, Solution& solution) {
-  run_stage(solution.times, Stage::order, MemoryOwner::factor,
-            [&] { factor.cholesky.analyse(K, n_c); });
+                                       Solution& solution) {
+  run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor.analyse(); });
   control.deadline.check("the ordering of the " + system);
   run_stage(solution.times, Stage::factor, MemoryOwner::factor,
-            [&] { factor.cholesky.factor(K, control.deadline); });
+            [&] { factor.factor(control.deadline); });
   control.deadline.check("the factorisation of the " + system);
   CondensedSystem condensed;
-  {
-    const StageTimer timer(solution.times, Stage::condense);
-    const OwnerScope scope_of_y(MemoryOwner::factor);
-    factor.y = factor.cholesky.forward(b);
-    const OwnerScope scope(MemoryOwner::condensed);
-    condensed = condense(factor);
-  }
-  count_factor(factor.cholesky, solution);
-  solution.storage[MemoryOwner::factor] +=
-      static_cast<std::size_t>(factor.y.size()) * sizeof(double);
+  run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
+    condensed.G = factor.load(b);
+    condensed.D = factor.compliance(control.deadline);
+  });
+  factor.count(solution);
   return condensed;
-}
-
-Eigen::VectorXd all_displacements(StiffnessFactor& factor,
-                                  const Eigen::VectorXd& contact_displacement) {
-  Eigen::VectorXd u = factor.y;
-  if (contact_displacement.size() > 0)
-    u.tail(contact_displacement.size()) =
-        transposed_times(factor.cholesky.trailing_factor(), contact_displacement);
-  return factor.cholesky.backward(u);
 }
 
 }  // namespace airybench

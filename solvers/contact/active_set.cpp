@@ -93,6 +93,7 @@ ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
   constexpr int first_sweeps = 10;  // from fewer, active sets may cycle
   ContactResult best;
   ContactResult swept;
+  swept.F_C = control.start;
   RunControl part = control;
   int sweeps = 0, steps = 0;
   std::vector<double> history;

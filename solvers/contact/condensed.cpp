@@ -34,11 +34,11 @@ ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoint
     case ContactSolver::newton:
       return solve_contact_by_newton(condensed, contact, control);
     case ContactSolver::gauss_seidel:
-      return solve_contact_by_gauss_seidel(condensed, contact, control);
+      return solve_contact_by_gauss_seidel(condensed, contact, control, control.start);
     case ContactSolver::anderson:
-      return solve_contact_by_anderson(condensed, contact, control);
+      return solve_contact_by_anderson(condensed, contact, control, control.start);
     case ContactSolver::admm:
-      return solve_contact_by_admm(condensed, contact, control);
+      return solve_contact_by_admm(condensed, contact, control, control.start);
   }
   throw std::logic_error("no such contact solver");
 }

@@ -3,7 +3,11 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <new>
+#include <numeric>
 #include <string>
+#include <utility>
+
+#include "solvers/direct/dense_cholesky.hpp"
 
 namespace airybench {
 namespace {
@@ -45,11 +49,31 @@ void CholmodFactor::free_workspace() {
     cholmod_free_dense(workspace, &common_);
 }
 
-void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower) {
+// CHOLMOD's minimum degree, but the trailing unknowns after all others (CAMD).
+std::vector<int> CholmodFactor::order_with_last(const Eigen::SparseMatrix<double>& lower,
+                                                int trailing) {
+  const auto n = static_cast<std::size_t>(lower.rows());
+  std::vector<int> order(n), last(n, 0);
+  std::fill(last.end() - trailing, last.end(), 1);
+  cholmod_sparse view = view_of(lower);
+  cholmod_camd(&view, nullptr, 0, last.data(), order.data(), &common_);
+  throw_if_out_of_memory();
+  return order;
+}
+
+void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int trailing) {
   const OwnerScope scope(MemoryOwner::factor);
+  trailing_ = trailing;
   if (lower.rows() == 0) return;  // nothing to solve
   cholmod_sparse whole = view_of(lower);
-  factor_ = cholmod_analyze(&whole, &common_);
+  if (trailing > 0 && trailing < lower.rows()) {
+    std::vector<int> order = order_with_last(lower, trailing);
+    common_.nmethods = 1;
+    common_.method[0].ordering = CHOLMOD_GIVEN;
+    factor_ = cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common_);
+  } else {
+    factor_ = cholmod_analyze(&whole, &common_);
+  }
   if (factor_ == nullptr) throw std::bad_alloc();
 }
 
@@ -71,6 +95,41 @@ void CholmodFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline
     deadline.check("the solves with CHOLMOD's factor");
   }
   if (X.cols() > 1) free_workspace();  // of many columns; what follows has few
+}
+
+Eigen::MatrixXd CholmodFactor::inverse_of_schur() const {
+  if (trailing_ == 0) return {};
+  // CHOLMOD postorders the elimination tree: C may not be last, but its unknowns still come after
+  // all that they depend on, one after the other. place: of an unknown of C among them, else −1.
+  const int n = static_cast<int>(factor_->n), leading = n - trailing_;
+  const auto* permutation = static_cast<const int*>(factor_->Perm);
+  std::vector<int> place(factor_->n, -1), unknown;
+  for (int k = 0; k < n; ++k)
+    if (permutation[k] >= leading) {
+      place[static_cast<std::size_t>(k)] = static_cast<int>(unknown.size());
+      unknown.push_back(permutation[k] - leading);
+    }
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(trailing_, trailing_);
+  const auto* first_column = static_cast<const int*>(factor_->super);
+  const auto* first_row = static_cast<const int*>(factor_->pi);
+  const auto* first_entry = static_cast<const int*>(factor_->px);
+  const auto* rows = static_cast<const int*>(factor_->s);
+  const auto* entries = static_cast<const double*>(factor_->x);
+  for (std::size_t s = 0; s < factor_->nsuper; ++s) {
+    const int height = first_row[s + 1] - first_row[s];
+    for (int j = 0; j < first_column[s + 1] - first_column[s]; ++j) {
+      const int column = place[static_cast<std::size_t>(first_column[s] + j)];
+      if (column < 0) continue;
+      for (int i = j; i < height; ++i)
+        L(place[static_cast<std::size_t>(rows[first_row[s] + i])], column) =
+            entries[first_entry[s] + static_cast<std::ptrdiff_t>(j) * height + i];
+    }
+  }
+  const Eigen::MatrixXd inverse = inverse_from_factor(std::move(L));
+  Eigen::MatrixXd in_order(trailing_, trailing_);
+  for (int j = 0; j < trailing_; ++j)
+    for (int i = 0; i < trailing_; ++i) in_order(unknown[i], unknown[j]) = inverse(i, j);
+  return in_order;
 }
 
 std::size_t CholmodFactor::bytes() const {

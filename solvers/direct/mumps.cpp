@@ -12,6 +12,7 @@ namespace {
 
 constexpr int most_extra_workspace = 5000;  // per cent
 
+enum Symmetric { positive_definite = 1, indefinite = 2 };
 enum Job { start = -1, finish = -2, analysis = 1, factorisation = 2, solution = 3 };
 
 // MUMPS's arrays count from 1.
@@ -42,8 +43,8 @@ std::size_t large(int value) {
 
 }  // namespace
 
-MumpsFactor::MumpsFactor() {
-  mumps_.sym = 2;  // symmetric, indefinite
+MumpsFactor::MumpsFactor(Definite definite) {
+  mumps_.sym = definite == Definite::yes ? positive_definite : indefinite;
   mumps_.par = 1;
   mumps_.comm_fortran = -987654;  // MPI_COMM_WORLD of the sequential stub
   call(start, "the start");
@@ -124,6 +125,9 @@ void MumpsFactor::factor(const Eigen::SparseMatrix<double>& lower) {
   if (const int null_pivots = mumps_.infog[no(28)]; null_pivots > 0)
     throw Breakdown("MUMPS: the matrix is singular to rounding, with " +
                     std::to_string(null_pivots) + " null pivots");
+  if (mumps_.sym == positive_definite && negative_pivots() > 0)
+    throw Breakdown("MUMPS: the matrix is not positive definite, with " +
+                    std::to_string(negative_pivots()) + " negative pivots");
   schur_.triangularView<Eigen::StrictlyUpper>() = schur_.transpose();
 }
 
@@ -135,7 +139,7 @@ void MumpsFactor::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& 
 }
 
 Eigen::VectorXd MumpsFactor::reduce(const Eigen::VectorXd& b) {
-  Eigen::VectorXd work = b, reduced(schur_.rows());
+  Eigen::VectorXd work = b, reduced(mumps_.size_schur);
   mumps_.redrhs = reduced.data();
   mumps_.lredrhs = static_cast<int>(reduced.size());
   solve(reduction, work);

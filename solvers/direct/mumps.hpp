@@ -1,8 +1,9 @@
 // Multifrontal LDLᵀ factorisation by sequential MUMPS (Amestoy, Duff, L'Excellent & Koster 2001,
-// doi:10.1137/S0895479899358194), symmetric indefinite.
+// doi:10.1137/S0895479899358194).
 //
-//   P A Pᵀ = L D Lᵀ, D of 1×1 and 2×2 blocks, with threshold pivoting inside the fronts. On request
-// the last unknowns C are not eliminated, and what is left of them is their Schur complement:
+//   P A Pᵀ = L D Lᵀ, D of 1×1 and 2×2 blocks, with threshold pivoting inside the fronts; of a
+// positive definite A, which is believed, D is diagonal and nothing is pivoted. On request the last
+// unknowns C are not eliminated, and what is left of them is their Schur complement:
 //
 //   A = ⎡ A_II A_CIᵀ ⎤       schur() = A_CC − A_CI A_II⁻¹ A_CIᵀ
 //       ⎣ A_CI A_CC  ⎦       reduce(b) = b_C − A_CI A_II⁻¹ b_I
@@ -22,7 +23,8 @@ class MumpsFactor {
   // Columns solved together: enough for matrix products, few enough for little workspace.
   static constexpr int columns_at_once = 64;
 
-  MumpsFactor();
+  enum class Definite { no, yes };
+  explicit MumpsFactor(Definite definite = Definite::no);
   ~MumpsFactor();
   MumpsFactor(const MumpsFactor&) = delete;
   MumpsFactor& operator=(const MumpsFactor&) = delete;
@@ -31,15 +33,16 @@ class MumpsFactor {
   // looked at for its values (scaling, 2×2 pivots). The last `trailing` unknowns are those of the
   // Schur complement. Throws Breakdown when it is not finite, std::bad_alloc.
   void analyse(const Eigen::SparseMatrix<double>& lower, int trailing = 0);
-  // Of the matrix that was analysed. Throws Breakdown when it is singular or not finite,
-  // std::bad_alloc.
+  // Of the matrix that was analysed. Throws Breakdown when it is singular, not finite or
+  // not definite as promised, std::bad_alloc.
   void factor(const Eigen::SparseMatrix<double>& lower);
 
   // X ← A⁻¹ X, a few columns at a time; without trailing unknowns. Throws TimeoutReached between
   // them, std::bad_alloc.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
 
-  const Eigen::MatrixXd& schur() const { return schur_; }  // symmetric
+  const Eigen::MatrixXd& schur() const { return schur_; }     // symmetric
+  Eigen::MatrixXd take_schur() { return std::move(schur_); }  // to work in its place
   // The right-hand side that belongs to schur(); then, once and of the same b, the whole solution
   // from its trailing part x_C.
   Eigen::VectorXd reduce(const Eigen::VectorXd& b);

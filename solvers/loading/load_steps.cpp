@@ -77,7 +77,9 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
     Loads loads = first->later_steps[k];
     loads.slid_mm = slid_after(system, answer);
     set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
-    answer = run(again, system, control);
+    RunControl from_here = control;
+    from_here.start = std::move(answer.F_C);
+    answer = run(again, system, from_here);
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }
   return answer;

@@ -9,8 +9,9 @@
 // off, too. Signorini's law has no memory. (Implicit Euler for the quasi-static problem.)
 //
 // The body is condensed or factorised once where the method can (kept_body.hpp), and what a step
-// costs is a load case. A path is not its last step: unloading leaves tangential forces behind. But
-// where everything grows in proportion, without gap, one step and many are the same.
+// costs is a load case; its contact forces begin with those of the step before. A path is not its
+// last step: unloading leaves tangential forces behind. But where everything grows in proportion,
+// without gap, one step and many are the same.
 #pragma once
 
 #include "solvers/base/method.hpp"

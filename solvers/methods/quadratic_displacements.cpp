@@ -15,7 +15,7 @@ void finish_quadratic(const DualSystem& airy, const RunControl& control, Quadrat
                       Solution& solution) {
   const Problem& problem = *airy.problem;
   finish_in_displacements(
-      problem, body.system.control.law, control, body.condensed, body.factor,
+      problem, body.system.control.law, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& unknowns) {
         solution.displacement = displacement_field(body.system, unknowns);
         solution.stress = stress_of_displacement(problem, solution.displacement);
@@ -35,8 +35,9 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   system = run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix,
                      [&] { return assemble_quadratic_displacements(*airy.problem); });
   solution.storage[MemoryOwner::system_matrix] = system.bytes();
-  body->condensed = factorise_and_condense(system.K, system.b, system.n_c(), "displacement system",
-                                           control, body->factor, solution);
+  body->factor = std::make_unique<MultifrontalStiffness>(system.K, system.n_c());
+  body->condensed =
+      factorise_and_condense(*body->factor, system.b, "displacement system", control, solution);
   finish_quadratic(airy, control, *body, solution);
   keep_if_told(airy, control, body, finish_quadratic, solution);
   return solution;

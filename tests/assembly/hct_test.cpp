@@ -9,6 +9,7 @@
 #include <random>
 
 #include "assembly/elasticity.hpp"
+#include "assembly/hct_action.hpp"
 #include "mesh/mesh.hpp"
 #include "tests/support/dense_algebra.hpp"
 
@@ -208,6 +209,31 @@ TEST(Hct, StressIsDivergenceFreeInsideThirds) {
       EXPECT_LT(std::abs(gradient(0, 0) + gradient(2, 1)), tolerance * size);
       EXPECT_LT(std::abs(gradient(2, 0) + gradient(1, 1)), tolerance * size);
     }
+  }
+}
+
+template <typename Scalar>
+void expect_action_of_matrix(const Shape& shape, double rounding) {
+  const EdgeSigns outward = {-1, 1, 1};
+  const HctStressIn<Scalar> matrix = hct_stress<Scalar>(shape.v, outward);
+  const HctAction<Scalar> action(shape.v, outward);
+  const Scalar size = matrix.norm();
+  for (int j = 0; j < 12; ++j)
+    EXPECT_LT(
+        (action.stress(Eigen::Matrix<Scalar, 12, 1>::Unit(j)).reshaped() - matrix.col(j)).norm(),
+        rounding * size)
+        << j;
+  for (int i = 0; i < 27; ++i) {
+    ElementStressIn<Scalar> one = ElementStressIn<Scalar>::Zero();
+    one.reshaped()(i) = 1;
+    EXPECT_LT((action.transposed(one) - matrix.row(i).transpose()).norm(), rounding * size) << i;
+  }
+}
+
+TEST(Hct, ActionIsTheProductWithTheMatrixAndWithItsTranspose) {
+  for (const Shape& shape : shapes()) {
+    expect_action_of_matrix<double>(shape, 1e-14);
+    expect_action_of_matrix<long double>(shape, 1e-17);
   }
 }
 

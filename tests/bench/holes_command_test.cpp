@@ -12,7 +12,7 @@ namespace {
 
 const std::string why =
     "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "
-    "HYBRID:CG, P2)";
+    "HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:CG, P2)";
 
 class HolesCommand : public ::testing::Test {
  protected:

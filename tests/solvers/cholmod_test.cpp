@@ -49,5 +49,26 @@ TEST(Cholmod, SolvesAndRefuses) {
   EXPECT_THROW(factor.factor(lower(A)), Breakdown);
 }
 
+TEST(Cholmod, InvertsTheSchurComplementOfTheLastUnknowns) {
+  for (const int side : {1, 2, 9, 16}) {
+    const Eigen::MatrixXd A = grid_matrix(side);
+    const auto size = A.rows();
+    const Eigen::MatrixXd inverse = testing::solved(A, Eigen::MatrixXd::Identity(size, size));
+    for (const Eigen::Index trailing : {Eigen::Index{0}, (size + 2) / 3, size}) {
+      CholmodFactor factor;
+      factor.analyse(lower(A), static_cast<int>(trailing));
+      factor.factor(lower(A));
+      const Eigen::MatrixXd found = factor.inverse_of_schur();
+      ASSERT_EQ(found.rows(), trailing);
+      EXPECT_LE(testing::distance(found, inverse.bottomRightCorner(trailing, trailing)), 1e-13)
+          << side << " " << trailing;
+      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(size, 3);
+      Eigen::MatrixXd x = b;
+      factor.solve_in_place(x);
+      EXPECT_LT(testing::residual(A, x, b), 1e-13 * b.norm());
+    }
+  }
+}
+
 }  // namespace
 }  // namespace airybench::cholmod_test

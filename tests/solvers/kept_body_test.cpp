@@ -49,7 +49,8 @@ class KeptBody : public ::testing::TestWithParam<Method> {
 
 std::vector<Method> keeping_methods() {
   return select_methods(
-      "HYBRID,P2,3STEPD,3STEPD:REFINED,3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SKY,"
+      "HYBRID,HYBRID:CHOLMOD,HYBRID:MUMPS,P2,3STEPD,3STEPD:REFINED,3STEPD:FILE,3STEPD:LEAN,3STEPD:"
+      "CHOLMOD,BLIND,BLIND:SKY,"
       "BLIND:SCHUR,BLIND:SCHUR:REFINED");
 }
 INSTANTIATE_TEST_SUITE_P(Table, KeptBody, ::testing::ValuesIn(keeping_methods()),

@@ -19,10 +19,11 @@ void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 namespace {
 
 // The tooth moved to these places one after another; μ = 0.2 if nothing else is said.
-std::shared_ptr<const Problem> path(const std::vector<Eigen::Vector2d>& places, Scene scene = {}) {
+std::shared_ptr<const Problem> path(const std::vector<Eigen::Vector2d>& places, Scene scene = {},
+                                    const Mesh& mesh = testing::small_tooth(6, 5)) {
   const auto at = [&](const Eigen::Vector2d& place) {
     scene.displacement_mm = place;
-    return pose(scene, testing::small_tooth(6, 5));
+    return pose(scene, mesh);
   };
   auto problem = std::make_shared<Problem>(at(places.front()));
   const auto all_of_u0 = [&](const Eigen::Vector2d& place) {
@@ -128,6 +129,23 @@ TEST_P(LoadSteps, DraggedToAndFroItGoesThroughTheHysteresisLoop) {
   EXPECT_NEAR(ratio(at[2]), -mu, 1e-9);
   EXPECT_NEAR(ratio(at[3]), mu, 1e-9);
   EXPECT_LT(apart(at[3], at[0]), 1e-7);  // the loop is closed
+}
+
+TEST(LoadStepsOfHybrid, BeginWithTheForcesOfTheStepBefore) {
+  std::vector<Eigen::Vector2d> places;
+  for (int k = 0; k <= 20; ++k) places.emplace_back(0.02, 0.02 * std::sin(0.3 * k));
+  const Method method = select_methods("HYBRID").front();
+  int warm = 0, cold = 0;
+  solve_load_steps(method, path(places, {}, testing::small_tooth(24, 20)), {},
+                   [&](int, const DualSystem& system, const Solution& answer) {
+                     const Solution alone = run(method, system, {});
+                     EXPECT_LT(testing::distance(answer.F_C, alone.F_C), 1e-9 * alone.F_C.norm());
+                     warm += answer.newton_steps.value();
+                     cold += alone.newton_steps.value();
+                   });
+  RecordProperty("warm", warm);
+  RecordProperty("cold", cold);
+  EXPECT_LT(warm, 0.9 * cold);
 }
 
 // Slip is what the body has done, not what it was told: lifted off and put down, it forgets.

@@ -27,7 +27,8 @@ TEST(WorkCounts, AreThoseOfTheFactor) {
   EXPECT_EQ(counted("3STEPCG:DTIC3").factor_flops, profile.factor_flops);  // then dropped
   EXPECT_LT(counted("3STEPCG:DTIC3").factor_entries, profile.profile);
   EXPECT_LT(counted("3STEPCG:FLIC1").factor_flops, counted("3STEPCG:FLIC3").factor_flops);
-  for (const char* name : {"3STEPD:CHOLMOD", "HYBRID", "P2", "BLIND"}) {
+  for (const char* name :
+       {"3STEPD:CHOLMOD", "HYBRID", "HYBRID:CHOLMOD", "HYBRID:MUMPS", "P2", "BLIND"}) {
     const Solution solution = counted(name);
     EXPECT_GT(solution.factor_flops.value(), static_cast<double>(*solution.factor_entries)) << name;
   }

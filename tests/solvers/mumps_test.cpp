@@ -55,6 +55,26 @@ TEST(Mumps, SolvesIndefiniteSystemsForManyColumnsAndCountsNegativePivots) {
   }
 }
 
+TEST(Mumps, BelievesThatAMatrixIsPositiveDefiniteAndSaysWhereItIsNot) {
+  Eigen::MatrixXd A = saddle_matrix(9, 0);
+  const Eigen::MatrixXd b = Eigen::MatrixXd::Random(A.rows(), 3);
+  MumpsFactor factor(MumpsFactor::Definite::yes);
+  factor.analyse(lower(A));
+  factor.factor(lower(A));
+  Eigen::MatrixXd x = b;
+  factor.solve_in_place(x);
+  EXPECT_LT(testing::residual(A, x, b), 1e-13 * b.norm());
+  for (const double pivot : {-4.0, 0.0}) {
+    Eigen::MatrixXd other = A;
+    other.row(40).setZero();
+    other.col(40).setZero();
+    other(40, 40) = pivot;
+    MumpsFactor indefinite(MumpsFactor::Definite::yes);
+    indefinite.analyse(lower(other));
+    EXPECT_THROW(indefinite.factor(lower(other)), Breakdown) << pivot;
+  }
+}
+
 TEST(Mumps, SchurComplementReductionAndExpansionAreThoseOfDenseAlgebra) {
   for (const int side : {2, 7, 15}) {
     const Eigen::MatrixXd M = saddle_matrix(side, side * side / 3);

@@ -102,6 +102,7 @@ std::vector<Method> tooth_methods(bool small) {
 // Also on Mesh4, which is five times as large as the small rack and graded.
 const std::string rack_methods =
     "3STEPD,3STEPD:FILE,3STEPD:LEAN,3STEPD:CHOLMOD,BLIND,BLIND:SCHUR,BLIND:SKY,HYBRID,"
+    "HYBRID:CHOLMOD,HYBRID:MUMPS,"
     "3STEPCG:SKY,SYMMLQ:DTIC6,SYMMLQ:SKY,ALM:r=20,rho=20";
 const std::string small_rack_methods =
     rack_methods + ",3STEPCG:DTIC4,3STEPCG:DTIC5,3STEPCG:DTIC6,SYMMLQ:DTIC4,SYMMLQ:DTIC5";

@@ -7,9 +7,9 @@
 namespace airybench::testing {
 
 inline CondensedSystem condensed(const HybridizedSystem& system) {
-  StiffnessFactor factor;
+  MultifrontalStiffness factor(system.K, system.n_c);
   Solution ignored;
-  return factorise_and_condense(system.K, system.b, system.n_c, "hybridized", {}, factor, ignored);
+  return factorise_and_condense(factor, system.b, "hybridized", {}, ignored);
 }
 
 }  // namespace airybench::testing

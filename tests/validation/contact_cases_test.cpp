@@ -16,6 +16,7 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/methods.hpp"
 #include "tests/bench/studies/expected_table.hpp"
+#include "tests/support/condensed.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
@@ -58,11 +59,9 @@ struct Face {
     system = assemble(problem, Blocks::contact_points);
     RunControl control;
     control.contact_sweeps = 50;  // then active sets
-    const HybridizedSystem hybrid = assemble_hybridized(*problem, system.contact);
-    StiffnessFactor factor;
     Solution solution;
-    const CondensedSystem condensed = factorise_and_condense(
-        hybrid.K, hybrid.b, hybrid.n_c, "hybridized system", control, factor, solution);
+    const CondensedSystem condensed =
+        testing::condensed(assemble_hybridized(*problem, system.contact));
     solve_condensed_contact(condensed, system.contact, control, solution);
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
     F_C = solution.F_C;

@@ -275,10 +275,10 @@ class MemoryRun : public ::testing::TestWithParam<const char*> {
 };
 INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
                          ::testing::Values("3STEPD", "3STEPD:CHOLMOD", "3STEPD:LEAN", "BLIND",
-                                           "BLIND:SCHUR", "BLIND:SKY", "HYBRID", "3STEPCG:DTIC3",
-                                           "3STEPCG:FLIC2", "SYMMLQ:SKY",
-                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20",
-                                           "ALM:AUTO"),
+                                           "BLIND:SCHUR", "BLIND:SKY", "HYBRID", "HYBRID:CHOLMOD",
+                                           "HYBRID:MUMPS", "3STEPCG:DTIC3", "3STEPCG:FLIC2",
+                                           "SYMMLQ:SKY", "SYMMLQ:DTIC3,schur=sparse",
+                                           "ALM:r=20,rho=20", "ALM:AUTO"),
                          [](const auto& method) { return "m" + std::to_string(method.index); });
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {

@@ -1,0 +1,84 @@
+#include "solvers/condensation/library_stiffness.hpp"
+
+#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/factor_counts.hpp"
+
+namespace airybench {
+namespace {
+
+void count_load(const Eigen::VectorXd& b, Solution& solution) {
+  solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(b.size()) * sizeof(double);
+}
+
+}  // namespace
+
+void CholmodStiffness::factor(const Deadline&) {
+  factor_.factor(lower_);
+  lower_ = {};
+}
+
+Eigen::VectorXd CholmodStiffness::load(const Eigen::VectorXd& b) {
+  b_ = b;
+  Eigen::VectorXd u = b;
+  factor_.solve_in_place(u);
+  return -u.tail(n_c_);
+}
+
+Eigen::VectorXd CholmodStiffness::recover(const Eigen::VectorXd& F_C, const Eigen::VectorXd&) {
+  Eigen::VectorXd u = b_;
+  u.tail(n_c_) += F_C;
+  factor_.solve_in_place(u);
+  return u;
+}
+
+void CholmodStiffness::count(Solution& solution) const {
+  count_factor(factor_, solution);
+  count_load(b_, solution);
+}
+
+void MumpsStiffness::factor(const Deadline&) {
+  factor_.factor(lower_);
+  lower_ = {};
+  if (n_c_ > 0) schur_factor_ = cholesky(factor_.take_schur(), "Schur complement of the stiffness");
+}
+
+Eigen::MatrixXd MumpsStiffness::compliance(const Deadline&) {
+  return n_c_ > 0 ? inverse_from_factor(schur_factor_) : Eigen::MatrixXd();
+}
+
+Eigen::VectorXd MumpsStiffness::load(const Eigen::VectorXd& b) {
+  b_ = b;
+  if (n_c_ == 0) return {};
+  Eigen::VectorXd G = -factor_.reduce(b);
+  solve_by_cholesky(schur_factor_, G);
+  return G;
+}
+
+Eigen::VectorXd MumpsStiffness::recover(const Eigen::VectorXd&, const Eigen::VectorXd& u_C) {
+  Eigen::VectorXd u = b_;
+  if (n_c_ == 0) {
+    factor_.solve_in_place(u);
+    return u;
+  }
+  factor_.reduce(b_);  // other loads may have been reduced since
+  return factor_.expand(u_C);
+}
+
+void MumpsStiffness::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline) {
+  if (n_c_ == 0) return factor_.solve_in_place(X, deadline);
+  for (auto x : X.colwise()) {
+    Eigen::VectorXd u_C = factor_.reduce(x);
+    solve_by_cholesky(schur_factor_, u_C);
+    x = factor_.expand(u_C);
+    deadline.check("the solves with MUMPS's factor");
+  }
+}
+
+void MumpsStiffness::count(Solution& solution) const {
+  count_factor(factor_, solution);
+  count_load(b_, solution);
+  solution.storage[MemoryOwner::factor] +=
+      static_cast<std::size_t>(schur_factor_.size()) * sizeof(double);
+}
+
+}  // namespace airybench
