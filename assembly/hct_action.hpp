@@ -2,6 +2,8 @@
 // the operations.
 #pragma once
 
+#include <array>
+
 #include "assembly/hct_templates.hpp"
 #include "assembly/stress_field.hpp"
 

@@ -190,6 +190,12 @@ void change(Scene& scene, const LoadStep& step) {
   }
 }
 
+bool changes_gap(const LoadStep& step) {
+  return step.clearance_mm || std::ranges::any_of(step.boundary, [](const auto& group) {
+           return group.second.contact.clearance_mm.has_value();
+         });
+}
+
 template <typename Value>
 void scale(std::optional<LinearValue<Value>>& value, double part) {
   if (value)
@@ -208,27 +214,33 @@ Scene part_of(Scene scene, double part) {
   return scene;
 }
 
-Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh) {
+Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
+               const ContactGap& gap) {
   Loads loads;
   of_scene(scene, prefix + "boundary",
            [&] { apply(scene.boundary, scene.displacement_mm, mesh, loads); });
   loads.body_force_N_per_mm3 = scene.body_force_N_per_mm3;
-  ContactGap gap = contact_gap(mesh, scene.boundary, contact_defaults(scene));
-  loads.gap_mm = std::move(gap.gap_mm);
-  loads.wall_detail = std::move(gap.detail);
+  loads.gap_mm = gap.gap_mm;
+  loads.wall_detail = gap.detail;
   return loads;
 }
 
 // Of every step, the first included.
 std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh) {
   std::vector<Loads> steps;
+  const auto gap_of = [&](const Scene& at) {
+    return contact_gap(mesh, at.boundary, contact_defaults(at));
+  };
+  ContactGap gap = gap_of(scene);
   for (int k = 1; k < scene.equal_steps; ++k)
-    steps.push_back(loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh));
-  steps.push_back(loads_of(scene, "", mesh));
+    steps.push_back(
+        loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh, gap));
+  steps.push_back(loads_of(scene, "", mesh, gap));
   Scene at = scene;
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     change(at, scene.later_steps[k]);
-    steps.push_back(loads_of(at, step_prefix(k), mesh));
+    if (changes_gap(scene.later_steps[k])) gap = gap_of(at);
+    steps.push_back(loads_of(at, step_prefix(k), mesh, gap));
   }
   return steps;
 }

@@ -22,8 +22,7 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
   const Eigen::MatrixXd& D = reference.condensed.D;
   ContactPoints without_gap = contact;  // its displacement is r
   without_gap.gap.resize(0);
-  Eigen::VectorXd F =
-      start.size() > 0 ? start : solve_contact(reference.condensed, contact, {}).F_C;
+  Eigen::VectorXd F = start;
   Refined at_F;
   double error = 0, best = std::numeric_limits<double>::infinity();
   for (int step = 0; step < most_steps && F.allFinite(); ++step) {
@@ -51,7 +50,8 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
 
 }  // namespace
 
-Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start) {
+Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start,
+                            const Eigen::VectorXd& sweeps_from) {
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
@@ -66,7 +66,11 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   if (system.n_c > 0) {
     reference.condensed.G = factor.load(system.b.cast<double>());
     reference.condensed.D = factor.compliance({});
-    force_error = solve_contact_to_rounding(system, airy.contact, scale, start, factor.cholesky(),
+    RunControl sweeps;
+    sweeps.start = sweeps_from;
+    const Eigen::VectorXd F =
+        start.size() > 0 ? start : solve_contact(reference.condensed, airy.contact, sweeps).F_C;
+    force_error = solve_contact_to_rounding(system, airy.contact, scale, F, factor.cholesky(),
                                             reference, refined);
   } else {
     refine(system, factor.cholesky(), {}, refined);

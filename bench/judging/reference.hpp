@@ -28,7 +28,8 @@ struct Reference {
 
 // Throws Breakdown when the factorisation fails. What is good enough is for the caller to say.
 // start: contact forces to begin with, instead of those of the sweeps. Where the problem has
-// several solutions, the one found is near them.
-Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {});
+// several solutions, the one found is near them. sweeps_from: what those sweeps begin with.
+Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {},
+                            const Eigen::VectorXd& sweeps_from = {});
 
 }  // namespace airybench

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "solvers/base/dense_products.hpp"
+#include "solvers/methods.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -85,8 +86,8 @@ Solution answer_of(const Reference& reference) {
 
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most) {
   ReferencePath path;
-  const Solve solve = [&](const DualSystem& system, const RunControl&) {
-    path.steps.push_back(compute_reference(system));
+  const Solve solve = [&](const DualSystem& system, const RunControl& control) {
+    path.steps.push_back(compute_reference(system, {}, control.start));
     const double estimate = path.steps.back().error_estimate;
     Solution answer = answer_of(path.steps.back());
     const double residual = *verify(system, answer, nullptr).equilibrium_residual;
@@ -157,6 +158,28 @@ Json steps_of(const std::vector<JudgedStep>& steps) {
                     {"dissipation_Nmm", step.dissipation_Nmm}});
   }
   return list;
+}
+
+Json steps_in_halves(const Problem& first) {
+  std::vector<JudgedStep> steps;
+  Status first_half = Status::ok;
+  double first_half_Nmm = 0;
+  solve_load_steps(select_methods("HYBRID").front(),
+                   std::make_shared<const Problem>(with_half_steps(first)), {},
+                   [&](int half, const DualSystem& posed, const Solution& answer) {
+                     if (!has_answer(answer.status)) return;
+                     const double dissipation = dissipation_Nmm(posed, answer);
+                     if (half % 2 == 0) {
+                       first_half = answer.status;
+                       first_half_Nmm = dissipation;
+                     } else {
+                       steps.push_back({first_half == Status::ok ? answer.status : first_half,
+                                        verify(posed, answer, nullptr),
+                                        {},
+                                        first_half_Nmm + dissipation});
+                     }
+                   });
+  return steps_of(steps);
 }
 
 }  // namespace airybench

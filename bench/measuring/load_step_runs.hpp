@@ -56,4 +56,8 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps);
 // Record::steps.
 Json steps_of(const std::vector<JudgedStep>& steps);
 
+// The same of a path whose steps are gone in two halves each, by HYBRID, where both halves are
+// done; at their ends the loads are those of the path's own steps. What friction takes is of both.
+Json steps_in_halves(const Problem& first);
+
 }  // namespace airybench

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "bench/judging/answer_hash.hpp"
@@ -78,6 +79,33 @@ void note_what_is_idle(const Problem& problem, Record& record) {
     record.status_reason =
         fmt::format("nothing touches the wall: all {} contact points are open", points);
   }
+}
+
+void note_slip_of_half_steps(Record& record) {
+  constexpr double little = 0.01;
+  const auto add = [&](const std::string& text) {
+    record.status_reason += (record.status_reason.empty() ? "" : "; ") + text;
+  };
+  const bool all_ok = std::ranges::all_of(record.steps_in_halves, [](const Json& step) {
+    return step.at("claimed_status") == name_of(Status::ok);
+  });
+  if (record.steps_in_halves.size() != record.steps.size() || !all_ok)
+    return add("with every load step in two halves there is no answer to compare with");
+  const Json &last = record.steps.back(), &halved = record.steps_in_halves.back();
+  const auto resultants = [](const Json& step) {
+    return Eigen::Vector2d(step.at("normal_resultant_N").get<double>(),
+                           step.at("tangential_resultant_N").get<double>());
+  };
+  const Eigen::Vector2d F = resultants(last), F_halved = resultants(halved);
+  if (last.at("n_stick") == halved.at("n_stick") && last.at("n_slip") == halved.at("n_slip") &&
+      (F - F_halved).norm() <= little * F_halved.norm())
+    return;
+  add(fmt::format(
+      "with every load step in two halves {} points stick and {} slip at the end, not {} and {}; "
+      "F = ({:.5g}, {:.5g}) N, not ({:.5g}, {:.5g})",
+      halved.at("n_stick").get<int>(), halved.at("n_slip").get<int>(),
+      last.at("n_stick").get<int>(), last.at("n_slip").get<int>(), F_halved.x(), F_halved.y(),
+      F.x(), F.y()));
 }
 
 void note_large_strains(const Problem& problem, const StressField& stress, Record& record) {

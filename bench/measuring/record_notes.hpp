@@ -21,6 +21,9 @@ void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // Of an ok case, after the verification: nothing touches, nothing can touch, nothing is free.
 void note_what_is_idle(const Problem& problem, Record& record);
+// The same, of a path in equilibrium stresses: that another number of contact points sticks, or
+// resultants move by more than 1 %, where every step is gone in two halves.
+void note_slip_of_half_steps(Record& record);
 // The same: strains for which linear elasticity does not hold.
 void note_large_strains(const Problem& problem, const StressField& stress, Record& record);
 

@@ -43,6 +43,7 @@ void Workbench::prepare(const Method& method) {
   }
   reference();
   if (const auto bound = bound_for(method)) discretisation(*bound);
+  half_steps();
 }
 
 const AssembledBlocks& Workbench::blocks(Blocks which) {
@@ -345,7 +346,10 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (is_answered(solution)) {
     verify_run(assembled, run);
     judge(method, run, record);
-    if (!problem_->given) note_discretisation(method, solution, record);
+    if (!problem_->given) {
+      note_discretisation(method, solution, record);
+      note_half_steps(record);
+    }
     if (!fields.empty() && !problem_->given)
       write_fields_of(method, *assembled.system, solution, record, fields);
   }

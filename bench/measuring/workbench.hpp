@@ -99,6 +99,10 @@ class Workbench {
   static void note_memory(const Run& run, Record& record);
   // Sets what the verifier decides, from a run that is verified.
   void judge(const Method& method, const Run& run, Record& record);
+  // Of a path with friction and a reference, else null: how far it is from one with twice the
+  // steps.
+  const Json* half_steps();
+  void note_half_steps(Record& record);
   // What is known of the discretisation error.
   void note_discretisation(const Method& method, const Solution& solution, Record& record);
   // Nothing above 100 % is ok, and what has no other error than this one says why there is none.
@@ -125,6 +129,7 @@ class Workbench {
   std::string no_reference_;
   std::string program_log_;
   std::map<Bound, std::optional<Discretisation>> discretisation_;
+  std::optional<Json> steps_in_halves_;
 };
 
 }  // namespace airybench

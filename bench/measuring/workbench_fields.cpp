@@ -137,6 +137,24 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
   judge_discretisation(method, record);
 }
 
+const Json* Workbench::half_steps() {
+  if (problem_->given || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
+      reference() == nullptr || !left_out_.discretisation.empty())
+    return nullptr;
+  if (!steps_in_halves_) {
+    const ActivityScope scope(board_, Activity::discretisation);
+    steps_in_halves_ = steps_in_halves(*problem_);
+  }
+  return &*steps_in_halves_;
+}
+
+void Workbench::note_half_steps(Record& record) {
+  const Json* const halves = half_steps();
+  if (halves == nullptr) return;
+  record.steps_in_halves = *halves;
+  if (record.status == Status::ok && !record.in_displacements) note_slip_of_half_steps(record);
+}
+
 void Workbench::judge_discretisation(const Method& method, Record& record) {
   if (record.status != Status::ok) return;
   if (record.error_discretisation.value_or(0) > 1) {

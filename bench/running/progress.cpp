@@ -40,7 +40,7 @@ std::string whole(const std::optional<std::int64_t>& number) {
   return number ? fmt::format("{}", *number) : "-";
 }
 
-// Without the method's check of itself.
+// Without the method's check of itself, and refinement.
 std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }

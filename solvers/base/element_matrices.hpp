@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace airybench {
@@ -118,31 +119,37 @@ Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
   for (int e = 0; e < K.count(); ++e)
     for (int j = 0; j < size; ++j)
       if (const int u = K.unknown[e][j]; u >= 0) columns[next[u]++] = size * e + j;
-  // Each column of K by itself, on a vector that is zero between them.
-  const auto place = [](int i, int j) { return j * size - j * (j - 1) / 2 + i - j; };
+  // Calls visit(row, element, i, j) for the entries that a column of K sums.
+  const auto visit_column = [&](int column, auto visit) {
+    for (int k = first[column]; k < first[column + 1]; ++k) {
+      const int e = columns[k] / size, j = columns[k] % size;
+      for (int i = 0; i < size; ++i)
+        if (const int row = K.unknown[e][i]; row >= column) visit(row, e, i, j);
+    }
+  };
+  std::vector<int> met(static_cast<std::size_t>(K.order), -1);  // in which column last
+  Eigen::Index entries = 0;
+  for (int column = 0; column < K.order; ++column)
+    visit_column(column, [&](int row, int, int, int) {
+      entries += met[row] != column;
+      met[row] = column;
+    });
   Eigen::SparseMatrix<Scalar> lower(K.order, K.order);
-  std::vector<Scalar> sum(static_cast<std::size_t>(K.order), 0);
-  std::vector<bool> met(static_cast<std::size_t>(K.order), false);
+  lower.reserve(entries);
+  met.assign(met.size(), -1);
+  const auto place = [](int i, int j) { return j * size - j * (j - 1) / 2 + i - j; };
+  std::vector<Scalar> sum(static_cast<std::size_t>(K.order), 0);  // zero between columns
   std::vector<int> rows;
   for (int column = 0; column < K.order; ++column) {
     rows.clear();
-    for (int k = first[column]; k < first[column + 1]; ++k) {
-      const int e = columns[k] / size, j = columns[k] % size;
-      for (int i = 0; i < size; ++i) {
-        const int row = K.unknown[e][i];
-        if (row < column) continue;
-        if (!met[row]) rows.push_back(row);
-        met[row] = true;
-        sum[row] += K.lower[e][place(std::max(i, j), std::min(i, j))];
-      }
-    }
+    visit_column(column, [&](int row, int e, int i, int j) {
+      if (met[row] != column) rows.push_back(row);
+      met[row] = column;
+      sum[row] += K.lower[e][place(std::max(i, j), std::min(i, j))];
+    });
     std::sort(rows.begin(), rows.end());
     lower.startVec(column);
-    for (const int row : rows) {
-      lower.insertBack(row, column) = sum[row];
-      sum[row] = 0;
-      met[row] = false;
-    }
+    for (const int row : rows) lower.insertBack(row, column) = std::exchange(sum[row], Scalar(0));
   }
   lower.finalize();
   return lower;

@@ -150,7 +150,8 @@ struct RunControl {
   int contact_sweeps = 100000;        // at most, or iterations of another contact solver
   int uzawa_iterations = 20000;       // at most
   ContactSolver contact = ContactSolver::newton;  // with the paper's stop: Gauss–Seidel
-  Eigen::VectorXd start = {};  // contact forces to begin with, N; empty: zero
+  // Contact forces, N, that our solvers of the condensed law begin with; empty: zero.
+  Eigen::VectorXd start = {};
   // Another's contact solver, instead of these.
   std::function<ContactResult(const CondensedSystem&, const ContactPoints&, const RunControl&)>
       contact_by = {};

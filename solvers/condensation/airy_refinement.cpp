@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "assembly/load_scale.hpp"
 #include "assembly/rough_compliance.hpp"
@@ -40,7 +41,7 @@ struct Checked {
   CheckContact law;
   LoadScale scale;
   const SaddleSolve& solve;
-  Eigen::VectorXd terms;  // of the first answer's residual
+  Eigen::VectorXd terms;  // residual_terms() of the answer
 };
 
 // Of an answer with such a residual, F_C and λ'.
@@ -153,11 +154,11 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
   const LoadScale scale = load_scale(*system.problem);
-  const Checked of{system, with_D(system, D, scale), scale, solve,
-                   residual_terms(system, answer.x)};
+  Checked of{system, with_D(system, D, scale), scale, solve, {}};
   LongSaddleVector trial = in_long(answer), best = trial;
   Eigen::VectorXd F = solution.F_C;
   const auto next_correction = [&](int number) {
+    of.terms = residual_terms(system, trial.x.cast<double>());
     return correction(of, airy_residual(system, trial, F, of.terms, number), F,
                       trial.lambda_C.cast<double>());
   };

@@ -6,6 +6,13 @@
 namespace airybench {
 namespace {
 
+void drop(Eigen::SparseMatrix<double>& matrix) { Eigen::SparseMatrix<double>().swap(matrix); }
+
+Eigen::VectorXd kept_load(const Eigen::VectorXd& b) {
+  const OwnerScope scope(MemoryOwner::factor);
+  return b;
+}
+
 void count_load(const Eigen::VectorXd& b, Solution& solution) {
   solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(b.size()) * sizeof(double);
 }
@@ -14,11 +21,11 @@ void count_load(const Eigen::VectorXd& b, Solution& solution) {
 
 void CholmodStiffness::factor(const Deadline&) {
   factor_.factor(lower_);
-  lower_ = {};
+  drop(lower_);
 }
 
 Eigen::VectorXd CholmodStiffness::load(const Eigen::VectorXd& b) {
-  b_ = b;
+  b_ = kept_load(b);
   Eigen::VectorXd u = b;
   factor_.solve_in_place(u);
   return -u.tail(n_c_);
@@ -38,7 +45,7 @@ void CholmodStiffness::count(Solution& solution) const {
 
 void MumpsStiffness::factor(const Deadline&) {
   factor_.factor(lower_);
-  lower_ = {};
+  drop(lower_);
   if (n_c_ > 0) schur_factor_ = cholesky(factor_.take_schur(), "Schur complement of the stiffness");
 }
 
@@ -47,7 +54,7 @@ Eigen::MatrixXd MumpsStiffness::compliance(const Deadline&) {
 }
 
 Eigen::VectorXd MumpsStiffness::load(const Eigen::VectorXd& b) {
-  b_ = b;
+  b_ = kept_load(b);
   if (n_c_ == 0) return {};
   Eigen::VectorXd G = -factor_.reduce(b);
   solve_by_cholesky(schur_factor_, G);

@@ -1,7 +1,8 @@
 // StiffnessFactor by the libraries that the paper's methods use, so that HYBRID's formulation and
-// its factor can be told apart.
+// its factor can be told apart. K is put together, and asked for no more.
 #pragma once
 
+#include "assembly/sparse_bytes.hpp"
 #include "solvers/condensation/stiffness_condensation.hpp"
 #include "solvers/direct/cholmod.hpp"
 #include "solvers/direct/mumps.hpp"
@@ -12,9 +13,8 @@ namespace airybench {
 // u = K⁻¹ (b + F_C).
 class CholmodStiffness final : public StiffnessFactor {
  public:
-  // lower: K's lower triangle, dropped once it is factorised.
-  CholmodStiffness(Eigen::SparseMatrix<double> lower, int n_c)
-      : lower_(std::move(lower)), n_c_(n_c) {}
+  CholmodStiffness(const ElementMatrices& K, int n_c) : lower_(lower_triangle(K)), n_c_(n_c) {}
+  std::size_t matrix_bytes() const { return bytes_of(lower_); }
   void analyse() override { factor_.analyse(lower_, n_c_); }
   void factor(const Deadline& deadline) override;
   Eigen::MatrixXd compliance(const Deadline&) override { return factor_.inverse_of_schur(); }
@@ -26,7 +26,7 @@ class CholmodStiffness final : public StiffnessFactor {
   void count(Solution& solution) const override;
 
  private:
-  Eigen::SparseMatrix<double> lower_;
+  Eigen::SparseMatrix<double> lower_;  // until it is factorised
   int n_c_;
   CholmodFactor factor_;
   Eigen::VectorXd b_;
@@ -35,9 +35,9 @@ class CholmodStiffness final : public StiffnessFactor {
 // MUMPS leaves K_c, its Schur complement:  D = K_c⁻¹,  G = −D reduce(b),  u = expand(u_C).
 class MumpsStiffness final : public StiffnessFactor {
  public:
-  // lower: K's lower triangle, dropped once it is factorised.
-  MumpsStiffness(Eigen::SparseMatrix<double> lower, int n_c)
-      : lower_(std::move(lower)), n_c_(n_c), factor_(MumpsFactor::Definite::yes) {}
+  MumpsStiffness(const ElementMatrices& K, int n_c)
+      : lower_(lower_triangle(K)), n_c_(n_c), factor_(MumpsFactor::Definite::yes) {}
+  std::size_t matrix_bytes() const { return bytes_of(lower_); }
   void analyse() override { factor_.analyse(lower_, n_c_); }
   void factor(const Deadline& deadline) override;
   Eigen::MatrixXd compliance(const Deadline& deadline) override;
@@ -47,7 +47,7 @@ class MumpsStiffness final : public StiffnessFactor {
   void count(Solution& solution) const override;
 
  private:
-  Eigen::SparseMatrix<double> lower_;
+  Eigen::SparseMatrix<double> lower_;  // until it is factorised
   int n_c_;
   MumpsFactor factor_;
   Eigen::MatrixXd schur_factor_;  // Cholesky factor of K_c

@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <sstream>
+#include <stdexcept>
+#include <string>
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/contact/active_set.hpp"
@@ -29,6 +31,10 @@ double relative_natural_map(const CondensedSystem& condensed, const ContactPoint
 
 ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
                             const RunControl& control) {
+  if (control.start.size() != 0 && control.start.size() != contact.size())
+    throw std::invalid_argument("RunControl::start: " + std::to_string(control.start.size()) +
+                                " contact forces (allowed: none or " +
+                                std::to_string(contact.size()) + ")");
   if (control.contact_by) return control.contact_by(condensed, contact, control);
   switch (control.stop == Stop::paper ? ContactSolver::gauss_seidel : control.contact) {
     case ContactSolver::newton:

@@ -3,7 +3,6 @@
 #include <Eigen/CholmodSupport>
 #include <algorithm>
 #include <new>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -56,8 +55,10 @@ std::vector<int> CholmodFactor::order_with_last(const Eigen::SparseMatrix<double
   std::vector<int> order(n), last(n, 0);
   std::fill(last.end() - trailing, last.end(), 1);
   cholmod_sparse view = view_of(lower);
-  cholmod_camd(&view, nullptr, 0, last.data(), order.data(), &common_);
+  const bool ordered = cholmod_camd(&view, nullptr, 0, last.data(), order.data(), &common_);
   throw_if_out_of_memory();
+  if (!ordered)
+    throw Breakdown("CHOLMOD: CAMD ended with status " + std::to_string(common_.status));
   return order;
 }
 
@@ -71,6 +72,7 @@ void CholmodFactor::analyse(const Eigen::SparseMatrix<double>& lower, int traili
     common_.nmethods = 1;
     common_.method[0].ordering = CHOLMOD_GIVEN;
     factor_ = cholmod_analyze_p(&whole, order.data(), nullptr, 0, &common_);
+    common_.nmethods = 0;  // its own choice again
   } else {
     factor_ = cholmod_analyze(&whole, &common_);
   }
@@ -121,8 +123,9 @@ Eigen::MatrixXd CholmodFactor::inverse_of_schur() const {
       const int column = place[static_cast<std::size_t>(first_column[s] + j)];
       if (column < 0) continue;
       for (int i = j; i < height; ++i)
-        L(place[static_cast<std::size_t>(rows[first_row[s] + i])], column) =
-            entries[first_entry[s] + static_cast<std::ptrdiff_t>(j) * height + i];
+        if (const int row = place[static_cast<std::size_t>(rows[first_row[s] + i])];
+            row >= 0)  // else a supernode's padding
+          L(row, column) = entries[first_entry[s] + static_cast<std::ptrdiff_t>(j) * height + i];
     }
   }
   const Eigen::MatrixXd inverse = inverse_from_factor(std::move(L));

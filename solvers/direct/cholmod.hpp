@@ -2,9 +2,9 @@
 // doi:10.1145/1391989.1391995), symmetric positive definite.
 //
 //   P S Pᵀ = L Lᵀ with a fill-reducing permutation P that CHOLMOD chooses (AMD, or METIS where AMD
-// leaves much fill). On request the last unknowns C come after all others, in whose order CHOLMOD
-// is free, and L ends in the factor of their Schur complement,  S_CC − S_CI S_II⁻¹ S_IC = L_CC
-// L_CCᵀ.
+// leaves much fill). On request the last unknowns C come after all others that they
+// depend on, and their part of L is the factor of their Schur complement,
+// S_CC − S_CI S_II⁻¹ S_IC = L_CC L_CCᵀ.
 #pragma once
 
 #include <cholmod.h>

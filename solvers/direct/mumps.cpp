@@ -53,9 +53,9 @@ MumpsFactor::MumpsFactor(Definite definite) {
   // without a library that may not survive a refused allocation. With a Schur complement MUMPS
   // takes another minimum degree instead.
   mumps_.icntl[no(7)] = 2;
-  // By default: scaling (8) and 2×2 pivots prepared in the analysis (6, 12) as MUMPS sees fit,
-  // pivots from 0.01 of their column on (CNTL(1)), no iterative refinement (10).
-  // A row that elimination leaves below CNTL(3) of the matrix's norm is counted as a null pivot.
+  // By default, where indefinite: scaling (8) and 2×2 pivots prepared in the analysis (6, 12) as
+  // MUMPS sees fit, pivots from 0.01 of their column on (CNTL(1)), no iterative refinement (10). A
+  // row that elimination leaves below CNTL(3) of the matrix's norm is counted as a null pivot.
   mumps_.icntl[no(24)] = 1;
   mumps_.cntl[no(3)] = 1e-15;
   mumps_.icntl[no(27)] = columns_at_once;

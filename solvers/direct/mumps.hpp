@@ -12,6 +12,7 @@
 #include <dmumps_c.h>
 
 #include <Eigen/SparseCore>
+#include <utility>
 #include <vector>
 
 #include "solvers/base/solution.hpp"
@@ -41,8 +42,9 @@ class MumpsFactor {
   // them, std::bad_alloc.
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline = {});
 
-  const Eigen::MatrixXd& schur() const { return schur_; }     // symmetric
-  Eigen::MatrixXd take_schur() { return std::move(schur_); }  // to work in its place
+  const Eigen::MatrixXd& schur() const { return schur_; }  // symmetric
+  // To work in its place: schur() is empty then, and nothing is factorised again.
+  Eigen::MatrixXd take_schur() { return std::move(schur_); }
   // The right-hand side that belongs to schur(); then, once and of the same b, the whole solution
   // from its trailing part x_C.
   Eigen::VectorXd reduce(const Eigen::VectorXd& b);

@@ -1,6 +1,8 @@
 #include "solvers/loading/load_steps.hpp"
 
+#include <iterator>
 #include <map>
+#include <type_traits>
 
 #include "assembly/control_points.hpp"
 #include "solvers/base/kept_body.hpp"
@@ -35,7 +37,57 @@ void add_of_control_points(const Problem& problem, const ControlPoints& points,
   }
 }
 
+template <typename Value>
+Value zero() {
+  if constexpr (std::is_same_v<Value, double>)
+    return 0;
+  else
+    return Value::Zero();
+}
+
+// Null functions are zero.
+template <typename Value, typename... Arguments>
+std::function<Value(Arguments...)> mean(const std::function<Value(Arguments...)>& a,
+                                        const std::function<Value(Arguments...)>& b) {
+  if (!a && !b) return {};
+  return [a, b](Arguments... at) -> Value {
+    return ((a ? a(at...) : zero<Value>()) + (b ? b(at...) : zero<Value>())) / 2;
+  };
+}
+
+Loads mean(const Loads& before, const Loads& after) {
+  Loads half = after;
+  half.displacement_mm = mean(before.displacement_mm, after.displacement_mm);
+  half.traction_MPa = mean(before.traction_MPa, after.traction_MPa);
+  half.gap_mm = mean(before.gap_mm, after.gap_mm);
+  half.body_force_N_per_mm3 = (before.body_force_N_per_mm3 + after.body_force_N_per_mm3) / 2;
+  return half;
+}
+
+// With its rigid motion.
+Loads all_loads(const Problem& problem) {
+  Loads all = problem.loads;
+  all.displacement_mm = [rest = problem.loads.displacement_mm, motion = problem.motion](
+                            const Eigen::Vector2d& x, int row) -> Eigen::Vector2d {
+    return motion.at(x) + (rest ? rest(x, row) : Eigen::Vector2d(0, 0));
+  };
+  return all;
+}
+
 }  // namespace
+
+Problem with_half_steps(const Problem& first) {
+  Loads before, after = all_loads(first);
+  before.gap_mm = after.gap_mm;
+  std::vector<Loads> steps = {mean(before, after), after};
+  for (const Loads& step : first.later_steps) {
+    steps.push_back(mean(steps.back(), step));
+    steps.push_back(step);
+  }
+  Problem halved = with_loads(first, std::move(steps.front()));
+  halved.later_steps.assign(std::next(steps.begin()), steps.end());
+  return halved;
+}
 
 std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer) {
   const Problem& problem = *system.problem;
@@ -78,7 +130,7 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
     loads.slid_mm = slid_after(system, answer);
     set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
     RunControl from_here = control;
-    from_here.start = std::move(answer.F_C);
+    if (answer.F_C.allFinite()) from_here.start = std::move(answer.F_C);
     answer = run(again, system, from_here);
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }

@@ -9,9 +9,9 @@
 // off, too. Signorini's law has no memory. (Implicit Euler for the quasi-static problem.)
 //
 // The body is condensed or factorised once where the method can (kept_body.hpp), and what a step
-// costs is a load case; its contact forces begin with those of the step before. A path is not its
-// last step: unloading leaves tangential forces behind. But where everything grows in proportion,
-// without gap, one step and many are the same.
+// costs is a load case; a condensed law begins with the forces of the step before. A path is not
+// its last step: unloading leaves tangential forces behind. But where everything grows in
+// proportion, without gap, one step and many are the same.
 #pragma once
 
 #include "solvers/base/method.hpp"
@@ -23,6 +23,10 @@ std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const So
 
 // What friction takes in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
 double dissipation_Nmm(const DualSystem& system, const Solution& answer);
+
+// The same path with every step in two halves: in the middle loads and gap are the mean of what
+// they are before and after. Before the first the body has no load, and the gap that it has there.
+Problem with_half_steps(const Problem& first);
 
 // step: from 0. The system is that of the step, its slip measured from this path's own past.
 using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;

@@ -2,7 +2,6 @@
 // same K by a library's factor.
 #include "solvers/condensation/hybridized.hpp"
 
-#include "assembly/sparse_bytes.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
 #include "solvers/condensation/library_stiffness.hpp"
@@ -47,10 +46,10 @@ GivenMatrix as_elements(HybridizedSystem& system, bool) {
 
 template <typename LibraryFactor>
 GivenMatrix put_together(HybridizedSystem& system, bool keep_elements) {
-  Eigen::SparseMatrix<double> lower = lower_triangle(system.K);
+  auto factor = std::make_unique<LibraryFactor>(system.K, system.n_c);
+  const std::size_t bytes = factor->matrix_bytes();
   if (!keep_elements) system.K = {};
-  const std::size_t bytes = bytes_of(lower);
-  return {std::make_unique<LibraryFactor>(std::move(lower), system.n_c), bytes};
+  return {std::move(factor), bytes};
 }
 
 Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Give give) {

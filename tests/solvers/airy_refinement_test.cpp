@@ -142,6 +142,10 @@ TEST(AiryResidual, IsThatOfTheBlocksForAnyVector) {
     };
     expect_same(r.x, d.or_zero(s.q, s.n()) - s.S.selfadjointView<Eigen::Lower>() * x -
                          s.C_F.transpose() * lambda_F - s.C_C.transpose() * lambda_C);
+    const AiryProduct product = airy_product(s, x);
+    const VectorXd S_x = s.S.selfadjointView<Eigen::Lower>() * x;
+    EXPECT_LE((product.S_x - S_x).norm(), 1e-10 * S_x.norm());
+    EXPECT_NEAR(product.stress_norm, std::sqrt(x.dot(S_x)), 1e-10 * product.stress_norm);
     expect_same(r.lambda_F, d.or_zero(s.F, s.n_f()) - s.C_F * x);
     expect_same(r.lambda_C, F_C - d.or_zero(s.F0, s.n_c()) - s.C_C * x);
   }
@@ -211,6 +215,26 @@ TEST(AiryRefinement, MeasuresCorrectionsByTheirStressesAndNotByS) {
   const Solution refined = d.refined(D, lost, wrong, F_C);
   EXPECT_EQ(refined.status, Status::inaccurate);
   EXPECT_GE(refined.error_estimate.value_or(0), 1e-4);
+}
+
+// A solve that does half of what it should: the corrections' sum is no less than the error.
+TEST(AiryRefinement, MeasuresWhatSeveralCorrectionsTogetherCorrect) {
+  const Dense d(Scene{});
+  const VectorXd F_C = d.solution().F_C;
+  const SaddleVector exact = d.answer(F_C);
+  const SaddleSolve half = [&](SaddleVector& v) {
+    d.solve()(v);
+    for (VectorXd* part : {&v.x, &v.lambda_F, &v.lambda_C}) *part /= 2;
+  };
+  SaddleVector wrong = exact;
+  wrong.x += d.self_stress(1e-3 * d.energy_norm(exact.x));
+  const auto estimate = [&](const SaddleSolve& solve) {
+    return d.checked_with(d.D(), solve, wrong, F_C, 1e-6).error_estimate.value();
+  };
+  EXPECT_NEAR(estimate(d.solve()), 1e-3, 1e-5);
+  // Work tells each correction that it is half of what is left: 1 + 1/2 + 1/4 + …
+  EXPECT_GT(estimate(half), 0.97e-3);
+  EXPECT_LT(estimate(half), 2.1e-3);
 }
 
 // On slivers the factor may be hundreds of times as stiff as S in one direction, or indefinite.

@@ -70,5 +70,17 @@ TEST(Cholmod, InvertsTheSchurComplementOfTheLastUnknowns) {
   }
 }
 
+// Of the star c–p, a–p, a–s, p–s with C = {c, p, s} the factor has c before a, and small supernodes
+// are merged.
+TEST(Cholmod, InvertsTheSchurComplementOfUnknownsThatAreNotJoined) {
+  Eigen::MatrixXd A = 4 * Eigen::MatrixXd::Identity(4, 4);  // a, c, p, s
+  for (const auto& [i, j] : {std::pair(0, 2), {0, 3}, {2, 3}, {1, 2}}) A(i, j) = A(j, i) = -1;
+  CholmodFactor factor;
+  factor.analyse(lower(A), 3);
+  factor.factor(lower(A));
+  const Eigen::MatrixXd inverse = testing::solved(A, Eigen::MatrixXd::Identity(4, 4));
+  EXPECT_LE(testing::distance(factor.inverse_of_schur(), inverse.bottomRightCorner(3, 3)), 1e-14);
+}
+
 }  // namespace
 }  // namespace airybench::cholmod_test

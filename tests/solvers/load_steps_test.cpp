@@ -131,6 +131,73 @@ TEST_P(LoadSteps, DraggedToAndFroItGoesThroughTheHysteresisLoop) {
   EXPECT_LT(apart(at[3], at[0]), 1e-7);  // the loop is closed
 }
 
+// Equal steps in halves are twice as many; of a list the middle is the mean.
+TEST(LoadStepsOfHybrid, InHalvesTheyAreTwiceAsMany) {
+  Scene scene;
+  scene.body_force_N_per_mm3 = {0.3, -0.7};
+  const auto ends = [&](int equal_steps) {
+    scene.equal_steps = equal_steps;
+    return std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5)));
+  };
+  const Method method = select_methods("HYBRID").front();
+  const auto forces = [&](const std::shared_ptr<const Problem>& first) {
+    std::vector<Eigen::VectorXd> all;
+    solve_load_steps(method, first, {}, [&](int, const DualSystem&, const Solution& answer) {
+      all.push_back(answer.F_C);
+    });
+    return all;
+  };
+  const auto expect_same = [&](const std::vector<Eigen::VectorXd>& found,
+                               const std::vector<Eigen::VectorXd>& right) {
+    ASSERT_EQ(found.size(), right.size());
+    for (std::size_t k = 0; k < found.size(); ++k)
+      EXPECT_LE(testing::distance(found[k], right[k]), 1e-10 * right[k].norm()) << k;
+  };
+  const auto halves_of = [](const std::shared_ptr<const Problem>& first) {
+    return std::make_shared<const Problem>(with_half_steps(*first));
+  };
+  for (const int steps : {1, 3})
+    expect_same(forces(halves_of(ends(steps))), forces(ends(2 * steps)));
+  expect_same(
+      forces(halves_of(path({{0.02, 0}, {0.03, 0.006}, {0.01, -0.01}}))),
+      forces(path(
+          {{0.01, 0}, {0.02, 0}, {0.025, 0.003}, {0.03, 0.006}, {0.02, -0.002}, {0.01, -0.01}})));
+}
+
+TEST(LoadStepsOfHybrid, InHalvesTractionsAndGapsAreMeansToo) {
+  struct Loaded {
+    double pressure_MPa, clearance_mm, x_mm;
+  };
+  const auto scene_of = [](const std::vector<Loaded>& steps) {
+    Scene scene;
+    for (std::size_t k = 0; k < steps.size(); ++k) {
+      const auto& [pressure_MPa, clearance_mm, x_mm] = steps[k];
+      LoadStep step;
+      step.displacement_mm = Eigen::Vector2d(x_mm, 0.3 * x_mm);
+      step.clearance_mm = clearance_mm;
+      step.boundary["force"].pressure_MPa = LinearValue<double>{{pressure_MPa, pressure_MPa}};
+      if (k > 0) {
+        scene.later_steps.push_back(step);
+        continue;
+      }
+      scene.displacement_mm = *step.displacement_mm;
+      scene.clearance_mm = *step.clearance_mm;
+      scene.boundary = step.boundary;
+    }
+    return std::make_shared<const Problem>(pose(scene, testing::small_tooth(6, 5)));
+  };
+  const auto path = scene_of({{2, 0.004, 0.02}, {6, 0, 0.03}}),
+             halves =
+                 scene_of({{1, 0.004, 0.01}, {2, 0.004, 0.02}, {4, 0.002, 0.025}, {6, 0, 0.03}});
+  const Method method = select_methods("HYBRID").front();
+  const Solution found = solve_load_steps(
+                     method, std::make_shared<const Problem>(with_half_steps(*path)), {}),
+                 right = solve_load_steps(method, halves, {});
+  EXPECT_LE(testing::distance(found.F_C, right.F_C), 1e-10 * right.F_C.norm());
+  EXPECT_GT(testing::distance(found.F_C, solve_load_steps(method, path, {}).F_C),
+            1e-6 * right.F_C.norm());
+}
+
 TEST(LoadStepsOfHybrid, BeginWithTheForcesOfTheStepBefore) {
   std::vector<Eigen::Vector2d> places;
   for (int k = 0; k <= 20; ++k) places.emplace_back(0.02, 0.02 * std::sin(0.3 * k));

@@ -53,6 +53,37 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   }
 }
 
+TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
+  Scene scene;
+  const auto examined_in = [&](int steps, double friction, const char* method = "HYBRID") {
+    scene.equal_steps = steps;
+    scene.friction = friction;
+    Options options;
+    options.repetitions = 1;
+    Workbench bench(testing::posed(scene, testing::small_tooth(16, 12)), options);
+    return bench.examine(select_methods(method).front(), {}).record;
+  };
+  EXPECT_TRUE(examined_in(1, 0.2).steps_in_halves.empty());
+  EXPECT_TRUE(examined_in(2, 0).steps_in_halves.empty());
+  const Record two = examined_in(2, 0.2), four = examined_in(4, 0.2);
+  ASSERT_EQ(two.steps_in_halves.size(), 2u);
+  for (const int k : {0, 1}) {
+    const Json &halved = two.steps_in_halves[k], &second = four.steps[2 * k + 1];
+    for (const char* key : {"n_open", "n_stick", "n_slip"})
+      EXPECT_EQ(halved.at(key), second.at(key));
+    for (const char* key : {"normal_resultant_N", "tangential_resultant_N"})
+      EXPECT_NEAR(halved.at(key).get<double>() / second.at(key).get<double>(), 1, 1e-9) << key;
+    EXPECT_NEAR(halved.at("dissipation_Nmm").get<double>(),
+                second.at("dissipation_Nmm").get<double>() +
+                    four.steps[2 * k].at("dissipation_Nmm").get<double>(),
+                1e-9);
+  }
+  EXPECT_NE(two.steps.back().at("n_stick"), two.steps_in_halves.back().at("n_stick"));
+  EXPECT_NE(two.status_reason.find("with every load step in two halves "), std::string::npos)
+      << two.status_reason;
+  EXPECT_EQ(examined_in(2, 0.2, "P2").steps_in_halves, two.steps_in_halves);
+}
+
 // Without friction nothing is remembered: the last of several equal steps is the one of all of
 // them.
 TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
