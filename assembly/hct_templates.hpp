@@ -62,8 +62,8 @@ Eigen::Vector3<Scalar> normal_direction(const Eigen::Vector2<Scalar>& i,
 
 // Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
 // (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
-inline constexpr int near_corner[3][6] = {
-    {0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
+// Internal: kernels of several instruction sets share no symbol.
+constexpr int near_corner[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
 
 // The stress at corner m of a third from those six: second derivatives are
 // 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}. Rows φ,yy  φ,xx  −φ,xy.

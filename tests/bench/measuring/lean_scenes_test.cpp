@@ -167,7 +167,8 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
 // What MUMPS takes by itself: it orders each matrix anew, and from version 5.7 on the workspace for
 // a smaller one may be larger, by up to 0.3 % of the peak as seen.
 std::int64_t of_mumps(const Method& method, const Measured& m) {
-  const bool by_mumps = method.name.starts_with("BLIND") && !method.name.starts_with("BLIND:SKY");
+  const bool by_mumps = method.name == "HYBRID:MUMPS" ||
+                        (method.name.starts_with("BLIND") && !method.name.starts_with("BLIND:SKY"));
   return by_mumps ? m.peak_bytes / 200 : 0;
 }
 
@@ -189,9 +190,11 @@ TEST_P(LeanScenes, TakeNoMoreHeapAndNoMoreAllocations) {
         << scene.name;
     // Each asking of the contact law, each growth of a history, each step of a refinement
     // allocates, and the more the more points are closed: where other forces need more of them,
-    // nothing is said. One temporary more is let pass.
-    const bool asks_otherwise =
-        GetParam().in_displacements || GetParam().name.ends_with(":REFINED");
+    // nothing is said, nor where CHOLMOD orders a smaller matrix by itself. One temporary more is
+    // let pass.
+    const bool asks_otherwise = GetParam().in_displacements ||
+                                GetParam().name.ends_with(":REFINED") ||
+                                GetParam().name == "HYBRID:CHOLMOD";
     if (!asks_otherwise && lean.solution.contact_iterations <= with.solution.contact_iterations &&
         lean.solution.newton_steps <= with.solution.newton_steps &&
         closed_components(lean.solution) <= closed_components(with.solution) &&
