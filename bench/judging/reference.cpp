@@ -65,7 +65,7 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   double force_error = 0;
   if (system.n_c > 0) {
     reference.condensed.G = factor.load(system.b.cast<double>());
-    reference.condensed.D = factor.compliance({});
+    reference.condensed.D = factor.compliance();
     RunControl sweeps;
     sweeps.start = sweeps_from;
     const Eigen::VectorXd F =

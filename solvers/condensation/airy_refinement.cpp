@@ -41,7 +41,6 @@ struct Checked {
   CheckContact law;
   LoadScale scale;
   const SaddleSolve& solve;
-  Eigen::VectorXd terms;  // residual_terms() of the answer
 };
 
 // Of an answer with such a residual, F_C and λ'.
@@ -106,7 +105,7 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
            Solution& solution) {
   constexpr double trusted = 1e-10, little = 0.1;
   constexpr int most_corrections = 6;
-  AiryResidual at = airy_residual(of.system, in_long(answer), solution.F_C, of.terms);
+  AiryResidual at = airy_residual(of.system, in_long(answer), solution.F_C);
   Eigen::VectorXd lambda_C = answer.lambda_C;
   Correction next = correction(of, at, solution.F_C, lambda_C);
   double estimate = next.estimate, corrected = next.energy_norm;
@@ -127,8 +126,7 @@ void check(const Checked& of, const SaddleVector& answer, const RunControl& cont
 void check_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D, const SaddleSolve& solve,
                        const SaddleVector& answer, const RunControl& control, Solution& solution) {
   const LoadScale scale = load_scale(*system.problem);
-  check({system, with_D(system, D, scale), scale, solve, residual_terms(system, answer.x)}, answer,
-        control, solution);
+  check({system, with_D(system, D, scale), scale, solve}, answer, control, solution);
 }
 
 void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& solve,
@@ -145,8 +143,7 @@ void check_airy_answer_without_D(const DualSystem& system, const SaddleSolve& so
     result.relative = multiple * relative_error(off.norm(), F_C.norm(), scale.force_N);
     return result;
   };
-  check({system, check_law, scale, solve, residual_terms(system, answer.x)}, answer, control,
-        solution);
+  check({system, check_law, scale, solve}, answer, control, solution);
 }
 
 void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
@@ -154,12 +151,11 @@ void refine_airy_answer(const DualSystem& system, const Eigen::MatrixXd& D,
                         const RunControl& control, Solution& solution) {
   constexpr int most_steps = 20;
   const LoadScale scale = load_scale(*system.problem);
-  Checked of{system, with_D(system, D, scale), scale, solve, {}};
+  const Checked of{system, with_D(system, D, scale), scale, solve};
   LongSaddleVector trial = in_long(answer), best = trial;
   Eigen::VectorXd F = solution.F_C;
   const auto next_correction = [&](int number) {
-    of.terms = residual_terms(system, trial.x.cast<double>());
-    return correction(of, airy_residual(system, trial, F, of.terms, number), F,
+    return correction(of, airy_residual(system, trial, F, number), F,
                       trial.lambda_C.cast<double>());
   };
   Correction next = next_correction(0);

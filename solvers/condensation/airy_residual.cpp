@@ -143,8 +143,7 @@ void add_boundary_forces(const DualSystem& system, const LongSaddleVector& answe
   for_each_boundary_row(system.problem->mesh, visit);
 }
 
-}  // namespace
-
+// The terms |σ(φ_i)|:|C|:Σ|σ(φ_j) x_j| that S x sums, scaled as it is.
 Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& x) {
   const Problem& problem = *system.problem;
   Eigen::VectorXd terms = Eigen::VectorXd::Zero(system.n());
@@ -165,8 +164,10 @@ Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& 
   return terms;
 }
 
+}  // namespace
+
 AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                           const Eigen::VectorXd& F_C, const Eigen::VectorXd& terms, int number) {
+                           const Eigen::VectorXd& F_C, int number) {
   const Problem& problem = *system.problem;
   LongSaddleVector residual{LongVector::Zero(system.n()), LongVector::Zero(system.n_f()),
                             LongVector::Zero(system.n_c())};
@@ -180,7 +181,7 @@ AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& ans
   }
   add_prescribed_displacements(system, residual.x);
   add_boundary_forces(system, answer, F_C, residual);
-  add_rounding(terms, number, residual.x);
+  add_rounding(residual_terms(system, answer.x.cast<double>()), number, residual.x);
   return {std::move(residual), static_cast<double>(std::sqrt(stress_squared))};
 }
 

@@ -17,16 +17,12 @@ struct AiryResidual {
   double stress_norm = 0;  // of the answer, with the particular stress, √(N mm)
 };
 
-// The terms |σ(φ_i)|:|C|:Σ|σ(φ_j) x_j| that S x sums, scaled as it is.
-Eigen::VectorXd residual_terms(const DualSystem& system, const Eigen::VectorXd& x);
-
 // r, r_F, r_C as in airy_refinement.hpp, and r moved by about as much as it is uncertain: by ± the
-// rounding of a long double in the terms that it sums, those of the answer or one near it. So
-// corrections do not fall below what rounding, through the system's condition, makes of the answer.
-// number: of the correction; each has other signs.
+// rounding of a long double in the terms |σ(φ_i)|:|C|:Σ|σ(φ_j) φ_j| that it sums. So corrections do
+// not fall below what rounding, through the system's condition, makes of the answer. number: of the
+// correction; each has other signs.
 AiryResidual airy_residual(const DualSystem& system, const LongSaddleVector& answer,
-                           const Eigen::VectorXd& F_C, const Eigen::VectorXd& terms,
-                           int number = 0);
+                           const Eigen::VectorXd& F_C, int number = 0);
 
 // Of the stresses σ of x, without the particular stress, element by element.
 struct AiryProduct {

@@ -49,7 +49,7 @@ void MumpsStiffness::factor(const Deadline&) {
   if (n_c_ > 0) schur_factor_ = cholesky(factor_.take_schur(), "Schur complement of the stiffness");
 }
 
-Eigen::MatrixXd MumpsStiffness::compliance(const Deadline&) {
+Eigen::MatrixXd MumpsStiffness::compliance() {
   return n_c_ > 0 ? inverse_from_factor(schur_factor_) : Eigen::MatrixXd();
 }
 

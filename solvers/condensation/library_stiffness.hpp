@@ -14,10 +14,10 @@ namespace airybench {
 class CholmodStiffness final : public StiffnessFactor {
  public:
   CholmodStiffness(const ElementMatrices& K, int n_c) : lower_(lower_triangle(K)), n_c_(n_c) {}
-  std::size_t matrix_bytes() const { return bytes_of(lower_); }
+  std::size_t matrix_bytes() const override { return bytes_of(lower_); }
   void analyse() override { factor_.analyse(lower_, n_c_); }
   void factor(const Deadline& deadline) override;
-  Eigen::MatrixXd compliance(const Deadline&) override { return factor_.inverse_of_schur(); }
+  Eigen::MatrixXd compliance() override { return factor_.inverse_of_schur(); }
   Eigen::VectorXd load(const Eigen::VectorXd& b) override;
   Eigen::VectorXd recover(const Eigen::VectorXd& F_C, const Eigen::VectorXd& u_C) override;
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline) override {
@@ -37,10 +37,10 @@ class MumpsStiffness final : public StiffnessFactor {
  public:
   MumpsStiffness(const ElementMatrices& K, int n_c)
       : lower_(lower_triangle(K)), n_c_(n_c), factor_(MumpsFactor::Definite::yes) {}
-  std::size_t matrix_bytes() const { return bytes_of(lower_); }
+  std::size_t matrix_bytes() const override { return bytes_of(lower_); }
   void analyse() override { factor_.analyse(lower_, n_c_); }
   void factor(const Deadline& deadline) override;
-  Eigen::MatrixXd compliance(const Deadline& deadline) override;
+  Eigen::MatrixXd compliance() override;
   Eigen::VectorXd load(const Eigen::VectorXd& b) override;
   Eigen::VectorXd recover(const Eigen::VectorXd& F_C, const Eigen::VectorXd& u_C) override;
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline) override;

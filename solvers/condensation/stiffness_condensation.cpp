@@ -7,7 +7,7 @@
 
 namespace airybench {
 
-Eigen::MatrixXd MultifrontalStiffness::compliance(const Deadline&) {
+Eigen::MatrixXd MultifrontalStiffness::compliance() {
   return n_c_ > 0 ? inverse_from_factor(factor_.trailing_factor()) : Eigen::MatrixXd();
 }
 
@@ -43,7 +43,7 @@ CondensedSystem factorise_and_condense(StiffnessFactor& factor, const Eigen::Vec
   CondensedSystem condensed;
   run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
     condensed.G = factor.load(b);
-    condensed.D = factor.compliance(control.deadline);
+    condensed.D = factor.compliance();
   });
   factor.count(solution);
   return condensed;

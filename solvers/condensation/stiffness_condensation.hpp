@@ -18,10 +18,11 @@ namespace airybench {
 class StiffnessFactor {
  public:
   virtual ~StiffnessFactor() = default;
-  virtual void analyse() = 0;  // throws std::bad_alloc
+  virtual std::size_t matrix_bytes() const { return 0; }  // of a K of its own, not yet factorised
+  virtual void analyse() = 0;                             // throws std::bad_alloc
   // Throws Breakdown where K is not positive definite, TimeoutReached, std::bad_alloc.
   virtual void factor(const Deadline& deadline) = 0;
-  virtual Eigen::MatrixXd compliance(const Deadline& deadline) = 0;  // D, once
+  virtual Eigen::MatrixXd compliance() = 0;  // D, once
   // G of the loads b, which stay for recover().
   virtual Eigen::VectorXd load(const Eigen::VectorXd& b) = 0;
   // All unknowns u of those loads, from F_C and u_C = D F_C − G.
@@ -39,7 +40,7 @@ class MultifrontalStiffness final : public StiffnessFactor {
   MultifrontalStiffness(const ElementMatrices& K, int n_c) : K_(K), n_c_(n_c) {}
   void analyse() override { factor_.analyse(K_, n_c_); }
   void factor(const Deadline& deadline) override { factor_.factor(K_, deadline); }
-  Eigen::MatrixXd compliance(const Deadline& deadline) override;
+  Eigen::MatrixXd compliance() override;
   Eigen::VectorXd load(const Eigen::VectorXd& b) override;
   Eigen::VectorXd recover(const Eigen::VectorXd& F_C, const Eigen::VectorXd& u_C) override;
   void solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadline& deadline) override {

@@ -32,38 +32,24 @@ void finish_hybridized(const DualSystem& airy, const RunControl& control, Hybrid
       solution);
 }
 
-// A factor that reads the elements' matrices, or one that has K put together and needs them no
-// more; bytes: of what it is given.
-struct GivenMatrix {
-  std::unique_ptr<StiffnessFactor> factor;
-  std::size_t bytes = 0;
-};
-using Give = GivenMatrix (*)(HybridizedSystem& system, bool keep_elements);
+using MakeFactor = std::unique_ptr<StiffnessFactor> (*)(const HybridizedSystem& system);
 
-GivenMatrix as_elements(HybridizedSystem& system, bool) {
-  return {std::make_unique<MultifrontalStiffness>(system.K, system.n_c), 0};
+template <typename Factor>
+std::unique_ptr<StiffnessFactor> make_factor(const HybridizedSystem& system) {
+  return std::make_unique<Factor>(system.K, system.n_c);
 }
 
-template <typename LibraryFactor>
-GivenMatrix put_together(HybridizedSystem& system, bool keep_elements) {
-  auto factor = std::make_unique<LibraryFactor>(system.K, system.n_c);
-  const std::size_t bytes = factor->matrix_bytes();
-  if (!keep_elements) system.K = {};
-  return {std::move(factor), bytes};
-}
-
-Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Give give) {
+Solution solve_hybridized(const DualSystem& airy, const RunControl& control, MakeFactor make) {
   const auto body = std::make_shared<HybridizedBody>();
   HybridizedSystem& system = body->system;
   Solution solution;
-  const std::size_t matrix_bytes =
-      run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix, [&] {
-        system = assemble_hybridized(*airy.problem, airy.contact);
-        GivenMatrix given = give(system, control.keep_body || control.condition);
-        body->factor = std::move(given.factor);
-        return given.bytes;
-      });
-  solution.storage[MemoryOwner::system_matrix] = system.bytes() + matrix_bytes;
+  run_stage(solution.times, Stage::condense, MemoryOwner::system_matrix, [&] {
+    system = assemble_hybridized(*airy.problem, airy.contact);
+    body->factor = make(system);
+    const bool has_its_own = body->factor->matrix_bytes() > 0;
+    if (has_its_own && !control.keep_body && !control.condition) system.K = {};
+  });
+  solution.storage[MemoryOwner::system_matrix] = system.bytes() + body->factor->matrix_bytes();
   body->condensed =
       factorise_and_condense(*body->factor, system.b, "hybridized system", control, solution);
   if (control.condition)
@@ -75,14 +61,14 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Giv
   return solution;
 }
 
-Method hybrid_method(const char* name, const char* summary, Give give) {
+Method hybrid_method(const char* name, const char* summary, MakeFactor make) {
   return {
       .name = name,
       .family = "HYBRID",
       .summary = summary,
       .blocks = Blocks::contact_points,
-      .solve = [give](const DualSystem& airy,
-                      const RunControl& control) { return solve_hybridized(airy, control, give); },
+      .solve = [make](const DualSystem& airy,
+                      const RunControl& control) { return solve_hybridized(airy, control, make); },
       .knob = AccuracyKnob::contact_sweeps};
 }
 
@@ -92,17 +78,17 @@ Method hybrid() {
   return hybrid_method(
       "HYBRID",
       "hybridized equilibrium elements, multifrontal Cholesky; the reference of all errors",
-      as_elements);
+      make_factor<MultifrontalStiffness>);
 }
 
 Method hybrid_cholmod() {
   return hybrid_method("HYBRID:CHOLMOD", "HYBRID's matrix by CHOLMOD's supernodal Cholesky",
-                       put_together<CholmodStiffness>);
+                       make_factor<CholmodStiffness>);
 }
 
 Method hybrid_mumps() {
   return hybrid_method("HYBRID:MUMPS", "HYBRID's matrix by MUMPS, D from its Schur complement",
-                       put_together<MumpsStiffness>);
+                       make_factor<MumpsStiffness>);
 }
 
 }  // namespace airybench
