@@ -15,7 +15,7 @@ else()
   endif()
 endif()
 file(CONFIGURE OUTPUT "${OUTPUT}" @ONLY CONTENT [[// Made by cmake/build_info.cmake.
-#include "bench/measuring/build_info.hpp"
+#include "bench/measure/build_info.hpp"
 
 namespace airybench {
 

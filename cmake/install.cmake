@@ -40,14 +40,14 @@ install(DIRECTORY ${studies_with_scenes} DESTINATION ${data}/scenes)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: meshes, assembly, methods, and the verifier.
-foreach(room IN ITEMS support mesh assembly solvers bench/judging)
+foreach(room IN ITEMS support mesh assembly solvers bench/verify)
   install(DIRECTORY ${room}/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/airybench/${room}
           FILES_MATCHING PATTERN "*.hpp")
 endforeach()
 add_library(airybench_library INTERFACE)
 set_target_properties(airybench_library PROPERTIES EXPORT_NAME airybench)
-target_link_libraries(airybench_library INTERFACE airybench_judging)
-install(TARGETS airybench_library airybench_judging airybench_solvers airybench_elements
+target_link_libraries(airybench_library INTERFACE airybench_verify)
+install(TARGETS airybench_library airybench_verify airybench_solvers airybench_elements
                 airybench_assembly airybench_mesh airybench_support
         EXPORT airybench_targets)
 set(package ${CMAKE_INSTALL_LIBDIR}/cmake/airybench)

@@ -3,7 +3,7 @@
 //   const OwnerScope scope(MemoryOwner::factor);   // until the end of the block; scopes nest
 //
 // A block keeps its owner until it is freed, wherever that is and also when it grows. Naming costs
-// two writes to a thread's own variable; who counts is bench/heap/heap_probe.hpp, or nobody.
+// two writes to a thread's own variable; who counts is bench/measure/heap_probe.hpp, or nobody.
 #pragma once
 
 #include <array>

@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "bench/claims/claims_evidence.hpp"
 #include "bench/commands/command_line.hpp"
+#include "bench/report/claims_evidence.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/claims/claims.hpp"
+#include "bench/report/claims.hpp"
 
 namespace airybench {
 

@@ -9,7 +9,7 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/measuring_options.hpp"
-#include "bench/measuring/build_info.hpp"
+#include "bench/measure/build_info.hpp"
 #include "bench/records/json.hpp"
 #include "support/lists.hpp"
 #include "support/shortened.hpp"

@@ -1,7 +1,7 @@
 // The command line of a run.
 #pragma once
 
-#include "bench/cases/options.hpp"
+#include "bench/plan/options.hpp"
 
 namespace airybench {
 

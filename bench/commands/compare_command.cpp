@@ -7,7 +7,7 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/records/context.hpp"
-#include "bench/tracking/compare_report.hpp"
+#include "bench/report/compare_report.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"

@@ -6,12 +6,12 @@
 #include <filesystem>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/exports/csv.hpp"
-#include "bench/exports/google_benchmark.hpp"
-#include "bench/exports/junit.hpp"
-#include "bench/exports/tracker_formats.hpp"
+#include "bench/records/csv.hpp"
+#include "bench/records/google_benchmark.hpp"
 #include "bench/records/record_reader.hpp"
-#include "bench/tracking/history.hpp"
+#include "bench/report/history.hpp"
+#include "bench/report/junit.hpp"
+#include "bench/report/tracker_formats.hpp"
 #include "support/atomic_file.hpp"
 
 namespace airybench {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/isolation/threads_at_hand.hpp"
-#include "bench/running/repetitions.hpp"
+#include "bench/run/repetitions.hpp"
+#include "bench/run/threads_at_hand.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "bench/cases/options.hpp"
+#include "bench/plan/options.hpp"
 
 namespace airybench {
 

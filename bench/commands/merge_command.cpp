@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <map>
 
-#include "bench/cases/mesh_files.hpp"
 #include "bench/commands/command_line.hpp"
-#include "bench/output/record_files.hpp"
+#include "bench/plan/mesh_files.hpp"
+#include "bench/records/record_files.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
 #include "support/numbers.hpp"

@@ -6,11 +6,11 @@
 #include <iostream>
 #include <iterator>
 
-#include "bench/adapting/adapted_scenes.hpp"
-#include "bench/cases/mesh_files.hpp"
-#include "bench/cases/scene_file.hpp"
-#include "bench/cases/stages.hpp"
+#include "bench/plan/mesh_files.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
+#include "bench/run/adapted_scenes.hpp"
 #include "support/errors.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/cases/options.hpp"
-#include "bench/cases/plan.hpp"
+#include "bench/plan/options.hpp"
+#include "bench/plan/plan.hpp"
 
 namespace airybench {
 

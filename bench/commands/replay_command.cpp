@@ -2,15 +2,15 @@
 
 #include <fmt/format.h>
 
-#include "bench/cases/mesh_files.hpp"
-#include "bench/cases/plan.hpp"
-#include "bench/cases/scene_file.hpp"
 #include "bench/commands/command_line.hpp"
-#include "bench/isolation/isolated_scene.hpp"
-#include "bench/isolation/threads_at_hand.hpp"
-#include "bench/measuring/environment.hpp"
-#include "bench/output/record_files.hpp"
-#include "bench/running/runner.hpp"
+#include "bench/measure/environment.hpp"
+#include "bench/plan/mesh_files.hpp"
+#include "bench/plan/plan.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/records/record_files.hpp"
+#include "bench/run/isolated_scene.hpp"
+#include "bench/run/runner.hpp"
+#include "bench/run/threads_at_hand.hpp"
 #include "solvers/methods.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"

@@ -10,7 +10,7 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_command.hpp"
-#include "bench/tracking/judge.hpp"
+#include "bench/report/judge.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "bench/judging/reference.hpp"
 #include "bench/problems/matrix_market.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "bench/records/json.hpp"
+#include "bench/verify/reference.hpp"
 #include "support/errors.hpp"
 #include "support/shortened.hpp"
 #ifdef AIRYBENCH_HAS_LIBZIP

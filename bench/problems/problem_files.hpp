@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/cases/plan.hpp"
+#include "bench/plan/plan.hpp"
 #include "bench/problems/problem_arrays.hpp"
 #include "support/atomic_folder.hpp"
 

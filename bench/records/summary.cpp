@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/statistics/bootstrap.hpp"
-#include "bench/statistics/median_interval.hpp"
-#include "bench/statistics/robust.hpp"
+#include "bench/records/bootstrap.hpp"
+#include "bench/records/median_interval.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 namespace {

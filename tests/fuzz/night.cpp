@@ -1,5 +1,5 @@
-#include "bench/tracking/history.hpp"
-#include "bench/tracking/judge.hpp"
+#include "bench/report/history.hpp"
+#include "bench/report/judge.hpp"
 #include "tests/fuzz/readers.hpp"
 
 namespace airybench::fuzz {

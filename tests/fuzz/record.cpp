@@ -1,10 +1,10 @@
 #include <stdexcept>
 
-#include "bench/exports/csv.hpp"
-#include "bench/exports/google_benchmark.hpp"
-#include "bench/exports/junit.hpp"
+#include "bench/records/csv.hpp"
+#include "bench/records/google_benchmark.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
+#include "bench/report/junit.hpp"
 #include "tests/fuzz/readers.hpp"
 
 namespace airybench::fuzz {

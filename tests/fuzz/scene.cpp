@@ -1,4 +1,4 @@
-#include "bench/cases/scene_file.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "tests/fuzz/readers.hpp"
 #include "tests/support/small_meshes.hpp"
 

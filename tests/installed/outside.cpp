@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "assembly/scene.hpp"
-#include "bench/judging/verifier.hpp"
+#include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/methods.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "assembly/displacement_field.hpp"
 #include "assembly/scene.hpp"
-#include "bench/cases/stages.hpp"
-#include "bench/judging/verifier.hpp"
+#include "bench/plan/stages.hpp"
+#include "bench/verify/verifier.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/posed.hpp"

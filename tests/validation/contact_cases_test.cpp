@@ -10,7 +10,7 @@
 
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
-#include "bench/cases/scene_file.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/contact/coulomb_law.hpp"

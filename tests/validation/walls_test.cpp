@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "bench/cases/scene_file.hpp"
-#include "bench/judging/discretisation_error.hpp"
-#include "bench/judging/displacement_recovery.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"

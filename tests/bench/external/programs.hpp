@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "assembly/scene.hpp"
-#include "bench/cases/scene_file.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/posed.hpp"

@@ -11,9 +11,9 @@
 #include <random>
 
 #include "assembly/scene.hpp"
-#include "bench/judging/verifier.hpp"
 #include "bench/problems/hdf5_handle.hpp"
 #include "bench/problems/problem_files.hpp"
+#include "bench/verify/verifier.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"

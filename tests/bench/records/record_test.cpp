@@ -7,13 +7,13 @@
 #include <fstream>
 #include <set>
 
-#include "bench/exports/csv.hpp"
-#include "bench/measuring/memory_split.hpp"
-#include "bench/measuring/timed_run.hpp"
+#include "bench/measure/memory_split.hpp"
+#include "bench/measure/timed_run.hpp"
+#include "bench/records/csv.hpp"
 #include "bench/records/gzip.hpp"
 #include "bench/records/journal.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/running/progress.hpp"
+#include "bench/run/progress.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
 #include "support/text_table.hpp"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "assembly/scene.hpp"
-#include "bench/cases/study.hpp"
-#include "bench/measuring/workbench.hpp"
+#include "bench/measure/workbench.hpp"
+#include "bench/plan/study.hpp"
 #include "bench/records/summary.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/bench/studies/expected_table.hpp"

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <iostream>
 
-#include "bench/cases/scene_file.hpp"
-#include "bench/cases/study.hpp"
-#include "bench/measuring/workbench.hpp"
+#include "bench/measure/workbench.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/plan/study.hpp"
 #include "bench/records/summary.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/bench/studies/expected_table.hpp"

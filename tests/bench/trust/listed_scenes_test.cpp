@@ -1,8 +1,8 @@
 // Scenes on which a record once claimed what was not so.
 #include <gtest/gtest.h>
 
-#include "bench/cases/scene_file.hpp"
-#include "bench/measuring/workbench.hpp"
+#include "bench/measure/workbench.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"

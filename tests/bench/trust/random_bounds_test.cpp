@@ -7,8 +7,8 @@
 #include <iostream>
 #include <limits>
 
-#include "bench/judging/discretisation_error.hpp"
-#include "bench/judging/displacement_recovery.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"

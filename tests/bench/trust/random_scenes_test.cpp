@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <iostream>
 
-#include "bench/measuring/workbench.hpp"
+#include "bench/measure/workbench.hpp"
 #include "bench/records/summary.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"

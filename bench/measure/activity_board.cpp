@@ -1,0 +1,89 @@
+#include "bench/measure/activity_board.hpp"
+
+#include <sys/mman.h>
+
+#include <array>
+#include <cerrno>
+#include <new>
+#include <system_error>
+
+namespace airybench {
+namespace {
+
+std::int64_t now_ns() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(
+             std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+std::string_view name_of(Activity activity) {
+  constexpr std::array<std::string_view, 9> names = {
+      "nothing",      "assembly",   "reference", "discretisation error", "tuning", "detail run",
+      "verification", "memory run", "timed run"};
+  return names[static_cast<std::size_t>(activity)];
+}
+
+bool is_run(Activity activity) {
+  return activity == Activity::tuning || activity == Activity::detail_run ||
+         activity == Activity::memory_run || activity == Activity::timed_run;
+}
+
+double run_limit_s(Activity run, const Options& options) {
+  return run == Activity::tuning ? options.tuning_budget_s.value_or(options.timeout_s)
+                                 : options.timeout_s;
+}
+
+ActivityBoard::ActivityBoard() {
+  void* page =
+      mmap(nullptr, sizeof(Page), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  if (page == MAP_FAILED)
+    throw std::system_error(errno, std::generic_category(), "a page shared with a child process");
+  page_ = new (page) Page{};
+  page_->stage = -1;
+}
+
+ActivityBoard::~ActivityBoard() { munmap(page_, sizeof(Page)); }
+
+void ActivityBoard::begins(Activity activity) {
+  beat();
+  page_->began_ns = now_ns();
+  page_->activity = static_cast<int>(activity);
+}
+
+void ActivityBoard::ends() {
+  if (is_run(activity())) page_->in_runs_ns += now_ns() - page_->began_ns;
+  beat();
+  page_->activity = static_cast<int>(Activity::none);
+}
+
+void ActivityBoard::beat() { page_->beat_ns = now_ns(); }
+double ActivityBoard::silent_s() const {
+  return 1e-9 * static_cast<double>(now_ns() - page_->beat_ns);
+}
+
+void ActivityBoard::begins(Stage stage) { page_->stage = static_cast<int>(stage); }
+void ActivityBoard::ends(Stage) { page_->stage = -1; }
+
+Activity ActivityBoard::activity() const { return static_cast<Activity>(page_->activity.load()); }
+
+double ActivityBoard::seconds() const {
+  return activity() == Activity::none ? 0 : 1e-9 * static_cast<double>(now_ns() - page_->began_ns);
+}
+
+std::string ActivityBoard::where() const {
+  std::string text(name_of(activity()));
+  const int stage = page_->stage;
+  if (stage >= 0) {
+    text += ", ";
+    text += name_of(static_cast<Stage>(stage));
+  }
+  return text;
+}
+
+double ActivityBoard::seconds_in_runs() const {
+  return 1e-9 * static_cast<double>(page_->in_runs_ns) + (is_run(activity()) ? seconds() : 0);
+}
+
+}  // namespace airybench

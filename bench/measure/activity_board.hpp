@@ -1,0 +1,78 @@
+// What a process is doing, on a page of memory that it shares with the process that watches it: so
+// that the watcher can say where a crash came, and end what takes too long.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "bench/plan/options.hpp"
+#include "solvers/base/stage_times.hpp"
+
+namespace airybench {
+
+enum class Activity {
+  none,  // between commands
+  assembly,
+  reference,
+  discretisation,
+  tuning,
+  detail_run,
+  verification,
+  memory_run,
+  timed_run,
+};
+std::string_view name_of(Activity activity);  // "detail run"
+bool is_run(Activity activity);               // of the method itself: tuning and the three runs
+
+// What a run may take: --timeout; tuning --tuning-budget, where there is one.
+double run_limit_s(Activity run, const Options& options);
+
+class ActivityBoard : public StageObserver {
+ public:
+  ActivityBoard();  // maps the page; throws std::system_error
+  ~ActivityBoard() override;
+  ActivityBoard(const ActivityBoard&) = delete;
+  ActivityBoard& operator=(const ActivityBoard&) = delete;
+
+  void begins(Activity activity);
+  void ends();
+  void begins(Stage stage) override;
+  void ends(Stage stage) override;
+
+  Activity activity() const;
+  double seconds() const;          // since the activity began; 0 in none
+  std::string where() const;       // "timed run, factor"
+  double seconds_in_runs() const;  // of all runs that have ended, or are under way
+
+  // That the process still listens, while it waits for others; begins() and ends() say so, too.
+  void beat();
+  double silent_s() const;  // since the last of these
+
+ private:
+  struct Page {
+    std::atomic<int> activity, stage;  // stage: -1 between stages
+    std::atomic<std::int64_t> began_ns, in_runs_ns, beat_ns;
+  };
+  Page* page_;
+};
+
+// An activity from construction to destruction; board may be null.
+class ActivityScope {
+ public:
+  ActivityScope(ActivityBoard* board, Activity activity) : board_(board) {
+    if (board_ != nullptr) board_->begins(activity);
+  }
+  ~ActivityScope() {
+    if (board_ != nullptr) board_->ends();
+  }
+  ActivityScope(const ActivityScope&) = delete;
+  ActivityScope& operator=(const ActivityScope&) = delete;
+
+ private:
+  ActivityBoard* board_;
+};
+
+}  // namespace airybench

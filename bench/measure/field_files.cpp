@@ -1,0 +1,197 @@
+#include "bench/measure/field_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/measure/contact_picture.hpp"
+#include "bench/measure/vtu_file.hpp"
+#include "support/atomic_file.hpp"
+
+namespace airybench {
+namespace {
+
+// A corner of a third: HctStress's columns.
+Eigen::Vector2d corner_of_third(const TriangleVertices& v, int column) {
+  const int third = column / 3, corner = column % 3;
+  return corner == 2 ? Eigen::Vector2d(v.rowwise().mean())
+                     : Eigen::Vector2d(v.col((third + corner) % 3));
+}
+
+std::string stress_csv(const Problem& problem, const StressField& stress) {
+  std::string text = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa\n";
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    for (int c = 0; c < 9; ++c) {
+      const Eigen::Vector2d x = corner_of_third(v, c);
+      const auto s = stress[t].col(c);
+      text += fmt::format("{},{},{},{},{},{},{},{}\n", t + 1, c / 3 + 1, c % 3 + 1, x.x(), x.y(),
+                          s(0), s(1), s(2));
+    }
+  }
+  return text;
+}
+
+// The displacements of a triangle's six nodes: corners, then middles of edges.
+Eigen::Matrix<double, 2, 6> values_at_nodes(const Problem& problem, int triangle,
+                                            const DisplacementField& u) {
+  const std::array<int, 6> nodes = triangle_nodes(problem, triangle);
+  Eigen::Matrix<double, 2, 6> values;
+  for (int k = 0; k < 3; ++k) {
+    values.col(k) = u.col(nodes[k]);
+    values.col(3 + k) = (u.col(nodes[k]) + 2 * u.col(nodes[3 + k]) + u.col(nodes[(k + 1) % 3])) / 4;
+  }
+  return values;
+}
+
+// Σ U_i λ_i² + Σ U_ij 2 λ_i λ_j at λ = (1/3, 1/3, 1/3), from the values at the nodes.
+Eigen::Vector2d value_at_centroid(const Eigen::Matrix<double, 2, 6>& values) {
+  return (4 * values.rightCols<3>().rowwise().sum() - values.leftCols<3>().rowwise().sum()) / 9;
+}
+
+std::string displacement_csv(const Problem& problem, const DisplacementField& u) {
+  std::string text = "triangle,node,x_mm,y_mm,ux_mm,uy_mm\n";
+  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, u);
+    for (int k = 0; k < 6; ++k) {
+      const Eigen::Vector2d x = k < 3 ? Eigen::Vector2d(v.col(k))
+                                      : Eigen::Vector2d((v.col(k - 3) + v.col((k - 2) % 3)) / 2);
+      text += fmt::format("{},{},{},{},{},{}\n", t + 1, k + 1, x.x(), x.y(), values(0, k),
+                          values(1, k));
+    }
+  }
+  return text;
+}
+
+std::string contact_csv(const DualSystem& system, const ContactPicture& picture) {
+  const Mesh& mesh = system.problem->mesh;
+  const ContactPoints& contact = system.contact;
+  const auto value = [](const std::vector<double>& values, int p) {
+    return values.empty() ? std::string() : fmt::format("{}", values[static_cast<std::size_t>(p)]);
+  };
+  std::string text =
+      "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state\n";
+  for (int p = 0; p < contact.count; ++p) {
+    const auto [a, b] = mesh.boundary[contact.boundary[p]].vertices;
+    const EdgeFrame frame = system.problem->frame_of_moment(contact.boundary[p], p % 2);
+    const Eigen::Vector2d x = mesh.vertices[p % 2 == 0 ? a : b];
+    text +=
+        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", x.x(), x.y(), frame.normal.x(),
+                    frame.normal.y(), frame.length_mm, picture.force[p](0), picture.force[p](1),
+                    value(picture.gap_mm, p), value(picture.slip_mm, p), name_of(picture.state[p]));
+  }
+  return text;
+}
+
+std::string boundary_csv(const Mesh& mesh) {
+  std::string text = "x0_mm,y0_mm,x1_mm,y1_mm,role\n";
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
+    text += fmt::format("{},{},{},{},{}\n", a.x(), a.y(), b.x(), b.y(),
+                        boundary_role_names[static_cast<std::size_t>(edge.role)]);
+  }
+  return text;
+}
+
+// Of every triangle, 0 to 1.
+std::vector<double> error_shares(const ConstitutiveError& error) {
+  std::vector<double> shares = error.of_triangle_Nmm;
+  double sum = 0;
+  for (double& share : shares) sum += share = std::max(0.0, share);
+  for (double& share : shares) share = sum > 0 ? share / sum : 0.0;
+  return shares;
+}
+
+std::string error_csv(const ConstitutiveError& error) {
+  const std::vector<double> shares = error_shares(error);
+  std::string text = "triangle,error_share\n";
+  for (std::size_t t = 0; t < shares.size(); ++t) text += fmt::format("{},{}\n", t + 1, shares[t]);
+  return text;
+}
+
+// A value per triangle as one of each third.
+template <typename Number>
+std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
+  std::vector<Number> values;
+  for (const Number value : of_triangles) values.insert(values.end(), 3, value);
+  return values;
+}
+
+std::string vtu_of_body(const Problem& problem, const StressField& stress,
+                        const std::optional<DisplacementField>& u, const ConstitutiveError* error) {
+  VtuGrid grid;
+  std::vector<double> stresses, displacements;
+  std::vector<std::int32_t> triangles;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    for (int c = 0; c < 9; ++c) grid.points.push_back(corner_of_third(v, c));
+    stresses.insert(stresses.end(), stress[t].data(), stress[t].data() + stress[t].size());
+    triangles.push_back(t + 1);
+    if (!u) continue;
+    const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
+    for (int c = 0; c < 9; ++c) {
+      const Eigen::Vector2d here =
+          c % 3 == 2 ? value_at_centroid(values) : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3));
+      displacements.insert(displacements.end(), {here.x(), here.y(), 0});
+    }
+  }
+  grid.of_points.push_back({"stress_MPa", {"xx", "yy", "xy"}, std::move(stresses)});
+  if (u) grid.of_points.push_back({"displacement_mm", {"x", "y", "z"}, std::move(displacements)});
+  const std::vector<int>& bodies = problem.mesh.triangle_body;
+  grid.of_cells.push_back(
+      {"body", {}, of_thirds(std::vector<std::int32_t>(bodies.begin(), bodies.end()))});
+  grid.of_cells.push_back({"triangle", {}, of_thirds(triangles)});
+  if (error != nullptr)
+    grid.of_cells.push_back({"error_share", {}, of_thirds(error_shares(*error))});
+  return vtu_text(grid);
+}
+
+std::string vtu_of_contact(const DualSystem& system, const ContactPicture& picture) {
+  const Mesh& mesh = system.problem->mesh;
+  VtuGrid grid;
+  grid.cell = VtuCell::line;
+  std::vector<double> normals, F_n, F_t;
+  std::vector<std::int32_t> states;
+  for (int p = 0; p < system.contact.count; ++p) {
+    const auto [a, b] = mesh.boundary[system.contact.boundary[p]].vertices;
+    const EdgeFrame frame = system.problem->frame_of_moment(system.contact.boundary[p], p % 2);
+    grid.points.push_back(mesh.vertices[p % 2 == 0 ? a : b]);
+    normals.insert(normals.end(), {frame.normal.x(), frame.normal.y(), 0});
+    F_n.push_back(picture.force[p](0));
+    F_t.push_back(picture.force[p](1));
+    states.push_back(static_cast<std::int32_t>(picture.state[p]));
+  }
+  grid.of_points = {{"F_n_N", {}, std::move(F_n)},
+                    {"F_t_N", {}, std::move(F_t)},
+                    {"normal", {"x", "y", "z"}, std::move(normals)},
+                    {"state", {}, std::move(states)}};
+  if (!picture.gap_mm.empty()) grid.of_points.push_back({"gap_mm", {}, picture.gap_mm});
+  if (!picture.slip_mm.empty()) grid.of_points.push_back({"slip_mm", {}, picture.slip_mm});
+  return vtu_text(grid);
+}
+
+}  // namespace
+
+void write_fields(const std::filesystem::path& folder, const std::string& name,
+                  const SolvedFields& fields) {
+  const auto& [system, solution, w, error, mean] = fields;
+  const Problem& problem = *system.problem;
+  const ContactPicture contact = contact_picture(system, solution, w);
+  std::optional<DisplacementField> u;
+  if (w) u = with_rigid_motion(problem, *w);
+  make_folder(folder);
+  const auto write = [&](const char* part, const std::string& text) {
+    write_file_atomically(folder / (name + part), text);
+  };
+  write(".stress.csv", stress_csv(problem, solution.stress));
+  write(".contact.csv", contact_csv(system, contact));
+  write(".boundary.csv", boundary_csv(problem.mesh));
+  if (u) write(".displacement.csv", displacement_csv(problem, *u));
+  if (error != nullptr) write(".error.csv", error_csv(*error));
+  if (mean) write(".mean.csv", stress_csv(problem, *mean));
+  write(".vtu", vtu_of_body(problem, solution.stress, u, error));
+  write(".contact.vtu", vtu_of_contact(system, contact));
+}
+
+}  // namespace airybench

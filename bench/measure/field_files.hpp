@@ -1,0 +1,47 @@
+// The fields of a solution in files: CSV for figures and other programs, VTU for ParaView.
+//
+//   NAME.stress.csv   triangle, third, corner, x_mm, y_mm, sxx_MPa, syy_MPa, sxy_MPa
+//                     nine rows per triangle: the corners of its thirds, as in HctStress
+//   NAME.displacement.csv  triangle, node, x_mm, y_mm, ux_mm, uy_mm
+//                     six rows per triangle: its corners, then the middles of its edges from corner
+//                     1 to 2, 2 to 3, 3 to 1; quadratic between them, continuous
+//   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
+//   slip_mm,
+//                     state
+//                     a row per contact point (contact_picture.hpp); state open, stick or slip
+//   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, role
+//   NAME.error.csv    triangle, error_share
+//                     a row per triangle, in the order of NAME.stress.csv: its share, 0 to 1, of
+//                     the squared constitutive relation error, contact terms included
+//   NAME.mean.csv     as NAME.stress.csv: the mean of the stresses and those of the displacements
+//   NAME.vtu          a cell per third, which shares no points: stress_MPa (xx, yy, xy) and
+//                     displacement_mm at points; body, triangle, error_share (of the whole
+//                     triangle) of cells
+//   NAME.contact.vtu  a line per contact edge with two points: what NAME.contact.csv has, and state
+//                     0 open, 1 stick, 2 slip
+// What is not known is left out.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "assembly/dual_system.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "solvers/base/solution.hpp"
+
+namespace airybench {
+
+struct SolvedFields {
+  const DualSystem& system;
+  const Solution& solution;
+  // Bernstein coefficients (displacement_field.hpp) without the problem's rigid motion.
+  std::optional<DisplacementField> w;
+  const ConstitutiveError* error = nullptr;  // null: not known
+  std::optional<StressField> mean;
+};
+
+// Writes the files folder/NAME.*; throws FileError.
+void write_fields(const std::filesystem::path& folder, const std::string& name,
+                  const SolvedFields& fields);
+
+}  // namespace airybench

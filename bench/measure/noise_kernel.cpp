@@ -1,0 +1,122 @@
+#include "bench/measure/noise_kernel.hpp"
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <barrier>
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "bench/records/robust.hpp"
+#include "support/seconds_since.hpp"
+
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
+namespace airybench {
+namespace {
+
+constexpr int rows = 128;
+
+// Plain arrays, and no sanitizer on what loops over them: calibration would take a sanitized run's
+// tests longer than what they test.
+struct Work {
+  double column[rows][rows];  // lower triangle: column[j][i], i ≥ j
+  double values[noise_sweep_length];
+};
+#define AIRYBENCH_NOT_SANITIZED __attribute__((no_sanitize("address", "undefined")))
+
+// A = L D Lᵀ in place, columns one after another, of A = I + 1 1ᵀ/rows; the sum of D.
+AIRYBENCH_NOT_SANITIZED double factorise(Work& work) {
+  auto& column = work.column;
+  for (int j = 0; j < rows; ++j) {
+    for (double& entry : column[j]) entry = 1.0 / rows;
+    column[j][j] += 1;
+  }
+  double sum = 0;
+  for (int k = 0; k < rows; ++k) {
+    const double pivot = column[k][k];
+    sum += pivot;
+    for (int j = k + 1; j < rows; ++j) {
+      const double l = column[k][j] / pivot;
+      for (int i = j; i < rows; ++i) column[j][i] -= l * column[k][i];
+    }
+  }
+  return sum;
+}
+
+// Writes every number, then reads them all.
+AIRYBENCH_NOT_SANITIZED double sweep(Work& work) {
+  auto& values = work.values;
+  for (int i = 0; i < noise_sweep_length; ++i) values[i] = i % 7;
+  benchmark::ClobberMemory();  // or the two loops could become one without the memory
+  double sums[8] = {};
+  for (int i = 0; i < noise_sweep_length; i += 8)
+    for (int lane = 0; lane < 8; ++lane) sums[lane] += values[i + lane];
+  double sum = 0;
+  for (const double part : sums) sum += part;
+  return sum;
+}
+
+constexpr std::size_t page = 4096;
+alignas(page) Work own_work;
+static_assert(sizeof(Work) % page == 0);
+
+// Forks get zeros instead: of a page that is shared with one the next pass would make a copy, which
+// took longer than what the pass is to time. Hints, nothing else.
+void take_pages([[maybe_unused]] Work& work) {
+#ifdef MADV_WIPEONFORK
+  ::madvise(&work, sizeof work, MADV_WIPEONFORK);
+#endif
+#ifdef MADV_POPULATE_WRITE
+  // All at once, but not by 2 MiB as map_at_once does: the yardstick would be another.
+  ::madvise(&work, sizeof work, MADV_POPULATE_WRITE);
+#endif
+}
+
+double timed_pass(Work& work) {
+  const auto start = std::chrono::steady_clock::now();
+  double checksum = factorise(work) + sweep(work);
+  benchmark::DoNotOptimize(checksum);
+  return seconds_since(start);
+}
+
+}  // namespace
+
+double noise_kernel_checksum() { return factorise(own_work) + sweep(own_work); }
+
+double run_noise_kernel() {
+  static double first_touch_s = [] {
+    take_pages(own_work);
+    return timed_pass(own_work);
+  }();
+  benchmark::DoNotOptimize(first_touch_s);
+  return timed_pass(own_work);
+}
+
+double run_noise_kernel(int threads) {
+  std::barrier all_ready(threads);
+  std::vector<double> seconds(static_cast<std::size_t>(threads));
+  std::vector<std::jthread> workers;
+  for (double& own : seconds)
+    workers.emplace_back([&all_ready, &own] {
+      const std::unique_ptr<Work> work(new Work);
+      timed_pass(*work);
+      all_ready.arrive_and_wait();
+      own = timed_pass(*work);
+    });
+  workers.clear();  // joins
+  return *std::max_element(seconds.begin(), seconds.end());
+}
+
+NoiseSummary summarise_noise(std::vector<double> samples_s) {
+  NoiseSummary summary;
+  summary.median_s = median(samples_s);
+  summary.mad_s = median_absolute_deviation(samples_s);
+  summary.samples = std::move(samples_s);
+  return summary;
+}
+
+}  // namespace airybench

@@ -1,0 +1,398 @@
+#include "bench/measure/workbench.hpp"
+
+#include <fmt/format.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+
+#include "bench/measure/heap_probe.hpp"
+#include "bench/measure/instruction_counter.hpp"
+#include "bench/measure/memory_watch.hpp"
+#include "bench/measure/record_notes.hpp"
+#include "bench/measure/rss_probe.hpp"
+#include "bench/plan/blank_record.hpp"
+#include "bench/verify/moments_check.hpp"
+#include "support/seconds_since.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr double tightest = 1e-15;  // tolerance of an iteration
+
+bool is_zero(const StressField& stress) {
+  return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
+}
+
+}  // namespace
+
+Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options,
+                     LeftOut left_out)
+    : problem_(std::move(problem)),
+      options_(options),
+      left_out_(std::move(left_out)),
+      no_reference_(problem_->given ? "a problem without a body" : left_out_.reference) {}
+
+void Workbench::prepare(const Method& method) {
+  try {
+    blocks(method.blocks);
+  } catch (const std::exception&) {  // the examination will say it
+    return;
+  }
+  reference();
+  if (const auto bound = bound_for(method)) discretisation(*bound);
+  half_steps();
+}
+
+const AssembledBlocks& Workbench::blocks(Blocks which) {
+  if (const auto broken = left_out_.blocks.find(which); broken != left_out_.blocks.end())
+    throw std::runtime_error(broken->second);
+  auto found = blocks_.find(which);
+  if (found == blocks_.end()) {
+    const ActivityScope scope(board_, Activity::assembly);
+    found =
+        blocks_.emplace(which, assemble_and_measure(problem_, which, options_.repetitions)).first;
+  }
+  return found->second;
+}
+
+bool Workbench::is_too_large_for_reference() const {
+  return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
+}
+
+double Workbench::reference_error_at_most() const { return options_.target_error / 10; }
+
+const Reference* Workbench::reference(int step) {
+  if (no_reference_.empty() && is_too_large_for_reference())
+    no_reference_ = fmt::format("no reference above n_phi = {}", largest_with_reference);
+  if (references_.empty() && no_reference_.empty()) {
+    const ActivityScope scope(board_, Activity::reference);
+    try {
+      ReferencePath path = references_along(problem_, reference_error_at_most());
+      references_ = std::move(path.steps);
+      no_reference_ = std::move(path.missing);
+    } catch (const std::bad_alloc&) {
+      no_reference_ = "no reference: out of memory";
+    }
+  }
+  return references_.empty() ? nullptr : &references_[static_cast<std::size_t>(step)];
+}
+
+Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
+                                Activity what) {
+  const bool histories = what == Activity::detail_run;
+  if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
+  const ActivityScope scope(board_, what);
+  RunControl control;
+  control.deadline = Deadline::after(run_limit_s(what, options_));
+  control.histories = histories;
+  control.threads = options_.threads;
+  control.stop = options_.stop;
+  control.contact = options_.contact.value_or(control.contact);
+  control.target_error = options_.target_error;
+  control.condition = histories && asks_for_condition(options_.study);
+  control.tolerance = choice.tolerance;
+  control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
+  const bool rss_is_reset = rss::reset_peak();
+  const std::int64_t of_blocks = blocks.heap_bytes.value_or(0);
+  const MemoryWatch watch(of_blocks);
+  const std::int64_t limit_base = heap::live_bytes() - of_blocks;
+  std::optional<InstructionCounter> counter;
+  if (what == Activity::memory_run) counter.emplace();
+  Run result;
+  VisitStep visit;
+  if (histories)
+    visit = [&](int step, const DualSystem& posed, const Solution& answer) {
+      if (!answer.stress.empty()) result.judged.push_back(judged(step, posed, answer));
+    };
+  double watched_s = 0;
+  const auto start = std::chrono::steady_clock::now();
+  bool refused = false;
+  try {
+    std::optional<heap::Limit> limit;
+    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
+    result.solution = what == Activity::tuning
+                          ? run(choice.solve, *blocks.system, control)
+                          : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
+    refused = limit && limit->exceeded();
+  } catch (const std::bad_alloc&) {  // so little that not even a message could be written
+    refused = true;
+  }
+  result.time_s = seconds_since(start) - watched_s;
+  if (const auto& program = result.solution.program) {  // its memory is not in our heap
+    result.time_s -= program->not_solve_s;
+    if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
+    return result;
+  }
+  if (counter) result.instructions = counter->count();
+  if (heap::is_active()) {
+    result.peak_heap_bytes = watch.peak_bytes();
+    result.memory = watch.split(result.solution, blocks.system->bytes());
+  }
+  if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
+  if (refused) {
+    result.solution = Solution();
+    result.solution.status = Status::out_of_memory;
+    result.solution.message = "the memory limit was reached";
+  }
+  return result;
+}
+
+Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
+                                    Record& record) {
+  Choice choice{method.solve, 0};
+  if (method.is_tightened()) {
+    choice.tolerance = options_.stop == Stop::paper
+                           ? method.paper_tolerance
+                           : std::max(tightest, method.first_tolerance * options_.target_error);
+  }
+  if (!method.tune) return choice;
+  Tuning tuning;
+  const auto tune = [&](const DualSystem& system, const RunControl& control) {
+    tuning = method.tune(system, control);
+    Solution none;
+    none.status = Status::skipped;
+    return none;
+  };
+  const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
+  record.tuning_s = tuned.time_s;
+  note(tuning.grid, record);
+  record.tuning_cut =
+      tuned.solution.status == Status::timeout ||
+      std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
+  if (tuning.solve != nullptr) {
+    choice.solve = tuning.solve;
+  } else {  // every run says what became of it
+    choice.solve = [status = tuned.solution.status, message = tuned.solution.message](
+                       const DualSystem&, const RunControl&) {
+      Solution solution;
+      solution.status = status;
+      solution.message = "while choosing parameters: " + message;
+      return solution;
+    };
+  }
+  return choice;
+}
+
+// What the method said with a tolerance, and what was true: nobody has told it.
+void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run,
+                             Record& record) {
+  Json attempt = {{"tolerance", choice.tolerance},
+                  {"claimed_status", name_of(run.solution.status)}};
+  if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
+  if (is_answered(run.solution) && (problem_->given || reference() != nullptr)) {
+    verify_run(blocks, run);
+    attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
+  }
+  record.attempts.push_back(std::move(attempt));
+}
+
+Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& assembled,
+                                  Choice& choice, Record& record) {
+  constexpr int most_attempts = 6;
+  std::optional<Run> finished;  // not accurate enough, with the tolerance before
+  double finished_with = 0;
+  for (int attempt = 1;; ++attempt) {
+    malloc_trim(0);  // what earlier runs freed shall not count
+    Run run = solve(choice, assembled, Activity::detail_run);
+    const Solution& solution = run.solution;
+    if (finished && !has_answer(solution.status)) {  // better than nothing
+      record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
+      choice.tolerance = finished_with;
+      return std::move(*finished);
+    }
+    if (!method.is_tightened()) return run;
+    note_attempt(choice, assembled, run, record);
+    const double estimate = solution.error_estimate.value_or(0);
+    if (options_.stop == Stop::paper || !has_answer(solution.status) ||
+        solution.status == Status::ok || attempt == most_attempts || choice.tolerance <= tightest)
+      return run;
+    const double searched_s = record.tuning_s.value_or(0) + run.time_s;
+    if (options_.tuning_budget_s && searched_s >= *options_.tuning_budget_s) {
+      record.tuning_cut = true;
+      return run;
+    }
+    record.tuning_s = searched_s;
+    finished_with = choice.tolerance;
+    // Errors follow the tolerance about linearly; a factor of 3 to be sure.
+    const double factor = options_.target_error / estimate / 3;
+    choice.tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
+    choice.tolerance = std::max(tightest, choice.tolerance);
+    finished = std::move(run);
+  }
+}
+
+JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
+  const ActivityScope scope(board_, Activity::verification);
+  if (problem_->given) return {solution.status, verify_given_contact(system, solution)};
+  const double dissipation = dissipation_Nmm(system, solution);
+  if (solution.displacement.cols() == 0) {
+    const Verification v = verify(system, solution, reference(step));
+    return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
+  }
+  JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
+  if (solution.program) {
+    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    result.verification.natural_map_residual.reset();
+    // And no stress of its own is no reason to think that there is none.
+    result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
+  }
+  return result;
+}
+
+void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
+  if (run.judged.empty()) run.judged.push_back(judged(0, *blocks.system, run.solution));
+}
+
+std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem& system,
+                                                                const Solution& solution,
+                                                                const Verification& v) {
+  const auto is_small = [&](double error) { return error <= options_.target_error; };
+  // Only where the law is met with the reference's D and G, but by other forces.
+  if (is_small(worst_measure(v).value) || !v.friction_coupling ||
+      !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
+    return {};
+  try {
+    const DualSystem posed = assemble(system.problem, Blocks::contact_points);
+    const Reference other = compute_reference(posed, solution.F_C);
+    if (!(other.error_estimate <= reference_error_at_most())) return {};
+    const Verification seen = verify(system, solution, &other);
+    return is_small(worst_measure(seen).value) ? std::optional(seen) : std::nullopt;
+  } catch (const Breakdown&) {
+    return {};
+  }
+}
+
+void Workbench::judge(const Method& method, const Run& run, Record& record) {
+  const Verification& v = run.judged.back().seen();
+  note(v, record);
+  if (record.status != Status::ok) return;
+  const std::size_t at = worst_step(run.judged);
+  const WorstMeasure worst = worst_measure(run.judged[at].seen());
+  const auto other = std::ranges::find_if(
+      run.judged, [](const JudgedStep& step) { return step.as_other.has_value(); });
+  if (worst.value <= options_.target_error && other != run.judged.end()) {
+    record.other_solution = true;
+    record.status_reason = fmt::format(
+        "{}another solution than the reference's, {:.1e} of its stress away; errors are to this "
+        "one",
+        step_prefix(static_cast<std::size_t>(other - run.judged.begin()), *problem_),
+        other->verification.error_stress.value_or(0));
+  } else if (!(worst.value <= options_.target_error)) {
+    record.status = Status::inaccurate;
+    record.status_reason =
+        fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
+                    worst.name, worst.value, options_.target_error);
+  } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
+    record.status_reason = fmt::format(
+        "{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law and that its "
+        "stresses are those of its displacements are checked",
+        no_reference_, *record.error_estimate);
+  } else if (!v.error_stress && !method.in_displacements && !problem_->given) {
+    record.status = Status::inaccurate;
+    record.status_reason = "its error is not known: " + no_reference_;
+  } else if (v.unstressed) {
+    record.status = Status::unstressed;
+    record.status_reason = method.in_displacements
+                               ? "its displacements have no stress: nothing touches or loads what "
+                                 "is free of them"
+                               : "the body has no stress: nothing touches or loads it";
+  } else {
+    note_what_is_idle(*problem_, record);
+    if (!problem_->given) note_large_strains(*problem_, run.solution.stress, record);
+  }
+}
+
+Workbench::Examination Workbench::examine(const Method& method,
+                                          const std::filesystem::path& fields) {
+  Examination examination;
+  Record& record = examination.record;
+  record = blank_record(*problem_, method, options_);
+  try {
+    blocks(method.blocks);
+  } catch (const std::exception& error) {
+    record.status = Status::breakdown;
+    record.status_reason = fmt::format("assembly: {}", error.what());
+    return examination;
+  }
+  const AssembledBlocks& assembled = blocks(method.blocks);
+  record.assembly_samples_s = assembled.samples_s;
+  record.blocks_heap_bytes = assembled.heap_bytes;
+  record.assembly_peak_heap_bytes = assembled.peak_heap_bytes;
+
+  Choice& choice = examination.choice;
+  choice = choose(method, assembled, record);
+  Run run = tighten(method, assembled, choice, record);
+  Solution& solution = run.solution;
+  note(solution, record);
+  program_log_ = solution.program ? std::move(solution.program->log) : "";
+  if (choice.tolerance > 0) record.tolerance = choice.tolerance;
+  if (record.tuning_cut && record.status != Status::ok)
+    record.status_reason += "; the search was cut: see tuning_cut";
+  if (options_.histories) note(solution.histories, record);
+  if (solution.status == Status::timeout) {
+    record.done_fraction = solution.done_fraction;
+    record.error_so_far = solution.error_so_far;
+    if (solution.done_fraction) {  // the solve itself was at work: at least so much memory
+      record.peak_heap_bytes = run.peak_heap_bytes;
+      record.peak_rss_bytes = run.peak_rss_bytes;
+    }
+    if (solution.done_fraction.value_or(0) > 0)
+      record.extrapolated_time_s = run.time_s / *solution.done_fraction;
+  }
+  if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
+  if (is_answered(solution)) {
+    verify_run(assembled, run);
+    judge(method, run, record);
+    if (!problem_->given) {
+      note_discretisation(method, solution, record);
+      note_half_steps(record);
+    }
+    if (!fields.empty() && !problem_->given)
+      write_fields_of(method, *assembled.system, solution, record, fields);
+  }
+  // The detail run of a path judges between its steps, which takes memory.
+  const bool once = problem_->later_steps.empty() &&
+                    (run.time_s > options_.long_case_s || options_.study == Study::stability);
+  if (once && is_measured(record)) {
+    record.measured_once = true;
+    record.samples_s.push_back(run.time_s);
+    record.stage_samples.push_back(by_name(solution.times));
+    if (solution.program) record.program_samples_s.push_back(solution.program->wall_s);
+    note_memory(run, record);
+  }
+  return examination;
+}
+
+bool Workbench::is_answered(const Solution& solution) const {
+  return problem_->given ? solution.F_C.size() > 0 : !solution.stress.empty();
+}
+
+void Workbench::note_memory(const Run& run, Record& record) {
+  record.peak_heap_bytes = run.peak_heap_bytes;
+  record.peak_rss_bytes = run.peak_rss_bytes;
+  record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
+  if (run.memory) note(*run.memory, record);
+}
+
+void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
+  malloc_trim(0);
+  const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
+  note_memory(run, record);
+  record.instructions = run.instructions;
+}
+
+TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
+  const Run run = solve(choice, blocks(method.blocks), Activity::timed_run);
+  TimedRun timed;
+  timed.time_s = run.time_s;
+  timed.stages = by_name(run.solution.times);
+  timed.status = run.solution.status;
+  timed.message = run.solution.message;
+  if (run.solution.program) timed.program_s = run.solution.program->wall_s;
+  return timed;
+}
+
+}  // namespace airybench

@@ -1,0 +1,196 @@
+// What a Workbench knows of the mesh's own error, and the fields that it writes with it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "bench/measure/field_files.hpp"
+#include "bench/measure/record_notes.hpp"
+#include "bench/measure/workbench.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+
+namespace airybench {
+
+std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
+  if (method.in_displacements && !method.program.empty()) return {};  // its own are at hand
+  if (options_.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
+  if (!options_.adapt.empty() || options_.fields || options_.study == Study::adapted)
+    return Workbench::Bound::recovery;
+  return {};
+}
+
+const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
+  const auto [found, is_new] = discretisation_.try_emplace(bound);
+  if (is_new && reference() != nullptr && left_out_.discretisation.empty())
+    found->second = compute_discretisation(bound);
+  return found->second ? &*found->second : nullptr;
+}
+
+namespace {
+
+// Null where an answer has none.
+Json shown(const ConstitutiveError& error) {
+  const auto or_null = [](bool is_there, double value) { return is_there ? Json(value) : Json(); };
+  return {{"error_discretisation", or_null(error.flaw.empty(), error.relative)},
+          {"lower_bound_Nmm", or_null(error.guaranteed, error.lower_bound_Nmm)},
+          {"upper_bound_Nmm", or_null(error.guaranteed, error.upper_bound_Nmm)}};
+}
+
+void add_intervals(const ContactIntervals& intervals, Json& step) {
+  for (const auto& [name, interval] : {std::pair("normal_resultant", intervals.normal_resultant_N),
+                                       {"tangential_resultant", intervals.tangential_resultant_N}})
+    if (interval) {
+      step[std::string(name) + "_low_N"] = interval->low;
+      step[std::string(name) + "_high_N"] = interval->high;
+    }
+}
+
+// Of P2 against the stresses of the reference.
+std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& system,
+                                                            const Solution& reference,
+                                                            const DisplacementField& u) {
+  ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
+  if (error.flaw.empty()) return {std::move(error), u};
+  // Its law is at its nodes, at a corner of two walls about their mean normal: that goes through
+  // what stands out between them.
+  DisplacementField behind = admissible_displacement(system, reference.F_C, u);
+  ConstitutiveError of_it = constitutive_error(system, reference.stress, reference.F_C, behind);
+  if (of_it.flaw.empty()) return {std::move(of_it), std::move(behind)};
+  return {std::move(error), u};
+}
+
+}  // namespace
+
+// Every step against a system whose slip is measured from the stresses' own past.
+std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
+  const ActivityScope scope(board_, Activity::discretisation);
+  std::vector<DisplacementField> of_p2;
+  Solve solve = select_methods(bound == Bound::p2 ? "P2" : options_.adapt_by).front().solve;
+  if (bound == Bound::p2) {
+    solve_load_steps(select_methods("P2").front(), problem_, {},
+                     [&](int, const DualSystem&, const Solution& answer) {
+                       if (answer.status == Status::ok) of_p2.push_back(answer.displacement);
+                     });
+    if (std::ssize(of_p2) < count_of_steps(*problem_)) return {};
+    solve = [this, step = 0](const DualSystem&, const RunControl&) mutable {
+      return answer_of(*reference(step++));
+    };
+  }
+  Discretisation result;
+  std::optional<ResultantLifts> lifts;
+  DualSystem system = assemble(problem_, Blocks::contact_points);
+  solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
+    if (own.status != Status::ok) return;
+    if (bound == Bound::p2) {
+      std::tie(result.error, result.u) =
+          error_of_p2(posed, own, of_p2[static_cast<std::size_t>(step)]);
+    } else {
+      result.u = recovered_displacement(posed, own.stress, own.F_C, own.edge_moments);
+      result.error = constitutive_error(posed, own.stress, own.F_C, result.u);
+    }
+    result.of_steps.push_back(shown(result.error));
+    result.intervals.reset();
+    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (!lifts) lifts = resultant_lifts(*problem_);
+    result.intervals =
+        contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
+    if (result.intervals) add_intervals(*result.intervals, result.of_steps.back());
+  });
+  if (std::ssize(result.of_steps) < count_of_steps(*problem_)) return {};
+  return result;
+}
+
+void Workbench::note_error_of_displacement(const Solution& solution, Record& record) {
+  if (reference() == nullptr) {
+    record.status = has_answer(record.status) ? Status::inaccurate : record.status;
+    record.status_reason = "its error is not known: " + no_reference_;
+    return;
+  }
+  const DualSystem system = assemble(problem_, Blocks::contact_points);
+  const auto& [stress, F_C] = std::tie(reference()->stress, reference()->F_C);
+  note(constitutive_error(system, stress, F_C,
+                          admissible_displacement(system, F_C, solution.displacement)),
+       "its own displacements", record);
+}
+
+void Workbench::note_discretisation(const Method& method, const Solution& solution,
+                                    Record& record) {
+  if (method.in_displacements && solution.program) {
+    note_error_of_displacement(solution, record);
+    return judge_discretisation(method, record);
+  }
+  const std::optional<Bound> bound = bound_for(method);
+  const Discretisation* known = bound ? discretisation(*bound) : nullptr;
+  if (record.other_solution)
+    record.no_discretisation_error = "it is known for the reference's solution only";
+  else if (known != nullptr)
+    note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
+  else if (method.in_displacements)
+    record.no_discretisation_error = !no_reference_.empty()             ? no_reference_
+                                     : left_out_.discretisation.empty() ? "P2 has no answer"
+                                                                        : left_out_.discretisation;
+  if (known != nullptr && !record.other_solution) {
+    if (known->intervals) note(*known->intervals, record);
+    for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
+      record.steps[k].update(known->of_steps[k]);
+  }
+  judge_discretisation(method, record);
+}
+
+const Json* Workbench::half_steps() {
+  if (problem_->given || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
+      reference() == nullptr || !left_out_.discretisation.empty())
+    return nullptr;
+  if (!steps_in_halves_) {
+    const ActivityScope scope(board_, Activity::discretisation);
+    steps_in_halves_ = steps_in_halves(*problem_);
+  }
+  return &*steps_in_halves_;
+}
+
+void Workbench::note_half_steps(Record& record) {
+  const Json* const halves = half_steps();
+  if (halves == nullptr) return;
+  record.steps_in_halves = *halves;
+  if (record.status == Status::ok && !record.in_displacements) note_slip_of_half_steps(record);
+}
+
+void Workbench::judge_discretisation(const Method& method, Record& record) {
+  if (record.status != Status::ok) return;
+  if (record.error_discretisation.value_or(0) > 1) {
+    record.status = Status::inaccurate;
+    record.status_reason = fmt::format("its total error is {:.0f} %: nothing of it is known",
+                                       100 * *record.error_discretisation);
+  } else if (method.in_displacements && !record.error_discretisation &&
+             record.status_reason.empty()) {
+    record.status_reason = "its total error is not known: " + record.no_discretisation_error;
+  }
+}
+
+std::optional<DisplacementField> Workbench::displacement_of(const DualSystem& system,
+                                                            const Solution& solution,
+                                                            const Discretisation* known) {
+  std::optional<DisplacementField> w;
+  if (solution.displacement.cols() > 0)
+    w = solution.displacement;
+  else if (solution.edge_moments.cols() > 0)
+    w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  else if (known != nullptr)
+    w = known->u;
+  return w && w->allFinite() ? w : std::nullopt;
+}
+
+void Workbench::write_fields_of(const Method& method, const DualSystem& system,
+                                const Solution& solution, const Record& record,
+                                const std::filesystem::path& file) {
+  const std::optional<Bound> bound = bound_for(method);
+  const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
+  SolvedFields fields{system, solution, displacement_of(system, solution, known), nullptr, {}};
+  if (known != nullptr && known->error.flaw.empty()) {
+    fields.error = &known->error;
+    if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);
+  }
+  write_fields(file.parent_path(), file.filename(), fields);
+}
+
+}  // namespace airybench

@@ -1,0 +1,101 @@
+#include "bench/plan/stages.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "assembly/contact_conditions.hpp"
+
+namespace airybench {
+
+MeshSizes solved_sizes(const Problem& problem) {
+  if (problem.given) {
+    MeshSizes sizes;
+    sizes.n_c = static_cast<int>(problem.given->b.size());
+    return sizes;
+  }
+  MeshSizes sizes = mesh_sizes(problem.mesh);
+  if (!problem.has_friction()) {
+    sizes.n_f += sizes.n_c / 2;
+    sizes.n_c -= sizes.n_c / 2;
+  }
+  sizes.n_f += 2 * static_cast<int>(std::ranges::count(problem.loads.rollers, true));
+  return sizes;
+}
+
+std::string why_skipped(const Problem& problem, const Method& method) {
+  if (problem.given && method.takes == Method::Takes::bodies) return "the problem has no body";
+  if (!problem.given && method.takes == Method::Takes::given_contact)
+    return "the problem has a body: HYBRID condenses it, and solves the contact law";
+  const bool external = !method.program.empty();
+  if (external && !problem.later_steps.empty())
+    return "a path of load steps: other programs are asked for one";
+  if (external && !problem.given && method.condenses_contact() &&
+      mesh_sizes(problem.mesh).contact_edges == 0)
+    return "no contact boundary: nothing is left for the program";
+  const std::string why = why_no_blocks(problem.mesh, method.blocks);
+  if (why.empty()) return why;
+  std::vector<std::string> others;
+  for (const Method& other : methods())
+    if (why_no_blocks(problem.mesh, other.blocks).empty()) others.push_back(other.name);
+  return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
+}
+
+int edges_out_of_reach(const Problem& problem) {
+  const Mesh& mesh = problem.mesh;
+  const std::string label = fmt::format("force:{}", out_of_reach);
+  return static_cast<int>(std::ranges::count_if(mesh.boundary, [&](const BoundaryEdge& edge) {
+    return boundary_label(mesh, edge) == label;
+  }));
+}
+
+std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
+                                         bool fields_asked) {
+  if (const std::string why = why_skipped(problem, method); !why.empty())
+    return {{"all stages", false, why}};
+  if (problem.given) return {{"contact", true, ""}};
+  const MeshSizes sizes = mesh_sizes(problem.mesh);
+  const bool airy = method.blocks == Blocks::airy;
+  const bool contact = sizes.contact_edges > 0;
+  const bool friction = problem.has_friction();
+  const Loads& loads = problem.loads;
+  const bool constrained = solved_sizes(problem).n_f > 0;
+  const bool loaded = loads.displacement_mm || loads.has_body_force();
+  const bool forced = loads.traction_MPa || loads.has_body_force();
+  const std::string unused = "the method does not work with the Airy function";
+
+  std::vector<StageDecision> decisions;
+  const auto decide = [&](const std::string& stage, bool needed, const std::string& why_not) {
+    decisions.push_back({stage, needed, needed ? "" : why_not});
+  };
+  decide("assemble S", airy, unused);
+  decide("assemble C_F", airy && constrained, airy ? "no force boundary" : unused);
+  decide("assemble C_C", airy && contact, airy ? "no contact boundary" : unused);
+  decide("assemble q", airy && loaded,
+         airy ? "no displacement that strains the body, no body force" : unused);
+  decide("assemble F", airy && constrained && forced,
+         !airy ? unused : (constrained ? "no traction, no body force" : "no force boundary"));
+  decide("assemble F0", airy && contact && loads.has_body_force(),
+         !airy ? unused : (contact ? "no body force" : "no contact boundary"));
+  decide("assemble gap", contact && problem.has_gap(),
+         contact ? "the gap is zero" : "no contact boundary");
+  for (const Stage stage : method.stages) {
+    const bool for_contact =
+        stage == Stage::contact || (stage == Stage::condense && method.condenses_contact_only);
+    decide(std::string(name_of(stage)), contact || !for_contact, "no contact boundary");
+    if (stage == Stage::condense && airy) {
+      if (!method.condenses_contact_only)
+        decide("condense: eliminate force multipliers", constrained, "no force boundary");
+      decide("condense: D and G", contact, "no contact boundary");
+    }
+    if (stage == Stage::contact)
+      decide("contact: tangential law", contact && friction,
+             contact ? "no friction: tangential forces are prescribed to zero"
+                     : "no contact boundary");
+  }
+  decide("write fields", fields_asked, "not asked for (--fields)");
+  return decisions;
+}
+
+}  // namespace airybench

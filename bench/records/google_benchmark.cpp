@@ -1,0 +1,140 @@
+#include "bench/records/google_benchmark.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <boost/math/statistics/univariate_statistics.hpp>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "bench/records/context.hpp"
+#include "bench/records/numbers.hpp"
+#include "bench/records/robust.hpp"
+#include "support/numbers.hpp"
+
+namespace airybench {
+namespace {
+
+using Run = benchmark::BenchmarkReporter::Run;
+
+// The reporter escapes quotes and line ends, but no other control characters.
+std::string printable(std::string text) {
+  for (char& c : text)
+    if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = ' ';
+  return text;
+}
+
+void add_counters(const Record& record, Run& run) {
+  for (const auto& [key, value] : numbers_of(record))
+    if (!key.starts_with("time_") && key != "threads" && key != "repetitions")
+      run.counters[key] = value;
+}
+
+Run run_of(const Record& record, std::size_t family) {
+  Run run;
+  run.run_name.function_name = printable(name_of(record).text());
+  run.run_name.iterations = "iterations:1";
+  run.run_name.time_type = "manual_time";
+  run.family_index = static_cast<std::int64_t>(family);
+  run.per_family_instance_index = 0;
+  run.threads = record.threads.value_or(1);
+  run.time_unit = benchmark::kMillisecond;
+  run.repetitions = static_cast<std::int64_t>(record.samples_s.size());
+  run.repetition_index = 0;
+  return run;
+}
+
+// Since Google Benchmark 1.8 a failed run is a skipped one.
+template <typename AnyRun>
+void fail(AnyRun& run, const std::string& message) {
+  if constexpr (requires { run.skip_message; }) {
+    run.skipped = decltype(run.skipped)::SkippedWithError;
+    run.skip_message = message;
+  } else {
+    run.error_occurred = true;
+    run.error_message = message;
+  }
+}
+
+Run failed_run(const Record& record, std::size_t family) {
+  Run run = run_of(record, family);
+  fail(run, printable(fmt::format("{}: {}", name_of(record.status), record.status_reason)));
+  return run;
+}
+
+// A time in s, or for a percentage the fraction itself.
+Run aggregate(const Record& record, std::size_t family, const char* name, double value,
+              benchmark::StatisticUnit unit) {
+  Run run = run_of(record, family);
+  run.run_type = Run::RT_Aggregate;
+  run.aggregate_name = name;
+  run.aggregate_unit = unit;
+  run.repetition_index = Run::no_repetition_index;
+  run.iterations = run.repetitions;
+  // The reporter divides times, and times only, by the iterations.
+  run.real_accumulated_time =
+      unit == benchmark::kTime ? value * static_cast<double>(run.iterations) : value;
+  return run;
+}
+
+std::vector<Run> runs_of(const Record& record, std::size_t family) {
+  const std::vector<double>& samples = record.samples_s;
+  if (samples.empty()) return {failed_run(record, family)};
+  std::vector<Run> runs;
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    Run run = run_of(record, family);
+    run.repetition_index = static_cast<std::int64_t>(k);
+    run.real_accumulated_time = samples[k];
+    add_counters(record, run);
+    runs.push_back(std::move(run));
+  }
+  if (samples.size() < 2) return runs;
+  const double mean = boost::math::statistics::mean(samples);
+  const double deviation = std::sqrt(boost::math::statistics::sample_variance(samples));
+  using enum benchmark::StatisticUnit;
+  runs.push_back(aggregate(record, family, "mean", mean, kTime));
+  add_counters(record, runs.back());
+  runs.push_back(aggregate(record, family, "median", median(samples), kTime));
+  add_counters(record, runs.back());
+  runs.push_back(aggregate(record, family, "stddev", deviation, kTime));
+  if (mean > 0) runs.push_back(aggregate(record, family, "cv", deviation / mean, kPercentage));
+  return runs;
+}
+
+// The keys that the library writes, as far as a record knows them, and then the record's own.
+Json context_of(const std::vector<Record>& cases) {
+  const std::map<std::string, std::string> known =
+      cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
+  Json context = {
+      {"date", known.contains("date") ? known.at("date") : ""},
+      {"host_name", ""},
+      {"executable", "bench"},
+      {"num_cpus", parse_whole(context_word(known, "cpus")).value_or(0)},
+      {"mhz_per_cpu", 0},
+      {"cpu_scaling_enabled", false},
+      {"caches", Json::array()},
+      {"load_avg", {parse_number(context_word(known, "load_1min_at_start")).value_or(0)}},
+      {"library_build_type", "release"},
+  };
+  for (const auto& [key, value] : known) context[key] = value;
+  return context;
+}
+
+}  // namespace
+
+std::string google_benchmark_json(const std::vector<Record>& cases) {
+  std::ostringstream text;
+  // ReportContext() would describe the machine that exports, and its clock.
+  text << "{\n  \"context\": " << indented_json_text(context_of(cases), 2)
+       << ",\n  \"benchmarks\": [\n";
+  benchmark::JSONReporter reporter;
+  reporter.SetOutputStream(&text);
+  for (std::size_t k = 0; k < cases.size(); ++k) reporter.ReportRuns(runs_of(cases[k], k));
+  reporter.Finalize();
+  if (!Json::accept(text.str()))
+    throw std::runtime_error("Google Benchmark's reporter wrote what is not JSON");
+  return text.str();
+}
+
+}  // namespace airybench

@@ -1,0 +1,194 @@
+#include "bench/run/adapted_scenes.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <iostream>
+
+#include "bench/measure/environment.hpp"
+#include "bench/measure/heap_probe.hpp"
+#include "bench/plan/mesh_files.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/records/json.hpp"
+#include "bench/run/adaptive_loop.hpp"
+#include "bench/run/child_process.hpp"
+#include "bench/run/isolated_scene.hpp"
+#include "mesh/msh_format.hpp"
+#include "mesh/refinement.hpp"
+#include "support/atomic_file.hpp"
+#include "support/errors.hpp"
+#include "support/seconds_since.hpp"
+#include "support/sha256.hpp"
+#include "support/shortened.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+namespace {
+
+// The method of --adapt-by: its stresses balance and it has edge displacements.
+Method adapting_method(const std::string& name) {
+  const auto is_fit = [](const Method& method) {
+    return method.blocks == Blocks::contact_points && !method.in_displacements;
+  };
+  std::string allowed;
+  for (const Method& method : methods()) {
+    if (!is_fit(method)) continue;
+    if (method.name == name) return method;
+    allowed += (allowed.empty() ? "" : ", ") + method.name;
+  }
+  throw UsageError(fmt::format("--adapt-by: {} (allowed: {})", shortened(name), allowed));
+}
+
+// The definition on the mesh that the scene has made: layers are bodies with materials of their
+// own there.
+std::string definition_on(const Mesh& mesh, const std::string& definition,
+                          const std::string& place) {
+  Json json = parse_json(definition);
+  const Scene scene = scene_of(definition, place);
+  for (std::size_t k = 0; k < mesh.body_names.size() && !scene.layer_materials.empty(); ++k) {
+    const Material& material = scene.layer_materials[k % scene.layer_materials.size()];
+    const std::string& body = mesh.body_names[k];
+    if (!scene.materials.contains(body))
+      json["materials"][body] = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
+  }
+  if (!json.contains("wall")) json.emplace("crown_radius_mm", *Scene().crown_radius_mm);
+  json.erase("mesh");
+  json.erase("layers");
+  return json_text(json);
+}
+
+// What the loop's process says of a level.
+Json said_of(const std::optional<AdaptiveLevel>& level, const AdaptiveLoop& loop,
+             const std::filesystem::path& file) {
+  Json json = {{"reached", loop.reached()}, {"ended", loop.why_ended()}};
+  if (!level) return json;
+  json["file"] = file.string();
+  json["number"] = level->number;
+  json["unknowns"] = level->unknowns;
+  if (level->error) json["error"] = *level->error;
+  json["reaches"] = level->reaches_goal;
+  json["angle"] = level->smallest_angle_deg;
+  json["time_s"] = level->time_s;
+  json["estimate_s"] = level->estimate_s;
+  return json;
+}
+
+// The loop's own process: a level per line that it is sent.
+void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
+                const std::filesystem::path& folder) {
+  set_threads(options.threads);
+  const heap::Backstop backstop(options.memory_limit_bytes);
+  AdaptiveLoop loop(scene, mesh, adapting_method(options.adapt_by),
+                    {options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
+                     options.threads});
+  while (channel.receive()) {
+    Json answer;
+    try {
+      std::optional<AdaptiveLevel> level = loop.next();
+      std::filesystem::path file;
+      if (level) {
+        level->mesh.name = fmt::format("{}+{}{}", mesh.name,
+                                       options.marking == 1. ? "refined" : "adapt", level->number);
+        file = folder / (level->mesh.name + ".msh");
+        write_file_atomically(file, msh_text(level->mesh));
+      }
+      answer = said_of(level, loop, file);
+    } catch (const InputError& error) {
+      answer = {{"refused", error.what()}};
+    }
+    channel.send(json_text(answer));
+  }
+}
+
+constexpr double grace_s = 60;  // beyond the solve, for posing, judging and bisecting
+
+std::string obituary(const ChildEnd& end) {
+  if (end.given_up) return "a level took longer than --timeout";
+  if (end.exit_code == heap::backstop_exit_code) return "it passed the memory limit";
+  if (end.signal != 0) return fmt::format("its process was ended by {}", signal_name(end.signal));
+  return fmt::format("its process ended with exit code {}", end.exit_code);
+}
+
+PosedScene posed_level(const Json& said, const Scene& scene, const std::string& definition,
+                       const PosedScene& start, const Options& options) {
+  const MeshFile file = read_mesh_file(said.at("file").get<std::string>());
+  const double time_s = said.at("time_s");
+  return {.scene_name = start.scene_name,
+          .scene_group = start.scene_group,
+          .mesh_file = recorded_path(file.path, options.out),
+          .mesh_sha256 = file.sha256,
+          .scene_definition = definition,
+          .problem = std::make_shared<const Problem>(pose(scene, file.mesh)),
+          .adapted = AdaptedMesh{said.at("number"), time_s,
+                                 said.at("estimate_s").get<double>() / time_s, said.at("angle")}};
+}
+
+void print(const Json& said, const std::string& name) {
+  const std::string error =
+      said.contains("error") ? fmt::format("{:.3g} %", 100 * said["error"].get<double>()) : "?";
+  std::cerr << fmt::format(
+      "adapt {}: level {}, n_phi {}, total error {}, smallest angle {:.1f}°, {}\n", name,
+      said["number"].get<int>(), said["unknowns"].get<int>(), error, said["angle"].get<double>(),
+      show_seconds(said["time_s"].get<double>()));
+}
+
+}  // namespace
+
+PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
+  PosedScene refined = level_0;
+  refined.adapted.reset();
+  Mesh mesh = uniformly_refined(level_0.problem->mesh);
+  mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refined1";
+  const std::filesystem::path file =
+      options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
+  write_file_atomically(file, msh_text(mesh));
+  refined.mesh_file = recorded_path(file, options.out);
+  refined.mesh_sha256 = sha256_of_file(file);
+  Scene scene = scene_of(level_0.scene_definition, mesh.name);
+  refined.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh)));
+  return refined;
+}
+
+AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
+  adapting_method(options.adapt_by);
+  const Mesh& mesh = start.problem->mesh;
+  const std::string name = mesh.name + "/" + start.scene_name;
+  const std::string definition = definition_on(mesh, start.scene_definition, name);
+  const std::filesystem::path folder = options.out / "meshes" / start.scene_name;
+  make_folder(folder);
+  const std::filesystem::path scene_file = folder / (start.scene_name + ".json");
+  write_file_atomically(scene_file, definition + "\n");
+  const Scene scene = scene_of(definition, scene_file.string());
+
+  AdaptedScenes result;
+  std::vector<Json> levels;
+  ChildProcess process(
+      [&](Channel& channel) { serve_loop(channel, scene, mesh, options, folder); });
+  for (bool goes_on = true; goes_on;) {
+    const auto asked = std::chrono::steady_clock::now();
+    const std::optional<std::string> answer = process.ask("next", [&] {
+      throw_if_interrupted();
+      return seconds_since(asked) > 1.1 * options.timeout_s + grace_s;
+    });
+    const Json said = answer ? parse_json(*answer) : Json{{"ended", obituary(process.end())}};
+    if (said.contains("refused")) throw UsageError(said["refused"].get<std::string>());
+    if (said.contains("file")) {
+      levels.push_back(said);
+      print(said, name);
+    }
+    result.why_not_reached = said.value("ended", "");
+    goes_on = !said.value("reached", false) && result.why_not_reached.empty();
+  }
+  if (options.goals_only && !levels.empty()) {
+    levels.back()["reaches"] = true;  // or is as far as it came
+    std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
+  }
+  for (const Json& said : levels)
+    result.levels.push_back(posed_level(said, scene, definition, start, options));
+  if (!result.why_not_reached.empty())
+    result.why_not_reached = fmt::format("--adapt={}: not reached for {}: {}",
+                                         text_of(options.adapt), name, result.why_not_reached);
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,224 @@
+#include "bench/run/adaptive_loop.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+
+#include "bench/measure/heap_probe.hpp"
+#include "bench/measure/load_step_runs.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "bench/verify/marking.hpp"
+#include "mesh/bisection.hpp"
+#include "mesh/quality.hpp"
+#include "mesh/refinement.hpp"
+#include "mesh/transform.hpp"
+#include "support/errors.hpp"
+#include "support/seconds_since.hpp"
+
+namespace airybench {
+namespace {
+
+// By which factor the last level may correct what is expected of the next.
+constexpr double most_correction = 3;
+constexpr int most_cuts = 24;  // of a triangle in a level
+
+// How often each triangle is to be cut (adaptive_loop.hpp).
+std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
+  constexpr double part_of_a_cut = 4;
+  constexpr double cheap = 0.1;  // of the triangles, that a level may add at least
+  std::vector<int> cuts(parts.size(), 0);
+  const std::vector<int> marked = bulk_marks(parts, marking);
+  double least = std::numeric_limits<double>::infinity();
+  for (const int t : marked) least = std::min(least, parts[t]);
+  for (const int t : marked)
+    cuts[t] = 1 + static_cast<int>(std::log(parts[t] / least) / std::log(part_of_a_cut));
+  const auto born = [&] {
+    double count = 0;
+    for (const int t : marked) count += std::exp2(cuts[t]) - 1;
+    return count;
+  };
+  while (!marked.empty() && 2 * born() < cheap * static_cast<double>(parts.size()))
+    for (const int t : marked) ++cuts[t];
+  return cuts;
+}
+
+BisectedMesh refined(const Mesh& mesh, const std::vector<double>& parts, double marking) {
+  return bisected(mesh, cuts_of(parts, marking));
+}
+
+}  // namespace
+
+void AdaptiveLoop::StepErrors::add(const ConstitutiveError& error, const std::string& prefix) {
+  if (flaw.empty() && !error.flaw.empty()) flaw = prefix + error.flaw;
+  of_triangle_Nmm.resize(error.of_triangle_Nmm.size());
+  for (std::size_t t = 0; t < of_triangle_Nmm.size(); ++t)
+    of_triangle_Nmm[t] += error.of_triangle_Nmm[t];
+  const double squared = std::max(0.0, error.squared_Nmm());
+  squared_Nmm += squared;
+  if (error.relative > 0) of_stress_Nmm += squared / (error.relative * error.relative);
+}
+
+double AdaptiveLoop::StepErrors::relative() const {
+  return of_stress_Nmm > 0 ? std::sqrt(squared_Nmm / of_stress_Nmm) : 0;
+}
+
+AdaptiveLoop::AdaptiveLoop(Scene scene, Mesh mesh, Method method, AdaptiveSettings settings)
+    : scene_(std::move(scene)),
+      mesh_(std::move(mesh)),
+      method_(std::move(method)),
+      settings_(std::move(settings)) {}
+
+std::optional<AdaptiveLevel> AdaptiveLoop::next() {
+  if (reached() || !ended_.empty()) return {};
+  const auto start = std::chrono::steady_clock::now();
+  if (!history_.empty() && !refine()) return {};
+  const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
+  DualSystem system = assemble(problem, Blocks::contact_points);
+
+  RunControl control;
+  control.deadline = Deadline::after(settings_.timeout_s);
+  control.threads = settings_.threads;
+  std::optional<heap::Limit> limit;
+  if (settings_.memory_limit_bytes)
+    limit.emplace(heap::live_bytes() + *settings_.memory_limit_bytes);
+  StepErrors errors;
+  solve_load_steps(method_.solve, system, control,
+                   [&](int step, const DualSystem& posed, const Solution& answer) {
+                     limit.reset();
+                     judge_step(step_prefix(static_cast<std::size_t>(step), *problem), posed,
+                                answer, errors);
+                   });
+  limit.reset();
+  if (!ended_.empty()) return {};
+  time_s_ += seconds_since(start);
+  AdaptiveLevel level;
+  level.mesh = mesh_;
+  level.number = static_cast<int>(history_.size());
+  level.unknowns = mesh_sizes(mesh_).n_phi;
+  level.smallest_angle_deg = mesh_quality(mesh_).smallest_angle_deg;
+  level.time_s = time_s_;
+  level.estimate_s = estimate_s_;
+  if (errors.flaw.empty())
+    level.error = errors.relative();
+  else
+    ended_ = "nothing can be said of the error: " + errors.flaw;
+  squared_Nmm_ = errors.squared_Nmm;
+  parts_Nmm_ = std::move(errors.of_triangle_Nmm);
+  edges_ = problem->edges;
+  if (expected_.squared > 0)
+    more_squared_ = std::sqrt(  // most of what was missed was seen on the way
+        std::clamp(squared_Nmm_ / expected_.squared, 1 / most_correction, most_correction));
+  judge_progress(level);
+  return level;
+}
+
+void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& system,
+                              const Solution& solution, StepErrors& errors) {
+  if (solution.status != Status::ok) {
+    ended_ = fmt::format("{} on {} unknowns: {}{}: {}", method_.name, mesh_sizes(mesh_).n_phi,
+                         prefix, name_of(solution.status), solution.message);
+    return;
+  }
+  if (solution.edge_moments.cols() == 0)
+    throw UsageError(fmt::format(
+        "--adapt-by: {} (allowed: a method with edge displacements, as HYBRID)", method_.name));
+  const auto estimating = std::chrono::steady_clock::now();
+  const DisplacementField w =
+      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  errors.add(constitutive_error(system, solution.stress, solution.F_C, w), prefix);
+  estimate_s_ += seconds_since(estimating);
+}
+
+// Sets which goals are reached, and ends what gets nowhere.
+void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
+  constexpr int growth = 8;
+  constexpr double least_gain = 0.9;
+  if (!level.error) return;
+  const auto is_met = [&](const AdaptGoal& goal) {
+    return goal.error ? *level.error <= *goal.error : level.unknowns >= *goal.unknowns;
+  };
+  for (; !reached() && is_met(settings_.goals[goal_]); ++goal_) level.reaches_goal = true;
+  history_.emplace_back(level.unknowns, *level.error);
+  if (!reached() && *level.error == 0) ended_ = "the error is zero: there is nothing to refine";
+  for (const auto& [unknowns, before] : history_)
+    if (!reached() && level.unknowns >= growth * unknowns && *level.error > least_gain * before)
+      ended_ = fmt::format("{} times the unknowns have not lowered the error of {:.2g} %", growth,
+                           100 * before);
+}
+
+BisectedMesh AdaptiveLoop::marked_and_bisected() const {
+  constexpr double margin = 1.1, step = 0.85, least_marking = 0.1;
+  const AdaptGoal& goal = settings_.goals[goal_];
+  const auto& [unknowns, error] = history_.back();
+  const double needed = goal.error ? margin * unknowns * error / *goal.error  // e ~ 1/N
+                                   : *goal.unknowns;
+  double marking = *settings_.marking;
+  BisectedMesh finer = refined(mesh_, parts_Nmm_, marking);
+  while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
+    BisectedMesh smaller = refined(mesh_, parts_Nmm_, marking *= step);
+    if (mesh_sizes(smaller.mesh).n_phi < needed) break;
+    finer = std::move(smaller);
+  }
+  return finer;
+}
+
+BisectedMesh AdaptiveLoop::bisected_as_expected() {
+  // Of a level, in triangles; the first one learns where singular vertices are.
+  constexpr double most_growth = 4, first_growth = 2, least_growth = 1.2;
+  constexpr double aim = 0.96;  // of the goal: to miss it by little costs a level more
+  using Finer = ExpectedParts::Finer;
+  const AdaptGoal& goal = settings_.goals[goal_];
+  const ExpectedParts expected(mesh_, edges_, parts_Nmm_);
+  const auto triangles = static_cast<double>(mesh_.triangles.size());
+  const auto& [unknowns, error] = history_.back();
+  const auto with_neighbours = [&](const Finer& finer) {
+    return triangles + more_triangles_ * (finer.triangles - triangles);
+  };
+  const auto is_enough = [&](const Finer& finer, double count) {
+    return with_neighbours(finer) >= count || finer.triangles > most_triangles;
+  };
+  const auto until = [&](double count) {
+    return expected.cut_until([&](const Finer& finer) { return is_enough(finer, count); });
+  };
+  if (goal.error) {
+    const double left = std::pow(aim * *goal.error / error, 2) * squared_Nmm_;
+    expected_ = expected.cut_until([&](const Finer& finer) {
+      return is_enough(finer, least_growth * triangles) &&
+             (more_squared_ * finer.squared <= left || finer.triangles > most_triangles);
+    });
+  } else {
+    expected_ = until(triangles * *goal.unknowns / unknowns / aim);
+  }
+  const double growth = with_neighbours(expected_) / triangles,
+               steps = std::ceil(std::log(growth) / std::log(most_growth));
+  const double first = history_.size() == 1 ? first_growth : most_growth;
+  if (steps > 1 || growth > first)
+    expected_ = until(triangles * std::min(first, std::pow(growth, 1 / steps)));
+  BisectedMesh finer = bisected(mesh_, [&](const TrianglePart& part) {
+    return part.cuts < most_cuts && expected.of(part) > expected_.largest;
+  });
+  const double born = static_cast<double>(finer.mesh.triangles.size()) - triangles;
+  more_triangles_ = std::clamp(born / (expected_.triangles - triangles), 1., most_correction);
+  return finer;
+}
+
+bool AdaptiveLoop::refine() {
+  BisectedMesh finer;
+  if (!settings_.marking)
+    finer = bisected_as_expected();
+  else if (*settings_.marking < 1)
+    finer = marked_and_bisected();
+  else
+    finer.mesh = uniformly_refined(mesh_);
+  if (finer.mesh.triangles.size() > most_triangles)
+    ended_ = fmt::format("the next mesh would have more than {} triangles", most_triangles);
+  else if (finer.mesh.triangles.size() == mesh_.triangles.size())
+    ended_ = "the marked triangles are too small for their points to be told apart";
+  else
+    mesh_ = std::move(finer.mesh);
+  return ended_.empty();
+}
+
+}  // namespace airybench

@@ -1,0 +1,161 @@
+#include "bench/run/noise_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <thread>
+#include <utility>
+
+#include "bench/measure/noise_kernel.hpp"
+#include "bench/records/robust.hpp"
+#include "support/seconds_since.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr std::size_t lasting = 12;  // passes
+constexpr int passes_at_start = 2 * lasting;
+// A pass takes 8 MiB of the caches, to be loaded again in a millisecond or two.
+constexpr double long_ago_s = 1;
+constexpr double until_idle_threads_sleep_s = 0.1;  // those of BLAS, in the case's process
+constexpr int most_looks = 10;
+constexpr double between_looks_s = 0.2;
+// All waiting together, beyond so many seconds: of the run's time so far.
+constexpr double most_waiting_share = 0.1, free_waiting_s = 10;
+
+void warm_up_by_passes() {
+  constexpr int most_passes = 20, passes_without_gain = 3;
+  constexpr double gain = 0.98;
+  double shortest_s = run_noise_kernel();
+  for (int pass = 1, since = 0; pass < most_passes && since < passes_without_gain; ++pass) {
+    const double pass_s = run_noise_kernel();
+    since = pass_s < gain * shortest_s ? 0 : since + 1;
+    shortest_s = std::min(shortest_s, pass_s);
+  }
+}
+
+bool is_judged(const Record& r) { return r.retry_noisy && r.noise_share && r.time_s; }
+
+}  // namespace
+
+Machine this_machine() {
+  return {
+      [](int threads) { return threads > 1 ? run_noise_kernel(threads) : run_noise_kernel(); },
+      [](double seconds) { std::this_thread::sleep_for(std::chrono::duration<double>(seconds)); },
+      warm_up_by_passes};
+}
+
+void QuietLevel::add(const std::vector<double>& passes_s) {
+  for (const double pass_s : passes_s) {
+    last_.push_back(pass_s);
+    if (last_.size() > lasting) last_.pop_front();
+    if (last_.size() < lasting) continue;
+    const double middle = median({last_.begin(), last_.end()});
+    level_ = std::min(level_.value_or(middle), middle);
+  }
+}
+
+double noise_of(const std::vector<double>& passes_s, double quiet_s) {
+  const double mean_s =
+      std::accumulate(passes_s.begin(), passes_s.end(), 0.0) / static_cast<double>(passes_s.size());
+  return std::max(mean_s / quiet_s - 1, median_absolute_deviation(passes_s) / median(passes_s));
+}
+
+Attempt taken_from(Record& record) {
+  return {std::exchange(record.samples_s, {}), std::exchange(record.program_samples_s, {}),
+          std::exchange(record.noise_kernel_samples_s, {}),
+          std::exchange(record.busy_kernel_samples_s, {}), std::exchange(record.stage_samples, {})};
+}
+
+void give(Attempt attempt, Record& record) {
+  record.samples_s = std::move(attempt.samples_s);
+  record.program_samples_s = std::move(attempt.program_samples_s);
+  record.noise_kernel_samples_s = std::move(attempt.noise_kernel_samples_s);
+  record.busy_kernel_samples_s = std::move(attempt.busy_kernel_samples_s);
+  record.stage_samples = std::move(attempt.stage_samples);
+}
+
+NoiseWatch::NoiseWatch(std::optional<double> most_noise, Machine machine)
+    : most_noise_(most_noise), machine_(std::move(machine)) {
+  if (!most_noise_) return;
+  machine_.warm_up();
+  for (int i = 0; i < passes_at_start; ++i) level_.add({machine_.loop(1)});
+}
+
+void NoiseWatch::add_passes(int count, int threads, Record& record) {
+  if (most_noise_ && threads > 1) machine_.pause(until_idle_threads_sleep_s);
+  if (most_noise_) machine_.warm_up();
+  for (int i = 0; i < count; ++i) {
+    record.noise_kernel_samples_s.push_back(machine_.loop(1));
+    if (most_noise_) level_.add({record.noise_kernel_samples_s.back()});
+    if (threads > 1) record.busy_kernel_samples_s.push_back(machine_.loop(threads));
+  }
+  last_pass_ = std::chrono::steady_clock::now();
+}
+
+bool NoiseWatch::is_due() const { return most_noise_ && seconds_since(last_pass_) > long_ago_s; }
+
+void NoiseWatch::wait_for_quiet() {
+  for (int look = 0; look < most_looks; ++look) {
+    machine_.warm_up();
+    const std::vector<double> passes_s = {machine_.loop(1), machine_.loop(1), machine_.loop(1)};
+    level_.add(passes_s);
+    if (noise_beside(passes_s) <= *most_noise_) return;
+    if (waited_s_ > free_waiting_s + most_waiting_share * seconds_since(start_)) return;
+    machine_.pause(between_looks_s);
+    waited_s_ += between_looks_s;
+  }
+}
+
+double NoiseWatch::noise_beside(const std::vector<double>& passes_s) const {
+  return noise_of(passes_s, *level_.seconds());
+}
+
+bool NoiseWatch::is_noisy(const Record& record) const {
+  return most_noise_ && is_measured(record) && !record.samples_s.empty() &&
+         noise_beside(record.noise_kernel_samples_s) > *most_noise_;
+}
+
+std::string NoiseWatch::line(const Record& record, std::size_t attempt, int most_attempts) const {
+  return fmt::format(
+      "{}: noise {:.1f} % (allowed {:g} %) beside attempt {} of at most {}, median {}: measured "
+      "again\n",
+      name_of(record).text(), 100 * noise_beside(record.noise_kernel_samples_s), 100 * *most_noise_,
+      attempt, most_attempts, show_seconds(median(record.samples_s)));
+}
+
+void NoiseWatch::keep_quietest(std::vector<Attempt> earlier, Record& record,
+                               std::ostream& progress) const {
+  if (!most_noise_ || record.samples_s.empty()) return;
+  const std::size_t attempts = earlier.size() + 1;
+  std::size_t kept = attempts;
+  if (is_noisy(record)) {
+    earlier.push_back(taken_from(record));
+    const auto quietest = std::ranges::min_element(earlier, {}, [&](const Attempt& attempt) {
+      return noise_beside(attempt.noise_kernel_samples_s);
+    });
+    kept = static_cast<std::size_t>(quietest - earlier.begin()) + 1;
+    give(std::move(*quietest), record);
+  }
+  record.noise_quiet_s = level_.seconds();
+  record.noise_share = noise_beside(record.noise_kernel_samples_s);
+  record.noise_attempts = static_cast<std::int64_t>(attempts);
+  record.noisy = *record.noise_share > *most_noise_;
+  if (record.noisy)
+    progress << fmt::format("{}: none of {} attempts was quiet: the quietest, {}, is kept\n",
+                            name_of(record).text(), attempts, kept);
+}
+
+int accepted_too_early(const std::vector<Record>& records) {
+  std::optional<double> quiet_s;
+  for (const Record& r : records)
+    if (is_judged(r)) quiet_s = std::min(quiet_s.value_or(*r.noise_quiet_s), *r.noise_quiet_s);
+  return static_cast<int>(std::ranges::count_if(records, [&](const Record& r) {
+    return is_judged(r) && !r.noisy &&
+           noise_of(r.noise_kernel_samples_s, *quiet_s) > *r.retry_noisy;
+  }));
+}
+
+}  // namespace airybench

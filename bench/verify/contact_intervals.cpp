@@ -1,0 +1,291 @@
+#include "bench/verify/contact_intervals.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/edge_forces.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "solvers/methods.hpp"
+
+namespace airybench {
+namespace {
+
+EdgeFrame frame_of(const Mesh& mesh, int row) {
+  const auto [a, b] = mesh.boundary[row].vertices;
+  return edge_frame(mesh.vertices[a], mesh.vertices[b]);
+}
+
+// Γ_C has one normal and no vertex on Γ_D.
+bool can_be_moved_as_one(const Mesh& mesh) {
+  std::optional<Eigen::Vector2d> normal;
+  std::vector<bool> is_held(mesh.vertices.size(), false);
+  for (const BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::displacement)
+      for (const int v : edge.vertices) is_held[v] = true;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const Eigen::Vector2d own = frame_of(mesh, row).normal;
+    if (!normal) normal = own;
+    if ((own - *normal).norm() > straight_roller) return false;
+    for (const int v : mesh.boundary[row].vertices)
+      if (is_held[v]) return false;
+  }
+  return normal.has_value();
+}
+
+// v: 0 on Γ_D, n or t on Γ_C (without friction n·v = 1 alone). Empty where nothing comes of it.
+std::optional<DisplacementField> lifted(const Problem& problem, bool tangential) {
+  Mesh mesh = problem.mesh;
+  Loads loads;
+  loads.rollers.assign(mesh.boundary.size(), false);
+  std::vector<Eigen::Vector2d> on_edge(mesh.boundary.size(), Eigen::Vector2d::Zero());
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    if (mesh.boundary[row].role == BoundaryRole::contact) {
+      const EdgeFrame frame = frame_of(mesh, row);
+      on_edge[row] = tangential ? frame.tangent : frame.normal;
+      loads.rollers[row] = !problem.has_friction();
+      mesh.boundary[row].role = BoundaryRole::displacement;
+    } else {
+      loads.rollers[row] = problem.is_roller(row);
+    }
+  }
+  loads.displacement_mm = [on_edge](const Eigen::Vector2d&, int row) { return on_edge[row]; };
+  const DualSystem system = assemble(std::make_shared<const Problem>(make_problem(
+                                         std::move(mesh), problem.compliance, std::move(loads), 0)),
+                                     Blocks::contact_points);
+  const Solution solution = run(select_methods("HYBRID").front(), system, {});
+  if (solution.status != Status::ok) return {};
+  return with_rigid_motion(
+      *system.problem,
+      recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+}
+
+std::optional<Bracket> resultant(const Problem& problem, const StressField& mean, double error,
+                                 const std::optional<DisplacementField>& v) {
+  if (!v) return {};
+  const StressField strained = stress_of_displacement(problem, *v);
+  double work = -work_of_loads(problem, *v);
+  for (std::size_t t = 0; t < mean.size(); ++t) {
+    const int triangle = static_cast<int>(t);
+    work += mean[t]
+                .cwiseProduct(stress_dual(strained[t], problem.area_mm2(triangle),
+                                          problem.compliance_of(triangle)))
+                .sum();
+  }
+  const double half = error * std::sqrt(stress_norm_squared(problem, strained));
+  return Bracket{work - half, work + half};
+}
+
+// Where the pressure at the ends of contact edges is largest.
+struct LargestPressure {
+  double pressure_MPa = -std::numeric_limits<double>::infinity();
+  int triangle = 0;
+  Eigen::Vector2d normal = {0, 0};
+};
+
+LargestPressure largest_pressure(const Problem& problem, const StressField& stress) {
+  std::vector<int> contact_row(static_cast<std::size_t>(problem.edges.count()), -1);
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    if (problem.mesh.boundary[row].role == BoundaryRole::contact)
+      contact_row[problem.edges.of_boundary[row]] = row;
+  LargestPressure peak;
+  for (int t = 0; t < static_cast<int>(stress.size()); ++t)
+    for (int k = 0; k < 3; ++k) {
+      const int row = contact_row[problem.edges.of_triangle[t][k]];
+      if (row < 0) continue;
+      const EdgeFrame frame = frame_of(problem.mesh, row);
+      const Eigen::RowVector2d pressure = -2 / frame.length_mm * frame.normal.transpose() *
+                                          element_edge_forces(problem.vertices_of(t), stress[t], k);
+      if (pressure.maxCoeff() > peak.pressure_MPa) peak = {pressure.maxCoeff(), t, frame.normal};
+    }
+  return peak;
+}
+
+void set_largest_pressure(const Problem& problem, const StressField& stress,
+                          const DisplacementField& u, const ConstitutiveError& error,
+                          ContactIntervals& result) {
+  const LargestPressure of_stress = largest_pressure(problem, stress);
+  result.largest_pressure_MPa = of_stress.pressure_MPa;
+  if (result.peak != ContactIntervals::Peak::bounded) return;
+  const LargestPressure of_u = largest_pressure(problem, stress_of_displacement(problem, u));
+  const int t = of_stress.triangle;
+  const Eigen::Vector2d& n = of_stress.normal;
+  const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // as a strain
+  const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
+               delta = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
+                                 problem.area_mm2(t));
+  const auto [low, high] = std::minmax(of_stress.pressure_MPa, of_u.pressure_MPa);
+  result.largest_pressure_within_MPa = Bracket{std::max(0.0, low - delta), high + delta};
+}
+
+// The pressure along a face as it is walked, linear on every edge.
+class PressureAlongFace {
+ public:
+  PressureAlongFace(const DualSystem& system, const Eigen::VectorXd& F_C,
+                    const std::vector<int>& rows, const std::vector<int>& point_of_row) {
+    const Mesh& mesh = system.problem->mesh;
+    const bool is_closed =
+        mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
+    for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // it goes on before and behind
+      for (const int row : rows) {
+        const double length = frame_of(mesh, row).length_mm;
+        const int m = system.contact.components, p = m * point_of_row[row];
+        edges_.push_back({end_, length, -2 / length * F_C(p), -2 / length * F_C(p + m)});
+        end_ += length;
+      }
+    const std::size_t count = rows.size(), first = is_closed ? count : 0;
+    for (std::size_t k = first; k < first + count; ++k)
+      for (const bool at_end : {false, true})
+        if (const double p = at_end ? edges_[k].last : edges_[k].first; p > highest_) {
+          highest_ = p;
+          place_ = edges_[k].start + (at_end ? edges_[k].length : 0);
+          shortest_ = edges_[k].length;
+        }
+    length_ = end_ / (is_closed ? 3 : 1);
+  }
+
+  double highest() const { return highest_; }
+
+  ContactIntervals::Peak peak() const {
+    constexpr double slower = 0.8;     // than at a cusp as √x
+    constexpr double smallest = 0.01;  // of the mean: below, noise
+    constexpr int windows = 4;
+    if (std::ldexp(shortest_, windows - 1) > length_) return ContactIntervals::Peak::not_seen;
+    std::array<double, windows> mean{};
+    for (int k = 0; k < windows; ++k) mean[k] = mean_within(std::ldexp(shortest_, k));
+    const double last = mean[0] - mean[1], before = mean[1] - mean[2], first = mean[2] - mean[3];
+    const bool grows =
+        last > smallest * mean[0] && last > slower * before && before > slower * first;
+    return grows ? ContactIntervals::Peak::unbounded : ContactIntervals::Peak::bounded;
+  }
+
+ private:
+  struct Edge {
+    double start, length, first, last;
+  };
+
+  double mean_within(double reach) const {
+    const double from = std::max(0.0, place_ - reach), to = std::min(end_, place_ + reach);
+    double sum = 0;
+    for (const Edge& e : edges_) {
+      const double a = std::max(from, e.start), b = std::min(to, e.start + e.length);
+      if (!(a < b)) continue;
+      const double middle = ((a + b) / 2 - e.start) / e.length;
+      sum += (b - a) * ((1 - middle) * e.first + middle * e.last);
+    }
+    return sum / (to - from);
+  }
+
+  std::vector<Edge> edges_;
+  double end_ = 0, length_ = 0, highest_ = 0, place_ = 0, shortest_ = 0;
+};
+
+ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const Mesh& mesh = system.problem->mesh;
+  std::vector<int> point_of_row(mesh.boundary.size(), 0);
+  for (int p = 0; p < system.contact.count; p += 2) point_of_row[system.contact.boundary[p]] = p;
+  double highest = 0;
+  ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // without any pressure
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
+    const PressureAlongFace face(system, F_C, rows, point_of_row);
+    if (face.highest() > highest) {
+      highest = face.highest();
+      peak = face.peak();
+    }
+  }
+  return peak;
+}
+
+// The ends on one face; rows of Mesh::boundary as it is walked.
+void add_ends(const Mesh& mesh, const std::vector<int>& rows,
+              const std::vector<std::array<ContactState, 2>>& of_row, int face,
+              std::vector<ContactEnd>& ends) {
+  std::vector<double> along = {0};  // where edges begin and end
+  for (const int row : rows) along.push_back(along.back() + frame_of(mesh, row).length_mm);
+  const int count = static_cast<int>(rows.size());
+  const bool is_closed =
+      mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
+  const auto at = [&](int k) {  // a closed face goes on before its start and behind its end
+    if (!is_closed) return along[std::clamp(k, 0, count)];
+    const int turns = k < 0 ? -1 : k / count;
+    return turns * along.back() + along[k - turns * count];
+  };
+  const auto state = [&](int point) {
+    const int on_face = (point + 2 * count) % (2 * count);
+    return of_row[rows[on_face / 2]][on_face % 2];
+  };
+  const std::size_t first = ends.size();
+  for (int point = is_closed ? 0 : 1; point < 2 * count; ++point) {
+    if (state(point) == state(point - 1)) continue;
+    ContactEnd end{face, state(point - 1), state(point), {0, 0}, {}};
+    end.along_face_mm = {at((point + 1) / 2 - 2), at(point / 2 + 2)};
+    if (ends.size() > first && ends.back().along_face_mm.high > end.along_face_mm.low) {
+      ends.back().along_face_mm.high = end.along_face_mm.high;  // one end, not told more closely
+      ends.back().after = end.after;
+    } else {
+      ends.push_back(end);
+    }
+  }
+  if (is_closed && ends.size() > first + 1 &&
+      ends.back().along_face_mm.high - along.back() > ends[first].along_face_mm.low) {
+    ends[first].along_face_mm.low = ends.back().along_face_mm.low - along.back();
+    ends[first].before = ends.back().before;
+    ends.pop_back();
+  }
+  std::erase_if(ends, [](const ContactEnd& end) { return end.before == end.after; });
+  for (std::size_t k = first; k < ends.size(); ++k) {
+    const auto [low, high] = ends[k].along_face_mm;
+    double middle = (low + high) / 2;
+    if (is_closed) middle -= along.back() * std::floor(middle / along.back());
+    const auto beyond = std::ranges::upper_bound(along, middle);
+    const auto edge = static_cast<std::size_t>(beyond - along.begin()) - 1;
+    const int row = rows[edge];
+    ends[k].at_mm = mesh.vertices[mesh.boundary[row].vertices[0]] +
+                    (middle - along[edge]) * frame_of(mesh, row).tangent;
+  }
+}
+
+std::vector<ContactEnd> contact_ends(const DualSystem& system, const Eigen::VectorXd& F_C) {
+  const Mesh& mesh = system.problem->mesh;
+  const std::vector<ContactState> states = contact_states(system.contact, F_C);
+  std::vector<std::array<ContactState, 2>> of_row(mesh.boundary.size());
+  for (int p = 0; p < system.contact.count; ++p)
+    of_row[system.contact.boundary[p]][p % 2] = states[p];
+  std::vector<ContactEnd> ends;
+  int face = 0;
+  for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact))
+    add_ends(mesh, rows, of_row, face++, ends);
+  return ends;
+}
+
+}  // namespace
+
+ResultantLifts resultant_lifts(const Problem& problem) {
+  if (!problem.contact_normals.empty() || !can_be_moved_as_one(problem.mesh)) return {};
+  ResultantLifts lifts;
+  lifts.normal = lifted(problem, false);
+  if (problem.has_friction()) lifts.tangential = lifted(problem, true);
+  return lifts;
+}
+
+std::optional<ContactIntervals> contact_intervals(
+    const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
+    const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts) {
+  if (system.contact.count == 0) return {};
+  const Problem& problem = *system.problem;
+  ContactIntervals result;
+  result.guaranteed = error.guaranteed;
+  if (lifts.normal) {
+    const StressField mean = mean_stress(problem, stress, u);
+    const double of_mean = std::sqrt(std::max(0.0, error.squared_of_mean_Nmm()));
+    result.normal_resultant_N = resultant(problem, mean, of_mean, lifts.normal);
+    result.tangential_resultant_N = resultant(problem, mean, of_mean, lifts.tangential);
+  }
+  result.peak = kind_of_peak(system, F_C);
+  set_largest_pressure(problem, stress, u, error, result);
+  result.ends = contact_ends(system, F_C);
+  return result;
+}
+
+}  // namespace airybench

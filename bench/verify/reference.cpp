@@ -1,0 +1,86 @@
+#include "bench/verify/reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/load_scale.hpp"
+#include "solvers/base/dense_products.hpp"
+#include "solvers/condensation/refinement.hpp"
+#include "solvers/contact/active_set.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+// F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
+double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
+                                 const ContactPoints& contact, const LoadScale& scale,
+                                 const Eigen::VectorXd& start, const MultifrontalFactor& factor,
+                                 Reference& reference, Refined& refined) {
+  constexpr int most_steps = 20;
+  const Eigen::MatrixXd& D = reference.condensed.D;
+  ContactPoints without_gap = contact;  // its displacement is r
+  without_gap.gap.resize(0);
+  Eigen::VectorXd F = start;
+  Refined at_F;
+  double error = 0, best = std::numeric_limits<double>::infinity();
+  for (int step = 0; step < most_steps && F.allFinite(); ++step) {
+    refine(system, factor, F, at_F);
+    const LongVector u = at_F.u.tail(system.n_c);
+    const Eigen::VectorXd rounded = relative_to_gap(contact, u).cast<double>();
+    const double residual = relative_error(
+        natural_map(without_gap, D.diagonal(), F, rounded).norm(), F.norm(), scale.force_N);
+    if (!(residual < best)) break;
+    const Eigen::VectorXd next = active_set_step(D, without_gap, F, rounded);
+    error = next.allFinite() ? relative_error(D_norm(D, next - F), D_norm(D, F), scale.energy_norm)
+                             : std::numeric_limits<double>::infinity();
+    reference.F_C = F;
+    reference.natural_map_residual = residual;
+    refined = at_F;
+    if (residual == 0 || residual > best / 2) break;
+    best = residual;
+    F = next;
+  }
+  if (reference.F_C.size() == 0)
+    throw Breakdown("no reference: its contact law has no finite solution");
+  reference.condensed.G = times(D, reference.F_C) - refined.u.tail(system.n_c).cast<double>();
+  return error;
+}
+
+}  // namespace
+
+Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start,
+                            const Eigen::VectorXd& sweeps_from) {
+  const Problem& problem = *airy.problem;
+  const LoadScale scale = load_scale(problem);
+  const auto system = assemble_hybridized<long double>(problem, airy.contact);
+  ElementMatrices K = rounded<double>(system.K);
+  MultifrontalStiffness factor(K, system.n_c);
+  factor.analyse();
+  factor.factor({});
+  K = {};
+  Reference reference;
+  Refined refined;
+  double force_error = 0;
+  if (system.n_c > 0) {
+    reference.condensed.G = factor.load(system.b.cast<double>());
+    reference.condensed.D = factor.compliance();
+    RunControl sweeps;
+    sweeps.start = sweeps_from;
+    const Eigen::VectorXd F =
+        start.size() > 0 ? start : solve_contact(reference.condensed, airy.contact, sweeps).F_C;
+    force_error = solve_contact_to_rounding(system, airy.contact, scale, F, factor.cholesky(),
+                                            reference, refined);
+  } else {
+    refine(system, factor.cholesky(), {}, refined);
+  }
+  reference.stress = hybridized_stress(problem, system, refined.u);
+  const double stress_error =
+      relative_error(refined.last_correction,
+                     std::sqrt(stress_norm_squared(problem, reference.stress)), scale.energy_norm);
+  reference.error_estimate = std::max({stress_error, force_error, reference.natural_map_residual});
+  return reference;
+}
+
+}  // namespace airybench

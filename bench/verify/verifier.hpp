@@ -1,0 +1,100 @@
+// The judge: looks at a solution from outside, with nothing of the method that made it. No solver
+// may call it.
+//
+// It works from the element stresses, the contact forces and the reference. Errors are relative:
+//   error_stress          ‖σ − σ_ref‖ / ‖σ_ref‖   in the energy norm, ‖σ‖² = ∫ σ:C:σ
+//   error_force           ‖F_C − F_ref‖ / ‖F_ref‖  in the D-norm, ‖F‖² = Fᵀ D F
+//   equilibrium_residual  largest unbalanced force of the stresses — across inner edges, against
+//   the
+//                         prescribed forces on Γ_F, against F_C on Γ_C — and largest resultant of
+//                         ∇·σ + b in a third, over the largest edge force
+//   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
+#pragma once
+
+#include <array>
+#include <limits>
+#include <optional>
+
+#include "assembly/dual_system.hpp"
+#include "assembly/load_scale.hpp"
+#include "bench/verify/reference.hpp"
+#include "solvers/base/solution.hpp"
+
+namespace airybench {
+
+// Empty: does not apply (no contact, no reference, no body).
+struct Verification {
+  std::optional<double> error_stress;
+  std::optional<double> error_force;
+  std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
+  std::optional<double> reference_error;        // of the reference, by its own estimate
+  // Without a reference, of an answer with edge moments: how far its stresses are from those of the
+  // moments, relative in the energy norm. No error: see moments_check.hpp.
+  std::optional<double> stress_of_moments_off;
+  // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
+  // relative to the loads then.
+  bool unstressed = false;
+  std::optional<double> equilibrium_residual = std::numeric_limits<double>::infinity();
+  std::optional<double> natural_map_residual;
+  std::optional<double> signorini_violation_N;   // largest normal component of the natural map
+  std::optional<double> coulomb_violation_N;     // largest tangential component
+  std::optional<double> normal_resultant_N;      // Σ F_n
+  std::optional<double> tangential_resultant_N;  // Σ F_t
+  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ; of a given problem ½ Fᵀ D F
+  std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  std::optional<int> n_open, n_stick, n_slip;  // contact points
+  // The largest μ|D_nt| / D_nn of a contact point. From 1 on, its law may have several solutions.
+  std::optional<double> friction_coupling;
+  std::optional<double> siconos_error;  // of a given problem
+};
+
+// reference: may be null. The contact law is then checked with the answer's own edge moments, where
+// it has any, and ρ = 1/rough_compliance.
+Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
+
+// The same for a displacement method, another discrete problem that has no reference: judged by its
+// displacements and its forces at the control points (control_points.hpp). No error_stress, no
+// error_force, no complementary energy.
+//   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
+//                         points, over the largest nodal force of an element
+//   natural_map_residual  with r from u, and ρ = 1/rough_compliance
+Verification verify_displacement(const DualSystem& system, const Solution& solution);
+
+// Of a given contact problem (problem.hpp), which is nothing but the contact law: its natural map,
+// and the measure that Siconos stops on (fc2d_compute_error; with r = −F, u = W r + q)
+//   siconos_error  ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖),  û_n = u_n + μ|u_t|
+// where P projects on Coulomb's cone. It depends on the units of W.
+Verification verify_given_contact(const DualSystem& system, const Solution& solution);
+
+// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n, N mm, what Π* lacks of the energy; F_C at the contact points.
+double work_of_prescribed(const DualSystem& system, const StressField& stress,
+                          const Eigen::VectorXd& F_C);
+
+// Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
+// the contact law, with ρ = 1/D_diagonal.
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result);
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result);
+
+// Of two components per point: Verification::friction_coupling.
+double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D);
+
+// The largest of the relative measures that decide between ok and inaccurate.
+struct WorstMeasure {
+  const char* name;
+  double value;
+};
+WorstMeasure worst_measure(const Verification& verification);
+
+enum class ContactState { open, stick, slip };
+constexpr const char* name_of(ContactState state) {
+  constexpr std::array<const char*, 3> names = {"open", "stick", "slip"};
+  return names[static_cast<std::size_t>(state)];
+}
+// Open: |F_n| ≤ 1e-9 of the largest normal force; slip: |F_t| ≥ (1 − 1e-9) μ|F_n|. Without friction
+// a closed point slips.
+std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C);
+
+}  // namespace airybench

@@ -1,0 +1,258 @@
+// The fields of solutions in files: exact where the solution is, read back by VTK.
+#include "bench/measure/field_files.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "assembly/scene.hpp"
+#include "bench/measure/contact_picture.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "solvers/loading/load_steps.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/exact_fields.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/small_meshes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::field_files_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Columns = std::map<std::string, std::vector<std::string>>;
+
+Columns read_csv(const fs::path& file) {
+  std::istringstream text(testing::text_of(file));
+  const auto split = [](const std::string& line) {
+    std::vector<std::string> cells(1);
+    for (const char c : line)
+      if (c == ',')
+        cells.emplace_back();
+      else
+        cells.back() += c;
+    return cells;
+  };
+  std::string line;
+  std::getline(text, line);
+  const std::vector<std::string> names = split(line);
+  Columns columns;
+  while (std::getline(text, line)) {
+    const std::vector<std::string> cells = split(line);
+    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(cells.at(k));
+  }
+  return columns;
+}
+
+std::vector<double> numbers(const Columns& columns, const std::string& name) {
+  std::vector<double> values;
+  for (const std::string& cell : columns.at(name)) values.push_back(std::stod(cell));
+  return values;
+}
+
+struct Solved {
+  DualSystem system;
+  Solution solution;
+  std::optional<DisplacementField> w;
+
+  Solved(Problem problem, const char* method)
+      : system(assemble(std::make_shared<const Problem>(std::move(problem)))) {
+    solution = solve_load_steps(select_methods(method).front().solve, system, {}, {});
+    EXPECT_EQ(solution.status, Status::ok) << solution.message;
+    if (solution.displacement.cols() > 0)
+      w = solution.displacement;
+    else if (solution.edge_moments.cols() > 0)
+      w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  }
+  ContactPicture contact() const { return contact_picture(system, solution, w); }
+  double largest_force() const {
+    double largest = 0;
+    for (const Eigen::Vector2d& force : contact().force) largest = std::max(largest, force.norm());
+    return largest;
+  }
+};
+
+TEST(FieldFiles, DisplacementsAreTheExactOnesWithTheRigidMotion) {
+  Mesh mesh = testing::small_tooth(5, 4);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3))
+    for (const char* method : {"HYBRID", "P2"}) {
+      const Solved solved(
+          make_problem(mesh, {compliance({2000, 0.3}, Plane::stress)}, testing::loads_of(exact), 0),
+          method);
+      const testing::TemporaryFolder folder;
+      write_fields(folder.path(), "a", {solved.system, solved.solution, solved.w, nullptr, {}});
+      const Columns rows = read_csv(folder / "a.displacement.csv");
+      const auto x = numbers(rows, "x_mm"), y = numbers(rows, "y_mm"), ux = numbers(rows, "ux_mm"),
+                 uy = numbers(rows, "uy_mm");
+      ASSERT_EQ(x.size(), 6 * mesh.triangles.size());
+      double size = 0, error = 0;
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const Eigen::Vector2d u = exact.displacement({x[k], y[k]});
+        size = std::max(size, u.norm());
+        error = std::max(error, (u - Eigen::Vector2d(ux[k], uy[k])).norm());
+      }
+      EXPECT_LT(error, 1e-10 * size) << exact.name << " " << method;
+    }
+}
+
+// The contact law, seen in the picture alone.
+void expect_law(const Solved& solved, double friction, double slip_size) {
+  const ContactPicture picture = solved.contact();
+  const double force = solved.largest_force();
+  ASSERT_EQ(picture.gap_mm.size(), picture.force.size());
+  ASSERT_EQ(picture.slip_mm.size(), picture.force.size());
+  std::array<int, 3> count{};
+  for (std::size_t p = 0; p < picture.force.size(); ++p) {
+    const ContactState state = picture.state[p];
+    ++count[static_cast<std::size_t>(state)];
+    const double gap = picture.gap_mm[p], slip = picture.slip_mm[p];
+    if (state == ContactState::open) {
+      EXPECT_GT(gap, -1e-9 * slip_size) << p;
+      EXPECT_LT(picture.force[p].norm(), 1e-6 * force) << p;
+    } else {
+      EXPECT_NEAR(gap, 0, 1e-8 * slip_size) << p;
+    }
+    if (state == ContactState::stick) {
+      EXPECT_NEAR(slip, 0, 1e-8 * slip_size) << p;
+    }
+    if (state == ContactState::slip && friction > 0) {
+      EXPECT_LE(slip * picture.force[p].y(), 0) << p;
+    }
+  }
+  for (const int n : count) EXPECT_TRUE(n > 0 || friction == 0);
+}
+
+TEST(FieldFiles, GapAndSlipFollowTheContactLaw) {
+  for (const char* method : {"HYBRID", "3STEPD", "BLIND:SCHUR"}) {
+    const Solved solved(pose(Scene(), testing::catalogue_mesh("Mesh0")), method);
+    expect_law(solved, 0.2, 0.006);
+  }
+}
+
+TEST(FieldFiles, MethodsAgreeOnGapAndSlip) {
+  for (const double friction : {0.0, 0.2}) {
+    Scene scene;
+    scene.friction = friction;
+    const Mesh mesh = testing::catalogue_mesh("Mesh1");
+    const ContactPicture hybrid = Solved(pose(scene, mesh), "HYBRID").contact();
+    const ContactPicture p2 = Solved(pose(scene, mesh), "P2").contact();
+    const ContactPicture airy = Solved(pose(scene, mesh), "3STEPD").contact();
+    EXPECT_EQ(airy.slip_mm.empty(), friction == 0);  // an Airy method knows no other
+    ASSERT_EQ(hybrid.slip_mm.size(), hybrid.gap_mm.size());
+    double largest_gap = 0, largest_slip = 0;
+    for (std::size_t p = 0; p < hybrid.gap_mm.size(); ++p) {
+      largest_gap = std::max(largest_gap, hybrid.gap_mm[p]);
+      largest_slip = std::max(largest_slip, std::abs(hybrid.slip_mm[p]));
+    }
+    EXPECT_GT(largest_gap, 1e-4);
+    EXPECT_GT(largest_slip, 1e-4);
+    for (std::size_t p = 0; p < hybrid.gap_mm.size(); ++p) {
+      EXPECT_NEAR(airy.gap_mm[p], hybrid.gap_mm[p], 1e-8 * largest_gap) << p;
+      EXPECT_NEAR(p2.gap_mm[p], hybrid.gap_mm[p], 0.03 * largest_gap) << p;
+      EXPECT_NEAR(p2.slip_mm[p], hybrid.slip_mm[p], 0.1 * largest_slip) << p;
+    }
+  }
+}
+
+// Slip is that of the last step: what slides on and on slides as far in every step.
+TEST(FieldFiles, SlipIsMeasuredFromTheStepBefore) {
+  Scene whole;
+  whole.crown_radius_mm.reset();
+  whole.displacement_mm = {0.02, 10};
+  Scene in_steps = whole;
+  in_steps.equal_steps = 4;
+  const Mesh mesh = testing::small_tooth(6, 5);
+  const ContactPicture one = Solved(pose(whole, mesh), "HYBRID").contact();
+  const ContactPicture last = Solved(pose(in_steps, mesh), "HYBRID").contact();
+  for (std::size_t p = 0; p < one.slip_mm.size(); ++p) {
+    EXPECT_NEAR(one.slip_mm[p], 10, 0.1);
+    EXPECT_NEAR(last.slip_mm[p], 2.5, 0.1);
+  }
+}
+
+// 0, 1 or 77 (no VTK).
+int read_back(const fs::path& folder, const std::string& name, const char* to = "") {
+  const std::string command =
+      "/usr/bin/python3 '" +
+      (testing::source_folder() / "tests/bench/measure/read_vtu.py").string() + "' '" +
+      folder.string() + "' '" + name + "'" + to;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(FieldFiles, VtkReadsBackWhatIsWritten) {
+  const testing::TemporaryFolder folder;
+  Scene layered;
+  layered.layers.count = 2;
+  layered.layers.normal = {1, 0};
+  for (const char* method : {"HYBRID", "P2"}) {
+    const Solved solved(pose(layered, testing::small_tooth(6, 5)), method);
+    const Solution dual = run(select_methods("HYBRID").front(), solved.system, {});
+    const ConstitutiveError error =
+        constitutive_error(solved.system, dual.stress, dual.F_C, *solved.w);
+    write_fields(folder.path(), method, {solved.system, solved.solution, solved.w, &error, {}});
+    const int code = read_back(folder.path(), method);
+    if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
+    EXPECT_EQ(code, 0) << method;
+    EXPECT_TRUE(fs::exists(folder / (std::string(method) + ".png")));
+  }
+  // It can fail: a file that is cut off, and one whose numbers are others.
+  const std::string whole = testing::text_of(folder / "P2.vtu");
+  testing::write_text(folder / "P2.vtu", whole.substr(0, whole.size() / 2));
+  EXPECT_EQ(read_back(folder.path(), "P2", " 2>/dev/null"), 1);
+  testing::write_text(folder / "P2.vtu", testing::text_of(folder / "HYBRID.vtu"));
+  EXPECT_EQ(read_back(folder.path(), "P2", " 2>/dev/null"), 1);
+}
+
+TEST(FieldFiles, TheElementMapHasARowPerTriangleAndSharesThatSumToOne) {
+  const testing::TemporaryFolder folder;
+  const Solved solved(pose({}, testing::small_tooth(6, 5)), "HYBRID");
+  const ConstitutiveError error =
+      constitutive_error(solved.system, solved.solution.stress, solved.solution.F_C, *solved.w);
+  write_fields(folder.path(), "a", {solved.system, solved.solution, {}, &error, {}});
+  const Columns rows = read_csv(folder / "a.error.csv");
+  const std::vector<double> triangle = numbers(rows, "triangle"),
+                            share = numbers(rows, "error_share");
+  ASSERT_EQ(share.size(), solved.system.problem->mesh.triangles.size());
+  double sum = 0;
+  for (std::size_t t = 0; t < share.size(); ++t) {
+    EXPECT_EQ(triangle[t], static_cast<double>(t + 1));
+    EXPECT_GE(share[t], 0);
+    sum += share[t];
+  }
+  EXPECT_NEAR(sum, 1, 1e-12);
+}
+
+TEST(FieldFiles, ABodyWithoutContactHasAnEmptyGrid) {
+  Mesh mesh = testing::small_tooth(4, 3);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  Scene scene;
+  scene.boundary["force"].pressure_MPa = {{3, 3}};
+  const Solved solved(pose(scene, mesh), "HYBRID");
+  const testing::TemporaryFolder folder;
+  write_fields(folder.path(), "a", {solved.system, solved.solution, solved.w, nullptr, {}});
+  const int code = read_back(folder.path(), "a");
+  if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
+  EXPECT_EQ(code, 0);
+}
+
+TEST(FieldFiles, WhatIsNotKnownIsLeftOut) {
+  const testing::TemporaryFolder folder;
+  const Solved solved(pose(Scene(), testing::small_tooth(4, 3)), "3STEPD");
+  write_fields(folder.path(), "a", {solved.system, solved.solution, {}, nullptr, {}});
+  EXPECT_FALSE(fs::exists(folder / "a.displacement.csv"));
+  EXPECT_FALSE(fs::exists(folder / "a.error.csv"));
+  EXPECT_EQ(testing::text_of(folder / "a.vtu").find("displacement_mm"), std::string::npos);
+  EXPECT_EQ(numbers(read_csv(folder / "a.contact.csv"), "slip_mm").size(),
+            static_cast<std::size_t>(solved.system.contact.count));
+}
+
+}  // namespace
+}  // namespace airybench::field_files_test

@@ -1,0 +1,246 @@
+#include "support/memory_owner.hpp"
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <thread>
+
+#include "assembly/scene.hpp"
+#include "bench/measure/heap_probe.hpp"
+#include "bench/measure/memory_watch.hpp"
+#include "bench/measure/workbench.hpp"
+#include "mesh/msh_format.hpp"
+#include "solvers/base/parallel.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+
+namespace airybench::memory_owner_test {
+namespace {
+
+constexpr std::int64_t KiB = 1024, MiB = 1024 * KiB;
+
+// The compiler may not leave out a block that is shown to it.
+void* used(void* block) {
+  asm volatile("" : : "r"(block) : "memory");
+  return block;
+}
+
+// What the owners have gained since.
+class Gained {
+ public:
+  std::int64_t operator()(MemoryOwner owner) const {
+    return heap::live_by_owner()[owner] - before_[owner];
+  }
+
+ private:
+  ByOwner<std::int64_t> before_ = heap::live_by_owner();
+};
+
+void expect_about(std::int64_t bytes, std::int64_t expected, const char* what) {
+  EXPECT_NEAR(static_cast<double>(bytes), static_cast<double>(expected), 8192) << what;
+}
+
+TEST(OwnerScope, TheInnermostWinsAndTheOneBeforeComesBack) {
+  EXPECT_EQ(current_memory_owner, MemoryOwner::other);
+  {
+    const OwnerScope outer(MemoryOwner::factor);
+    {
+      const OwnerScope inner(MemoryOwner::answer);
+      EXPECT_EQ(current_memory_owner, MemoryOwner::answer);
+    }
+    EXPECT_EQ(current_memory_owner, MemoryOwner::factor);
+  }
+  EXPECT_EQ(current_memory_owner, MemoryOwner::other);
+}
+
+TEST(OwnerScope, IsOfOneThreadAndOurParallelRangesTakeItAlong) {
+  const OwnerScope scope(MemoryOwner::iteration);
+  MemoryOwner elsewhere = MemoryOwner::factor;
+  std::thread([&] { elsewhere = current_memory_owner; }).join();
+  EXPECT_EQ(elsewhere, MemoryOwner::other);
+  std::array<MemoryOwner, 3> seen{};
+  in_parallel(3, 3, [&](int begin, int) { seen[begin] = current_memory_owner; });
+  for (const MemoryOwner owner : seen) EXPECT_EQ(owner, MemoryOwner::iteration);
+}
+
+TEST(MemoryOwner, EveryKindOfAllocationBelongsToTheScope) {
+  struct Kind {
+    const char* name;
+    std::function<void*()> allocate;
+  };
+  const Kind kinds[] = {
+      {"malloc", [] { return std::malloc(MiB); }},
+      {"calloc", [] { return std::calloc(MiB / 8, 8); }},
+      {"realloc of nothing", [] { return std::realloc(nullptr, MiB); }},
+      {"memalign", [] { return std::aligned_alloc(4096, MiB); }},
+      {"posix_memalign",
+       [] {
+         void* block = nullptr;
+         return posix_memalign(&block, 128, MiB) == 0 ? block : nullptr;
+       }},
+      {"operator new", [] { return ::operator new(MiB, std::nothrow); }},
+  };
+  for (const Kind& kind : kinds) {
+    const Gained gained;
+    void* block = nullptr;
+    {
+      const OwnerScope scope(MemoryOwner::preconditioner);
+      block = kind.allocate();
+    }
+    ASSERT_NE(block, nullptr) << kind.name;
+    expect_about(gained(MemoryOwner::preconditioner), MiB, kind.name);
+    const OwnerScope scope(MemoryOwner::condensed);  // who frees does not matter
+    std::free(block);
+    EXPECT_EQ(gained(MemoryOwner::preconditioner), 0) << kind.name;
+    EXPECT_EQ(gained(MemoryOwner::condensed), 0) << kind.name;
+  }
+}
+
+// Of any size, also those that fill their usable bytes: 24, 40, … and whole pages.
+TEST(MemoryOwner, ABlockMayBeWrittenWholeWithoutLosingItsOwner) {
+  for (std::size_t bytes = 0; bytes < 300; ++bytes)
+    for (const std::size_t size : {bytes, 4096 * bytes}) {
+      const Gained gained;
+      const OwnerScope scope(MemoryOwner::factor);
+      auto* block = static_cast<volatile unsigned char*>(std::malloc(size));
+      for (std::size_t k = 0; k < size; k += size < 300 ? 1 : 64) block[k] = 0xff;
+      if (size > 0) block[size - 1] = 0xff;
+      std::free(const_cast<unsigned char*>(block));
+      ASSERT_EQ(gained(MemoryOwner::factor), 0) << size;
+    }
+}
+
+// 24, 40, 56 … bytes fill glibc's blocks: the tag makes them larger, and that does not count.
+TEST(MemoryOwner, TheTagItselfDoesNotCount) {
+  std::array<void*, 1000> blocks{};
+  for (const std::size_t bytes : {24, 40, 56}) {
+    const Gained gained;
+    const auto held = [&] { return static_cast<double>(gained(MemoryOwner::factor)); };
+    {
+      const OwnerScope scope(MemoryOwner::factor);
+      for (void*& block : blocks) block = used(std::malloc(bytes));
+    }
+    const double expected = 1000.0 * static_cast<double>(bytes);
+    EXPECT_NEAR(held(), expected, 4000) << bytes;  // not 16000 more
+    for (void*& block : blocks) block = used(std::realloc(block, bytes + 160));
+    EXPECT_NEAR(held(), expected + 160'000, 4000) << bytes;
+    for (void* block : blocks) std::free(block);
+    EXPECT_EQ(held(), 0) << bytes;
+  }
+}
+
+TEST(MemoryOwner, ABlockThatGrowsOrShrinksKeepsItsOwner) {
+  const Gained gained;
+  void* block = nullptr;
+  {
+    const OwnerScope scope(MemoryOwner::factor);
+    block = used(std::malloc(100));
+  }
+  const OwnerScope scope(MemoryOwner::answer);
+  for (const std::int64_t bytes : {MiB, 3 * MiB, 64 * KiB}) {
+    block = used(std::realloc(block, static_cast<std::size_t>(bytes)));
+    expect_about(gained(MemoryOwner::factor), bytes, "factor");
+    EXPECT_EQ(gained(MemoryOwner::answer), 0);
+  }
+  std::thread([&] { std::free(block); }).join();
+  EXPECT_EQ(gained(MemoryOwner::factor), 0);
+}
+
+TEST(MemoryOwner, OwnersSumToTheWholeWhateverThreadsDo) {
+  std::vector<std::jthread> threads;
+  for (const MemoryOwner owner : all_memory_owners)
+    threads.emplace_back([owner] {
+      const OwnerScope scope(owner);
+      for (int k = 0; k < 1000; ++k)
+        std::free(used(std::realloc(used(std::malloc(8 * k)), 64 * k + 1)));
+    });
+  threads.clear();
+  EXPECT_EQ(heap::live_by_owner().sum(), heap::live_bytes());
+}
+
+TEST(MemoryOwner, PeakIsSplitAsItWasThenAndEachOwnerHasItsOwn) {
+  heap::reset_peak();
+  const auto before = heap::live_by_owner();
+  const auto of = [&](const ByOwner<std::int64_t>& now, MemoryOwner owner) {
+    return now[owner] - before[owner];
+  };
+  const auto hold = [](MemoryOwner owner, std::int64_t bytes) {
+    const OwnerScope scope(owner);
+    return std::vector<char>(static_cast<std::size_t>(bytes));
+  };
+  hold(MemoryOwner::factor, 20 * MiB);  // and gone
+  const auto a = hold(MemoryOwner::factor, 5 * MiB), b = hold(MemoryOwner::answer, 30 * MiB);
+  const auto peak = heap::peak_by_owner(), highest = heap::highest_by_owner();
+  expect_about(of(peak, MemoryOwner::factor), 5 * MiB, "factor at the peak");
+  expect_about(of(peak, MemoryOwner::answer), 30 * MiB, "answer at the peak");
+  expect_about(of(highest, MemoryOwner::factor), 20 * MiB, "factor's own");
+  EXPECT_NEAR(static_cast<double>(peak.sum()), static_cast<double>(heap::peak_bytes()),
+              static_cast<double>(heap::peak_bytes()) / 1000);
+}
+
+TEST(HeapProbe, AllocatedBytesAddUpWhatIsFreedToo) {
+  const std::int64_t before = heap::allocated_bytes();
+  for (int k = 0; k < 3; ++k) std::free(used(std::malloc(MiB)));
+  expect_about(heap::allocated_bytes() - before, 3 * MiB, "three blocks");
+}
+
+TEST(MemoryWatch, SplitsByStageWithTheBlocksInside) {
+  StageTimes times;
+  MemoryWatch watch(7 * MiB);
+  std::vector<char> kept;
+  {
+    const StageTimer timer(times, Stage::factor);
+    const OwnerScope scope(MemoryOwner::factor);
+    std::vector<char>(static_cast<std::size_t>(4 * MiB));  // workspace
+    kept.resize(static_cast<std::size_t>(MiB));
+  }
+  {
+    const StageTimer timer(times, Stage::recover);
+    const std::vector<char> other(static_cast<std::size_t>(2 * MiB));
+  }
+  const MemorySplit memory = watch.split({}, 7 * MiB);
+  expect_about(memory.stage_peak[static_cast<int>(Stage::factor)].value(), 11 * MiB, "factor");
+  expect_about(memory.stage_peak[static_cast<int>(Stage::recover)].value(), 10 * MiB, "recover");
+  EXPECT_FALSE(memory.stage_peak[static_cast<int>(Stage::contact)]);
+  expect_about(memory.held[MemoryOwner::factor], MiB, "held");
+  expect_about(memory.at_peak[MemoryOwner::factor], 4 * MiB, "at the peak");
+  expect_about(memory.at_peak[MemoryOwner::blocks], 7 * MiB, "blocks");
+  expect_about(watch.peak_bytes(), 11 * MiB, "peak");
+}
+
+class CountedMemory : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Methods, CountedMemory,
+                         ::testing::Values("3STEPD", "3STEPD:REFINED", "3STEPD:FILE", "3STEPD:LEAN",
+                                           "3STEPD:CHOLMOD", "BLIND", "BLIND:SCHUR", "BLIND:SKY",
+                                           "HYBRID", "HYBRID:CHOLMOD", "HYBRID:MUMPS", "HYBRID:CG",
+                                           "P2", "3STEPCG:DTIC3", "3STEPCG:FLIC2", "3STEPCG:SKY",
+                                           "SYMMLQ:DTIC3", "SYMMLQ:SKY",
+                                           "SYMMLQ:DTIC3,schur=sparse", "ALM:r=20,rho=20",
+                                           "ALM:AUTO"),
+                         [](const auto& method) { return "m" + std::to_string(method.index); });
+
+TEST_P(CountedMemory, IsWhatIsMeasured) {
+  Options options;
+  options.repetitions = 1;
+  const Method method = select_methods(GetParam()).front();
+  // Ten times the iterations of the others.
+  const char* mesh = method.name.ends_with("schur=sparse") ? "Mesh0" : "Mesh1";
+  Workbench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
+  auto [record, choice] = bench.examine(method, {});
+  bench.measure_memory(method, choice, record);
+  ASSERT_TRUE(record.memory_count_ratio) << record.status_reason;
+  EXPECT_FALSE(record.memory_counts_differ) << record.memory_by_owner.dump(1);
+  EXPECT_NEAR(record.memory_count_ratio.value(), 1, 0.1) << record.memory_by_owner.dump(1);
+  double at_peak = 0;
+  for (const auto& [owner, bytes] : record.memory_by_owner.items())
+    at_peak += bytes.at("peak_bytes").get<double>();
+  const auto whole = static_cast<double>(heap::peak_ever_bytes());
+  EXPECT_NEAR(at_peak, static_cast<double>(record.peak_heap_bytes.value()), whole / 500);
+  EXPECT_GT(record.heap_allocated_bytes.value(), record.storage_bytes.value() / 2);
+}
+
+}  // namespace
+}  // namespace airybench::memory_owner_test

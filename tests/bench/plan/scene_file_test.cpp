@@ -1,0 +1,317 @@
+#include "bench/plan/scene_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::scene_file_test {
+namespace {
+
+class SceneFile : public ::testing::Test {
+ protected:
+  Scene read(const std::string& text) {
+    std::ofstream(file_) << text;
+    return read_scene(file_);
+  }
+  // The complaint without the file's name in front.
+  std::string complaint(const std::string& text) {
+    try {
+      read(text);
+    } catch (const SceneError& error) {
+      const std::string what = error.what();
+      EXPECT_EQ(what.rfind(file_.string() + ": ", 0), 0u) << what;
+      EXPECT_EQ(what.find('\n'), std::string::npos);
+      return what.substr(file_.string().size() + 2);
+    }
+    return "none";
+  }
+  const testing::TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "my scene.json";
+};
+
+TEST_F(SceneFile, MissingKeysTakeTheDefaults) {
+  const Scene scene = read("{}"), standard;
+  EXPECT_EQ(scene.name, "my scene");
+  EXPECT_EQ(scene.friction, standard.friction);
+  EXPECT_EQ(scene.crown_radius_mm, standard.crown_radius_mm);
+  EXPECT_EQ(scene.displacement_mm, standard.displacement_mm);
+  EXPECT_FALSE(scene.teeth);
+}
+
+TEST_F(SceneFile, EveryKeyIsRead) {
+  const Scene scene = read(R"({ "teeth": 1, "root_half_height_mm": 5, "length_mm": 10,
+    "tip_half_height_mm": 3, "young_MPa": 70000, "poisson": 0.33, "plane": "stress",
+    "friction": 0.5, "crown_radius_mm": null, "clearance_mm": 0.001,
+    "displacement_mm": [0.01, -0.002], "body_force_N_per_mm3": [1, 2],
+    "materials": { "tip": { "young_MPa": 3000 } } })");
+  EXPECT_EQ(scene.teeth, 1);
+  EXPECT_EQ(scene.root_half_height_mm, 5);
+  EXPECT_EQ(scene.length_mm, 10);
+  EXPECT_EQ(scene.tip_half_height_mm, 3);
+  EXPECT_EQ(scene.material.young_MPa, 70000);
+  EXPECT_EQ(scene.material.poisson, 0.33);
+  EXPECT_EQ(scene.plane, Plane::stress);
+  EXPECT_EQ(scene.friction, 0.5);
+  EXPECT_FALSE(scene.crown_radius_mm);
+  EXPECT_EQ(scene.clearance_mm, 0.001);
+  EXPECT_EQ(scene.displacement_mm, Eigen::Vector2d(0.01, -0.002));
+  EXPECT_EQ(scene.body_force_N_per_mm3, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(scene.materials.at("tip").young_MPa, 3000);
+  EXPECT_EQ(scene.materials.at("tip").poisson, 0.33);  // the scene's own
+}
+
+TEST_F(SceneFile, TransformationsAndLayersAreRead) {
+  const Scene scene = read(R"({ "group": "layers", "about": "All keys at once.",
+    "mesh": { "refine": 2, "grade": { "at_mm": [10, 1], "ratio": 100 },
+      "slivers": { "aspect": 1e3, "count": 5 }, "scale": 2, "stretch": [1, 0.5],
+      "move_mm": [3, 4], "keep_contact_edges": 0, "keep_displacement_edges": 2,
+      "keep_force_edges": 1 },
+    "layers": { "normal": [0, 1], "interfaces_mm": [-1, 1],
+      "materials": [ {}, { "young_MPa": 21 } ] },
+    "poisson": 0.25 })");
+  EXPECT_EQ(scene.group, "layers");
+  EXPECT_EQ(scene.about, "All keys at once.");
+  EXPECT_EQ(scene.mesh.refine, 2);
+  EXPECT_EQ(scene.mesh.grade.value().at_mm, Eigen::Vector2d(10, 1));
+  EXPECT_EQ(scene.mesh.grade.value().ratio, 100);
+  EXPECT_EQ(scene.mesh.slivers.value().aspect, 1000);
+  EXPECT_EQ(scene.mesh.slivers.value().count, 5);
+  EXPECT_EQ(scene.mesh.scale, 2);
+  EXPECT_EQ(scene.mesh.stretch, Eigen::Vector2d(1, 0.5));
+  EXPECT_EQ(scene.mesh.move_mm, Eigen::Vector2d(3, 4));
+  EXPECT_EQ(scene.mesh.keep_contact_edges, 0);
+  EXPECT_EQ(scene.mesh.keep_displacement_edges, 2);
+  EXPECT_EQ(scene.mesh.keep_force_edges, 1);
+  EXPECT_EQ(scene.layers.normal, Eigen::Vector2d(0, 1));
+  EXPECT_EQ(scene.layers.interfaces_mm, (std::vector<double>{-1, 1}));
+  ASSERT_EQ(scene.layer_materials.size(), 2u);
+  EXPECT_EQ(scene.layer_materials[1].young_MPa, 21);
+  EXPECT_EQ(scene.layer_materials[1].poisson, 0.25);  // the scene's own
+}
+
+TEST_F(SceneFile, BoundaryGroupsAreRead) {
+  const Scene scene = read(R"({ "boundary": {
+    "force:top": { "pressure_MPa": { "at_mm": [[0, 1], [4, 1]], "values": [2, 6] } },
+    "force": { "traction_MPa": [3, 4] },
+    "displacement:left": { "support": "normal", "displacement_mm": [0.5, 0] },
+    "displacement": { "support": "full" } } })");
+  ASSERT_EQ(scene.boundary.size(), 4u);
+  EXPECT_EQ(scene.boundary.at("force:top").pressure_MPa.value().at({1, 5}), 3);
+  EXPECT_EQ(scene.boundary.at("force").traction_MPa.value().at({7, 7}), Eigen::Vector2d(3, 4));
+  const BoundaryValues& left = scene.boundary.at("displacement:left");
+  EXPECT_EQ(left.support, BoundaryValues::Support::normal);
+  EXPECT_EQ(left.displacement_mm.value().at({0, 0}), Eigen::Vector2d(0.5, 0));
+  EXPECT_EQ(scene.boundary.at("displacement").support, BoundaryValues::Support::full);
+}
+
+TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
+  EXPECT_EQ(complaint(R"({"boundary": []})"),
+            "boundary: [] (allowed: an object with a boundary group as each key)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure": 3}}})"),
+            "boundary: force: pressure: unknown key (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm, support, friction, clearance_mm, wall, face)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": [1, 2]}}})"),
+            "boundary: force: pressure_MPa: [1,2] (allowed: a number)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": 3}}})"),
+            "boundary: force: traction_MPa: 3 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": {"values": [[1, 2], [3, 4]]}}}})"),
+            "boundary: force: traction_MPa: {\"values\":[[1,2],[3,4]]} (allowed: {\"at_mm\": "
+            "[[x, y], [x, y]], \"values\": [..., ...]}, both given)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": {"at_mm": [[1, 2]]}}}})"),
+            "boundary: force: pressure_MPa: at_mm: [[1,2]] (allowed: a list of two)");
+  EXPECT_EQ(complaint(R"({"boundary": {"displacement": {"support": "roller"}}})"),
+            "boundary: displacement: support: \"roller\" (allowed: \"full\" or \"normal\")");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact:tip": {"pressure_MPa": 3}}})"),
+            "boundary: contact:tip: pressure_MPa (allowed: on a force boundary)");
+}
+
+TEST_F(SceneFile, LoadStepsAreRead) {
+  EXPECT_EQ(read("{}").equal_steps, 1);
+  EXPECT_EQ(read(R"({"load_steps": 20})").equal_steps, 20);
+  const Scene scene = read(R"({ "load_steps": [
+    { "displacement_mm": [0.02, 0], "body_force_N_per_mm3": [1, 2] },
+    { "clearance_mm": 0.001, "boundary": { "force": { "pressure_MPa": 3 } } } ] })");
+  ASSERT_EQ(scene.later_steps.size(), 2u);
+  EXPECT_EQ(scene.later_steps[0].displacement_mm, Eigen::Vector2d(0.02, 0));
+  EXPECT_EQ(scene.later_steps[0].body_force_N_per_mm3, Eigen::Vector2d(1, 2));
+  EXPECT_FALSE(scene.later_steps[0].clearance_mm);
+  EXPECT_EQ(scene.later_steps[1].clearance_mm, 0.001);
+  EXPECT_FALSE(scene.later_steps[1].displacement_mm);
+  EXPECT_EQ(scene.later_steps[1].boundary.at("force").pressure_MPa.value().at({0, 0}), 3);
+}
+
+TEST_F(SceneFile, ComplaintsOfLoadSteps) {
+  const std::string allowed =
+      " (allowed: a whole number from 1 to 1000, or a list of 1 to 999 steps)";
+  for (const char* wrong : {"0", "1001", "1.5", "[]", "{}", "true", "null"})
+    EXPECT_EQ(complaint(std::string("{\"load_steps\": ") + wrong + "}"),
+              std::string("load_steps: ") + wrong + allowed);
+  EXPECT_EQ(complaint(R"({"load_steps": [3]})"), "load_steps: 1: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"friction": 1}]})"),
+            "load_steps: 2: friction: unknown key (allowed: displacement_mm, "
+            "body_force_N_per_mm3, clearance_mm, boundary)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{}, {"clearance_mm": -1}]})"),
+            "load_steps: 2: clearance_mm: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"displacement_mm": 3}]})"),
+            "load_steps: 1: displacement_mm: 3 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"displacement": {"support": "full"}}}]})"),
+            "load_steps: 1: boundary: displacement: support (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm, clearance_mm)");
+  EXPECT_EQ(
+      complaint(R"({"load_steps": [{"boundary": {"force": {"displacement_mm": [0, 0]}}}]})"),
+      "load_steps: 1: boundary: force: displacement_mm (allowed: on a displacement boundary)");
+}
+
+TEST_F(SceneFile, WallsFacesAndContactGroups) {
+  const Scene scene = read(R"({
+    "wall": {"flat": {"point_mm": [1, 2], "normal": [0, 1]}},
+    "face": {"circle": {"centre_mm": [3, 4], "radius_mm": 5}},
+    "boundary": {"contact:a": {"friction": 0.1, "clearance_mm": 0.2,
+      "wall": {"circle": {"centre_mm": [0, 1], "radius_mm": 2, "bodies": "outside"}},
+      "face": {"polyline": [[0, 0], [1, 1], [2, 1]]}}}})");
+  EXPECT_EQ(std::get<FlatWall>(scene.wall.value()).point_mm, Eigen::Vector2d(1, 2));
+  EXPECT_EQ(std::get<CircularWall>(scene.face.value()).radius_mm, 5);
+  const ContactValues& own = scene.boundary.at("contact:a").contact;
+  EXPECT_EQ(own.friction, 0.1);
+  EXPECT_EQ(own.clearance_mm, 0.2);
+  EXPECT_EQ(std::get<CircularWall>(own.wall.value()).bodies, CircularWall::Bodies::outside);
+  EXPECT_EQ(std::get<PolylineWall>(own.face.value()).points_mm.back(), Eigen::Vector2d(2, 1));
+}
+
+TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
+  const auto folder = file_.parent_path();
+  std::ofstream(folder / "profile.csv") << "x_mm,y_mm\n# lower\n0, 1\r\n\n2 3.5\n";
+  std::ofstream(file_) << R"({"wall": {"polyline": "profile.csv"}})";
+  const airybench::SceneFile given = read_scene_file(file_);
+  EXPECT_EQ(given.definition, R"({"wall":{"polyline":[[0.0,1.0],[2.0,3.5]]}})");
+  const auto& points = std::get<PolylineWall>(given.scene.wall.value()).points_mm;
+  EXPECT_EQ(points, (std::vector<Eigen::Vector2d>{{0, 1}, {2, 3.5}}));
+  std::ofstream(folder / "profile.csv") << "0 1\n2 a\n";
+  const auto said = [&] {
+    try {
+      read_scene_file(file_);
+    } catch (const SceneError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  const std::string named = file_.string() + ": polyline: " + (folder / "profile.csv").string();
+  EXPECT_EQ(said(), named + ":2: '2 a' (allowed: two numbers, x and y in mm)");
+  std::filesystem::remove(folder / "profile.csv");
+  EXPECT_EQ(said(), named + ": cannot be opened: No such file or directory");
+}
+
+TEST_F(SceneFile, ACrownIsTheCataloguesAlone) {
+  std::ofstream(file_) << R"({"friction": 0.1})";
+  const airybench::SceneFile given = read_scene_file(file_), other = on_other_bodies(given);
+  EXPECT_EQ(given.scene.crown_radius_mm, 400);
+  EXPECT_FALSE(other.scene.crown_radius_mm);
+  EXPECT_EQ(other.definition, R"({"friction":0.1,"crown_radius_mm":null})");
+  std::ofstream(file_) << R"({"crown_radius_mm": 7})";
+  EXPECT_EQ(on_other_bodies(read_scene_file(file_)).scene.crown_radius_mm, 7);
+}
+
+TEST_F(SceneFile, ComplaintsOfWalls) {
+  EXPECT_EQ(complaint(R"({"wall": 3})"), "wall: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"wall": {}})"), "wall: {} (allowed: one of flat, circle, polyline)");
+  EXPECT_EQ(complaint(R"({"wall": {"plane": {}}})"),
+            "wall: plane: unknown key (allowed: flat, circle, polyline)");
+  EXPECT_EQ(complaint(R"({"wall": {"flat": {"normal": [0, 1]}}})"),
+            "wall: flat: {\"normal\":[0,1]} (allowed: {\"point_mm\": [x, y], \"normal\": [x, y]}, "
+            "both given)");
+  EXPECT_EQ(complaint(R"({"wall": {"flat": {"point_mm": [0, 0], "normal": [0, 0]}}})"),
+            "wall: flat: normal: [0, 0] (allowed: not zero)");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
+            "wall: circle: {\"centre_mm\":[0,0],\"radius_mm\":1} (allowed: {\"centre_mm\": [x, y], "
+            "\"radius_mm\": ..., \"bodies\": \"inside\" or \"outside\"}, all given)");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"bodies": "between"}}})"),
+            "wall: circle: bodies: \"between\" (allowed: \"inside\" or \"outside\")");
+  EXPECT_EQ(complaint(R"({"wall": {"circle": {"radius_mm": 0}}})"),
+            "wall: circle: radius_mm: 0 (allowed: a number > 0)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0]]}})"),
+            "wall: polyline: 1 point(s) (allowed: at least 2)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], [0, 0]]}})"),
+            "wall: polyline: point 2: [0, 0] again (allowed: different points)");
+  EXPECT_EQ(complaint(R"({"wall": {"polyline": [[0, 0], 1]}})"),
+            "wall: polyline: 1 (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"face": {"circle": {"bodies": "inside"}}})"),
+            "face: circle: bodies: unknown key (allowed: centre_mm, radius_mm)");
+  EXPECT_EQ(complaint(R"({"face": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
+            "face: given without a wall (allowed: beside one)");
+  const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
+  EXPECT_EQ(complaint("{" + wall + R"(, "crown_radius_mm": 3})"),
+            "wall and crown_radius_mm (allowed: one of them)");
+  EXPECT_EQ(complaint(R"({"boundary": {"force": {)" + wall + "}}}"),
+            "boundary: force: wall (allowed: on a contact boundary)");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"friction": -1}}})"),
+            "boundary: contact: friction: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"boundary": {"contact": {"pressure_MPa": 1}}})"),
+            "boundary: contact: pressure_MPa (allowed: on a force boundary)");
+  EXPECT_EQ(complaint(R"({"load_steps": [{"boundary": {"contact": {"friction": 1}}}]})"),
+            "load_steps: 1: boundary: contact: friction (allowed: traction_MPa, pressure_MPa, "
+            "displacement_mm, clearance_mm)");
+}
+
+TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
+  EXPECT_EQ(complaint(R"({"mesh": 3})"), "mesh: 3 (allowed: a JSON object)");
+  EXPECT_EQ(complaint(R"({"mesh": {"turn": 3}})").substr(0, 40),
+            "mesh: turn: unknown key (allowed: refine");
+  EXPECT_EQ(complaint(R"({"mesh": {"refine": 1.5}})"),
+            "mesh: refine: 1.5 (allowed: a whole number from 0 to 6)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"ratio": 10}}})"),
+            "mesh: grade: {\"ratio\":10} (allowed: {\"at_mm\": [x, y], \"ratio\": ...}, both "
+            "given)");
+  EXPECT_EQ(complaint(R"({"mesh": {"grade": {"at_mm": [0, 0], "ratio": 0}}})"),
+            "mesh: grade: ratio: 0 (allowed: >= 1)");
+  EXPECT_EQ(complaint(R"({"mesh": {"stretch": [1, 0]}})"),
+            "mesh: stretch: [1, 0] (allowed: two numbers > 0)");
+  EXPECT_EQ(complaint(R"({"layers": {"normal": [1, 0]}})"),
+            "layers: {\"normal\":[1,0]} (allowed: either count or interfaces_mm)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "materials": [{"poisson": 0.6}]}})"),
+            "layers: materials: poisson: 0.6 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"layers": {"count": 2, "normal": [0, 0]}})"),
+            "layers: normal: [0, 0] (allowed: a direction, not [0, 0])");
+  EXPECT_EQ(complaint(R"({"group": 1})"), "group: 1 (allowed: a text)");
+}
+
+TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
+  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 32), "frction: unknown key (allowed: t");
+  EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
+  EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: >= 0)");
+  EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
+            "poisson: 0.5 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"young_MPa": 0})"), "young_MPa: 0 (allowed: > 0)");
+  EXPECT_EQ(complaint(R"({"plane": "bent"})"),
+            "plane: \"bent\" (allowed: \"strain\" or \"stress\")");
+  EXPECT_EQ(complaint(R"({"teeth": 0})"), "teeth: 0 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"teeth": 1.5})"),
+            "teeth: 1.5 (allowed: a whole number from 1 to 1000000)");
+  EXPECT_EQ(complaint(R"({"length_mm": -2})"), "length_mm: -2 (allowed: a number > 0)");
+  EXPECT_EQ(complaint(R"({"displacement_mm": [1]})"),
+            "displacement_mm: [1] (allowed: two numbers [x, y])");
+  EXPECT_EQ(complaint(R"({"crown_radius_mm": 0})"),
+            "crown_radius_mm: 0 (allowed: > 0, or null for a flat wall)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"nu": 0.3}}})"),
+            "materials: a: nu: unknown key (allowed: young_MPa, poisson)");
+  EXPECT_EQ(complaint(R"({"materials": {"a": {"poisson": 0.7}}})"),
+            "materials: a: poisson: 0.7 (allowed: between -1 and 0.5, both excluded)");
+  EXPECT_EQ(complaint(R"({"friction": 0.2, "friction": 0.3})"), "friction: given twice");
+  EXPECT_EQ(complaint(R"({"friction": 1e400})").substr(0, 30), "not JSON: number overflow pars");
+  EXPECT_EQ(complaint("[]"), "the scene: [] (allowed: a JSON object)");
+  EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
+  EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");
+}
+
+TEST_F(SceneFile, AMissingFileIsNamed) {
+  try {
+    read_scene("no/such/scene.json");
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened: No such file or directory");
+  }
+}
+
+}  // namespace
+}  // namespace airybench::scene_file_test

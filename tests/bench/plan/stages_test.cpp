@@ -1,0 +1,86 @@
+// What a scene does not need is left out, and the plan says so before anything is computed.
+#include "bench/plan/stages.hpp"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "assembly/scene.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::stages_test {
+namespace {
+
+std::map<std::string, std::string> left_out(const Scene& scene, const char* method,
+                                            Mesh mesh = testing::small_tooth(4, 4)) {
+  const Problem problem = pose(scene, std::move(mesh));
+  std::map<std::string, std::string> result;
+  for (const StageDecision& d :
+       decide_stages(problem, select_methods(method).front(), /*fields_asked=*/true))
+    if (!d.run) result[d.stage] = d.reason;
+  return result;
+}
+
+using Expected = std::map<std::string, std::string>;
+
+TEST(Stages, DefaultSceneLeavesOutOnlyWhatItHasNot) {
+  const std::string rigid = "no displacement that strains the body, no body force";
+  EXPECT_EQ(left_out({}, "3STEPD"), (Expected{{"assemble q", rigid},
+                                              {"assemble F", "no traction, no body force"},
+                                              {"assemble F0", "no body force"}}));
+}
+
+TEST(Stages, WithoutFrictionTheTangentialLawGoes) {
+  Scene scene;
+  scene.friction = 0;
+  EXPECT_EQ(left_out(scene, "3STEPD").at("contact: tangential law"),
+            "no friction: tangential forces are prescribed to zero");
+}
+
+TEST(Stages, WithoutContactCondensationAndContactLoopGo) {
+  Mesh mesh = testing::small_tooth(4, 4);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::displacement;
+  const auto gone = left_out({}, "3STEPD", mesh);
+  for (const char* stage : {"assemble C_C", "assemble gap", "contact", "condense: D and G"})
+    EXPECT_EQ(gone.at(stage), "no contact boundary") << stage;
+}
+
+TEST(Stages, WithoutForceBoundaryStepTwoGoes) {
+  Mesh mesh = testing::small_tooth(4, 4);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::displacement;
+  const auto gone = left_out({}, "3STEPD", mesh);
+  EXPECT_EQ(gone.at("condense: eliminate force multipliers"), "no force boundary");
+  EXPECT_EQ(gone.at("assemble C_F"), "no force boundary");
+}
+
+TEST(Stages, ZeroLoadsAreNotAssembled) {
+  Scene scene;
+  scene.displacement_mm.setZero();
+  scene.crown_radius_mm.reset();
+  const auto gone = left_out(scene, "3STEPD");
+  EXPECT_EQ(gone.at("assemble q"), "no displacement that strains the body, no body force");
+  EXPECT_EQ(gone.at("assemble gap"), "the gap is zero");
+}
+
+TEST(Stages, AMethodWithoutAiryFunctionGetsNoAirySystem) {
+  EXPECT_EQ(left_out({}, "HYBRID").at("assemble S"),
+            "the method does not work with the Airy function");
+}
+
+TEST(Stages, OnABodyWithAHoleTheAiryMethodsAreSkipped) {
+  const std::string why =
+      "a body with 1 hole needs a multi-valued Airy function (methods without one: HYBRID, "
+      "HYBRID:CHOLMOD, HYBRID:MUMPS, HYBRID:CG, P2)";
+  for (const Method& method : methods()) {
+    const auto gone = left_out({}, method.name.c_str(), testing::small_plate(1));
+    if (method.blocks == Blocks::airy)
+      EXPECT_EQ(gone, (Expected{{"all stages", why}})) << method.name;
+    else
+      EXPECT_FALSE(gone.contains("all stages")) << method.name;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::stages_test

@@ -1,0 +1,244 @@
+// The studies' plans, records and words.
+#include "bench/plan/study.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+#include "assembly/scene.hpp"
+#include "bench/measure/workbench.hpp"
+#include "bench/plan/blank_record.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/records/record_files.hpp"
+#include "bench/records/record_reader.hpp"
+#include "bench/records/summary.hpp"
+#include "bench/run/runner.hpp"
+#include "mesh/msh_format.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/small_meshes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::study_test {
+namespace {
+
+Method method(const std::string& name) { return select_methods(name).front(); }
+
+std::shared_ptr<const Problem> mesh0() {
+  static const auto problem = testing::posed(Scene(), testing::catalogue_mesh("Mesh0"));
+  return problem;
+}
+
+TEST(Study, PointsTurnTheKnobOfTheMethod) {
+  for (const auto& [name, knob] : {std::pair{"SDTIC6", "tolerance"},
+                                   {"3STEPCG6", "tolerance"},
+                                   {"ALM:r=20,rho=20", "uzawa iterations"}}) {
+    SCOPED_TRACE(name);
+    std::set<double> values;
+    int at_paper_stop = 0;
+    for (const TurnedMethod& point : error_points(method(name))) {
+      EXPECT_EQ(point.method.name, name);
+      EXPECT_EQ(point.method.is_iterative(), method(name).is_iterative());
+      EXPECT_FALSE(point.method.is_tightened());  // the harness shall not tighten it
+      if (point.knob.value) {
+        EXPECT_EQ(point.knob.name, knob);
+        EXPECT_FALSE(point.knob.stop);
+        EXPECT_TRUE(values.insert(*point.knob.value).second);
+      } else {
+        EXPECT_EQ(point.knob.stop, Stop::paper);
+        ++at_paper_stop;
+      }
+    }
+    EXPECT_GE(values.size(), 5u);
+    EXPECT_EQ(at_paper_stop, std::string(name).starts_with("ALM") ? 1 : 0);
+  }
+}
+
+TEST(Study, AnUnparametrisedAlmHasItsOwnAndThePapersStop) {
+  const auto points = error_points(method("ALM"));
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_FALSE(points[0].knob.stop);
+  EXPECT_EQ(points[1].knob.stop, Stop::paper);
+}
+
+TEST(Study, OnlyAMethodWithoutAKnobIsOnePoint) {
+  for (const char* name : {"3STEPD", "BLIND:SCHUR", "HYBRID", "P2"}) {
+    SCOPED_TRACE(name);
+    const auto points = error_points(method(name));
+    ASSERT_FALSE(points.empty());
+    EXPECT_FALSE(points.back().knob.value || points.back().knob.stop);  // the method as it is
+    EXPECT_EQ(points.size() == 1, method(name).knob == AccuracyKnob::none);
+  }
+}
+
+TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
+  const DualSystem system = assemble(mesh0());
+  RunControl control;
+  control.tolerance = 1e-3;
+  std::int64_t before = 0;
+  for (const TurnedMethod& point : error_points(method("SDTIC3"))) {
+    const Solution solution = run(point.method, system, control);
+    ASSERT_TRUE(solution.linear_iterations) << point.knob.name;
+    EXPECT_GT(*solution.linear_iterations, before) << point.knob.name;
+    before = *solution.linear_iterations;
+  }
+}
+
+// Each number of threads is a case that says so; iterative methods are tightened as ever.
+TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases = plan_cases(scenes, select_methods("HYBRID,SDTIC6"), Study::scaling,
+                                Stop::target, ContactSolver::newton, {1, 2, 4});
+  ASSERT_EQ(cases.size(), 6u);
+  EXPECT_EQ(cases[1].name().text(), "Mesh0/default/SDTIC6/study=scaling/threads=2");
+  EXPECT_TRUE(cases[0].method.is_tightened());
+  for (const Case& c : cases) {
+    EXPECT_TRUE(case_name_of(c.name().text())) << c.name().text();
+    EXPECT_EQ(blank_record(c, Options()).threads, c.knob.value);
+    int threads = 0;
+    Method seen = c.method;
+    seen.solve = [&threads](const DualSystem&, const RunControl& control) {
+      threads = control.threads;
+      return Solution();
+    };
+    const TurnedMethod turned = scaling_points(seen, {*c.knob.threads}).front();
+    turned.method.solve(DualSystem(), RunControl());
+    EXPECT_EQ(threads, c.knob.threads);
+  }
+}
+
+TEST(Study, NamesOfCasesAreUnique) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()},
+                                          {"other", "", "", "", "{}", mesh0()}};
+  for (const Study study : all_studies) {
+    const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
+    std::set<std::string> names;
+    for (const Case& c : cases)
+      EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();
+    EXPECT_FALSE(names.empty());
+  }
+}
+
+TEST(Study, DefaultMethodsCanBeSelected) {
+  for (const Study study : {Study::none, Study::error, Study::stability})
+    EXPECT_GE(select_methods(default_methods(study)).size(), 7u);
+}
+
+TEST(Study, LoadStepsGoByTheScenes) {
+  std::vector<std::size_t> steps;
+  for (const std::filesystem::path& file : scenes_of(Study::load_steps))
+    steps.push_back(1 + pose(read_scene(file), testing::small_tooth(4, 4)).later_steps.size());
+  EXPECT_EQ(steps, (std::vector<std::size_t>{1, 2, 5, 10, 20, 50}));
+  EXPECT_EQ(select_methods(default_methods(Study::load_steps)).size(), 6u);
+}
+
+// All solvers of the contact study find the same forces, and say who they are.
+TEST(Study, ContactSolversAgree) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases =
+      plan_cases(scenes, select_methods(default_methods(Study::contact)), Study::contact);
+  ASSERT_EQ(cases.size(), all_contact_solvers.size());
+  Options options;
+  options.study = Study::contact;
+  options.repetitions = 1;
+  Workbench bench(mesh0(), options);
+  for (const Case& c : cases) {
+    const Record record = bench.examine(c.method, {}).record;
+    EXPECT_EQ(outcome_of(record), "ok") << c.name().text();
+    EXPECT_LE(record.error_force, 1e-11) << c.name().text();
+    EXPECT_EQ(record.newton_steps.value_or(0) > 0, c.contact == ContactSolver::newton);
+  }
+}
+
+TEST(Study, OnlyWhatCondensesHasAContactSolver) {
+  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
+  const auto cases = plan_cases(scenes, select_methods("3STEPD,ALM"), Study::none, Stop::target,
+                                ContactSolver::admm);
+  EXPECT_EQ(cases[0].contact, ContactSolver::admm);
+  EXPECT_FALSE(cases[1].contact);
+  EXPECT_EQ(plan_cases(scenes, select_methods("3STEPD"), Study::none, Stop::paper)[0].contact,
+            ContactSolver::gauss_seidel);
+}
+
+TEST(Study, ScenesOfTheAtlasAreSorted) {
+  const auto files = scenes_of(Study::stability);
+  EXPECT_GE(files.size(), 40u);
+  EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
+}
+
+TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
+  Options options;
+  options.study = Study::error;
+  options.repetitions = 1;
+  options.long_case_s = 1e-9;  // the detail run is the timed one, too
+  Workbench bench(mesh0(), options);
+  const TurnedMethod first = error_points(method("ALM:r=20,rho=20")).front();
+  const Record record = bench.examine(first.method, {}).record;
+  EXPECT_EQ(record.status, Status::not_converged);
+  EXPECT_TRUE(is_measured(record));
+  EXPECT_EQ(record.samples_s.size(), 1u);
+  ASSERT_TRUE(is_verified(record));
+  EXPECT_GT(record.error_force.value_or(0), 1e-6);
+  EXPECT_EQ(record.uzawa_iterations, first.knob.value);
+
+  Record ordinary = record;  // elsewhere what has not converged is no measurement
+  ordinary.study.clear();
+  EXPECT_FALSE(is_measured(ordinary));
+}
+
+TEST(Study, OutcomesTellWhoKnewWhat) {
+  Record record;
+  record.status = record.claimed_status.emplace(Status::ok);
+  record.error_stress = 1e-3;
+  EXPECT_EQ(outcome_of(record), "ok");
+  record.status = Status::inaccurate;  // by the verifier, against the method's word
+  EXPECT_EQ(outcome_of(record), "wrong_success");
+  record.error_stress.reset();  // there is no reference
+  EXPECT_EQ(outcome_of(record), "unverified");
+  record.claimed_status = Status::inaccurate;
+  EXPECT_EQ(outcome_of(record), "inaccurate");
+  record.status = record.claimed_status.emplace(Status::breakdown);
+  EXPECT_EQ(outcome_of(record), "breakdown");
+}
+
+Record point_record(const std::string& study, std::optional<double> tolerance) {
+  Record record;
+  record.mesh = "Mesh0";
+  record.scene = "default";
+  record.method = "SDTIC6";
+  record.status = Status::ok;
+  record.study = study;
+  if (tolerance) record.knob = "tolerance";
+  record.knob_value = tolerance;
+  return record;
+}
+
+TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "records.jsonl";
+  const auto append = [&](const Record& record) {
+    RecordFiles(folder.path(), {}, Keep::others).append(record);
+  };
+  const auto count_lines = [&] {
+    std::ifstream in(file);
+    std::string line;
+    int lines = 0;
+    while (std::getline(in, line)) ++lines;
+    return lines;
+  };
+  append(point_record("", {}));
+  append(point_record("error", 1e-2));
+  append(point_record("error", 1e-4));
+  append(point_record("stability", {}));
+  EXPECT_EQ(count_lines(), 4);
+  append(point_record("error", 1e-2));
+  append(point_record("stability", {}));
+  append(point_record("", {}));
+  EXPECT_EQ(count_lines(), 4);
+  EXPECT_EQ(read_records(file).size(), 1u);
+}
+
+}  // namespace
+}  // namespace airybench::study_test

@@ -1,0 +1,351 @@
+// `bench export`: every format is read back, from records made up for what could break it.
+#include <gtest/gtest.h>
+
+#include <boost/property_tree/ptree.hpp>
+#include <boost/property_tree/xml_parser.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <set>
+#include <sstream>
+
+#include "bench/records/csv.hpp"
+#include "bench/records/google_benchmark.hpp"
+#include "bench/records/json.hpp"
+#include "bench/records/numbers.hpp"
+#include "bench/records/record.hpp"
+#include "bench/records/record_reader.hpp"
+#include "bench/records/robust.hpp"
+#include "bench/report/junit.hpp"
+#include "bench/report/tracker_formats.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::export_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TemporaryFolder;
+using testing::write_text;
+
+Json record(const std::string& method, const std::vector<double>& samples_s) {
+  Json json = {{"mesh", "Mesh0"},
+               {"scene", "default"},
+               {"method", method},
+               {"status", samples_s.empty() ? "timeout" : "ok"},
+               {"status_reason", nullptr},
+               {"n_phi", 761},
+               {"threads", 2},
+               {"repetitions", samples_s.size()},
+               {"time_s", nullptr},
+               {"stage_factor_s", 0.25},
+               {"peak_heap_bytes", 1048576},
+               {"linear_iterations", nullptr},
+               {"stop", "target"},
+               {"error_stress", 1e-12},
+               {"error_force", 0.0},
+               {"samples_s", samples_s},
+               {"measured_once", false},
+               {"context", {{"date", "2026-01-02T03:04:05Z"}, {"git_revision", "abc"}}}};
+  if (!samples_s.empty()) json["time_s"] = median(samples_s);
+  return json;
+}
+
+std::vector<Record> records_of(const std::vector<Json>& records) {
+  std::vector<Record> cases;
+  for (const Json& json : records) cases.push_back(record_of(json, "made up"));
+  return cases;
+}
+
+// What breaks quoting in one of the formats, and an "é" of two bytes.
+const std::string awkward = "a \"b\" <c> & 'd', e\n\x01\tf\\ é";
+
+Json awkward_record() {
+  Json json = record("ALM:r=1,rho=2", {});
+  json["scene"] = "wall, <new>";
+  json["status_reason"] = awkward;
+  json["context"]["cpu"] = awkward;
+  return json;
+}
+
+TEST(Exports, NamesTellAllCasesOfAMethodApart) {
+  std::set<std::string> names;
+  for (const Json& change :
+       {Json::object(), Json{{"stop", "paper"}}, Json{{"study", "error"}},
+        Json{{"study", "error"}, {"stop", "paper"}},
+        Json{{"study", "error"}, {"knob", "uzawa iterations"}, {"knob_value", 10}}}) {
+    Json json = record("ALM", {1});
+    json.update(change);
+    names.insert(name_of(record_of(json, "made up")).text());
+  }
+  EXPECT_EQ(names, (std::set<std::string>{"Mesh0/default/ALM", "Mesh0/default/ALM/stop=paper",
+                                          "Mesh0/default/ALM/study=error",
+                                          "Mesh0/default/ALM/study=error/stop=paper",
+                                          "Mesh0/default/ALM/study=error/uzawa_iterations=10"}));
+}
+
+TEST(Exports, TheIntervalIsTheStoredOneElseTheDeviation) {
+  Json json = record("HYBRID", {1, 2, 4});
+  Record stored = record_of(json, "made up");
+  EXPECT_EQ(time_interval(stored).low, 1);  // 2 - 1
+  EXPECT_EQ(time_interval(stored).high, 3);
+  json["time_low_s"] = 1.5;
+  json["time_high_s"] = 2.25;
+  stored = record_of(json, "made up");
+  EXPECT_EQ(time_interval(stored).low, 1.5);
+  EXPECT_EQ(time_interval(stored).high, 2.25);
+}
+
+TEST(Exports, WrongValuesAreNamedWithTheirPlace) {
+  const auto message = [](const char* key, const Json& value) -> std::string {
+    Json json = record("HYBRID", {1});
+    json[key] = value;
+    try {
+      record_of(json, "records.jsonl:3");
+    } catch (const RecordError& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(message("status", 7),
+            "records.jsonl:3: status: 7 (allowed: ok, inaccurate, unstressed, not_converged, "
+            "breakdown, timeout, "
+            "out_of_memory, crashed, machine_fault, skipped)");
+  EXPECT_EQ(message("mesh", nullptr),
+            "records.jsonl:3: mesh: null (allowed: a text that is not empty, without / and control "
+            "characters)");
+  EXPECT_EQ(message("time_s", "1"), "records.jsonl:3: time_s: \"1\" (allowed: a number > 0, null)");
+  EXPECT_EQ(message("samples_s", {1, "x"}),
+            "records.jsonl:3: samples_s: \"x\" (allowed: numbers > 0)");
+  EXPECT_EQ(message("context", {{"cpu", 1}}),
+            "records.jsonl:3: context: {\"cpu\":1} (allowed: an object of texts)");
+}
+
+Json google(const std::vector<Json>& records) {
+  return Json::parse(google_benchmark_json(records_of(records)));
+}
+
+TEST(GoogleBenchmark, ARunPerSampleAndAggregates) {
+  const Json json = google({record("HYBRID", {0.002, 0.004, 0.003})});
+  const Json& runs = json.at("benchmarks");
+  ASSERT_EQ(runs.size(), 7u);
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_EQ(runs[k].at("name"), "Mesh0/default/HYBRID/iterations:1/manual_time");
+    EXPECT_EQ(runs[k].at("run_type"), "iteration");
+    EXPECT_EQ(runs[k].at("repetition_index"), k);
+    EXPECT_EQ(runs[k].at("repetitions"), 3);
+    EXPECT_EQ(runs[k].at("threads"), 2);
+    EXPECT_EQ(runs[k].at("time_unit"), "ms");
+    EXPECT_EQ(runs[k].at("peak_heap_bytes"), 1048576);
+    EXPECT_EQ(runs[k].at("stage_factor_s"), 0.25);
+    EXPECT_FALSE(runs[k].contains("time_s"));
+    EXPECT_FALSE(runs[k].contains("linear_iterations"));
+  }
+  EXPECT_DOUBLE_EQ(runs[1].at("real_time").get<double>(), 4);
+  const double values[] = {3, 3, 1, 1 / 3.0};  // ms, and the fraction
+  const char* names[] = {"mean", "median", "stddev", "cv"};
+  for (int k = 0; k < 4; ++k) {
+    const Json& run = runs[3 + k];
+    EXPECT_EQ(run.at("run_type"), "aggregate");
+    EXPECT_EQ(run.at("aggregate_name"), names[k]);
+    EXPECT_EQ(run.at("aggregate_unit"), k < 3 ? "time" : "percentage");
+    EXPECT_NEAR(run.at("real_time").get<double>(), values[k], 1e-12) << names[k];
+  }
+  EXPECT_EQ(json.at("context").at("date"), "2026-01-02T03:04:05Z");
+  for (const char* key : {"host_name", "num_cpus", "mhz_per_cpu", "caches", "load_avg"})
+    EXPECT_TRUE(json.at("context").contains(key)) << key;
+}
+
+TEST(GoogleBenchmark, OneSampleHasNoAggregates) {
+  const Json json = google({record("HYBRID", {0.5})});
+  ASSERT_EQ(json.at("benchmarks").size(), 1u);
+  EXPECT_EQ(json.at("benchmarks")[0].at("real_time"), 500);
+}
+
+TEST(GoogleBenchmark, CasesWithoutSamplesAreErrors) {
+  const Json json = google({awkward_record()});
+  ASSERT_EQ(json.at("benchmarks").size(), 1u);
+  const Json& run = json.at("benchmarks")[0];
+  EXPECT_EQ(run.at("error_occurred"), true);
+  EXPECT_EQ(run.at("error_message"), "timeout: a \"b\" <c> & 'd', e\n \tf\\ é");
+  EXPECT_EQ(run.at("run_name"), "Mesh0/wall, <new>/ALM:r=1,rho=2/iterations:1/manual_time");
+}
+
+TEST(GoogleBenchmark, NoRecordsAreAnEmptyList) { EXPECT_TRUE(google({}).at("benchmarks").empty()); }
+
+TEST(GithubAction, EntriesHaveTheDocumentedFields) {
+  const Json entries =
+      Json::parse(github_action_json(records_of({record("HYBRID", {1, 2, 4}), awkward_record()})));
+  ASSERT_EQ(entries.size(), 4u + 3u);  // the second has no time
+  std::set<std::string> names;
+  for (const Json& entry : entries) {
+    names.insert(entry.at("name").get<std::string>());
+    EXPECT_TRUE(entry.at("unit").is_string());
+    EXPECT_TRUE(entry.at("value").is_number());
+    EXPECT_TRUE(entry.at("extra").is_string());
+    for (const auto& [key, value] : entry.items())
+      EXPECT_TRUE((std::set<std::string>{"name", "unit", "value", "range", "extra"}).contains(key));
+  }
+  EXPECT_EQ(names.size(), entries.size());
+  EXPECT_EQ(entries[0].at("name"), "Mesh0/default/HYBRID time");
+  EXPECT_EQ(entries[0].at("value"), 2000);
+  EXPECT_EQ(entries[0].at("range"), "1000 to 3000");
+  EXPECT_NE(entries[6].at("extra").get<std::string>().find(awkward), std::string::npos);
+}
+
+TEST(Bencher, MeasuresHaveAValueAndBounds) {
+  Json unmeasured = record("3STEPD", {});
+  for (const char* key : {"peak_heap_bytes", "error_stress", "error_force"})
+    unmeasured[key] = nullptr;
+  const Json all = Json::parse(bencher_json(records_of({record("HYBRID", {1, 2, 4}), unmeasured})));
+  ASSERT_EQ(all.size(), 1u);
+  const Json& measures = all.at("Mesh0/default/HYBRID");
+  EXPECT_EQ(measures.at("latency"),
+            Json({{"value", 2e9}, {"lower_value", 1e9}, {"upper_value", 3e9}}));
+  EXPECT_EQ(measures.at("peak-heap"), Json({{"value", 1048576.0}}));
+  EXPECT_EQ(measures.at("error-stress"), Json({{"value", 1e-12}}));
+  EXPECT_EQ(measures.at("error-force"), Json({{"value", 0.0}}));
+  EXPECT_EQ(bencher_json({}), "{}\n");
+}
+
+TEST(SeriesCsv, ARowPerNumber) {
+  EXPECT_EQ(series_csv({}), "date,revision,mesh,scene,method,stop,quantity,value\n");
+  const std::string text = series_csv(records_of({awkward_record()}));
+  EXPECT_NE(text.find("\n2026-01-02T03:04:05Z,abc,Mesh0,\"wall, <new>\",\"ALM:r=1,rho=2\",target,"
+                      "peak_heap_bytes,1048576\n"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("linear_iterations"), std::string::npos);
+  EXPECT_EQ(text.find("measured_once"), std::string::npos);
+}
+
+// A spreadsheet takes a text that begins so for a formula.
+TEST(Csv, TextsAreNoFormulas) {
+  for (const auto& [scene, cell] : {std::pair("=1+1", "'=1+1"),
+                                    {"+a", "'+a"},
+                                    {"-a", "'-a"},
+                                    {"@SUM(1)", "'@SUM(1)"},
+                                    {"=a,b", "\"'=a,b\""},
+                                    {"'a", "''a"},
+                                    {"-5", "-5"},
+                                    {"a=b", "a=b"}}) {
+    Json json = record("HYBRID", {1});
+    json["scene"] = scene;
+    const std::string expected = std::string("\nMesh0,") + cell + ",HYBRID,";
+    EXPECT_NE(csv_text(records_of({json})).find(expected), std::string::npos) << scene;
+    EXPECT_NE(series_csv(records_of({json})).find(std::string(",Mesh0,") + cell + ",HYBRID,"),
+              std::string::npos)
+        << scene;
+  }
+}
+
+TEST(Junit, StatusesBecomeOutcomes) {
+  std::vector<Json> records = {record("HYBRID", {1, 2, 4}), awkward_record()};
+  for (const char* status :
+       {"inaccurate", "not_converged", "breakdown", "out_of_memory", "crashed", "skipped"}) {
+    records.push_back(record(status, {}));
+    records.back()["status"] = status;
+  }
+  const TemporaryFolder folder;
+  const fs::path file = write_text(folder / "junit.xml", junit_xml(records_of(records)));
+  boost::property_tree::ptree document;
+  read_xml(file.string(), document);
+  const auto& suites = document.get_child("testsuites");
+  ASSERT_EQ(suites.count("testsuite"), 2u);
+  const auto& suite = suites.front().second;
+  EXPECT_EQ(suite.get<std::string>("<xmlattr>.name"), "Mesh0/default");
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.tests")), 7);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.failures")), 3);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.errors")), 2);
+  EXPECT_EQ(std::stoi(suite.get<std::string>("<xmlattr>.skipped")), 1);
+  EXPECT_EQ(std::stod(suite.get<std::string>("testcase.<xmlattr>.time")), 2);
+  const auto& timeout = suites.back().second;
+  EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.type"), "timeout");
+  EXPECT_EQ(timeout.get<std::string>("testcase.error.<xmlattr>.message"),
+            "a \"b\" <c> & 'd', e\n\uFFFD\tf\\ é");
+  const std::string strict =
+      "python3 -c 'import sys, xml.etree.ElementTree as tree; "
+      "tree.parse(sys.argv[1])' '" +
+      file.string() + "'";
+  EXPECT_EQ(std::system(strict.c_str()), 0);
+}
+
+class ExportCommand : public ::testing::Test {
+ protected:
+  int run(const std::string& arguments) {
+    const testing::CommandResult result = bench_.run("export " + arguments);
+    out_ = result.out;
+    err_ = result.err;
+    return result.code;
+  }
+  const testing::BenchCommand bench_;
+  std::string out_, err_;
+};
+
+TEST_F(ExportCommand, WritesEveryFormat) {
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n");
+  for (const char* format : {"google-benchmark", "github-action", "bencher", "csv", "junit"}) {
+    EXPECT_EQ(run(std::string(". --format=") + format), 0) << err_;
+    const std::string printed = out_;
+    EXPECT_NE(printed.find("Mesh0"), std::string::npos) << format;
+    EXPECT_EQ(run(std::string(". --out=file --format=") + format), 0) << err_;
+    EXPECT_EQ(out_, "");
+    EXPECT_EQ(bench_.content("file"), printed);
+  }
+}
+
+TEST_F(ExportCommand, TheSeriesOfAHistoryIsInOrderOfDate) {
+  fs::create_directory(bench_.path("nights"));
+  const auto night = [&](const char* file, const char* date, double peak) {
+    Json one = record("HYBRID", {1});
+    one["peak_heap_bytes"] = peak;
+    one.erase("context");
+    const Json json = {{"format", "airybench-night-1"},
+                       {"date", date},
+                       {"context", {{"git_revision", "r" + std::string(file)}}},
+                       {"noise", {{"samples_s", Json::array()}}},
+                       {"cases", {one}},
+                       {"verdicts", Json::array()},
+                       {"failed", false}};
+    write_text(bench_.path("nights/" + std::string(file) + ".json"), json.dump(1));
+  };
+  night("a", "2026-01-02T00:00:00Z", 2);
+  night("b", "2026-01-01T00:00:00Z", 1);
+  ASSERT_EQ(run(". --format=csv"), 0) << err_;
+  const auto first =
+      out_.find("2026-01-01T00:00:00Z,rb,Mesh0,default,HYBRID,target,peak_heap_bytes,1\n");
+  const auto second =
+      out_.find("2026-01-02T00:00:00Z,ra,Mesh0,default,HYBRID,target,peak_heap_bytes,2\n");
+  EXPECT_LT(first, second);
+  EXPECT_NE(second, std::string::npos) << out_;
+}
+
+TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
+  const auto expect_line = [&](const std::string& arguments, const std::string& line) {
+    EXPECT_EQ(run(arguments + " --out=file"), 2) << arguments;
+    EXPECT_EQ(err_, "bench: " + line + "\n");
+    EXPECT_FALSE(fs::exists(bench_.path("file")));
+  };
+  expect_line("nowhere --format=csv",
+              "nowhere/records.jsonl: no such file (a folder that bench --out wrote has it)");
+  EXPECT_EQ(run(". --format=xml"), 2);
+  EXPECT_NE(err_.find("junit"), std::string::npos) << err_;
+  write_text(bench_.path("records.jsonl"), record("HYBRID", {1}).dump() + "\n{\n");
+  expect_line(
+      ". --format=csv",
+      "./records.jsonl:2: not JSON: parse error at line 1, column 2: syntax error while parsing "
+      "object key - unexpected end of input; expected string literal");
+  Json wrong = record("HYBRID", {1});
+  wrong["status"] = 1;
+  write_text(bench_.path("records.jsonl"), wrong.dump() + "\n");
+  expect_line(". --format=junit",
+              "./records.jsonl:1: status: 1 (allowed: ok, inaccurate, unstressed, not_converged, "
+              "breakdown, timeout, "
+              "out_of_memory, crashed, machine_fault, skipped)");
+  fs::create_directory(bench_.path("nights"));
+  expect_line(". --format=csv",
+              "./nights: no *.json in it (a folder that bench track wrote has them)");
+  write_text(bench_.path("nights/a.json"), "{\"format\": 1}");
+  expect_line(". --format=csv", "./nights/a.json: format: 1 (allowed: \"airybench-night-1\")");
+}
+
+}  // namespace
+}  // namespace airybench::export_test

@@ -1,0 +1,343 @@
+// Predictions from records made up for each rule, and from the committed ones.
+#include "bench/report/prediction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::prediction_test {
+namespace {
+
+using testing::TemporaryFolder;
+using testing::write_text;
+
+struct Size {
+  const char* mesh;
+  int n_phi;
+};
+constexpr Size small = {"Mesh0", 761}, middle = {"Mesh3", 6287}, large = {"Mesh7", 50483};
+
+Record made_up(const std::string& method, const Size& size, double time_s,
+               std::int64_t bytes = 1 << 20) {
+  Record record;
+  record.mesh = size.mesh;
+  record.n_phi = size.n_phi;
+  record.scene = "default";
+  record.method = method;
+  const Method known = select_methods(method).front();
+  record.general_name = known.identity();
+  record.family = known.family;
+  record.iterative = known.is_iterative();
+  record.status = Status::ok;
+  record.stop = Stop::target;
+  record.time_s = time_s;
+  record.peak_heap_bytes = bytes;
+  return record;
+}
+
+Record planned(const std::string& method, const Size& size) {
+  Record record = made_up(method, size, 0);
+  record.time_s.reset();
+  return record;
+}
+
+Prediction predict_one(const Record& c, const std::vector<Record>& records,
+                       const RunLimits& limits = {}) {
+  return forecast({c}, records, limits).cases.front();
+}
+
+TEST(Prediction, TheSameCaseHasItsLatestRecord) {
+  std::vector<Record> records = {made_up("HYBRID", small, 9), made_up("HYBRID", small, 0.5, 1000),
+                                 made_up("HYBRID", middle, 4)};
+  const Prediction p = predict_one(planned("HYBRID", small), records);
+  EXPECT_EQ(p.time_s->value, 0.5);
+  EXPECT_EQ(p.peak_heap_bytes->value, 1000);
+  EXPECT_EQ(p.basis, "measured");
+  EXPECT_EQ(predict_one(planned("HYBRID", {"Mesh0", 700}), records).basis,
+            "2 records, Mesh0..Mesh3")
+      << "another mesh under the same name";
+}
+
+TEST(Prediction, AnAliasIsItsMethod) {
+  const Prediction p =
+      predict_one(planned("SYMMLQ:DTIC3", small), {made_up("SDTIC3", small, 0.25)});
+  EXPECT_EQ(p.time_s->value, 0.25);
+  EXPECT_EQ(
+      predict_one(planned("SYMMLQ:SSOR1", small), {made_up("SYMMLQ:SSOR1.0", small, 0.5)}).basis,
+      "measured");
+}
+
+TEST(Prediction, OtherMeshesGiveAPowerLaw) {
+  const double c = 1e-6;
+  const std::vector<Record> records = {
+      made_up("HYBRID", small, c * small.n_phi, 100 * small.n_phi),
+      made_up("HYBRID", middle, c * middle.n_phi, 100 * middle.n_phi)};
+  const Prediction p = predict_one(planned("HYBRID", large), records);
+  EXPECT_NEAR(p.time_s->value, c * large.n_phi, 1e-9);
+  EXPECT_NEAR(p.peak_heap_bytes->value, 100.0 * large.n_phi, 1e-3);
+  EXPECT_EQ(p.basis, "2 records, Mesh0..Mesh3");
+}
+
+TEST(Prediction, ASceneOfItsOwnComesFirst) {
+  std::vector<Record> records = {made_up("HYBRID", small, 1), made_up("HYBRID", middle, 1)};
+  for (const double factor : {10., 10.})
+    for (Record record : {records[0], records[1]}) {
+      record.scene = "flat";
+      record.time_s = factor;
+      records.push_back(record);
+    }
+  EXPECT_NEAR(predict_one(planned("HYBRID", large), records).time_s->value, 1, 1e-9);
+  Record flat = planned("HYBRID", large);
+  flat.scene = "flat";
+  EXPECT_NEAR(predict_one(flat, records).time_s->value, 10, 1e-9);
+}
+
+TEST(Prediction, OneMeshBorrowsTheExponentOfAll) {
+  const std::vector<Record> records = {made_up("HYBRID", small, 1e-3),
+                                       made_up("BLIND", small, 1e-6 * std::pow(761, 2)),
+                                       made_up("BLIND", middle, 1e-6 * std::pow(6287, 2))};
+  const Prediction p = predict_one(planned("HYBRID", middle), records);
+  EXPECT_NEAR(p.time_s->value, 1e-3 * std::pow(6287. / 761, 2), 1e-9);
+  EXPECT_EQ(p.basis, "1 record, Mesh0, exponent 2.00 of all methods");
+}
+
+TEST(Prediction, WithoutRecordsOfItsOwnTheClosestRelativeServes) {
+  const std::vector<Record> records = {made_up("3STEPD", small, 1),
+                                       made_up("3STEPCG:FLIC5", small, 2),
+                                       made_up("3STEPCG:SKY", small, 3)};
+  const Prediction p = predict_one(planned("3STEPCG:FLIC4", small), records);
+  EXPECT_EQ(p.time_s->value, 2);
+  EXPECT_EQ(p.basis, "like 3STEPCG:FLIC5 with stop target: measured");
+  EXPECT_GT(p.time_s->high, 4 * 2);
+  const Prediction none = predict_one(planned("HYBRID", small), records);
+  EXPECT_FALSE(none.time_s);
+  EXPECT_FALSE(none.run_s);
+  EXPECT_EQ(none.basis, "no record");
+}
+
+TEST(Prediction, AStopIsAnotherCaseUnlessTheMethodHasNone) {
+  Record iterative = made_up("SSKY", small, 1), direct = made_up("3STEPD", small, 2);
+  iterative.stop = direct.stop = Stop::paper;
+  EXPECT_EQ(predict_one(planned("3STEPD", small), {iterative, direct}).basis, "measured");
+  const Prediction p = predict_one(planned("SSKY", small), {iterative, direct});
+  EXPECT_EQ(p.basis, "like SYMMLQ:SKY with stop paper: measured");
+}
+
+TEST(Prediction, AStudysPointIsACaseOfItsOwn) {
+  Record point = made_up("SSKY", small, 1);
+  point.knob = "tolerance";
+  point.knob_value = 0.01;
+  Record c = planned("SSKY", small);
+  EXPECT_NE(predict_one(c, {point}).basis, "measured");
+  c.knob = "tolerance";
+  c.knob_value = 0.01;
+  EXPECT_EQ(predict_one(c, {point}).basis, "measured");
+}
+
+TEST(Prediction, ATimeoutCountsWithItsExtrapolatedTime) {
+  Record stopped = made_up("SSKY", large, 0);
+  stopped.status = Status::timeout;
+  stopped.time_s.reset();
+  stopped.extrapolated_time_s = 5000;
+  RunLimits limits;
+  limits.timeout_s = 900;
+  const Prediction p = predict_one(planned("SSKY", large), {stopped}, limits);
+  EXPECT_EQ(p.time_s->value, 5000);
+  EXPECT_EQ(*p.run_s, 900);
+  EXPECT_EQ(p.timeout, LimitMark::above);
+  EXPECT_EQ(p.basis, "a timeout, extrapolated");
+  EXPECT_GT(p.time_s->high, 3 * 5000);
+  EXPECT_EQ(predict_one(planned("SSKY", middle), {made_up("SSKY", small, 1), stopped}).basis,
+            "2 records, Mesh0..Mesh7, 1 extrapolated");
+  stopped.extrapolated_time_s.reset();
+  EXPECT_FALSE(predict_one(planned("SSKY", large), {stopped}).time_s);
+}
+
+TEST(Prediction, LimitsAreMarked) {
+  RunLimits limits;
+  limits.timeout_s = 1.1;
+  limits.memory_limit_bytes = 1000;
+  const std::vector<Record> records = {made_up("HYBRID", small, 1, 2000)};
+  const Prediction p = predict_one(planned("HYBRID", small), records, limits);
+  EXPECT_EQ(p.timeout, LimitMark::may_pass);
+  EXPECT_EQ(p.memory_limit, LimitMark::above);
+  limits.timeout_s = 100;
+  limits.memory_limit_bytes = 1 << 20;
+  const Prediction within = predict_one(planned("HYBRID", small), records, limits);
+  EXPECT_EQ(within.timeout, LimitMark::below);
+  EXPECT_EQ(within.memory_limit, LimitMark::below);
+}
+
+TEST(Prediction, ACaseCostsWhatTheRunnerRuns) {
+  RunLimits limits;
+  limits.repetitions = 5;
+  limits.long_case_s = 30;
+  limits.timeout_s = 900;
+  EXPECT_DOUBLE_EQ(run_seconds(1, 10, limits), 10 + 7);        // tuning, detail, memory, five
+  EXPECT_DOUBLE_EQ(run_seconds(12, 0, limits), (2 + 3) * 12);  // three reach 30 s
+  EXPECT_DOUBLE_EQ(run_seconds(30, 0, limits), 3 * 30);
+  EXPECT_DOUBLE_EQ(run_seconds(31, 5, limits), 36);         // measured once
+  EXPECT_DOUBLE_EQ(run_seconds(5000, 2000, limits), 1800);  // both end at the limit
+  limits.measures_once = true;
+  EXPECT_DOUBLE_EQ(run_seconds(1, 10, limits), 11);
+}
+
+TEST(Prediction, TuningIsThatOfTheSameRecords) {
+  Record tuned = made_up("ALM", small, 1), other = made_up("ALM", middle, 10);
+  tuned.tuning_s = 40;
+  Prediction p = predict_one(planned("ALM", small), {tuned, other});
+  EXPECT_EQ(p.tuning_s, 40);
+  EXPECT_EQ(*p.run_s, 47);
+  EXPECT_EQ(predict_one(planned("ALM", middle), {tuned, other}).tuning_s, 0);
+  other.tuning_s = 40. * 6287 / 761;
+  p = predict_one(planned("ALM", large), {tuned, other});
+  EXPECT_NEAR(p.tuning_s, 40. * 50483 / 761, 1e-6);
+  Record given = made_up("ALM:r=20,rho=20", small, 2);
+  p = predict_one(planned("ALM:r=20,rho=32", small), {tuned, given});
+  EXPECT_EQ(p.time_s->value, 2);
+  EXPECT_EQ(p.tuning_s, 0) << "of a method that chooses its parameters";
+}
+
+TEST(Prediction, AStudysRecordServesOnlyWhereThereIsNoOther) {
+  Record of_study = made_up("HYBRID", small, 7);
+  of_study.study = "stability";
+  EXPECT_EQ(predict_one(planned("HYBRID", small), {of_study}).time_s->value, 7);
+  const std::vector<Record> both = {made_up("HYBRID", small, 1), of_study};
+  EXPECT_EQ(predict_one(planned("HYBRID", small), both).time_s->value, 1);
+}
+
+TEST(Prediction, ScenesOfOneMeshStandInForEachOther) {
+  Record one = made_up("HYBRID", small, 1), other = made_up("HYBRID", small, 4);
+  one.scene = "flat";
+  other.scene = "steep";
+  const Prediction p = predict_one(planned("HYBRID", small), {one, other});
+  EXPECT_NEAR(p.time_s->value, 2, 1e-12);
+  EXPECT_LT(p.time_s->low, 0.5);
+  EXPECT_GT(p.time_s->high, 8);
+  EXPECT_EQ(p.basis, "2 records, Mesh0");
+}
+
+TEST(Prediction, FarExtrapolationsStillFitTheTable) {
+  std::vector<Record> records = {made_up("SSKY", {"A", 10}, 1e-9, 1),
+                                 made_up("SSKY", {"B", 11}, 1e9, std::int64_t{1} << 60)};
+  const std::vector<Record> cases = {planned("SSKY", large)};
+  const std::string table = prediction_table(cases, forecast(cases, records, {}), {});
+  EXPECT_NE(table.find("Mesh7/default/SSKY: above --timeout=900"), table.npos) << table;
+}
+
+TEST(Prediction, TheTableHasTotalsAndLimits) {
+  RunLimits limits;
+  limits.timeout_s = 50;
+  const std::vector<Record> cases = {planned("HYBRID", small), planned("3STEPD", small),
+                                     planned("SSKY", small)};
+  const Forecast f = forecast(
+      cases, {made_up("HYBRID", small, 0.002), made_up("3STEPD", small, 60, 3 << 20)}, limits);
+  ASSERT_TRUE(f.references_s);
+  const std::string table = prediction_table(cases, f, limits);
+  for (const char* part :
+       {"case                  n_phi", "2 ms", "measured", "no record", "the run: about 50 s",
+        "without 1 of 3 cases", "largest heap 3.0 MiB, Mesh0/default/3STEPD",
+        "Mesh0/default/3STEPD: above --timeout=50\n"})
+    EXPECT_NE(table.find(part), table.npos) << part << "\n" << table;
+}
+
+TEST(PastRecords, MissingFoldersArePassedOverAndTheLatestComesLast) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "new");
+  std::filesystem::create_directories(folder / "old");
+  std::filesystem::create_directories(folder / "broken");
+  const auto line = [](const char* method, const char* date) {
+    return std::string(R"({"mesh":"Mesh0","scene":"default","method":")") + method +
+           R"(","status":"ok","n_phi":761,"time_s":1,"study":"error","knob":"tolerance",)" +
+           R"("knob_value":0.01,"context":{"date":")" + date + "\"}}\n";
+  };
+  write_text(folder / "new/records.jsonl", line("A", "2026-11-21T11:28:12Z"));
+  write_text(folder / "old/records.jsonl", line("B", "2026-10-01T00:00:00Z"));
+  write_text(folder / "broken/records.jsonl", "{\"mesh\":\n");
+  const PastRecords past =
+      read_past_records({folder / "new", folder / "missing", folder / "old", folder / "broken"});
+  ASSERT_EQ(past.records.size(), 2u);
+  EXPECT_EQ(past.records[0].method, "B");
+  EXPECT_EQ(past.records[1].method, "A");
+  EXPECT_EQ(past.records[1].n_phi, 761);
+  EXPECT_EQ(past.records[1].knob, "tolerance");
+  EXPECT_EQ(past.records[1].knob_value, 0.01);
+  ASSERT_EQ(past.passed_over.size(), 1u);
+  EXPECT_NE(past.passed_over[0].find("records.jsonl:1: not JSON"), std::string::npos);
+}
+
+TEST(PastRecords, ValuesThatCannotBeAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* wrong : {R"("n_phi":-1)", R"("n_phi":2.5)", R"("knob":3)", R"("knob_value":-1)",
+                            R"("context":3)", R"("context":{"date":3})"}) {
+    write_text(
+        folder / "records.jsonl",
+        std::string(R"({"mesh":"M","scene":"s","method":"m","status":"ok",)") + wrong + "}\n");
+    EXPECT_EQ(read_past_records({folder.path()}).passed_over.size(), 1u) << wrong;
+  }
+}
+
+TEST(PastRecords, TheCommittedOnesAreThoseThatTellOfTheCases) {
+  const TemporaryFolder folder;
+  Record planned;
+  planned.mesh = "Mesh0";
+  planned.method = planned.general_name = "P2";
+  const auto known = [&](const char* scene) {
+    planned.scene = scene;
+    const PastRecords past = read_committed_records({planned}, folder.path());
+    EXPECT_TRUE(past.passed_over.empty());
+    return std::any_of(past.records.begin(), past.records.end(), [&](const Record& record) {
+      return record.scene == planned.scene && record.method == planned.method;
+    });
+  };
+  EXPECT_TRUE(known("default"));
+  EXPECT_TRUE(known("layers_1e8"));
+  EXPECT_FALSE(known("nobody's"));
+}
+
+// Each mesh from the smaller ones, as when a series of runs goes up in size.
+struct CommittedFolder {
+  const char* name;
+  int least_predicted;  // cases of direct methods from Mesh5 on
+};
+class CommittedRecords : public ::testing::TestWithParam<CommittedFolder> {};
+
+TEST_P(CommittedRecords, DirectMethodsArePredictedFromSmallerMeshes) {
+  const PastRecords past = read_past_records({testing::results_folder() / GetParam().name});
+  ASSERT_TRUE(past.passed_over.empty()) << past.passed_over.front();
+  int predicted = 0, within = 0;
+  for (const Record& held_out : past.records) {
+    if (held_out.iterative || held_out.mesh < "Mesh5") continue;
+    std::vector<Record> smaller = past.records;
+    std::erase_if(smaller, [&](const Record& r) { return r.n_phi >= held_out.n_phi; });
+    const Prediction p = predict_one(held_out, smaller);
+    ASSERT_TRUE(p.time_s && p.peak_heap_bytes);
+    const double factor = p.time_s->value / *held_out.time_s;
+    const double heap_factor =
+        p.peak_heap_bytes->value / static_cast<double>(*held_out.peak_heap_bytes);
+    const std::string name = held_out.mesh + " " + held_out.method;
+    // Refined twice it is sixteen times as large as the largest of the series: by its interval
+    // only.
+    if (held_out.mesh.find('+') == std::string::npos) {
+      EXPECT_LT(std::abs(std::log(factor)), std::log(2)) << name << ": " << factor;
+      EXPECT_LT(std::abs(std::log(heap_factor)), std::log(1.5)) << name << ": " << heap_factor;
+    }
+    ++predicted;
+    within += p.time_s->low <= *held_out.time_s && *held_out.time_s <= p.time_s->high;
+    RecordProperty(name, std::to_string(factor));
+  }
+  EXPECT_GE(predicted, GetParam().least_predicted);
+  EXPECT_GE(within, 0.9 * predicted);
+}
+INSTANTIATE_TEST_SUITE_P(Folders, CommittedRecords,
+                         ::testing::Values(CommittedFolder{"paper", 18},
+                                           CommittedFolder{"direct", 24}),
+                         [](const auto& folder) { return std::string(folder.param.name); });
+
+}  // namespace
+}  // namespace airybench::prediction_test

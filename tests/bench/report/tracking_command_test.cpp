@@ -1,0 +1,181 @@
+// `bench compare` and `bench track` as a user calls them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "bench/records/record.hpp"
+#include "bench/report/history.hpp"
+#include "tests/support/bench_command.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::tracking_command_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TrackingCommand : public ::testing::Test {
+ protected:
+  using Result = testing::CommandResult;
+  Result run(const std::string& arguments) { return bench_.run(arguments); }
+  // A results folder with one case.
+  void write_run(const std::string& name, double time_s, const std::string& date,
+                 int iterations = 10, const std::string& threads = "1") {
+    Json samples = Json::array();
+    for (int i = 0; i < 9; ++i) samples.push_back(time_s * (1 + 0.001 * i));
+    const Json json = {
+        {"mesh", "Mesh0"},
+        {"scene", "default"},
+        {"method", "ALM"},
+        {"stop", "target"},
+        {"status", "ok"},
+        {"samples_s", samples},
+        {"time_s", samples[4]},
+        {"linear_iterations", iterations},
+        {"context", {{"cpu", "C"}, {"cpus", "2"}, {"threads", threads}, {"date", date}}}};
+    fs::create_directories(bench_.path(name));
+    testing::write_text(bench_.path(name + "/records.jsonl"), json.dump() + "\n");
+  }
+  void expect_refused(const std::string& arguments, const std::string& part) {
+    const Result result = run(arguments);
+    EXPECT_EQ(result.code, 2) << arguments;
+    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_EQ(result.out, "") << arguments;
+  }
+
+  const testing::BenchCommand bench_;
+};
+
+TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
+  std::string a, b;
+  for (int run = 1; run <= 4; ++run) {
+    const std::string number = std::to_string(run), hour = "2026-11-21T0" + number;
+    write_run("a," + number, 1 + 0.001 * run, hour + ":00:00Z");
+    write_run("b" + number, 1.2 + 0.001 * run, hour + ":30:00Z");
+    a += (a.empty() ? "" : ",") + ("a\\," + number);
+    b += (b.empty() ? "b" : ",b") + number;
+  }
+  a = "'" + a + "' ";
+  const Result worse = run("compare " + a + b + " --out=c.json");
+  EXPECT_EQ(worse.code, 1) << worse.err;
+  EXPECT_NE(worse.out.find("slower"), std::string::npos) << worse.out;
+  EXPECT_EQ(Json::parse(bench_.content("c.json"))["cases"][0]["verdict"], "slower");
+  EXPECT_EQ(run("compare " + b + " " + a).code, 0);
+  EXPECT_EQ(run("compare " + a + b + " --minimum-effect=30").code, 0);
+  EXPECT_EQ(run("compare b1 b2 --out=c.md").code, 0);
+  EXPECT_NE(bench_.content("c.md").find("| not separated: one run each |"), std::string::npos);
+  expect_refused("compare b1,b2,b1 b3", "b1/records.jsonl: the same run as b1");
+  write_run("other", 1, "2026-11-21T09:00:00Z", 10, "2");
+  expect_refused(
+      "compare b1,other b3",
+      "other/records.jsonl: another program or other settings than of b1: threads: 1 and 2");
+}
+
+TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  expect_refused("compare a none", "none/records.jsonl: no such file");
+  expect_refused("compare a", "B");
+  expect_refused("compare a a --out=c.txt", "allowed: a name that ends in .md or .json");
+  expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
+  fs::create_directories(bench_.path("empty"));
+  testing::write_text(bench_.path("empty/records.jsonl"), "");
+  expect_refused("compare a empty", "no case is in both");
+}
+
+// What the page has a label for.
+TEST_F(TrackingCommand, NightsHaveEveryQuantityOfThePage) {
+  std::vector<std::string> keys;
+  for (const Field& field : record_fields())
+    if (*field.label != '\0') keys.push_back(field.name);
+  EXPECT_GE(keys.size(), 18u);
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  Json record = Json::parse(bench_.content("a/records.jsonl"));
+  for (std::size_t k = 0; k < keys.size(); ++k) record[keys[k]] = k + 1;
+  testing::write_text(bench_.path("a/records.jsonl"), record.dump() + "\n");
+  ASSERT_EQ(run("track --history=h --from=a").code, 0);
+  const Json night = Json::parse(bench_.content("h/nights/2026-11-21T030000Z.json"));
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    EXPECT_EQ(night.at("cases")[0].at(keys[k]), k + 1) << keys[k];
+}
+
+TEST_F(TrackingCommand, TrackAddsNightsAndJudgesThem) {
+  write_run("a", 1, "2026-11-21T03:00:00Z");
+  const Result first = run("track --history=h --from=a");
+  EXPECT_EQ(first.code, 0) << first.err;
+  EXPECT_NE(first.out.find("nothing is worse"), std::string::npos) << first.out;
+  EXPECT_TRUE(fs::exists(bench_.path("h/nights/2026-11-21T030000Z.json")));
+  expect_refused("track --history=h --from=a", "already in the history");
+  EXPECT_EQ(Json::parse(bench_.content("h/nights/2026-11-21T030000Z.json")).at("times_judged"),
+            false);
+  write_run("b", 1, "2026-11-22T03:00:00Z", 12);
+  const Result second = run("track --history=h --from=b");
+  EXPECT_EQ(second.code, 1);
+  EXPECT_NE(second.out.find("worse    Mesh0/default/ALM: linear_iterations was 10 and is 12"),
+            std::string::npos)
+      << second.out;
+  const std::string night = bench_.content("h/nights/2026-11-22T030000Z.json");
+  EXPECT_EQ(Json::parse(night)["failed"], true);
+  EXPECT_EQ(run("track --history=h --judge-only").code, 1);
+  EXPECT_EQ(bench_.content("h/nights/2026-11-22T030000Z.json"), night);
+}
+
+TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
+  write_run("a", 1, "yesterday");
+  expect_refused("track --history=h --judge-only", "h: no nights");
+  expect_refused("track --history=h --from=a", "a/records.jsonl:1: context: date: \"yesterday\"");
+  expect_refused("track --history=h --from=none", "none/records.jsonl: no such file");
+  expect_refused("track --history=h --from=a --mesh=Mesh0", "--mesh=Mesh0: not with --from");
+  expect_refused("track --history=h --out=x", "--out: not with bench track");
+  EXPECT_FALSE(fs::exists(bench_.path("h")));
+  fs::create_directories(bench_.path("h/nights"));
+  testing::write_text(bench_.path("h/nights/2026-11-21T030000Z.json"), "{\"format\"");
+  write_run("b", 1, "2026-11-21T03:00:00Z");
+  expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
+}
+
+TEST(Nights, ThatAreWrongAreNamedByFileKeyAndValue) {
+  const Json good = Json::parse(testing::text_of(testing::test_data("fuzz/night/good-one")));
+  const std::string longish(5000, 'x');
+  for (const auto& [path, value, named] :
+       {std::tuple<const char*, Json, const char*>("/format", 1, "n.json: format: 1 (allowed: \""),
+        {"/format", longish, "n.json: format: \"xxx"},
+        {"/date", 7, "n.json: date: 7 (allowed: a text)"},
+        {"/date", "yesterday", "n.json: date: \"yesterday\" (allowed: as 2026-11-21T03:00:00Z)"},
+        {"/context", {{"cpu", 3}}, "n.json: context: {\"cpu\":3} (allowed: an object of texts)"},
+        {"/noise", 3, "n.json: noise: 3 (allowed: a JSON object)"},
+        {"/noise/samples_s", "fast", "n.json: noise: samples_s: \"fast\" (allowed: a list of"},
+        {"/cases", nullptr, "n.json: cases: null (allowed: a list)"},
+        {"/cases/0/n_phi", "many", "n.json: case 1: n_phi: \"many\" (allowed: a whole number"},
+        {"/verdicts/0", 3, "n.json: verdict 1: 3 (allowed: a JSON object)"},
+        {"/verdicts/0/lane", longish, "n.json: verdict 1: lane: \"xxx"},
+        {"/verdicts/0/kind", "odd", "n.json: verdict 1: kind: \"odd\" (allowed: worse, better, ch"},
+        {"/verdicts/0/ratio", "2", "n.json: verdict 1: ratio: \"2\" (allowed: a number, null)"},
+        {"/failed", "no", "n.json: failed: \"no\" (allowed: true, false)"}}) {
+    Json night = good;
+    night[Json::json_pointer(path)] = value;
+    try {
+      parse_night(night.dump(), "n.json");
+      ADD_FAILURE() << path << ": taken";
+    } catch (const RecordError& error) {
+      EXPECT_EQ(std::string(error.what()).find(named), 0u) << error.what();
+      EXPECT_LT(std::string(error.what()).size(), 250u);
+    }
+  }
+}
+
+TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
+  const Result result = run("track --history=h --mesh=Mesh0 --method=HYBRID --repetitions=2");
+  EXPECT_EQ(result.code, 0) << result.err;
+  ASSERT_TRUE(fs::exists(bench_.path("h/nights")));
+  const Json night =
+      Json::parse(testing::text_of(fs::directory_iterator(bench_.path("h/nights"))->path()));
+  EXPECT_EQ(night["format"], "airybench-night-1");
+  EXPECT_EQ(night["cases"][0]["method"], "HYBRID");
+  EXPECT_EQ(night["cases"][0]["samples_s"].size(), 2u);
+  EXPECT_EQ(night["failed"], false);
+}
+
+}  // namespace
+}  // namespace airybench::tracking_command_test

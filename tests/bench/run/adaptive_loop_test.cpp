@@ -1,0 +1,232 @@
+// The adaptive loop: what it reaches, how fast the error falls, and how it ends when it cannot.
+#include "bench/run/adaptive_loop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "support/errors.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::adaptive_loop_test {
+namespace {
+
+Method hybrid() { return select_methods("HYBRID").front(); }
+
+AdaptiveSettings until(std::optional<double> error, std::optional<int> unknowns = {}) {
+  AdaptiveSettings settings;
+  settings.goals = {{error, unknowns}};
+  return settings;
+}
+
+std::vector<AdaptiveLevel> levels_of(AdaptiveLoop& loop) {
+  std::vector<AdaptiveLevel> levels;
+  while (auto level = loop.next()) levels.push_back(std::move(*level));
+  return levels;
+}
+
+TEST(AdaptiveLoop, EndsAtTheFirstLevelBelowTheError) {
+  const Mesh mesh = testing::small_tooth(6, 5);
+  AdaptiveLoop loop({}, mesh, hybrid(), until(0.02));
+  const std::vector<AdaptiveLevel> levels = levels_of(loop);
+  EXPECT_TRUE(loop.reached());
+  EXPECT_EQ(loop.why_ended(), "");
+  ASSERT_GT(levels.size(), 2u);
+  EXPECT_EQ(levels.front().mesh.triangles, mesh.triangles);
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    const AdaptiveLevel& level = levels[k];
+    EXPECT_EQ(level.number, static_cast<int>(k));
+    EXPECT_EQ(*level.error <= 0.02, k + 1 == levels.size());
+    EXPECT_EQ(level.unknowns, mesh_sizes(level.mesh).n_phi);
+    EXPECT_GE(level.smallest_angle_deg, 0.5 * levels.front().smallest_angle_deg);
+    EXPECT_GT(level.estimate_s, 0);
+    EXPECT_LT(level.estimate_s, level.time_s);
+    testing::expect_same_body(level.mesh, mesh);
+    if (k > 0) {
+      EXPECT_GT(level.unknowns, levels[k - 1].unknowns);
+      EXPECT_GT(level.time_s, levels[k - 1].time_s);
+    }
+  }
+}
+
+TEST(AdaptiveLoop, EndsAtTheFirstLevelWithSoManyUnknowns) {
+  AdaptiveLoop loop({}, testing::small_tooth(6, 5), hybrid(), until({}, 1000));
+  const std::vector<AdaptiveLevel> levels = levels_of(loop);
+  EXPECT_TRUE(loop.reached());
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    EXPECT_EQ(levels[k].unknowns >= 1000, k + 1 == levels.size());
+}
+
+TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
+  AdaptiveSettings settings = until(0.03);
+  settings.goals.push_back({0.01, {}});
+  settings.goals.push_back({{}, 5000});
+  AdaptiveLoop loop({}, testing::small_tooth(6, 5), hybrid(), settings);
+  const std::vector<AdaptiveLevel> levels = levels_of(loop);
+  EXPECT_TRUE(loop.reached());
+  std::vector<AdaptiveLevel> reaching;
+  for (const AdaptiveLevel& level : levels)
+    if (level.reaches_goal) reaching.push_back(level);
+  ASSERT_EQ(reaching.size(), 3u);
+  EXPECT_LE(*reaching[0].error, 0.03);
+  EXPECT_GT(*reaching[0].error, 0.01);
+  EXPECT_LE(*reaching[1].error, 0.01);
+  EXPECT_LT(reaching[1].unknowns, 5000);
+  EXPECT_GE(reaching[2].unknowns, 5000);
+  EXPECT_EQ(reaching[2].number, levels.back().number);
+}
+
+// By expectation there are fewer levels than with bulk marking, and the meshes are as good.
+TEST(AdaptiveLoop, WhatIsExpectedOfTheErrorSavesLevels) {
+  const Mesh mesh = testing::catalogue_mesh("Mesh0");
+  constexpr double goal = 0.002;
+  AdaptiveLoop expected({}, mesh, hybrid(), until(goal));
+  AdaptiveSettings settings = until(goal);
+  settings.marking = 0.75;
+  AdaptiveLoop marked({}, mesh, hybrid(), settings);
+  const std::vector<AdaptiveLevel> few = levels_of(expected), many = levels_of(marked);
+  EXPECT_TRUE(expected.reached() && marked.reached());
+  EXPECT_LT(few.size(), many.size());
+  EXPECT_LT(*few.back().error * few.back().unknowns,
+            1.15 * *many.back().error * many.back().unknowns);
+  const auto sum = [](const std::vector<AdaptiveLevel>& levels) {
+    std::int64_t unknowns = 0;
+    for (const AdaptiveLevel& level : levels) unknowns += level.unknowns;
+    return unknowns;
+  };
+  EXPECT_LT(sum(few), 0.8 * static_cast<double>(sum(many)));
+}
+
+// An L of two materials that presses its foot against the wall.
+Mesh corner_piece() {
+  Mesh mesh = testing::small_block(8, 8, 0);
+  Mesh piece = mesh;
+  piece.name = "L";
+  piece.triangles.clear();
+  piece.triangle_body.clear();
+  piece.boundary.clear();
+  piece.body_names = {"upright", "foot"};
+  const auto is_there = [&](const std::array<int, 3>& t) {
+    const Eigen::Vector2d x = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
+    return x.x() < 5 || x.y() < 5;
+  };
+  for (const auto& t : mesh.triangles)
+    if (is_there(t)) {
+      piece.triangles.push_back(t);
+      piece.triangle_body.push_back(
+          mesh.vertices[t[0]].x() + mesh.vertices[t[1]].x() + mesh.vertices[t[2]].x() > 15);
+    }
+  return piece;
+}
+
+// The body as a mesh: vertices that are used, a boundary by where an edge is.
+Mesh with_boundary(Mesh mesh) {
+  std::vector<int> number(mesh.vertices.size(), -1);
+  std::vector<Eigen::Vector2d> used;
+  for (auto& t : mesh.triangles)
+    for (int& v : t) {
+      if (number[v] < 0) {
+        number[v] = static_cast<int>(used.size());
+        used.push_back(mesh.vertices[v]);
+      }
+      v = number[v];
+    }
+  mesh.vertices = used;
+  std::map<std::array<int, 2>, int> sides;
+  for (const auto& t : mesh.triangles)
+    for (int k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
+  for (const auto& [side, count] : sides) {
+    if (sides.contains({side[1], side[0]})) continue;
+    const Eigen::Vector2d middle = (mesh.vertices[side[0]] + mesh.vertices[side[1]]) / 2;
+    mesh.boundary.push_back({side, middle.y() > 9.99   ? BoundaryRole::displacement
+                                   : middle.x() > 9.99 ? BoundaryRole::contact
+                                                       : BoundaryRole::force});
+  }
+  validate(mesh);
+  return mesh;
+}
+
+// The singular corners of tooth and L cost nothing: e ~ N^-1, from 3 % on.
+TEST(AdaptiveLoop, TheErrorFallsWithTheInverseOfTheUnknowns) {
+  Scene of_corner_piece;
+  of_corner_piece.materials = {{"upright", {70000, 0.33}}, {"foot", {210000, 0.3}}};
+  const std::vector<std::pair<Scene, Mesh>> bodies = {
+      {{}, testing::catalogue_mesh("Mesh0")}, {of_corner_piece, with_boundary(corner_piece())}};
+  for (const auto& [scene, mesh] : bodies) {
+    AdaptiveLoop loop(scene, mesh, hybrid(), until(0.003));
+    const std::vector<AdaptiveLevel> levels = levels_of(loop);
+    ASSERT_TRUE(loop.reached()) << loop.why_ended();
+    const AdaptiveLevel& fine = levels.back();
+    const auto coarse = std::ranges::find_if(
+        levels, [](const AdaptiveLevel& level) { return *level.error < 0.03; });
+    const double slope = std::log(*fine.error / *coarse->error) /
+                         std::log(static_cast<double>(fine.unknowns) / coarse->unknowns);
+    EXPECT_LT(slope, -0.9) << mesh.name;
+  }
+}
+
+TEST(AdaptiveLoop, EnergiesOfAllLevelsAreBracketedAndTheBoundIsNearP2s) {
+  Scene scene;
+  scene.friction = 0;
+  AdaptiveLoop loop(scene, testing::catalogue_mesh("Mesh0"), hybrid(), until(0.006));
+  double highest_lower = -1e9, lowest_upper = 1e9;
+  for (const AdaptiveLevel& level : levels_of(loop)) {
+    const DualSystem system = assemble(testing::posed(scene, level.mesh), Blocks::contact_points);
+    const Solution own = run(hybrid(), system, {}),
+                   p2 = run(select_methods("P2").front(), system, {});
+    const ConstitutiveError error =
+        constitutive_error(system, own.stress, own.F_C,
+                           recovered_displacement(system, own.stress, own.F_C, own.edge_moments));
+    EXPECT_TRUE(error.guaranteed) << error.flaw;
+    EXPECT_EQ(error.relative, *level.error);
+    EXPECT_LE(error.relative,
+              1.2 * constitutive_error(system, own.stress, own.F_C, p2.displacement).relative)
+        << level.number;
+    highest_lower = std::max(highest_lower, error.lower_bound_Nmm);
+    lowest_upper = std::min(lowest_upper, error.upper_bound_Nmm);
+    EXPECT_LE(highest_lower, lowest_upper) << level.number;
+  }
+}
+
+TEST(AdaptiveLoop, SaysWhyItEndsBefore) {
+  const Mesh mesh = testing::small_tooth(6, 5);
+#ifndef AIRYBENCH_SANITIZED  // no limit on the heap there
+  AdaptiveSettings little_memory = until(0.001);
+  little_memory.memory_limit_bytes = 100'000;
+  AdaptiveLoop starved({}, mesh, hybrid(), little_memory);
+  EXPECT_FALSE(starved.next());
+  EXPECT_FALSE(starved.reached());
+  EXPECT_NE(starved.why_ended().find("out_of_memory"), std::string::npos) << starved.why_ended();
+#endif
+
+  Scene at_rest;
+  at_rest.displacement_mm = {-1, 0};  // away from the wall
+  AdaptiveLoop done(at_rest, mesh, hybrid(), until({}, 5000));
+  EXPECT_TRUE(done.next());
+  EXPECT_FALSE(done.next());
+  EXPECT_NE(done.why_ended().find("the error is zero"), std::string::npos) << done.why_ended();
+
+  // Γ_D is pushed through the wall where it ends on Γ_C.
+  Scene through;
+  through.mesh.keep_force_edges = 0;
+  Problem posed = pose(through, mesh);
+  AdaptiveLoop flawed({}, posed.mesh, hybrid(), until(0.001));
+  const std::optional<AdaptiveLevel> level = flawed.next();
+  ASSERT_TRUE(level);
+  EXPECT_FALSE(level->error);
+  EXPECT_NE(flawed.why_ended().find("through the wall"), std::string::npos) << flawed.why_ended();
+  EXPECT_FALSE(flawed.next());
+}
+
+TEST(AdaptiveLoop, AMethodWithoutEdgeDisplacementsIsRefused) {
+  AdaptiveLoop loop({}, testing::small_tooth(6, 5), select_methods("P2").front(), until(0.01));
+  EXPECT_THROW(loop.next(), UsageError);
+}
+
+}  // namespace
+}  // namespace airybench::adaptive_loop_test

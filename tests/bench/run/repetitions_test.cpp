@@ -1,0 +1,100 @@
+// --precision: how often a case is timed, decided from made-up samples; what the record then says.
+#include <gtest/gtest.h>
+
+#include "bench/records/summary.hpp"
+#include "bench/run/repetitions.hpp"
+#include "tests/support/bench_command.hpp"
+
+namespace airybench::repetitions_test {
+namespace {
+
+Record timed(std::vector<double> samples_s) {
+  Record record;
+  record.status = Status::ok;
+  record.samples_s = std::move(samples_s);
+  return record;
+}
+
+Options precise(double share) {
+  Options options;
+  options.precision = share;
+  return options;
+}
+
+TEST(Repetitions, AreThoseAskedForWithoutPrecision) {
+  const Options options;
+  EXPECT_EQ(most_repetitions(options), 5);
+  EXPECT_TRUE(is_repeated(timed({}), options));
+  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1}), options));
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1}), options));
+}
+
+TEST(Repetitions, GoOnUntilTheMedianIsPreciseEnough) {
+  const Options options = precise(0.02);
+  EXPECT_EQ(least_repetitions(options), 6);
+  EXPECT_TRUE(is_repeated(timed({1, 1, 1, 1, 1}), options));      // no interval
+  EXPECT_FALSE(is_repeated(timed({1, 1, 1, 1, 1, 1}), options));  // ± 0
+  EXPECT_FALSE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.02}), precise(0.0201)));
+  EXPECT_TRUE(is_repeated(timed({0.98, 1, 1, 1, 1, 1.03}), options));
+  // From nine samples on the outermost are outside.
+  EXPECT_FALSE(is_repeated(timed({0.5, 1, 1, 1, 1, 1, 1, 1, 9}), options));
+}
+
+TEST(Repetitions, HaveALeastNumberAndAnEndOnANoisyMachine) {
+  Options options = precise(0.02);
+  options.repetitions = 8;
+  EXPECT_TRUE(is_repeated(timed(std::vector<double>(7, 1.0)), options));
+  EXPECT_FALSE(is_repeated(timed(std::vector<double>(8, 1.0)), options));
+  options.max_repetitions = 10;
+  EXPECT_EQ(most_repetitions(options), 10);
+  EXPECT_TRUE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1}), options));
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1, 2, 1, 2}), options));
+  options.long_case_s = 10;
+  EXPECT_FALSE(is_repeated(timed({1, 2, 1, 2, 1, 2, 1}), options));
+  Record once = timed({1});
+  once.measured_once = true;
+  EXPECT_FALSE(is_repeated(once, options));
+}
+
+TEST(Precision, IsJudgedInTheRecord) {
+  Record record = timed({0.98, 1, 1, 1, 1, 1.04});
+  summarise(record);
+  EXPECT_EQ(record.time_ci_low_s, 0.98);
+  EXPECT_EQ(record.time_ci_high_s, 1.04);
+  EXPECT_FALSE(record.precision_reached);  // none asked for
+  for (const auto& [share, reached] : {std::pair(0.05, true), {0.03, false}}) {
+    record.precision = share;
+    summarise(record);
+    EXPECT_EQ(record.precision_reached, reached) << share;
+  }
+  record.samples_s.pop_back();
+  record.precision = 0.5;
+  summarise(record);
+  EXPECT_FALSE(record.time_ci_low_s);
+  EXPECT_FALSE(record.precision_reached);
+}
+
+// However quiet or noisy the machine is.
+TEST(Precision, EndsARunAndSaysWhatWasReached) {
+  const testing::BenchCommand bench;
+  const std::string run = "--mesh=Mesh0 --method=HYBRID,3STEPD --max-repetitions=12 ";
+  ASSERT_EQ(bench.run(run + "--precision=0.001% --out=hard").code, 0);
+  for (const Json& record : bench.records("hard")) {
+    const std::size_t samples = record.at("samples_s").size();
+    EXPECT_EQ(record.at("repetitions"), samples);
+    EXPECT_EQ(record.at("precision"), 1e-5);
+    EXPECT_LE(record.at("time_ci_low_s"), record.at("time_s"));
+    EXPECT_GE(record.at("time_ci_high_s"), record.at("time_s"));
+    EXPECT_EQ(record.at("context").at("precision"), "1e-05");
+    EXPECT_TRUE(record.at("precision_reached") || samples == 12) << samples;
+  }
+  ASSERT_EQ(bench.run(run + "--precision=99% --interleave --out=easy").code, 0);
+  for (const Json& record : bench.records("easy")) {
+    const std::size_t samples = record.at("samples_s").size();
+    EXPECT_GE(samples, 6u);
+    EXPECT_TRUE(record.at("precision_reached") || samples == 12) << samples;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::repetitions_test

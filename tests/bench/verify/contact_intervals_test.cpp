@@ -1,0 +1,198 @@
+// Intervals of what one asks of the contact: they hold what finer meshes say.
+#include "bench/verify/contact_intervals.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "assembly/scene.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "mesh/refinement.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/small_meshes.hpp"
+
+namespace airybench::contact_intervals_test {
+namespace {
+
+struct Judged {
+  DualSystem system;
+  Solution hybrid;
+  DisplacementField u;
+  ConstitutiveError error;
+  std::optional<ContactIntervals> intervals;
+
+  Judged(const Scene& scene, const Mesh& mesh)
+      : system(assemble(testing::posed(scene, mesh), Blocks::contact_points)),
+        hybrid(run(select_methods("HYBRID").front(), system, {})),
+        u(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)),
+        error(constitutive_error(system, hybrid.stress, hybrid.F_C, u)),
+        intervals(contact_intervals(system, hybrid.stress, hybrid.F_C, u, error,
+                                    resultant_lifts(*system.problem))) {
+    EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
+  }
+  double resultant(int component) const {
+    const int m = system.contact.components;
+    double sum = 0;
+    for (int p = 0; p < system.contact.count; ++p) sum += hybrid.F_C(m * p + component);
+    return sum;
+  }
+};
+
+Scene with_friction(double mu) {
+  Scene scene;
+  scene.friction = mu;
+  return scene;
+}
+
+void expect_inside(const Bracket& interval, double value, const char* what) {
+  EXPECT_LE(interval.low, value) << what;
+  EXPECT_GE(interval.high, value) << what;
+}
+
+TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
+  for (const double mu : {0.0, 0.2}) {
+    SCOPED_TRACE(mu);
+    const Scene scene = with_friction(mu);
+    const Judged coarse(scene, testing::catalogue_mesh("Mesh0")),
+        fine(scene, testing::catalogue_mesh("Mesh3"));
+    ASSERT_TRUE(coarse.intervals && fine.intervals);
+    EXPECT_EQ(coarse.intervals->guaranteed, mu == 0);
+    const auto &wide = *coarse.intervals, &narrow = *fine.intervals;
+    ASSERT_TRUE(wide.normal_resultant_N && narrow.normal_resultant_N);
+    expect_inside(*wide.normal_resultant_N, fine.resultant(0), "normal");
+    EXPECT_LT(narrow.normal_resultant_N->high - narrow.normal_resultant_N->low,
+              0.6 * (wide.normal_resultant_N->high - wide.normal_resultant_N->low));
+    EXPECT_EQ(wide.tangential_resultant_N.has_value(), mu > 0);
+    if (mu > 0) expect_inside(*wide.tangential_resultant_N, fine.resultant(1), "tangential");
+    ASSERT_TRUE(wide.largest_pressure_within_MPa) << name_of(wide.peak);
+    expect_inside(*wide.largest_pressure_within_MPa, narrow.largest_pressure_MPa, "pressure");
+    ASSERT_FALSE(wide.ends.empty());
+    EXPECT_LE(wide.ends.size(), narrow.ends.size());
+    for (const ContactEnd& end : wide.ends)
+      EXPECT_TRUE(std::ranges::any_of(narrow.ends, [&](const ContactEnd& fine_end) {
+        const auto [low, high] = fine_end.along_face_mm;
+        return end.along_face_mm.low <= low && high <= end.along_face_mm.high;
+      })) << end.at_mm.transpose();
+  }
+}
+
+// A wall that ends within the face, at vertices; a crowned one.
+TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
+  Scene punch = with_friction(0), crown = with_friction(0);
+  punch.crown_radius_mm.reset();
+  punch.wall = PolylineWall{{{10, 2.5}, {10, 7.5}}};
+  crown.crown_radius_mm = 400;
+  Mesh mesh = testing::small_block(12, 12, 0);
+  for (int level = 0; level < 2; ++level) {
+    mesh = uniformly_refined(mesh);
+    const Judged pressed(punch, mesh), rolled(crown, mesh);
+    ASSERT_TRUE(pressed.intervals && rolled.intervals);
+    EXPECT_EQ(pressed.intervals->peak, ContactIntervals::Peak::unbounded) << level;
+    EXPECT_FALSE(pressed.intervals->largest_pressure_within_MPa);
+    EXPECT_EQ(rolled.intervals->peak, ContactIntervals::Peak::bounded) << level;
+    EXPECT_TRUE(rolled.intervals->largest_pressure_within_MPa);
+  }
+}
+
+TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
+  Scene bent = with_friction(0);
+  Mesh mesh = testing::small_tooth(6, 5);
+  for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.002 * x.x() * x.y() * x.y() / 10;
+  const Judged on_bent_face(bent, mesh);
+  ASSERT_TRUE(on_bent_face.intervals);
+  EXPECT_FALSE(on_bent_face.intervals->normal_resultant_N);
+  EXPECT_GT(on_bent_face.intervals->largest_pressure_MPa, 0);
+}
+
+// The hole of a ring in contact, its edges counted from another one.
+Mesh pin(int first) {
+  Mesh mesh = testing::small_ring(24, 4, 2, 6);
+  std::vector<BoundaryEdge> hole;
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact, hole.push_back(edge);
+  std::rotate(hole.begin(), hole.begin() + first, hole.end());
+  std::size_t next = 0;
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge = hole[next++];
+  return mesh;
+}
+
+TEST(ContactIntervals, AClosedFaceHasTheSameEndsWhereverItStarts) {
+  Scene scene = with_friction(0.3);
+  scene.crown_radius_mm.reset();
+  const auto ends = [&](int first) {
+    const Judged judged(scene, pin(first));
+    std::vector<ContactEnd> found = judged.intervals->ends;
+    std::ranges::sort(found, {},
+                      [](const ContactEnd& end) { return end.at_mm.x() + 2 * end.at_mm.y(); });
+    return found;
+  };
+  const std::vector<ContactEnd> expected = ends(0);
+  ASSERT_GE(expected.size(), 2u);
+  for (const int first : {3, 8, 15, 21}) {
+    const std::vector<ContactEnd> found = ends(first);
+    ASSERT_EQ(found.size(), expected.size()) << first;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_LT((found[k].at_mm - expected[k].at_mm).norm(), 1e-9) << first << " " << k;
+      EXPECT_EQ(found[k].before, expected[k].before);
+      EXPECT_EQ(found[k].after, expected[k].after);
+      EXPECT_NEAR(found[k].along_face_mm.high - found[k].along_face_mm.low,
+                  expected[k].along_face_mm.high - expected[k].along_face_mm.low, 1e-9);
+    }
+  }
+}
+
+// The stress of a coarse element at barycentric coordinates.
+Eigen::Vector3d stress_at(const ElementStress& stress, const Eigen::Vector3d& lambda) {
+  int opposite = 0;
+  const double least = lambda.minCoeff(&opposite);
+  const int t = (opposite + 1) % 3;  // the third between the other two corners
+  return stress.middleCols<3>(3 * t) *
+         Eigen::Vector3d(lambda(t) - least, lambda((t + 1) % 3) - least, 3 * least);
+}
+
+// √∫ (σ − fine):C:(σ − fine), by the centroids of the fine thirds.
+double distance(const Problem& coarse, const StressField& stress, const Judged& fine) {
+  const Problem& problem = *fine.system.problem;
+  const std::size_t children = fine.hybrid.stress.size() / stress.size();
+  double squared = 0;
+  for (std::size_t t = 0; t < fine.hybrid.stress.size(); ++t) {
+    const int triangle = static_cast<int>(t), parent = static_cast<int>(t / children);
+    const TriangleVertices v = problem.vertices_of(triangle), p = coarse.vertices_of(parent);
+    Eigen::Matrix3d barycentric;
+    barycentric << p, Eigen::RowVector3d::Ones();
+    for (int k = 0; k < 3; ++k) {
+      const Eigen::Vector2d x = (v.col(k) + v.col((k + 1) % 3) + v.rowwise().mean()) / 3;
+      const Eigen::Vector3d lambda = barycentric.inverse() * Eigen::Vector3d(x.x(), x.y(), 1);
+      const Eigen::Vector3d d = stress_at(stress[parent], lambda) -
+                                fine.hybrid.stress[t].middleCols<3>(3 * k).rowwise().mean();
+      squared += problem.area_mm2(triangle) / 3 * d.dot(problem.compliance_of(triangle) * d);
+    }
+  }
+  return std::sqrt(squared);
+}
+
+TEST(MeanStress, IsNearerToTheSolutionThanItsBoundAndThanEitherStress) {
+  for (const double mu : {0.0, 0.2}) {
+    const Scene scene = with_friction(mu);
+    const Mesh mesh = testing::small_tooth(6, 5);
+    Mesh finer = mesh;
+    for (int k = 0; k < 3; ++k) finer = uniformly_refined(finer);
+    const Judged coarse(scene, mesh), fine(scene, finer);
+    const Problem& problem = *coarse.system.problem;
+    const StressField mean = mean_stress(problem, coarse.hybrid.stress, coarse.u);
+    const double of_mean = distance(problem, mean, fine),
+                 norm = std::sqrt(stress_norm_squared(problem, coarse.hybrid.stress)),
+                 of_fine = fine.error.relative * norm;  // the fine one is off by at most
+    EXPECT_LE(of_mean, coarse.error.relative_of_mean * norm + of_fine) << mu;
+    EXPECT_LT(of_mean, distance(problem, coarse.hybrid.stress, fine)) << mu;
+    EXPECT_GE(coarse.error.relative_of_mean, 0.5 * coarse.error.relative);
+    EXPECT_LT(coarse.error.relative_of_mean, 0.6 * coarse.error.relative);
+  }
+}
+
+}  // namespace
+}  // namespace airybench::contact_intervals_test
