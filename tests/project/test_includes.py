@@ -109,8 +109,9 @@ class IncludesTest(unittest.TestCase):
         listed = set()
         for file in PROJECT.rglob("CMakeLists.txt"):
             text = file.read_text(encoding="utf-8").replace("${PROJECT_SOURCE_DIR}/", f"{PROJECT}/")
-            listed |= {(file.parent / name).resolve()
-                       for name in re.findall(r"[\w./-]+\.cpp", text.replace("${CMAKE_CURRENT_SOURCE_DIR}/", ""))}
+            text = text.replace("${CMAKE_CURRENT_SOURCE_DIR}/", "")
+            listed |= {(file.parent / name).resolve() for name in re.findall(r"[\w./-]+\.cpp", text)}
+            listed |= {match for glob in re.findall(r"\w+/\*\.cpp", text) for match in file.parent.glob(glob)}
             listed |= {PROJECT / "tests" / folder / f"{name}.py" for folder in ("plots", "project")
                        for name in re.findall(r"\btest_\w+", text)}
         sources = {file for folder in (*ROOMS, "tests", "peers/petsc") for pattern in ("*.cpp", "test_*.py")
