@@ -6,8 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "bench/report/compare_report.hpp"
-
 namespace airybench::compare_test {
 namespace {
 
@@ -81,7 +79,7 @@ TEST(Compare, OneRunEachIsNotSeparatedHoweverManyRepetitions) {
   EXPECT_FALSE(one.has_regression());
   EXPECT_NEAR(one.cases[0].ratio, 1.6, 1e-9);
   EXPECT_FALSE(one.cases[0].interval) << "nothing is known of the scatter of runs";
-  for (const std::string& text : {comparison_text(one), comparison_markdown(one)}) {
+  for (const std::string& text : {one.text(), one.markdown()}) {
     EXPECT_NE(text.find("not separated: one run each"), std::string::npos) << text;
     EXPECT_NE(text.find("1 runs of A, 1 of B: with 1 cases 4 interleaved runs on both sides would"),
               std::string::npos)
@@ -109,7 +107,7 @@ TEST(Compare, RunsMustHaveBeenInterleaved) {
   }
   EXPECT_EQ(verdict(compared(first_all_of_a)), TimeVerdict::not_interleaved);
   EXPECT_FALSE(compared(first_all_of_a).has_regression());
-  EXPECT_NE(comparison_text(compared(first_all_of_a)).find("run A, B, A, B"), std::string::npos);
+  EXPECT_NE(compared(first_all_of_a).text().find("run A, B, A, B"), std::string::npos);
   EXPECT_EQ(verdict(compared(no_dates)), TimeVerdict::not_interleaved);
   EXPECT_EQ(verdict(compared(at_once)), TimeVerdict::slower);
   EXPECT_EQ(verdict(compared(abba)), TimeVerdict::slower);
@@ -204,12 +202,12 @@ TEST(Compare, ABrokenCaseIsARegressionAndOtherChangesAreNamed) {
   b.linear_iterations = 12;
   const Comparison comparison = compare({{a, record("P2", 1)}}, {{b, record("P2", 1)}}, {});
   EXPECT_TRUE(comparison.has_regression());
-  for (const std::string& text : {comparison_text(comparison), comparison_markdown(comparison)}) {
+  for (const std::string& text : {comparison.text(), comparison.markdown()}) {
     EXPECT_NE(text.find("Mesh0/default/ALM: status ok → inaccurate\n"), std::string::npos) << text;
     EXPECT_NE(text.find("ALM: error_force 1e-07 → 2e-06\n"), std::string::npos) << text;
     EXPECT_NE(text.find("ALM: linear_iterations 10 → 12\n"), std::string::npos) << text;
   }
-  EXPECT_EQ(comparison_json(comparison)["regression"], true);
+  EXPECT_EQ(comparison.json()["regression"], true);
   // In one run of several; but not where A had failed, too.
   EXPECT_TRUE(compare({{a}, {a}}, {{b}, {a}}, {}).has_regression());
   EXPECT_FALSE(compare({{a}, {b}}, {{b}, {a}}, {}).has_regression());
