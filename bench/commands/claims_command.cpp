@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
 #include <filesystem>
 
@@ -31,10 +32,7 @@ Example
 )";
 
 std::string cell(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const char c : joined(lines, "<br>"))
-    text += c == '|' ? std::string("\\|") : std::string(1, c);
-  return text;
+  return boost::replace_all_copy(joined(lines, "<br>"), "|", "\\|");
 }
 
 // A verdict and its sentence on a line, what it rests on below.

@@ -137,14 +137,11 @@ class Evidence {
   Claim claim(const std::string& sentence) const;
 
  private:
-  struct Missing {
-    std::string why, method;
-    std::vector<std::string> meshes;
-  };
   const CaseTable& cases_;
   Claim claim_;
   std::vector<Verdict> parts_;
-  std::vector<Missing> missing_;
+  // Why → methods, each with its meshes.
+  std::map<std::string, std::vector<std::pair<std::string, std::vector<std::string>>>> missing_;
 };
 
 // Preconditioners (the paper's Fig. 3), then methods (its Figs 4, 5), then the rest.

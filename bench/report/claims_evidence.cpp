@@ -213,12 +213,11 @@ void Evidence::part(const std::string& label, const Ratio& ratio, const Interval
 
 void Evidence::missing(const std::string& mesh, const std::string& method, const std::string& why) {
   parts_.push_back(Verdict::undecided);
-  const auto same = std::ranges::find_if(
-      missing_, [&](const Missing& entry) { return entry.why == why && entry.method == method; });
-  if (same == missing_.end())
-    missing_.push_back({why, method, {mesh}});
-  else if (same->meshes.back() != mesh)
-    same->meshes.push_back(mesh);
+  auto& methods = missing_[why];
+  auto same = std::ranges::find(methods, method, [](const auto& entry) { return entry.first; });
+  if (same == methods.end()) same = methods.insert(same, {method, {}});
+  auto& meshes = same->second;
+  if (meshes.empty() || meshes.back() != mesh) meshes.push_back(mesh);
 }
 
 void Evidence::over_meshes(
@@ -262,10 +261,12 @@ Claim Evidence::claim(const std::string& sentence) const {
   claim.sentence = sentence;
   claim.verdict = parts_.empty() ? Verdict::undecided : all_of(parts_);
   if (parts_.empty()) claim.open.push_back("no records");
-  std::map<std::string, std::vector<std::string>> by_reason;
-  for (const auto& [why, method, meshes] : missing_)
-    by_reason[why].push_back(fmt::format("{} ({})", method, some_of(meshes)));
-  for (const auto& [why, which] : by_reason) claim.open.push_back(why + ": " + joined(which));
+  for (const auto& [why, methods] : missing_) {
+    std::vector<std::string> which;
+    for (const auto& [method, meshes] : methods)
+      which.push_back(fmt::format("{} ({})", method, some_of(meshes)));
+    claim.open.push_back(why + ": " + joined(which));
+  }
   return claim;
 }
 

@@ -16,42 +16,20 @@
 namespace airybench {
 namespace {
 
-// One side's runs of one case, those that have it.
-using CaseRuns = std::vector<const Record*>;
+using RecordList = std::vector<const Record*>;
 
-struct Side {
-  std::vector<std::string> names;  // of the cases, in the order in which runs have them
-  std::map<std::string, CaseRuns> cases;
+// Of one case, in the runs that have it.
+struct CaseRuns {
+  RecordList a, b;
 };
 
-Side side_of(const Runs& runs) {
-  Side side;
-  for (const std::vector<Record>& run : runs) {
-    std::map<std::string, const Record*> last;
-    for (const Record& record : run) {
-      const std::string name = name_of(record).text();
-      if (side.cases.try_emplace(name).second) side.names.push_back(name);
-      last[name] = &record;
-    }
-    for (const auto& [name, record] : last) side.cases[name].push_back(record);
-  }
-  return side;
-}
-
-std::vector<std::string> names_only_in(const Side& side, const Side& other) {
-  std::vector<std::string> names;
-  std::ranges::copy_if(side.names, std::back_inserter(names),
-                       [&](const std::string& name) { return !other.cases.contains(name); });
-  return names;
-}
-
-const Record& telling(const CaseRuns& runs) {
+const Record& telling(const RecordList& runs) {
   const auto broken =
       std::ranges::find_if(runs, [](const Record* record) { return record->status != Status::ok; });
   return broken == runs.end() ? *runs.back() : **broken;
 }
 
-std::vector<double> medians_of(const CaseRuns& runs) {
+std::vector<double> medians_of(const RecordList& runs) {
   std::vector<double> medians;
   for (const Record* record : runs)
     if (has_answer(record->status) && !record->samples_s.empty())
@@ -60,29 +38,18 @@ std::vector<double> medians_of(const CaseRuns& runs) {
 }
 
 // NaN: the kernel was not timed.
-double kernel_time(const CaseRuns& runs) {
+double kernel_time(const RecordList& runs) {
   std::vector<double> times;
   for (const Record* record : runs)
     if (record->noise_kernel_s) times.push_back(*record->noise_kernel_s);
   return median(std::move(times));
 }
 
-std::optional<double> drift_between(const Side& a, const Side& b) {
-  std::vector<double> ratios;
-  for (const auto& [name, runs] : a.cases) {
-    if (!b.cases.contains(name)) continue;
-    const double ratio = kernel_time(b.cases.at(name)) / kernel_time(runs);
-    if (!std::isnan(ratio)) ratios.push_back(ratio);
-  }
-  if (ratios.empty()) return {};
-  return median(std::move(ratios));
-}
-
 // Runs without a date, or that began within the same second, may have been in any order.
-bool are_interleaved(const CaseRuns& a, const CaseRuns& b) {
+bool are_interleaved(const CaseRuns& runs) {
   std::map<std::string, int> lead;  // date → runs of B begun then less those of A
-  for (const Record* record : a) --lead[context_word(*record, "date")];
-  for (const Record* record : b) ++lead[context_word(*record, "date")];
+  for (const Record* record : runs.a) --lead[context_word(*record, "date")];
+  for (const Record* record : runs.b) ++lead[context_word(*record, "date")];
   int sum = 0;
   return !lead.contains("") && std::ranges::all_of(lead, [&](const auto& moment) {
     sum += moment.second;
@@ -229,26 +196,42 @@ Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
   result.rules = rules;
   result.runs_a = a.size();
   result.runs_b = b.size();
-  const Side side_a = side_of(a), side_b = side_of(b);
-  result.only_a = names_only_in(side_a, side_b);
-  result.only_b = names_only_in(side_b, side_a);
-  result.drift = drift_between(side_a, side_b);
-  std::vector<double> p_values;
-  for (const std::string& name : side_a.names) {
-    if (!side_b.cases.contains(name)) continue;
-    const CaseRuns &runs_a = side_a.cases.at(name), &runs_b = side_b.cases.at(name);
+  std::vector<std::string> names;  // in the order in which runs have them, A first
+  std::map<std::string, CaseRuns> cases;
+  const auto add = [&](const Runs& runs, RecordList CaseRuns::*side) {
+    for (const std::vector<Record>& run : runs) {
+      std::map<std::string, const Record*> last;
+      for (const Record& record : run) {
+        const std::string name = name_of(record).text();
+        if (cases.try_emplace(name).second) names.push_back(name);
+        last[name] = &record;
+      }
+      for (const auto& [name, record] : last) (cases[name].*side).push_back(record);
+    }
+  };
+  add(a, &CaseRuns::a);
+  add(b, &CaseRuns::b);
+  std::vector<double> p_values, drifts;
+  for (const std::string& name : names) {
+    const CaseRuns& runs = cases.at(name);
+    if (runs.a.empty() || runs.b.empty()) {
+      (runs.b.empty() ? result.only_a : result.only_b).push_back(name);
+      continue;
+    }
     ComparedCase& one = result.cases.emplace_back();
-    one.a = telling(runs_a);
-    one.b = telling(runs_b);
-    one.medians_a = medians_of(runs_a);
-    one.medians_b = medians_of(runs_b);
-    one.interleaved = are_interleaved(runs_a, runs_b);
+    one.a = telling(runs.a);
+    one.b = telling(runs.b);
+    one.medians_a = medians_of(runs.a);
+    one.medians_b = medians_of(runs.b);
+    one.interleaved = are_interleaved(runs);
+    const double drift = kernel_time(runs.b) / kernel_time(runs.a);
+    if (!std::isnan(drift)) drifts.push_back(drift);
     if (!one.is_timed()) continue;
     one.ratio = median(one.medians_b) / median(one.medians_a);
-    one.corrected = one.ratio / result.drift.value_or(1);
     one.interval = interval_of(one.medians_b, one.medians_a);
     p_values.push_back(mann_whitney(one.medians_a, one.medians_b).p);
   }
+  if (!drifts.empty()) result.drift = median(drifts);
   result.timed = p_values.size();
   if (result.timed == 0) return result;
   compare_means(result);
@@ -258,6 +241,7 @@ Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
   for (ComparedCase& one : result.cases) {
     if (!one.is_timed()) continue;
     one.p = *p++;
+    one.corrected = one.ratio / result.drift.value_or(1);
     one.verdict = verdict_of(one, result);
   }
   return result;

@@ -87,12 +87,11 @@ TEST(Prediction, OtherMeshesGiveAPowerLaw) {
 
 TEST(Prediction, ASceneOfItsOwnComesFirst) {
   std::vector<Record> records = {made_up("HYBRID", small, 1), made_up("HYBRID", middle, 1)};
-  for (const double factor : {10., 10.})
-    for (Record record : {records[0], records[1]}) {
-      record.scene = "flat";
-      record.time_s = factor;
-      records.push_back(record);
-    }
+  for (Record record : {records[0], records[1]}) {
+    record.scene = "flat";
+    record.time_s = 10;
+    records.push_back(record);
+  }
   EXPECT_NEAR(predicted("HYBRID", large, records).time_s->value, 1, 1e-9);
   Record flat = planned("HYBRID", large);
   flat.scene = "flat";
@@ -146,9 +145,7 @@ TEST(Prediction, ATimeoutCountsWithItsExtrapolatedTime) {
   stopped.status = Status::timeout;
   stopped.time_s.reset();
   stopped.extrapolated_time_s = 5000;
-  RunLimits limits;
-  limits.timeout_s = 900;
-  const Prediction p = predicted("SSKY", large, {stopped}, limits);
+  const Prediction p = predicted("SSKY", large, {stopped}, {.timeout_s = 900});
   EXPECT_EQ(p.time_s->value, 5000);
   EXPECT_EQ(*p.run_s, 900);
   EXPECT_EQ(p.timeout, LimitMark::above);
@@ -161,16 +158,13 @@ TEST(Prediction, ATimeoutCountsWithItsExtrapolatedTime) {
 }
 
 TEST(Prediction, LimitsAreMarked) {
-  RunLimits limits;
-  limits.timeout_s = 1.1;
-  limits.memory_limit_bytes = 1000;
   const std::vector<Record> records = {made_up("HYBRID", small, 1, 2000)};
-  const Prediction p = predicted("HYBRID", small, records, limits);
+  const Prediction p =
+      predicted("HYBRID", small, records, {.timeout_s = 1.1, .memory_limit_bytes = 1000});
   EXPECT_EQ(p.timeout, LimitMark::may_pass);
   EXPECT_EQ(p.memory_limit, LimitMark::above);
-  limits.timeout_s = 100;
-  limits.memory_limit_bytes = 1 << 20;
-  const Prediction within = predicted("HYBRID", small, records, limits);
+  const Prediction within =
+      predicted("HYBRID", small, records, {.timeout_s = 100, .memory_limit_bytes = 1 << 20});
   EXPECT_EQ(within.timeout, LimitMark::below);
   EXPECT_EQ(within.memory_limit, LimitMark::below);
 }
@@ -230,8 +224,7 @@ TEST(Prediction, FarExtrapolationsStillFitTheTable) {
 }
 
 TEST(Prediction, TheTableHasTotalsAndLimits) {
-  RunLimits limits;
-  limits.timeout_s = 50;
+  const RunLimits limits = {.timeout_s = 50};
   const std::vector<Record> cases = {planned("HYBRID", small), planned("3STEPD", small),
                                      planned("SSKY", small)};
   const Forecast f = forecast(
