@@ -49,55 +49,41 @@ std::vector<TrackedRun> tracked(const std::vector<TrackedRun>& runs) {
   return history;
 }
 
-struct Change {
-  const char* what;
-  void (*change)(Record& record);
-  const char* quantity = nullptr;  // of the finding; none where there is none
-  Lane lane = Lane::status;
-  Kind kind = Kind::changed;
-};
-class CounterLane : public ::testing::TestWithParam<Change> {};
-
-TEST_P(CounterLane, FindsChanges) {
-  Record now = record("ALM", 1);
-  GetParam().change(now);
-  const TrackedRun run = tracked({run_of(0, {record("ALM", 1)}), run_of(1, {now})}).back();
-  if (GetParam().quantity == nullptr) {
-    EXPECT_TRUE(run.findings.empty());
-    return;
+TEST(Track, EveryWorseningCountsAtOnce) {
+  struct Change {
+    void (*change)(Record& record);
+    const char* quantity = nullptr;  // of the finding; none where there is none
+    Lane lane = Lane::status;
+    Kind kind = Kind::changed;
+  };
+  using enum Lane;
+  using enum Kind;
+  for (const auto& [change, quantity, lane, kind] :
+       {Change{[](Record&) {}},
+        Change{[](Record& r) { r.status = Status::timeout; }, "status", status, worse},
+        Change{[](Record& r) { r.linear_iterations = 101; }, "linear_iterations", counters, worse},
+        Change{[](Record& r) { r.linear_iterations = 99; }, "linear_iterations", counters, better},
+        Change{[](Record& r) { r.linear_iterations.reset(); }},
+        Change{[](Record& r) { r.heap_allocations = 51; }, "heap_allocations", counters, worse},
+        Change{[](Record& r) { r.peak_heap_bytes = 1000900; }},  // blocks are rounded up
+        Change{[](Record& r) { r.peak_heap_bytes = 1001100; }, "peak_heap_bytes", counters, worse},
+        Change{[](Record& r) { r.error_force = 1.02e-7; }, "error_force", errors, worse},
+        Change{[](Record& r) { r.error_force = 1.009e-7; }},
+        Change{[](Record& r) { r.error_force = 0.9e-7; }, "error_force", errors, better},
+        Change{[](Record& r) { r.error_stress = 9e-12; }},
+        Change{[](Record& r) { r.answer_hash = "abd"; }, "answer_hash", errors, changed}}) {
+    Record now = record("ALM", 1);
+    change(now);
+    const TrackedRun run = tracked({run_of(0, {record("ALM", 1)}), run_of(1, {now})}).back();
+    ASSERT_EQ(run.findings.size(), quantity == nullptr ? 0u : 1u) << to_json(now);
+    EXPECT_EQ(run.failed, kind == worse);
+    if (quantity == nullptr) continue;
+    EXPECT_EQ(run.findings[0].case_name, "Mesh0/default/ALM");
+    EXPECT_EQ(run.findings[0].quantity, quantity);
+    EXPECT_EQ(run.findings[0].lane, lane) << quantity;
+    EXPECT_EQ(run.findings[0].kind, kind) << quantity;
   }
-  ASSERT_EQ(run.findings.size(), 1u);
-  EXPECT_EQ(run.findings[0].case_name, "Mesh0/default/ALM");
-  EXPECT_EQ(run.findings[0].quantity, GetParam().quantity);
-  EXPECT_EQ(run.findings[0].lane, GetParam().lane);
-  EXPECT_EQ(run.findings[0].kind, GetParam().kind);
-  EXPECT_EQ(run.failed, GetParam().kind == Kind::worse);
 }
-
-INSTANTIATE_TEST_SUITE_P(
-    Changes, CounterLane,
-    ::testing::Values(Change{"none", [](Record&) {}},
-                      Change{"status", [](Record& r) { r.status = Status::timeout; }, "status",
-                             Lane::status, Kind::worse},
-                      Change{"more", [](Record& r) { r.linear_iterations = 101; },
-                             "linear_iterations", Lane::counters, Kind::worse},
-                      Change{"fewer", [](Record& r) { r.linear_iterations = 99; },
-                             "linear_iterations", Lane::counters, Kind::better},
-                      Change{"allocations", [](Record& r) { r.heap_allocations = 51; },
-                             "heap_allocations", Lane::counters, Kind::worse},
-                      Change{"rounded_blocks", [](Record& r) { r.peak_heap_bytes = 1000900; }},
-                      Change{"heap", [](Record& r) { r.peak_heap_bytes = 1001100; },
-                             "peak_heap_bytes", Lane::counters, Kind::worse},
-                      Change{"unknown", [](Record& r) { r.linear_iterations.reset(); }},
-                      Change{"error", [](Record& r) { r.error_force = 1.02e-7; }, "error_force",
-                             Lane::errors, Kind::worse},
-                      Change{"small", [](Record& r) { r.error_force = 1.009e-7; }},
-                      Change{"rounding", [](Record& r) { r.error_stress = 9e-12; }},
-                      Change{"smaller", [](Record& r) { r.error_force = 0.9e-7; }, "error_force",
-                             Lane::errors, Kind::better},
-                      Change{"answer", [](Record& r) { r.answer_hash = "abd"; }, "answer_hash",
-                             Lane::errors, Kind::changed}),
-    [](const auto& parameter) { return std::string(parameter.param.what); });
 
 TEST(Track, ErrorsAtRoundingMayGrow) {
   const Field& field = field_named("error_force");
