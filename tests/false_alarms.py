@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""How often `bench compare` calls the same program slower: A/A comparisons, alone and beside other work.
+"""How often `bench compare` calls the same program slower: A/A comparisons, alone and with other work.
 
     tests/false_alarms.py [--pairs=40] [--runs=5] [--mesh=Mesh0] [--method=HYBRID,3STEPD] [--repetitions=9]
 
-A pair is `runs` runs a side of the built program, in turn. Beside the rule (the run is the unit) the table
-has what it replaced (the repetition is the unit, one run a side): the first run of each side, with every
+A pair is `runs` runs a side of the built program, in turn. The table has the rule (the run is the unit) and
+what it replaced (the repetition is the unit, one run a side): the first run of each side, with every
 repetition handed over as a run.
 """
 import argparse
@@ -99,7 +99,7 @@ def main() -> None:
     parser.add_argument("--repetitions", type=int, default=9)
     options = parser.parse_args()
     print("machine             pairs  alarms by runs  alarms by repetitions")
-    for label, processes in (("alone", 0), ("beside other work", os.cpu_count() or 1)):
+    for label, processes in (("alone", 0), ("with other work", os.cpu_count() or 1)):
         with other_work(processes):
             results = [pair(options) for _ in range(options.pairs)]
         by_runs, by_repetitions = (sum(alarms) for alarms in zip(*results))

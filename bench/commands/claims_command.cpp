@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/replace.hpp>
 #include <cstdio>
 #include <filesystem>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/report/claims_evidence.hpp"
+#include "bench/report/claims.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 
@@ -30,42 +31,16 @@ Example
   bench claims results/paper --stop=target --out=results/paper/claims.md
 )";
 
-struct ClaimsOptions {
-  std::filesystem::path folder, out;
-  std::string stop = "target";
-};
-
-ClaimsOptions parse_claims(int argc, const char* const* argv) {
-  ClaimsOptions options;
-  CLI::App app("The paper's sentences on time and memory, held against the records of a run.",
-               "bench claims");
-  app.footer(claims_footer);
-  app.add_option("DIR", options.folder, "folder with records.jsonl")->required();
-  app.add_option("--stop", options.stop, "records of which stop of the iterative methods")
-      ->check(CLI::IsMember({"target", "paper"}))
-      ->capture_default_str();
-  app.add_option("--out", options.out, "also write the table to this file, *.md");
-  parse_command_line(app, argc, argv);
-  if (!options.out.empty() && options.out.extension() != ".md")
-    throw UsageError(
-        fmt::format("--out: {} (allowed: a name that ends in .md)", options.out.string()));
-  return options;
-}
-
 std::string cell(const std::vector<std::string>& lines) {
-  std::string text;
-  for (const char c : joined(lines, "<br>"))
-    text += c == '|' ? std::string("\\|") : std::string(1, c);
-  return text;
+  return boost::replace_all_copy(joined(lines, "<br>"), "|", "\\|");
 }
 
-}  // namespace
-
+// A verdict and its sentence on a line, what it rests on below.
 std::string claims_text(const std::vector<Claim>& claims) {
   std::string text;
+  int number = 0;
   for (const Claim& claim : claims) {
-    text +=
-        fmt::format("{:>2}  {:<14}  {}\n", claim.number, name_of(claim.verdict), claim.sentence);
+    text += fmt::format("{:>2}  {:<14}  {}\n", ++number, name_of(claim.verdict), claim.sentence);
     for (const auto& [name, lines] :
          {std::pair("figures", &claim.figures), std::pair("interval", &claim.intervals),
           std::pair("open", &claim.open)})
@@ -77,26 +52,41 @@ std::string claims_text(const std::vector<Claim>& claims) {
 std::string claims_markdown(const std::vector<Claim>& claims) {
   std::string text =
       "| | claim (section of the paper) | figures | interval | verdict |\n|---|---|---|---|---|\n";
+  int number = 0;
   for (const Claim& claim : claims) {
     std::vector<std::string> verdict = claim.open;
     verdict.insert(verdict.begin(), "**" + std::string(name_of(claim.verdict)) + "**");
-    text += fmt::format("| {} | {} | {} | {} | {} |\n", claim.number, cell({claim.sentence}),
+    text += fmt::format("| {} | {} | {} | {} | {} |\n", ++number, cell({claim.sentence}),
                         cell(claim.figures), cell(claim.intervals), cell(verdict));
   }
   return text;
 }
 
+}  // namespace
+
 int claims_command(int argc, const char* const* argv) {
-  const ClaimsOptions options = parse_claims(argc, argv);
-  const std::string file = records_file_in(options.folder).string();
-  const CaseTable cases(read_records(file), options.stop, file);
+  std::filesystem::path folder, out;
+  std::string stop = "target";
+  CLI::App app("The paper's sentences on time and memory, held against the records of a run.",
+               "bench claims");
+  app.footer(claims_footer);
+  app.add_option("DIR", folder, "folder with records.jsonl")->required();
+  app.add_option("--stop", stop, "records of which stop of the iterative methods")
+      ->check(CLI::IsMember({"target", "paper"}))
+      ->capture_default_str();
+  app.add_option("--out", out, "also write the table to this file, *.md");
+  parse_command_line(app, argc, argv);
+  if (!out.empty() && out.extension() != ".md")
+    throw UsageError(fmt::format("--out: {} (allowed: a name that ends in .md)", out.string()));
+
+  const std::string file = records_file_in(folder).string();
+  const CaseTable cases(read_records(file), stop, file);
   const std::vector<Claim> claims = check_claims(cases);
-  const std::string mesh = preconditioner_mesh(cases);
+  const std::string mesh = cases.preconditioner_mesh();
   const std::string title =
       fmt::format("{}: {} cases, stop {}, scene {}, preconditioners on {}", file, cases.size(),
-                  options.stop, cases.scene(), mesh.empty() ? "no mesh" : mesh);
-  if (!options.out.empty())
-    write_file_atomically(options.out, title + "\n\n" + claims_markdown(claims));
+                  stop, cases.scene(), mesh.empty() ? "no mesh" : mesh);
+  if (!out.empty()) write_file_atomically(out, title + "\n\n" + claims_markdown(claims));
   fmt::print("{}\n\n{}", title, claims_text(claims));
   return 0;
 }

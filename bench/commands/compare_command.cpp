@@ -7,7 +7,7 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/records/context.hpp"
-#include "bench/report/compare_report.hpp"
+#include "bench/report/compare.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"
@@ -34,35 +34,10 @@ Examples
   bench compare results/before results/after
 )";
 
-struct CompareOptions {
-  std::string a, b;  // as they were given
-  std::filesystem::path out;
-  double minimum_effect_percent = 3;
-};
-
-CompareOptions parse_compare(int argc, const char* const* argv) {
-  CompareOptions options;
-  CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
-               "bench compare");
-  app.footer(compare_footer);
-  app.add_option("A", options.a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
-      ->required();
-  app.add_option("B", options.b, "and after")->required();
-  add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
-             "per cent: smaller changes of a time are no change");
-  app.add_option("--out", options.out, "also write the comparison to this file, *.md or *.json");
-  parse_command_line(app, argc, argv);
-  const std::filesystem::path extension = options.out.extension();
-  if (!options.out.empty() && extension != ".md" && extension != ".json")
-    throw UsageError(
-        fmt::format("--out: {} (allowed: a name that ends in .md or .json)", options.out.string()));
-  return options;
-}
-
 // The runs of a side, which must be of one program and its settings, and each of another time.
 Runs runs_in(const std::string& folders) {
   Runs runs;
-  std::vector<std::string> names = split_list(folders);
+  const std::vector<std::string> names = split_list(folders);
   for (const std::string& name : names) {
     const std::filesystem::path file = records_file_in(name);
     runs.push_back(read_records(file, Studies::include));
@@ -83,22 +58,33 @@ Runs runs_in(const std::string& folders) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-  const CompareOptions options = parse_compare(argc, argv);
+  std::string a, b;  // as they were given
+  std::filesystem::path out;
+  double minimum_effect_percent = 3;
+  CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
+               "bench compare");
+  app.footer(compare_footer);
+  app.add_option("A", a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
+      ->required();
+  app.add_option("B", b, "and after")->required();
+  add_number(app, "--minimum-effect", Least::zero, 1000, minimum_effect_percent,
+             "per cent: smaller changes of a time are no change");
+  app.add_option("--out", out, "also write the comparison to this file, *.md or *.json");
+  parse_command_line(app, argc, argv);
+  if (!out.empty() && out.extension() != ".md" && out.extension() != ".json")
+    throw UsageError(
+        fmt::format("--out: {} (allowed: a name that ends in .md or .json)", out.string()));
+
   CompareRules rules;
-  rules.minimum_effect = options.minimum_effect_percent / 100;
-  const Comparison comparison = compare(runs_in(options.a), runs_in(options.b), rules);
+  rules.minimum_effect = minimum_effect_percent / 100;
+  const Comparison comparison = compare(runs_in(a), runs_in(b), rules);
   if (comparison.cases.empty())
-    throw UsageError(fmt::format("{} and {}: no case is in both", options.a, options.b));
-  const std::string title = fmt::format("A: {}, B: {}", options.a, options.b);
-  if (options.out.extension() == ".md") {
-    std::string text = title;
-    text += "\n\n";
-    text += comparison_markdown(comparison);
-    write_file_atomically(options.out, text);
-  }
-  if (options.out.extension() == ".json")
-    write_file_atomically(options.out, indented_json_text(comparison_json(comparison), 1) + "\n");
-  fmt::print("{}\n\n{}", title, comparison_text(comparison));
+    throw UsageError(fmt::format("{} and {}: no case is in both", a, b));
+  const std::string title = fmt::format("A: {}, B: {}", a, b);
+  if (out.extension() == ".md") write_file_atomically(out, title + "\n\n" + comparison.markdown());
+  if (out.extension() == ".json")
+    write_file_atomically(out, indented_json_text(comparison.json(), 1) + "\n");
+  fmt::print("{}\n\n{}", title, comparison.text());
   return comparison.has_regression() ? 1 : 0;
 }
 

@@ -10,7 +10,6 @@
 #include "bench/records/google_benchmark.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/report/history.hpp"
-#include "bench/report/junit.hpp"
 #include "bench/report/tracker_formats.hpp"
 #include "support/atomic_file.hpp"
 
@@ -34,40 +33,20 @@ Example
   bench export results/latest --format=bencher --out=bmf.json
 )";
 
-struct ExportOptions {
-  std::filesystem::path folder, out;
-  std::string format;
-};
+const std::vector<std::pair<std::string, std::string (*)(const std::vector<Record>&)>> formats = {
+    {"google-benchmark", google_benchmark_json},
+    {"github-action", github_action_json},
+    {"bencher", bencher_json},
+    {"csv", series_csv},
+    {"junit", junit_xml}};
 
-ExportOptions parse_export(int argc, const char* const* argv) {
-  ExportOptions options;
-  CLI::App app("The records of a run in the format of another tool.", "bench export");
-  app.footer(export_footer);
-  app.add_option("DIR", options.folder, "folder with records.jsonl, or for csv with nights/")
-      ->required();
-  app.add_option("--format", options.format, "of the formats below")
-      ->required()
-      ->check(CLI::IsMember({"google-benchmark", "github-action", "bencher", "csv", "junit"}));
-  app.add_option("--out", options.out, "file to write; default: standard output");
-  parse_command_line(app, argc, argv);
-  return options;
-}
-
-std::string exported(const std::string& format, const std::vector<Record>& cases) {
-  if (format == "google-benchmark") return google_benchmark_json(cases);
-  if (format == "github-action") return github_action_json(cases);
-  if (format == "bencher") return bencher_json(cases);
-  if (format == "junit") return junit_xml(cases);
-  return series_csv(cases);
-}
-
-// The cases of all nights by date, each with its night's context.
+// The cases of all runs by date, each with its run's context.
 std::vector<Record> cases_of_history(const std::filesystem::path& folder) {
   std::vector<Record> cases;
-  for (Night& night : read_history(folder))
-    for (Record& record : night.cases) {
-      record.context = night.context;
-      record.context["date"] = night.date;
+  for (TrackedRun& run : read_history(folder))
+    for (Record& record : run.cases) {
+      record.context = run.context;
+      record.context["date"] = run.date;
       cases.push_back(std::move(record));
     }
   if (cases.empty())
@@ -79,16 +58,27 @@ std::vector<Record> cases_of_history(const std::filesystem::path& folder) {
 }  // namespace
 
 int export_command(int argc, const char* const* argv) {
-  const ExportOptions options = parse_export(argc, argv);
-  const bool history =
-      options.format == "csv" && std::filesystem::is_directory(options.folder / "nights");
-  const std::string text = exported(
-      options.format, history ? cases_of_history(options.folder)
-                              : read_records(records_file_in(options.folder), Studies::include));
-  if (options.out.empty())
+  std::filesystem::path folder, out;
+  std::string format;
+  CLI::App app("The records of a run in the format of another tool.", "bench export");
+  app.footer(export_footer);
+  app.add_option("DIR", folder, "folder with records.jsonl, or for csv with nights/")->required();
+  app.add_option("--format", format, "of the formats below")
+      ->required()
+      ->check(CLI::IsMember(formats));
+  app.add_option("--out", out, "file to write; default: standard output");
+  parse_command_line(app, argc, argv);
+
+  const bool is_history = format == "csv" && std::filesystem::is_directory(folder / "nights");
+  const std::vector<Record> cases = is_history
+                                        ? cases_of_history(folder)
+                                        : read_records(records_file_in(folder), Studies::include);
+  const auto found = std::ranges::find(formats, format, [](auto& f) { return f.first; });
+  const std::string text = found->second(cases);
+  if (out.empty())
     fmt::print("{}", text);
   else
-    write_file_atomically(options.out, text);
+    write_file_atomically(out, text);
   return 0;
 }
 

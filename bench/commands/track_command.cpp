@@ -10,7 +10,7 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_command.hpp"
-#include "bench/report/judge.hpp"
+#include "bench/report/track.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"
@@ -39,7 +39,7 @@ Examples
   bench track --history=results/history --from=results/latest
 )";
 
-// Options of a run that a night has no use for, or that are its own.
+// Options of a run that make no sense here, or that bench track sets itself.
 constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
                                 "--help", "--dry-run", "--explain"};
 
@@ -48,7 +48,7 @@ struct TrackOptions {
   fs::path from;  // empty: run
   bool judge_only = false;
   double minimum_effect_percent = 5;
-  int least_nights_after = TimeRules{}.least_nights_after;
+  TimeRules rules;
   std::vector<std::string> run;  // arguments of the run
 };
 
@@ -69,14 +69,15 @@ TrackOptions parse_track(int argc, const char* const* argv) {
   add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
              "per cent: smaller changes of a time are no change");
   add_whole(
-      app, "--nights-after", 2, 30, options.least_nights_after,
-      [&](std::int64_t nights) { options.least_nights_after = static_cast<int>(nights); },
+      app, "--nights-after", 2, 30, static_cast<std::int64_t>(options.rules.least_after),
+      [&](std::int64_t runs) { options.rules.least_after = static_cast<std::size_t>(runs); },
       "nights after a change of a time that confirm it");
   // What comes after "--" goes on to the run as it is.
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(
       argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
   parse_command_line(app, static_cast<int>(separator - argv), argv);
+  options.rules.minimum_effect = options.minimum_effect_percent / 100;
   options.run = app.remaining();
   for (const std::string& argument : options.run)
     for (const char* name : refused)
@@ -90,39 +91,35 @@ TrackOptions parse_track(int argc, const char* const* argv) {
   return options;
 }
 
-void run_night(const TrackOptions& options) {
-  const std::vector<std::string> arguments =
-      nightly_arguments(options.run, (options.history / "latest").string());
+TrackedRun run_in(const fs::path& folder) {
+  const fs::path records = records_file_in(folder);
+  return tracked_run_of(read_records(records), records.string());
+}
+
+TrackedRun measure(const TrackOptions& options) {
+  const fs::path latest = options.history / "latest";
+  const std::vector<std::string> arguments = nightly_arguments(options.run, latest.string());
   std::vector<const char*> argv = {"bench"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  run_command(static_cast<int>(argv.size()), argv.data());  // a case that is not ok is judged below
+  run_command(static_cast<int>(argv.size()), argv.data());  // a failed case is a finding
+  return run_in(latest);
 }
 
-Night night_in(const fs::path& folder) {
-  const fs::path records = records_file_in(folder);
-  return night_of(read_records(records), records.string());
-}
-
-// Judges the last night, and writes it.
-bool judge_and_print(std::vector<Night>& history, const TrackOptions& options) {
-  TimeRules rules;
-  rules.minimum_effect = options.minimum_effect_percent / 100;
-  rules.least_nights_after = static_cast<std::size_t>(options.least_nights_after);
-  judge_newest(history, rules);
-  const Night& night = history.back();
-  write_night(night);
-  const auto of_machine = static_cast<std::size_t>(
-      std::count_if(history.begin(), history.end(),
-                    [&](const Night& other) { return other.machine() == night.machine(); }));
-  fmt::print("{}: {} cases, night {} of this machine ({})\n", night.file.string(),
-             night.cases.size(), of_machine, night.machine());
-  if (!night.times_judged)
-    fmt::print("times are judged from night {} on\n", nights_to_judge_times(rules));
+// Tracks the last run, and writes it.
+int track_and_print(std::vector<TrackedRun>& history, const TrackOptions& options) {
+  track_newest(history, options.rules);
+  const TrackedRun& run = history.back();
+  write_tracked_run(run);
+  const auto of_machine = std::ranges::count(history, run.machine(), &TrackedRun::machine);
+  fmt::print("{}: {} cases, night {} of this machine ({})\n", run.file.string(), run.cases.size(),
+             of_machine, run.machine());
+  if (!run.times_judged)
+    fmt::print("times are judged from night {} on\n", options.rules.least_runs());
   for (const Kind kind : {Kind::worse, Kind::better, Kind::changed})
-    for (const Finding& finding : night.findings)
+    for (const Finding& finding : run.findings)
       if (finding.kind == kind) fmt::print("{:<7}  {}\n", name_of(kind), finding.sentence);
-  fmt::print("{}\n", night.failed ? "failed: something is worse" : "nothing is worse");
-  return night.failed;
+  fmt::print("{}\n", run.failed ? "failed: something is worse" : "nothing is worse");
+  return run.failed ? some_case_failed : all_ok;
 }
 
 }  // namespace
@@ -149,21 +146,18 @@ int track_command(int argc, const char* const* argv) {
   if (options.judge_only && read_history(options.history).empty())
     throw UsageError(fmt::format("{}: no nights (bench track without --judge-only adds one)",
                                  options.history.string()));
-  std::optional<Night> night;
-  if (!options.from.empty()) night = night_in(options.from);
+  std::optional<TrackedRun> run;
+  if (!options.from.empty()) run = run_in(options.from);
   make_folder(options.history);
   const FolderLock lock(options.history);
-  std::vector<Night> history = read_history(options.history);  // before hours are spent on a run
-  if (options.judge_only) return judge_and_print(history, options) ? some_case_failed : all_ok;
-  if (!night) {
-    run_night(options);
-    night = night_in(options.history / "latest");
-  }
-  night->file = file_for(*night, options.history, history);
-  // An older run may be added later: it is judged from what was before it.
-  std::erase_if(history, [&](const Night& other) { return other.date > night->date; });
-  history.push_back(std::move(*night));
-  return judge_and_print(history, options) ? some_case_failed : all_ok;
+  std::vector<TrackedRun> history = read_history(options.history);  // before hours of measuring
+  if (options.judge_only) return track_and_print(history, options);
+  if (!run) run = measure(options);
+  run->file = file_for(*run, options.history, history);
+  // An older run may be added later: it is compared with what was before it.
+  std::erase_if(history, [&](const TrackedRun& other) { return other.date > run->date; });
+  history.push_back(std::move(*run));
+  return track_and_print(history, options);
 }
 
 }  // namespace airybench

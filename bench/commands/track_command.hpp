@@ -1,4 +1,4 @@
-// `bench track`: measures the nightly selection, adds it to a history, and judges it.
+// `bench track`: measures the nightly selection and adds it to a history.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace airybench {
 // RecordError and what a run throws.
 int track_command(int argc, const char* const* argv);
 
-// The arguments of the nightly run: `own` of the user, and the selection for what they leave open.
+// The arguments of its run: `own` of the user, and the nightly selection for what they leave open.
 std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
                                            const std::string& out);
 

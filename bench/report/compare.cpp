@@ -1,54 +1,35 @@
 #include "bench/report/compare.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 
 #include "bench/records/robust.hpp"
 #include "bench/report/mann_whitney.hpp"
-#include "bench/report/multiple_testing.hpp"
+#include "bench/report/track.hpp"
+#include "support/text_table.hpp"
 
 namespace airybench {
 namespace {
 
-// One side's runs of one case, those that have it.
-using CaseRuns = std::vector<const Record*>;
+using RecordList = std::vector<const Record*>;
 
-struct Side {
-  std::vector<std::string> names;  // of the cases, in the order in which runs have them
-  std::map<std::string, CaseRuns> cases;
+// Of one case, in the runs that have it.
+struct CaseRuns {
+  RecordList a, b;
 };
 
-Side side_of(const Runs& runs) {
-  Side side;
-  for (const std::vector<Record>& run : runs) {
-    std::map<std::string, const Record*> last;
-    for (const Record& record : run) {
-      const std::string name = name_of(record).text();
-      if (side.cases.try_emplace(name).second) side.names.push_back(name);
-      last[name] = &record;
-    }
-    for (const auto& [name, record] : last) side.cases[name].push_back(record);
-  }
-  return side;
-}
-
-std::vector<std::string> names_only_in(const Side& side, const Side& other) {
-  std::vector<std::string> names;
-  std::copy_if(side.names.begin(), side.names.end(), std::back_inserter(names),
-               [&](const std::string& name) { return !other.cases.contains(name); });
-  return names;
-}
-
-const Record& telling(const CaseRuns& runs) {
-  const auto broken = std::find_if(
-      runs.begin(), runs.end(), [](const Record* record) { return record->status != Status::ok; });
+const Record& telling(const RecordList& runs) {
+  const auto broken =
+      std::ranges::find_if(runs, [](const Record* record) { return record->status != Status::ok; });
   return broken == runs.end() ? *runs.back() : **broken;
 }
 
-std::vector<double> medians_of(const CaseRuns& runs) {
+std::vector<double> medians_of(const RecordList& runs) {
   std::vector<double> medians;
   for (const Record* record : runs)
     if (has_answer(record->status) && !record->samples_s.empty())
@@ -56,31 +37,21 @@ std::vector<double> medians_of(const CaseRuns& runs) {
   return medians;
 }
 
-std::optional<double> kernel_time(const CaseRuns& runs) {
+// NaN: the kernel was not timed.
+double kernel_time(const RecordList& runs) {
   std::vector<double> times;
   for (const Record* record : runs)
     if (record->noise_kernel_s) times.push_back(*record->noise_kernel_s);
-  return times.empty() ? std::nullopt : std::optional(median(std::move(times)));
+  return median(std::move(times));
 }
 
-std::optional<double> drift_between(const Side& a, const Side& b) {
-  std::vector<double> ratios;
-  for (const auto& [name, runs] : a.cases) {
-    if (!b.cases.contains(name)) continue;
-    const auto before = kernel_time(runs), after = kernel_time(b.cases.at(name));
-    if (before && after) ratios.push_back(*after / *before);
-  }
-  if (ratios.empty()) return {};
-  return median(std::move(ratios));
-}
-
-// Runs that say no date, or begun within the same second, may have been in any order.
-bool are_interleaved(const CaseRuns& a, const CaseRuns& b) {
+// Runs without a date, or that began within the same second, may have been in any order.
+bool are_interleaved(const CaseRuns& runs) {
   std::map<std::string, int> lead;  // date → runs of B begun then less those of A
-  for (const Record* record : a) --lead[context_word(*record, "date")];
-  for (const Record* record : b) ++lead[context_word(*record, "date")];
+  for (const Record* record : runs.a) --lead[context_word(*record, "date")];
+  for (const Record* record : runs.b) ++lead[context_word(*record, "date")];
   int sum = 0;
-  return !lead.contains("") && std::all_of(lead.begin(), lead.end(), [&](const auto& moment) {
+  return !lead.contains("") && std::ranges::all_of(lead, [&](const auto& moment) {
     sum += moment.second;
     return std::abs(sum) <= 1;
   });
@@ -91,18 +62,18 @@ bool exceeds(double ratio, double corrected, double drift, double minimum_effect
   return std::min(ratio, corrected) > 1 + minimum_effect && corrected > std::max(drift, 1 / drift);
 }
 
-TimeVerdict verdict_of(const ComparedCase& one, bool interleaved, double drift, std::size_t tests,
-                       const CompareRules& rules) {
+TimeVerdict verdict_of(const ComparedCase& one, const Comparison& all) {
   const std::size_t m = one.medians_a.size(), n = one.medians_b.size();
   if (m == 1 && n == 1) return TimeVerdict::one_run_each;
-  if (one.p > rules.level)
-    return least_mann_whitney_p(m, n) * static_cast<double>(tests) > rules.level
+  if (one.p > all.rules.level)
+    return least_mann_whitney_p(m, n) * static_cast<double>(all.timed) > all.rules.level
                ? TimeVerdict::too_few_runs
                : TimeVerdict::not_separated;
-  const bool slower = exceeds(one.ratio, one.corrected, drift, rules.minimum_effect);
-  const bool faster = exceeds(1 / one.ratio, 1 / one.corrected, drift, rules.minimum_effect);
+  const double drift = all.drift.value_or(1), effect = all.rules.minimum_effect;
+  const bool slower = exceeds(one.ratio, one.corrected, drift, effect);
+  const bool faster = exceeds(1 / one.ratio, 1 / one.corrected, drift, effect);
   if (!slower && !faster) return TimeVerdict::not_separated;
-  if (!interleaved) return TimeVerdict::not_interleaved;
+  if (!one.interleaved) return TimeVerdict::not_interleaved;
   return slower ? TimeVerdict::slower : TimeVerdict::faster;
 }
 
@@ -129,6 +100,85 @@ void compare_means(Comparison& result) {
   result.mean_interval = interval_of(logs_b, logs_a);
 }
 
+// Status, errors, memory, iterations: what is not equal.
+std::vector<std::string> other_changes(const ComparedCase& one) {
+  std::vector<std::string> changes;
+  const std::string name = name_of(one.a).text();
+  if (one.a.status != one.b.status)
+    changes.push_back(
+        fmt::format("{}: status {} → {}", name, name_of(one.a.status), name_of(one.b.status)));
+  for (const unsigned use : {error, counter})
+    for (const Field* field : fields_with(use)) {
+      const auto before = number_in(one.a, *field), after = number_in(one.b, *field);
+      if (!before || !after || !(grew(*field, *before, *after) || grew(*field, *after, *before)))
+        continue;
+      changes.push_back(
+          use == error ? fmt::format("{}: {} {:.3g} → {:.3g}", name, field->name, *before, *after)
+                       : fmt::format("{}: {} {:.0f} → {:.0f}", name, field->name, *before, *after));
+    }
+  return changes;
+}
+
+std::string interval_text(const std::optional<Interval>& interval) {
+  return interval ? fmt::format("[{:.3g}, {:.3g}]", interval->low, interval->high) : "-";
+}
+
+Json interval_json(const std::optional<Interval>& interval) {
+  return interval ? Json{interval->low, interval->high} : Json();
+}
+
+// The header, then a row for each case; those without times say so.
+std::vector<std::vector<std::string>> table_of(const Comparison& comparison) {
+  std::vector<std::vector<std::string>> rows = {
+      {"case", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"}};
+  for (const ComparedCase& one : comparison.cases) {
+    std::vector<std::string>& row = rows.emplace_back(rows.front().size());
+    row.front() = name_of(one.a).text();
+    row.back() = fmt::format("no times: {}, {}", name_of(one.a.status), name_of(one.b.status));
+    if (one.is_timed())
+      row = {row.front(),
+             show_seconds(median(one.medians_a)),
+             show_seconds(median(one.medians_b)),
+             fmt::format("{:.3g}", one.ratio),
+             interval_text(one.interval),
+             comparison.drift ? fmt::format("{:.3g}", one.corrected) : "-",
+             fmt::format("{:.2g}", one.p),
+             std::string(name_of(one.verdict))};
+  }
+  return rows;
+}
+
+std::vector<std::string> summary(const Comparison& comparison) {
+  const auto any_is = [&](TimeVerdict verdict) {
+    return std::ranges::any_of(comparison.cases, [&](const ComparedCase& one) {
+      return one.is_timed() && one.verdict == verdict;
+    });
+  };
+  std::vector<std::string> lines;
+  if (comparison.mean_ratio)
+    lines.push_back(fmt::format("geometric mean of B/A: {:.4g} {}", *comparison.mean_ratio,
+                                interval_text(comparison.mean_interval)));
+  if (comparison.drift)
+    lines.push_back(fmt::format("drift of the machine: {:.4g} (the reference kernel's time, B/A)",
+                                *comparison.drift));
+  else
+    lines.push_back("drift of the machine: not known (no noise_kernel_s in both)");
+  if (any_is(TimeVerdict::one_run_each) || any_is(TimeVerdict::too_few_runs))
+    lines.push_back(fmt::format(
+        "{} runs of A, {} of B: with {} cases {} interleaved runs on both sides would "
+        "do (repetitions within a run are not independent)",
+        comparison.runs_a, comparison.runs_b, comparison.timed, comparison.runs_needed));
+  if (any_is(TimeVerdict::not_interleaved))
+    lines.push_back(
+        "runs not interleaved: by their dates one side had at some time two runs more than the "
+        "other; run A, B, A, B, …");
+  for (const std::string& name : comparison.only_a) lines.push_back("only in A: " + name);
+  for (const std::string& name : comparison.only_b) lines.push_back("only in B: " + name);
+  for (const ComparedCase& one : comparison.cases)
+    std::ranges::move(other_changes(one), std::back_inserter(lines));
+  return lines;
+}
+
 }  // namespace
 
 std::string_view name_of(TimeVerdict verdict) {
@@ -141,52 +191,110 @@ std::string_view name_of(TimeVerdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-bool Comparison::has_regression() const {
-  return std::any_of(cases.begin(), cases.end(), [](const ComparedCase& one) {
-    return one.broke() || (one.is_timed() && one.verdict == TimeVerdict::slower);
-  });
-}
-
 Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
   Comparison result;
   result.rules = rules;
   result.runs_a = a.size();
   result.runs_b = b.size();
-  const Side side_a = side_of(a), side_b = side_of(b);
-  result.only_a = names_only_in(side_a, side_b);
-  result.only_b = names_only_in(side_b, side_a);
-  result.drift = drift_between(side_a, side_b);
-  std::vector<double> p_values;
-  for (const std::string& name : side_a.names) {
-    if (!side_b.cases.contains(name)) continue;
-    const CaseRuns &runs_a = side_a.cases.at(name), &runs_b = side_b.cases.at(name);
-    ComparedCase one;
-    one.a = telling(runs_a);
-    one.b = telling(runs_b);
-    one.medians_a = medians_of(runs_a);
-    one.medians_b = medians_of(runs_b);
-    if (one.is_timed()) {
-      one.ratio = median(one.medians_b) / median(one.medians_a);
-      one.corrected = one.ratio / result.drift.value_or(1);
-      one.interval = interval_of(one.medians_b, one.medians_a);
-      p_values.push_back(mann_whitney(one.medians_a, one.medians_b).p);
+  std::vector<std::string> names;  // in the order in which runs have them, A first
+  std::map<std::string, CaseRuns> cases;
+  const auto add = [&](const Runs& runs, RecordList CaseRuns::*side) {
+    for (const std::vector<Record>& run : runs) {
+      std::map<std::string, const Record*> last;
+      for (const Record& record : run) {
+        const std::string name = name_of(record).text();
+        if (cases.try_emplace(name).second) names.push_back(name);
+        last[name] = &record;
+      }
+      for (const auto& [name, record] : last) (cases[name].*side).push_back(record);
     }
-    result.cases.push_back(std::move(one));
+  };
+  add(a, &CaseRuns::a);
+  add(b, &CaseRuns::b);
+  std::vector<double> p_values, drifts;
+  for (const std::string& name : names) {
+    const CaseRuns& runs = cases.at(name);
+    if (runs.a.empty() || runs.b.empty()) {
+      (runs.b.empty() ? result.only_a : result.only_b).push_back(name);
+      continue;
+    }
+    ComparedCase& one = result.cases.emplace_back();
+    one.a = telling(runs.a);
+    one.b = telling(runs.b);
+    one.medians_a = medians_of(runs.a);
+    one.medians_b = medians_of(runs.b);
+    one.interleaved = are_interleaved(runs);
+    const double drift = kernel_time(runs.b) / kernel_time(runs.a);
+    if (!std::isnan(drift)) drifts.push_back(drift);
+    if (!one.is_timed()) continue;
+    one.ratio = median(one.medians_b) / median(one.medians_a);
+    one.interval = interval_of(one.medians_b, one.medians_a);
+    p_values.push_back(mann_whitney(one.medians_a, one.medians_b).p);
   }
+  if (!drifts.empty()) result.drift = median(drifts);
   result.timed = p_values.size();
   if (result.timed == 0) return result;
   compare_means(result);
   result.runs_needed = values_needed_for(rules.level / static_cast<double>(result.timed));
   const std::vector<double> adjusted = holm_adjusted(p_values);
-  std::size_t k = 0;
+  auto p = adjusted.begin();
   for (ComparedCase& one : result.cases) {
     if (!one.is_timed()) continue;
-    one.p = adjusted[k++];
-    const std::string name = name_of(one.a).text();
-    one.verdict = verdict_of(one, are_interleaved(side_a.cases.at(name), side_b.cases.at(name)),
-                             result.drift.value_or(1), result.timed, rules);
+    one.p = *p++;
+    one.corrected = one.ratio / result.drift.value_or(1);
+    one.verdict = verdict_of(one, result);
   }
   return result;
+}
+
+bool Comparison::has_regression() const {
+  return std::ranges::any_of(cases, [](const ComparedCase& one) {
+    return one.broke() || (one.is_timed() && one.verdict == TimeVerdict::slower);
+  });
+}
+
+std::string Comparison::text() const {
+  const auto rows = table_of(*this);
+  return fmt::format("{}\n{}\n", aligned_table(rows, rows.front().size()),
+                     fmt::join(summary(*this), "\n"));
+}
+
+std::string Comparison::markdown() const {
+  std::vector<std::string> lines;
+  for (const auto& row : table_of(*this))
+    lines.push_back(fmt::format("| {} |", fmt::join(row, " | ")));
+  lines.insert(lines.begin() + 1, "|---|---|---|---|---|---|---|---|");
+  return fmt::format("{}\n\n- {}\n", fmt::join(lines, "\n"), fmt::join(summary(*this), "\n- "));
+}
+
+Json Comparison::json() const {
+  Json compared = Json::array();
+  for (const ComparedCase& one : cases) {
+    Json json = {{"case", name_of(one.a).text()},
+                 {"status_a", name_of(one.a.status)},
+                 {"status_b", name_of(one.b.status)},
+                 {"other_changes", other_changes(one)}};
+    if (one.is_timed())
+      json.update(Json{{"medians_a_s", one.medians_a},
+                       {"medians_b_s", one.medians_b},
+                       {"ratio", one.ratio},
+                       {"interval", interval_json(one.interval)},
+                       {"ratio_by_drift", one.corrected},
+                       {"p_holm", one.p},
+                       {"verdict", name_of(one.verdict)}});
+    compared.push_back(std::move(json));
+  }
+  return {{"drift", drift ? Json(*drift) : Json()},
+          {"minimum_effect", rules.minimum_effect},
+          {"geometric_mean",
+           mean_ratio ? Json{{"ratio", *mean_ratio}, {"interval", interval_json(mean_interval)}}
+                      : Json()},
+          {"runs_a", runs_a},
+          {"runs_b", runs_b},
+          {"cases", compared},
+          {"only_in_a", only_a},
+          {"only_in_b", only_b},
+          {"regression", has_regression()}};
 }
 
 }  // namespace airybench

@@ -3,17 +3,17 @@
 //
 // The run is the unit, not the repetition: within a second the clock, the neighbours and the place
 // of memory are the same for all repetitions, so they agree with each other far better than with
-// those of the next run. Of each run and case there is one value, the median of its repetitions.
+// those of the next run. Each run and case gives one value, the median of its repetitions.
 //
 // Per case   ratio = median over B's runs / median over A's runs, with its 95 % bootstrap interval
 //            p: Mann-Whitney test of B's runs against A's, Holm's adjustment over all cases
 // Together   drift = median over the cases of noise_kernel_s in B / in A: the machine's own change,
 //            by a fixed kernel that all runs timed between the cases
 // A case is slower when p <= 5 %, its ratio and ratio / drift are above the minimum effect, ratio /
-// drift is above the drift (or its reciprocal) too (how a slower machine slows a case is not how it
-// slows the kernel, so the correction may be off by as much as it corrects), and the runs were
-// interleaved: at no time had one side more than one run more than the other. Else the hour is
-// tested, not the program. Faster: the same with the reciprocals.
+// drift is also above the drift (or its reciprocal), since a slower machine need not slow a case as
+// it slows the kernel, so that the correction may be off by as much as it corrects, and the runs
+// were interleaved: at no time had one side more than one run more than the other. Otherwise the
+// hour is tested, not the program. Faster: the same with the reciprocals.
 #pragma once
 
 #include <optional>
@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "bench/records/bootstrap.hpp"
+#include "bench/records/json.hpp"
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {
@@ -44,10 +45,11 @@ std::string_view name_of(TimeVerdict verdict);  // "not separated: one run each"
 struct ComparedCase {
   Record a, b;  // of each side the first run's that is not ok, else the last run's
   std::vector<double> medians_a, medians_b;  // s, of the runs that have an answer and samples
-  double ratio = 1;                          // raw; this and what follows only if is_timed()
-  double corrected = 1;                      // by the drift
-  std::optional<Interval> interval;          // of the raw ratio; empty: a side has one run
-  double p = 1;                              // adjusted
+  bool interleaved = false;
+  double ratio = 1;                  // raw; this and what follows only if is_timed()
+  double corrected = 1;              // by the drift
+  std::optional<Interval> interval;  // of the raw ratio; empty: a side has one run
+  double p = 1;                      // adjusted
   TimeVerdict verdict = TimeVerdict::not_separated;
   bool is_timed() const { return !medians_a.empty() && !medians_b.empty(); }
   // It was ok in all runs of A and is not in all of B.
@@ -68,6 +70,10 @@ struct Comparison {
 
   // A case is slower, or was ok and is not any more.
   bool has_regression() const;
+  // A table of the times, then what else has changed, a sentence a line.
+  std::string text() const;
+  std::string markdown() const;
+  Json json() const;
 };
 
 using Runs = std::vector<std::vector<Record>>;  // of a side; a run may have any of the cases

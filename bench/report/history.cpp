@@ -1,6 +1,7 @@
 #include "bench/report/history.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -8,7 +9,6 @@
 #include <tuple>
 
 #include "bench/records/context.hpp"
-#include "bench/records/json.hpp"
 #include "bench/records/robust.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
@@ -20,15 +20,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* format_name = "airybench-night-1";
-constexpr std::array lanes = {Lane::status, Lane::counters, Lane::errors, Lane::times};
-constexpr std::array kinds = {Kind::worse, Kind::better, Kind::changed};
-
-template <typename T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json();
-}
+constexpr std::array<std::string_view, 4> lane_names = {"status", "counters", "errors", "times"};
+constexpr std::array<std::string_view, 3> kind_names = {"worse", "better", "changed"};
 
 Json to_json(const Finding& finding) {
+  const auto or_null = [](const auto& value) { return value ? Json(*value) : Json(); };
   return {{"case", finding.case_name},    {"lane", name_of(finding.lane)},
           {"quantity", finding.quantity}, {"before", finding.before},
           {"after", finding.after},       {"kind", name_of(finding.kind)},
@@ -37,18 +33,21 @@ Json to_json(const Finding& finding) {
           {"sentence", finding.sentence}};
 }
 
-// Reads the values of an object's keys; what does not fit is refused by place, key and value.
-struct ObjectReader {
-  const Json& json;
-  std::string place;  // "nights/2026-11-21T030000Z.json: verdict 3"
-
+// Reads the values of an object's keys. Messages give place, key, value and what is allowed.
+class ObjectReader {
+ public:
+  ObjectReader(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
+    if (!json.is_object())
+      throw RecordError(
+          fmt::format("{}: {} (allowed: a JSON object)", place_, shortened(json_text(json))));
+  }
+  bool has(const char* key) const { return json_.contains(key); }
   const Json& at(const char* key) const {
     static const Json null;
-    const auto found = json.find(key);
-    return found == json.end() ? null : *found;
+    return has(key) ? json_.at(key) : null;
   }
   [[noreturn]] void fail(const char* key, const std::string& allowed) const {
-    throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place, key,
+    throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place_, key,
                                   shortened(json_text(at(key))), allowed));
   }
   // What nlohmann's conversion accepts.
@@ -61,6 +60,7 @@ struct ObjectReader {
     }
   }
   std::string text(const char* key) const { return value<std::string>(key, "a text"); }
+  bool flag(const char* key) const { return value<bool>(key, "true, false"); }
   std::optional<double> number(const char* key) const {
     return at(key).is_null() ? std::nullopt : std::optional(value<double>(key, "a number, null"));
   }
@@ -69,42 +69,68 @@ struct ObjectReader {
     return at(key);
   }
   template <typename Enum, std::size_t size>
-  Enum word(const char* key, const std::array<Enum, size>& values) const {
-    std::string allowed;
-    for (const Enum one : values) {
-      if (at(key) == name_of(one)) return one;
-      allowed += (allowed.empty() ? "" : ", ") + std::string(name_of(one));
-    }
-    fail(key, allowed);
+  Enum word(const char* key, const std::array<std::string_view, size>& names) const {
+    const auto found = std::find(names.begin(), names.end(), at(key));
+    if (found == names.end()) fail(key, fmt::format("{}", fmt::join(names, ", ")));
+    return static_cast<Enum>(found - names.begin());
   }
+
+ private:
+  const Json& json_;
+  std::string place_;  // "nights/2026-11-21T030000Z.json: verdict 3"
 };
 
-ObjectReader reader_of(const Json& json, const std::string& place) {
-  if (!json.is_object())
-    throw RecordError(
-        fmt::format("{}: {} (allowed: a JSON object)", place, shortened(json_text(json))));
-  return {json, place};
-}
-
 Finding finding_of(const ObjectReader& verdict) {
-  return {verdict.text("case"),   verdict.word("lane", lanes), verdict.text("quantity"),
-          verdict.at("before"),   verdict.at("after"),         verdict.word("kind", kinds),
-          verdict.text("since"),  verdict.number("ratio"),     verdict.number("low"),
-          verdict.number("high"), verdict.text("sentence")};
+  return {verdict.text("case"),     verdict.word<Lane>("lane", lane_names),
+          verdict.text("quantity"), verdict.at("before"),
+          verdict.at("after"),      verdict.word<Kind>("kind", kind_names),
+          verdict.text("since"),    verdict.number("ratio"),
+          verdict.number("low"),    verdict.number("high"),
+          verdict.text("sentence")};
 }
 
 // 2026-11-21T03:00:00Z
 bool is_date(const std::string& text) {
-  const std::string_view pattern = "dddd-dd-ddTdd:dd:ddZ";
-  return text.size() == pattern.size() &&
-         std::equal(text.begin(), text.end(), pattern.begin(), [](char c, char expected) {
-           return expected == 'd' ? c >= '0' && c <= '9' : c == expected;
-         });
+  return std::ranges::equal(
+      text, std::string_view("dddd-dd-ddTdd:dd:ddZ"),
+      [](char c, char expected) { return expected == 'd' ? c >= '0' && c <= '9' : c == expected; });
 }
 
 }  // namespace
 
-Night parse_night(const std::string& text, const fs::path& file) {
+std::string_view name_of(Lane lane) { return lane_names[static_cast<std::size_t>(lane)]; }
+std::string_view name_of(Kind kind) { return kind_names[static_cast<std::size_t>(kind)]; }
+
+const Record* TrackedRun::find(const std::string& case_name) const {
+  const auto found = std::ranges::find_if(
+      cases, [&](const Record& record) { return name_of(record).text() == case_name; });
+  return found == cases.end() ? nullptr : &*found;
+}
+
+std::string TrackedRun::context_value(const std::string& key) const {
+  return context_word(context, key);
+}
+
+std::string TrackedRun::machine() const {
+  return fmt::format("{}, {} processors, {} threads", context_value("cpu"), context_value("cpus"),
+                     context_value("threads"));
+}
+
+TrackedRun tracked_run_of(std::vector<Record> records, const std::string& source) {
+  if (records.empty()) throw RecordError(source + ": no records (a night needs some)");
+  TrackedRun run;
+  run.context = records.front().context;
+  run.date = run.context_value("date");
+  if (!is_date(run.date))
+    throw RecordError(fmt::format("{}:1: context: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
+                                  source, run.date));
+  for (const Record& record : records)
+    if (record.noise_kernel_s) run.noise_samples_s.push_back(*record.noise_kernel_s);
+  run.cases = std::move(records);
+  return run;
+}
+
+TrackedRun parse_tracked_run(const std::string& text, const fs::path& file) {
   const std::string place = file.string();
   Json json;
   try {
@@ -113,119 +139,75 @@ Night parse_night(const std::string& text, const fs::path& file) {
     throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)", place,
                                   without_prefix(wrong)));
   }
-  const ObjectReader all = reader_of(json, place);
+  const ObjectReader all(json, place);
   if (all.at("format") != format_name) all.fail("format", fmt::format("\"{}\"", format_name));
-  Night night;
-  night.file = file;
-  night.date = all.text("date");
-  if (!is_date(night.date)) all.fail("date", "as 2026-11-21T03:00:00Z");
-  night.context = all.value<std::map<std::string, std::string>>("context", "an object of texts");
-  night.noise_samples_s = reader_of(all.at("noise"), place + ": noise")
-                              .value<std::vector<double>>("samples_s", "a list of numbers");
+  TrackedRun run;
+  run.file = file;
+  run.date = all.text("date");
+  if (!is_date(run.date)) all.fail("date", "as 2026-11-21T03:00:00Z");
+  run.context = all.value<std::map<std::string, std::string>>("context", "an object of texts");
+  run.noise_samples_s = ObjectReader(all.at("noise"), place + ": noise")
+                            .value<std::vector<double>>("samples_s", "a list of numbers");
   for (const Json& one : all.list("cases"))
-    night.cases.push_back(
-        record_of(one, fmt::format("{}: case {}", place, night.cases.size() + 1)));
+    run.cases.push_back(record_of(one, fmt::format("{}: case {}", place, run.cases.size() + 1)));
   for (const Json& one : all.list("verdicts"))
-    night.findings.push_back(finding_of(
-        reader_of(one, fmt::format("{}: verdict {}", place, night.findings.size() + 1))));
-  night.failed = all.value<bool>("failed", "true, false");
-  // Older nights do not say.
-  night.times_judged =
-      !json.contains("times_judged") || all.value<bool>("times_judged", "true, false");
-  return night;
+    run.findings.push_back(finding_of(
+        ObjectReader(one, fmt::format("{}: verdict {}", place, run.findings.size() + 1))));
+  run.failed = all.flag("failed");
+  run.times_judged = !all.has("times_judged") || all.flag("times_judged");  // older files: none
+  return run;
 }
 
-std::string_view name_of(Lane lane) {
-  constexpr std::array<std::string_view, 4> names = {"status", "counters", "errors", "times"};
-  return names[static_cast<std::size_t>(lane)];
-}
-
-std::string_view name_of(Kind kind) {
-  constexpr std::array<std::string_view, 3> names = {"worse", "better", "changed"};
-  return names[static_cast<std::size_t>(kind)];
-}
-
-const Record* Night::find(const std::string& case_name) const {
-  const auto found = std::find_if(cases.begin(), cases.end(), [&](const Record& record) {
-    return name_of(record).text() == case_name;
-  });
-  return found == cases.end() ? nullptr : &*found;
-}
-
-std::string Night::context_value(const std::string& key) const {
-  return context_word(context, key);
-}
-
-std::string Night::machine() const {
-  return fmt::format("{}, {} processors, {} threads", context_value("cpu"), context_value("cpus"),
-                     context_value("threads"));
-}
-
-Night night_of(std::vector<Record> records, const std::string& source) {
-  if (records.empty()) throw RecordError(source + ": no records (a night needs some)");
-  Night night;
-  night.context = records.front().context;
-  night.date = night.context_value("date");
-  if (!is_date(night.date))
-    throw RecordError(fmt::format("{}:1: context: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
-                                  source, night.date));
-  for (const Record& record : records)
-    if (record.noise_kernel_s) night.noise_samples_s.push_back(*record.noise_kernel_s);
-  night.cases = std::move(records);
-  return night;
-}
-
-std::vector<Night> read_history(const fs::path& folder) {
-  std::vector<Night> nights;
+std::vector<TrackedRun> read_history(const fs::path& folder) {
+  std::vector<TrackedRun> runs;
   const fs::path files = folder / "nights";
   std::error_code error;
-  if (!fs::exists(files, error)) return nights;
+  if (!fs::exists(files, error)) return runs;
   if (!fs::is_directory(files, error)) throw RecordError(files.string() + ": not a folder");
   for (const auto& entry : fs::directory_iterator(files))
     if (entry.path().extension() == ".json")
-      nights.push_back(parse_night(file_text(entry.path()), entry.path()));
-  std::sort(nights.begin(), nights.end(), [](const Night& a, const Night& b) {
-    return std::tie(a.date, a.file) < std::tie(b.date, b.file);
-  });
-  return nights;
+      runs.push_back(parse_tracked_run(file_text(entry.path()), entry.path()));
+  std::ranges::sort(runs, {}, [](const TrackedRun& run) { return std::tie(run.date, run.file); });
+  return runs;
 }
 
-fs::path file_for(const Night& night, const fs::path& folder, const std::vector<Night>& history) {
+fs::path file_for(const TrackedRun& run, const fs::path& folder,
+                  const std::vector<TrackedRun>& history) {
   int of_this_second = 0;
-  for (const Night& other : history) {
-    if (other.date != night.date) continue;
+  for (const TrackedRun& other : history) {
+    if (other.date != run.date) continue;
     ++of_this_second;
-    if (std::equal(night.cases.begin(), night.cases.end(), other.cases.begin(), other.cases.end(),
-                   [](const Record& a, const Record& b) {
-                     return to_json(a, nightly) == to_json(b, nightly);
-                   }))
+    if (std::ranges::equal(
+            run.cases, other.cases, {},
+            [](const Record& record) { return to_json(record, nightly); },
+            [](const Record& record) { return to_json(record, nightly); }))
       throw RecordError(
           fmt::format("{}: these records are already in the history", other.file.string()));
   }
-  std::string name = night.date;
+  std::string name = run.date;
   std::erase(name, ':');
   if (of_this_second > 0) name += fmt::format("-{}", of_this_second + 1);
   return folder / "nights" / (name + ".json");
 }
 
-void write_night(const Night& night) {
+void write_tracked_run(const TrackedRun& run) {
   const auto finite = [](double value) { return std::isfinite(value) ? Json(value) : Json(); };
   Json cases = Json::array(), verdicts = Json::array();
-  for (const Record& record : night.cases) cases.push_back(to_json(record, nightly));
-  for (const Finding& finding : night.findings) verdicts.push_back(to_json(finding));
+  for (const Record& record : run.cases) cases.push_back(to_json(record, nightly));
+  for (const Finding& finding : run.findings) verdicts.push_back(to_json(finding));
   const Json json = {{"format", format_name},
-                     {"date", night.date},
-                     {"context", night.context},
+                     {"date", run.date},
+                     {"context", run.context},
                      {"noise",
-                      {{"median_s", finite(median(night.noise_samples_s))},
-                       {"mad_s", finite(median_absolute_deviation(night.noise_samples_s))},
-                       {"samples_s", night.noise_samples_s}}},
+                      {{"median_s", finite(median(run.noise_samples_s))},
+                       {"mad_s", finite(median_absolute_deviation(run.noise_samples_s))},
+                       {"samples_s", run.noise_samples_s}}},
                      {"cases", cases},
                      {"verdicts", verdicts},
-                     {"failed", night.failed},
-                     {"times_judged", night.times_judged}};
-  make_folder(night.file.parent_path());
-  write_file_atomically(night.file, indented_json_text(json, 1) + "\n");
+                     {"failed", run.failed},
+                     {"times_judged", run.times_judged}};
+  make_folder(run.file.parent_path());
+  write_file_atomically(run.file, indented_json_text(json, 1) + "\n");
 }
 
 }  // namespace airybench

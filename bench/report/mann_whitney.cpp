@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
-#include <boost/math/special_functions/gamma.hpp>
+#include <boost/math/special_functions/beta.hpp>
 #include <cmath>
 #include <numeric>
 
@@ -11,22 +11,15 @@ namespace {
 
 constexpr std::size_t most_for_exact = 25;  // C(50, 25) < 2^53: the counts are exact in doubles
 
-// N(u; m, n) for u = 0 .. m n, by the recursion over m for all sizes up to n.
+// N(u; m, n) for u = 0 .. m n.
 std::vector<double> orderings(std::size_t m, std::size_t n) {
-  std::vector<std::vector<double>> counts(n + 1, {1.0});  // of no a: U = 0
+  std::vector<double> counts(m * n + 1, 0.0);
+  counts[0] = 1;
   for (std::size_t i = 1; i <= m; ++i) {
-    std::vector<std::vector<double>> next(n + 1, {1.0});  // of no b: U = 0
-    for (std::size_t j = 1; j <= n; ++j) {
-      std::vector<double> row(i * j + 1, 0.0);
-      // The largest value is of a: it is below no b, U comes from the other i - 1 and all j.
-      for (std::size_t u = 0; u < counts[j].size(); ++u) row[u] += counts[j][u];
-      // The largest value is of b: it is above all i.
-      for (std::size_t u = 0; u < next[j - 1].size(); ++u) row[u + i] += next[j - 1][u];
-      next[j] = std::move(row);
-    }
-    counts = std::move(next);
+    for (std::size_t u = m * n; u >= n + i; --u) counts[u] -= counts[u - n - i];  // (1 - q^(n+i))
+    for (std::size_t u = i; u <= m * n; ++u) counts[u] += counts[u - i];          // / (1 - q^i)
   }
-  return counts[n];
+  return counts;
 }
 
 double exact_p(double u, std::size_t m, std::size_t n) {
@@ -76,17 +69,29 @@ MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>
 }
 
 double least_mann_whitney_p(std::size_t m, std::size_t n) {
-  // 2 / (m + n over m); by logarithms, as the coefficient overflows from about a thousand on.
-  const auto log_factorial = [](std::size_t k) {
-    return boost::math::lgamma(static_cast<double>(k) + 1);
-  };
-  return std::min(1.0, 2 * std::exp(log_factorial(m) + log_factorial(n) - log_factorial(m + n)));
+  // 1 / C(m + n, m) = (m + n + 1) B(m + 1, n + 1), which does not overflow.
+  const auto a = static_cast<double>(m) + 1, b = static_cast<double>(n) + 1;
+  return std::min(1.0, 2 * (a + b - 1) * boost::math::beta(a, b));
 }
 
 std::size_t values_needed_for(double level) {
   std::size_t values = 1;
   while (least_mann_whitney_p(values, values) > level) ++values;
   return values;
+}
+
+std::vector<double> holm_adjusted(const std::vector<double>& p_values) {
+  std::vector<std::size_t> order(p_values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return p_values[i]; });
+  std::vector<double> adjusted(p_values.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const double p = static_cast<double>(order.size() - k) * p_values[order[k]];
+    largest = std::max(largest, std::min(1.0, p));
+    adjusted[order[k]] = largest;
+  }
+  return adjusted;
 }
 
 }  // namespace airybench

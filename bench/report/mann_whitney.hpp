@@ -2,12 +2,12 @@
 //
 //   U = #{(i, j): a_i < b_j} + ½ #{(i, j): a_i = b_j},   0 <= U <= m n,   E U = m n / 2
 //
-// It asks nothing of the distribution but that it be the same on both sides when nothing changed.
+// It only assumes that the distribution is the same on both sides when nothing changed.
 // Mann, Whitney, Ann. Math. Statist. 18 (1947) 50-60.
 //
-// Without ties and up to 25 values a side, p is exact: with N(u; m, n) orderings that have U = u,
-//   N(u; m, n) = N(u; m - 1, n) + N(u - m; m, n - 1)
-// (the largest value is of a, or of b and above all m of a). Otherwise U is taken as normal, with
+// Without ties and up to 25 values a side, p is exact: the orderings with U = u number
+//   N(u; m, n) = coefficient of q^u in Π_{i=1..m} (1 - q^(n+i)) / (1 - q^i),
+// the Gaussian binomial. Otherwise U is taken as normal, with
 //   Var U = m n / 12 [ N + 1 - Σ (t³ - t) / (N (N - 1)) ],   N = m + n, t: sizes of the ties,
 // and a continuity correction of 1/2. Lehmann, "Nonparametrics", 1975, section 1.5.
 #pragma once
@@ -30,5 +30,11 @@ MannWhitney mann_whitney(const std::vector<double>& a, const std::vector<double>
 double least_mann_whitney_p(std::size_t m, std::size_t n);
 // The least number of values on both sides with which p <= level is possible; 0 < level <= 1.
 std::size_t values_needed_for(double level);
+
+// Of many tests at once, Holm's step-down: the k-th smallest (from 1) of n p-values becomes
+//   max over i <= k of min(1, (n - i + 1) p_(i)).
+// Rejecting where it is <= α keeps the family-wise error rate at α, whatever the dependence.
+// In the order of the p-values. Holm, Scand. J. Statist. 6 (1979) 65-70.
+std::vector<double> holm_adjusted(const std::vector<double>& p_values);
 
 }  // namespace airybench

@@ -6,51 +6,49 @@
 namespace airybench {
 namespace {
 
-// Weighted sums over points, about their means.
+// Weighted sums over points, about their means: x = log n, y = log value.
 struct Moments {
-  double weight = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0;  // x = log n, y = log value
+  std::size_t count;
+  double weight = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
+
+  Moments(const std::vector<SizedValue>& points, int n) : count(points.size()) {
+    const auto weight_of = [n](const SizedValue& point) {
+      const double ratio = static_cast<double>(point.n) / n;
+      return std::min(ratio, 1 / ratio);
+    };
+    for (const SizedValue& point : points) {
+      const double w = weight_of(point);
+      weight += w;
+      mean_x += w * std::log(point.n);
+      mean_y += w * std::log(point.value);
+    }
+    mean_x /= weight;
+    mean_y /= weight;
+    for (const SizedValue& point : points) {
+      const double w = weight_of(point);
+      const double dx = std::log(point.n) - mean_x, dy = std::log(point.value) - mean_y;
+      xx += w * dx * dx;
+      xy += w * dx * dy;
+      yy += w * dy * dy;
+    }
+  }
+  // s², of a law with so many parameters fitted to the points.
+  double variance_about(double b, std::size_t parameters, double least_scatter) const {
+    const double least = least_scatter * least_scatter;
+    if (count <= parameters) return least;
+    const double squares = yy - 2 * b * xy + b * b * xx;  // Σ w r²
+    return std::max(least, squares / static_cast<double>(count - parameters));
+  }
+  Estimate estimate_at(int n, double b, double variance, double variance_of_b) const {
+    const double dx = std::log(n) - mean_x;
+    return estimate_of(std::exp(mean_y + b * dx),
+                       std::sqrt(variance * (1 + 1 / weight) + variance_of_b * dx * dx));
+  }
 };
 
-double weight_of(const SizedValue& point, int n) {
-  const double ratio = static_cast<double>(point.n) / n;
-  return std::min(ratio, 1 / ratio);
-}
-
-Moments moments_of(const std::vector<SizedValue>& points, int n) {
-  Moments m;
-  for (const SizedValue& point : points) {
-    const double w = weight_of(point, n);
-    m.weight += w;
-    m.mean_x += w * std::log(point.n);
-    m.mean_y += w * std::log(point.value);
-  }
-  m.mean_x /= m.weight;
-  m.mean_y /= m.weight;
-  for (const SizedValue& point : points) {
-    const double w = weight_of(point, n), dx = std::log(point.n) - m.mean_x;
-    m.xx += w * dx * dx;
-    m.xy += w * dx * (std::log(point.value) - m.mean_y);
-  }
-  return m;
-}
-
 bool is_of_one_size(const std::vector<SizedValue>& points) {
-  return std::all_of(points.begin(), points.end(),
-                     [&](const SizedValue& point) { return point.n == points.front().n; });
-}
-
-// s², where the law through the points has so many parameters of its own.
-double variance_about(const Moments& m, double exponent, const std::vector<SizedValue>& points,
-                      int n, std::size_t parameters, double least_scatter) {
-  const double least = least_scatter * least_scatter;
-  if (points.size() <= parameters) return least;
-  double squares = 0;
-  for (const SizedValue& point : points) {
-    const double residual =
-        std::log(point.value) - m.mean_y - exponent * (std::log(point.n) - m.mean_x);
-    squares += weight_of(point, n) * residual * residual;
-  }
-  return std::max(least, squares / static_cast<double>(points.size() - parameters));
+  return std::ranges::all_of(points,
+                             [&](const SizedValue& point) { return point.n == points.front().n; });
 }
 
 }  // namespace
@@ -63,28 +61,24 @@ Estimate estimate_of(double value, double scatter) {
 std::optional<Estimate> extrapolate(const std::vector<SizedValue>& points, int n,
                                     double least_scatter) {
   if (is_of_one_size(points)) return {};
-  const Moments m = moments_of(points, n);
+  const Moments m(points, n);
   const double exponent = m.xy / m.xx;
-  const double variance = variance_about(m, exponent, points, n, 2, least_scatter);
-  const double dx = std::log(n) - m.mean_x;
-  return estimate_of(std::exp(m.mean_y + exponent * dx),
-                     std::sqrt(variance * (1 + 1 / m.weight + dx * dx / m.xx)));
+  const double variance = m.variance_about(exponent, 2, least_scatter);
+  return m.estimate_at(n, exponent, variance, variance / m.xx);
 }
 
 Estimate extrapolate(const std::vector<SizedValue>& points, int n, double exponent,
                      double least_scatter) {
-  const Moments m = moments_of(points, n);
-  const double dx = std::log(n) - m.mean_x;
-  const double variance = variance_about(m, exponent, points, n, 1, least_scatter);
-  return estimate_of(std::exp(m.mean_y + exponent * dx),
-                     std::sqrt(variance * (1 + 1 / m.weight) + std::pow(exponent_scatter * dx, 2)));
+  const Moments m(points, n);
+  return m.estimate_at(n, exponent, m.variance_about(exponent, 1, least_scatter),
+                       exponent_scatter * exponent_scatter);
 }
 
 std::optional<double> pooled_exponent(const std::vector<std::vector<SizedValue>>& groups, int n) {
   double xx = 0, xy = 0;
   for (const auto& group : groups) {
     if (is_of_one_size(group)) continue;
-    const Moments m = moments_of(group, n);
+    const Moments m(group, n);
     xx += m.xx;
     xy += m.xy;
   }

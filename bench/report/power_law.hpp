@@ -2,12 +2,13 @@
 //
 //   log y = a + b log n, by weighted least squares with w_i = min(n_i/n, n/n_i):
 //
-// exponents change with the size, and the nearest sizes know best. The variance of a new value at
+// exponents change with the size, and the nearest sizes tell most. The variance of a new value at
 // n, with k points, m = Σ w_i log n_i / Σ w_i and residuals r_i, is
 //
-//   s² (1 + 1/Σ w_i + (log n − m)² / Σ w_i (log n_i − m)²),   s² = max(s_0², Σ w_i r_i² / (k − 2))
+//   s² (1 + 1/Σ w_i) + (log n − m)² v,   s² = max(s_0², Σ w_i r_i² / (k − p))
 //
-// where s_0 is the scatter that must be expected even if few points happen to lie on a line.
+// with p = 2 and v = s² / Σ w_i (log n_i − m)²; where b is known, p = 1 and √v = 0.3, by which b
+// may be off. s_0 is the scatter to be expected even if few points happen to lie on a line.
 #pragma once
 
 #include <optional>
@@ -32,13 +33,12 @@ Estimate estimate_of(double value, double scatter);
 std::optional<Estimate> extrapolate(const std::vector<SizedValue>& points, int n,
                                     double least_scatter);
 
-// Points of one size, with an exponent from elsewhere that may be off by exponent_scatter.
+// With an exponent from elsewhere that may be off by exponent_scatter; for points of one size.
 Estimate extrapolate(const std::vector<SizedValue>& points, int n, double exponent,
                      double least_scatter);
 inline constexpr double exponent_scatter = 0.3;
 
-// The common exponent near n of groups that have a factor each of their own. Empty: no group has
-// two different sizes.
+// The common exponent near n of groups with a factor each. Empty: no group has two different sizes.
 std::optional<double> pooled_exponent(const std::vector<std::vector<SizedValue>>& groups, int n);
 
 }  // namespace airybench

@@ -9,87 +9,88 @@
 #include <tuple>
 
 #include "support/data_folder.hpp"
+#include "support/text_table.hpp"
 
 namespace airybench {
 namespace {
 
 using RecordList = std::vector<const Record*>;
-using Quantity = std::optional<double> (*)(const Record&);
 
-std::optional<double> time_of(const Record& record) {
-  return record.time_s ? record.time_s : record.extrapolated_time_s;
-}
-// No tuning is not a time of zero: it says nothing about its growth.
-std::optional<double> tuning_of(const Record& record) {
-  return record.tuning_s.value_or(0) > 0 ? record.tuning_s : std::nullopt;
-}
-std::optional<double> heap_of(const Record& record) {
-  if (record.peak_heap_bytes.value_or(0) == 0) return {};
-  return static_cast<double>(*record.peak_heap_bytes);
-}
-
-// Standard deviations of logarithms, at least: of times between runs on a machine that does other
-// work as well, and of memory. With these, 52 of the 54 cases of direct methods on Mesh5..Mesh7 in
-// results/paper and results/direct lie in the interval from the other meshes of their folder. An
-// extrapolated timeout and a relative are trusted to a factor of four.
-struct Scatter {
+// What is predicted, empty where a record does not tell it, and standard deviations of its
+// logarithm, at least: of one case between runs on a machine that does other work as well, of power
+// laws of direct and iterative methods, and of another method.
+struct Quantity {
+  std::optional<double> (*of)(const Record&);
   double measured, direct, iterative, relative;
 };
-constexpr Scatter scatter_of_time = {0.15, 0.15, 0.3, 0.7};
-constexpr Scatter scatter_of_heap = {0.01, 0.1, 0.1, 0.35};
 
-std::size_t common_beginning(const std::string& a, const std::string& b) {
-  const std::size_t most = std::min(a.size(), b.size());
-  return static_cast<std::size_t>(std::mismatch(a.begin(), a.begin() + most, b.begin()).first -
-                                  a.begin());
-}
+// With these, 52 of the 54 cases of direct methods on Mesh5..Mesh7 in results/paper and
+// results/direct lie in the interval from the other meshes of their folder. An extrapolated timeout
+// and a relative are trusted to a factor of four.
+constexpr Quantity time_quantity = {
+    [](const Record& r) { return r.time_s ? r.time_s : r.extrapolated_time_s; }, 0.15, 0.15, 0.3,
+    0.7};
+// No tuning is not a time of zero: it says nothing about its growth.
+constexpr Quantity tuning_quantity = {
+    [](const Record& r) { return r.tuning_s.value_or(0) > 0 ? r.tuning_s : std::nullopt; }, 0.15,
+    0.15, 0.3, 0.7};
+constexpr Quantity heap_quantity = {[](const Record& r) {
+                                      const auto bytes =
+                                          static_cast<double>(r.peak_heap_bytes.value_or(0));
+                                      return bytes > 0 ? std::optional(bytes) : std::nullopt;
+                                    },
+                                    0.01, 0.1, 0.1, 0.35};
 
 // A method as it is run.
 struct Variant {
   std::string family, method, stop, knob;
   bool iterative = false;
   auto operator<=>(const Variant&) const = default;
+
+  explicit Variant(const Record& r)
+      : family(r.family),
+        method(r.general_name),
+        stop(r.iterative ? name_of(r.stop) : ""),
+        knob(r.knob_value ? fmt::format("{} {}", r.knob, *r.knob_value) : r.knob),
+        iterative(r.iterative) {}
   std::string text() const {
     std::string result = method;
     if (!stop.empty()) result += " with stop " + stop;
     return knob.empty() ? result : result + ", " + knob;
   }
+  // How much another one is like this one, most important first.
+  auto likeness(const Variant& other) const {
+    const auto common = std::ranges::mismatch(method, other.method).in1 - method.begin();
+    return std::tuple(method == other.method && knob == other.knob, other.knob.empty(), common,
+                      stop == other.stop);
+  }
 };
-
-Variant forecast_variant(const Record& r) {
-  return {r.family, r.general_name, r.iterative ? std::string(name_of(r.stop)) : "",
-          r.knob_value ? fmt::format("{} {}", r.knob, *r.knob_value) : r.knob, r.iterative};
-}
-
-// How much one variant is like another, most important first.
-auto likeness(const Variant& a, const Variant& b) {
-  return std::tuple(a.method == b.method && a.knob == b.knob, a.knob.empty(),
-                    common_beginning(a.method, b.method), a.stop == b.stop);
-}
 
 struct Grounded {
   Estimate estimate;
   std::string basis;
-  Variant variant;                    // whose records they are
+  const Variant* variant;             // whose records they are
   const Record* same_case = nullptr;  // that of the case itself
 };
 
 // "7 records, Mesh0..Mesh6, 2 extrapolated": the smallest and the largest mesh.
 std::string extent_of(const RecordList& records) {
-  const auto [smallest, largest] =
-      std::minmax_element(records.begin(), records.end(),
-                          [](const auto* a, const auto* b) { return a->n_phi < b->n_phi; });
+  const auto [smallest, largest] = std::ranges::minmax_element(records, {}, &Record::n_phi);
   std::string text = fmt::format("{} record{}, {}", records.size(), records.size() == 1 ? "" : "s",
                                  (*smallest)->mesh);
   if ((*smallest)->mesh != (*largest)->mesh) text += ".." + (*largest)->mesh;
-  const auto extrapolated = std::count_if(records.begin(), records.end(), [](const auto* record) {
-    return record->status == Status::timeout;
-  });
+  const auto extrapolated = std::ranges::count(records, Status::timeout, &Record::status);
   if (extrapolated > 0) text += fmt::format(", {} extrapolated", extrapolated);
   return text;
 }
 
-int size_of(const Record& r) { return static_cast<int>(r.n_phi.value_or(0)); }
+std::vector<SizedValue> points(const RecordList& records, const Quantity& quantity) {
+  std::vector<SizedValue> result;
+  for (const Record* record : records)
+    if (const auto value = quantity.of(*record))
+      result.push_back({static_cast<int>(*record->n_phi), *value});
+  return result;
+}
 
 class Past {
  public:
@@ -98,91 +99,83 @@ class Past {
     for (const bool of_studies : {true, false})  // the second replaces the first
       for (const Record& r : records)
         if (r.n_phi > 0 && r.study.empty() != of_studies)
-          latest[{forecast_variant(r), r.scene, r.mesh, *r.n_phi}] = &r;
+          latest[{Variant(r), r.scene, r.mesh, *r.n_phi}] = &r;
     for (const auto& [key, record] : latest) variants_[std::get<Variant>(key)].push_back(record);
   }
 
-  std::optional<Grounded> estimate(const Record& c, Quantity quantity,
-                                   const Scatter& scatter) const {
+  std::optional<Grounded> estimate(const Record& c, const Quantity& quantity) const {
     if (!c.n_phi) return {};  // no body whose size would tell
-    const Variant own = forecast_variant(c);
-    if (auto result = from(own, c, quantity, scatter)) return result;
-    const Variant* closest = nullptr;
-    for (const auto& [variant, records] : variants_)
-      if (variant.family == own.family && !points(records, quantity).empty() &&
-          (closest == nullptr || likeness(variant, own) > likeness(*closest, own)))
-        closest = &variant;
-    if (closest == nullptr) return {};
-    auto result = from(*closest, c, quantity, scatter);
+    const Variant own(c);
+    if (auto result = from(variants_.find(own), c, quantity)) return result;
+    auto closest = variants_.end();
+    for (auto at = variants_.begin(); at != variants_.end(); ++at)
+      if (at->first.family == own.family && !points(at->second, quantity).empty() &&
+          (closest == variants_.end() || own.likeness(at->first) > own.likeness(closest->first)))
+        closest = at;
+    auto result = from(closest, c, quantity);
     if (!result) return {};
-    const double factor = std::exp(2 * scatter.relative);
+    const double factor = std::exp(2 * quantity.relative);
     result->estimate.low /= factor;
     result->estimate.high *= factor;
-    result->basis = fmt::format("like {}: {}", closest->text(), result->basis);
+    result->basis = fmt::format("like {}: {}", closest->first.text(), result->basis);
     return result;
   }
 
   // From the variant that the time is from; zero where most of its cases needed none.
   std::optional<Estimate> tuning(const Record& c, const Grounded& time) const {
+    const auto found = variants_.find(*time.variant);
     if (time.same_case != nullptr) {
-      const std::optional<double> tuning_s = tuning_of(*time.same_case);
+      const std::optional<double> tuning_s = tuning_quantity.of(*time.same_case);
       if (!tuning_s) return {};
-      return estimate_of(*tuning_s, scatter_of_time.measured);
+      return estimate_of(*tuning_s, tuning_quantity.measured);
     }
-    const RecordList& records = variants_.at(time.variant);
-    if (2 * points(records, tuning_of).size() < points(records, time_of).size()) return {};
-    const auto result = from(time.variant, c, tuning_of, scatter_of_time);
+    if (2 * points(found->second, tuning_quantity).size() <
+        points(found->second, time_quantity).size())
+      return {};
+    const auto result = from(found, c, tuning_quantity);
     return result ? std::optional(result->estimate) : std::nullopt;
   }
 
  private:
-  static std::vector<SizedValue> points(const RecordList& records, Quantity quantity) {
-    std::vector<SizedValue> result;
-    for (const Record* record : records)
-      if (const auto value = quantity(*record))
-        result.push_back({static_cast<int>(*record->n_phi), *value});
-    return result;
-  }
-  static bool has_two_sizes(const RecordList& records) {
-    return std::any_of(records.begin(), records.end(), [&](const Record* record) {
-      return record->n_phi != records.front()->n_phi;
-    });
-  }
+  using Variants = std::map<Variant, RecordList>;
 
-  std::optional<Grounded> from(const Variant& variant, const Record& c, Quantity quantity,
-                               const Scatter& scatter) const {
-    const auto found = variants_.find(variant);
+  std::optional<Grounded> from(Variants::const_iterator found, const Record& c,
+                               const Quantity& quantity) const {
     if (found == variants_.end()) return {};
+    const Variant& variant = found->first;
     RecordList any_scene, same_scene;
     for (const Record* record : found->second) {
-      if (!quantity(*record)) continue;
+      if (!quantity.of(*record)) continue;
       any_scene.push_back(record);
       if (record->scene != c.scene) continue;
       same_scene.push_back(record);
       if (record->mesh != c.mesh || record->n_phi != c.n_phi) continue;
       const bool measured = record->status != Status::timeout;
       return Grounded{
-          estimate_of(*quantity(*record), measured ? scatter.measured : scatter.relative),
-          measured ? "measured" : "a timeout, extrapolated", variant, record};
+          estimate_of(*quantity.of(*record), measured ? quantity.measured : quantity.relative),
+          measured ? "measured" : "a timeout, extrapolated", &variant, record};
     }
     if (any_scene.empty()) return {};
-    const double least = variant.iterative ? scatter.iterative : scatter.direct;
-    const RecordList& used = has_two_sizes(same_scene) ? same_scene : any_scene;
+    const bool has_two_sizes = std::ranges::any_of(same_scene, [&](const Record* record) {
+      return record->n_phi != same_scene.front()->n_phi;
+    });
+    const RecordList& used = has_two_sizes ? same_scene : any_scene;
     const std::vector<SizedValue> values = points(used, quantity);
     const std::string basis = extent_of(used);
-    if (const auto law = extrapolate(values, size_of(c), least))
-      return Grounded{*law, basis, variant};
-    if (values.front().n == size_of(c))  // other scenes of this mesh
-      return Grounded{extrapolate(values, size_of(c), 0, least), basis, variant};
+    const double least = variant.iterative ? quantity.iterative : quantity.direct;
+    const int n = static_cast<int>(*c.n_phi);
+    if (const auto law = extrapolate(values, n, least)) return Grounded{*law, basis, &variant};
+    if (values.front().n == n)  // other scenes of this mesh
+      return Grounded{extrapolate(values, n, 0, least), basis, &variant};
     std::vector<std::vector<SizedValue>> groups;
     for (const auto& [other, records] : variants_) groups.push_back(points(records, quantity));
-    const std::optional<double> exponent = pooled_exponent(groups, size_of(c));
+    const std::optional<double> exponent = pooled_exponent(groups, n);
     if (!exponent) return {};
-    return Grounded{extrapolate(values, size_of(c), *exponent, least),
-                    fmt::format("{}, exponent {:.2f} of all methods", basis, *exponent), variant};
+    return Grounded{extrapolate(values, n, *exponent, least),
+                    fmt::format("{}, exponent {:.2f} of all methods", basis, *exponent), &variant};
   }
 
-  std::map<Variant, RecordList> variants_;
+  Variants variants_;
 };
 
 LimitMark mark_of(const std::optional<Estimate>& estimate, double limit) {
@@ -197,8 +190,7 @@ Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
     result.basis = "skipped";
     return result;
   }
-  const auto time = past.estimate(c, time_of, scatter_of_time);
-  const auto heap = past.estimate(c, heap_of, scatter_of_heap);
+  const auto time = past.estimate(c, time_quantity), heap = past.estimate(c, heap_quantity);
   result.basis = time ? time->basis : heap ? heap->basis : "no record";
   if (time) {
     result.time_s = time->estimate;
@@ -215,6 +207,44 @@ Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
   return result;
 }
 
+// "3.4 MiB"; more than any machine has, at the largest number of bytes there is.
+std::string show_heap(const std::optional<Estimate>& bytes) {
+  if (!bytes) return "-";
+  constexpr double most = 9e18;
+  return show_bytes(std::llround(std::min(bytes->value, most)));
+}
+
+// "43.2 s", "2 min 05 s"; far extrapolations may be of any size.
+std::string show_time(double seconds) {
+  return seconds < 100 || seconds > 1e9 ? show_seconds(seconds) : show_duration(seconds);
+}
+
+std::string totals(const std::vector<Record>& cases, const Forecast& forecast) {
+  double sum_s = forecast.references_s.value_or(0);
+  std::size_t unknown = 0, largest = 0;
+  std::optional<Estimate> most;
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const Prediction& p = forecast.cases[k];
+    if (p.run_s)
+      sum_s += *p.run_s;
+    else
+      ++unknown;
+    if (p.peak_heap_bytes && (!most || p.peak_heap_bytes->value > most->value)) {
+      most = p.peak_heap_bytes;
+      largest = k;
+    }
+  }
+  std::string text = fmt::format("the run: about {}", show_time(sum_s));
+  if (forecast.references_s)
+    text += fmt::format(", {} of it for references", show_time(*forecast.references_s));
+  else
+    text += ", without references";
+  if (unknown > 0) text += fmt::format(", without {} of {} cases", unknown, cases.size());
+  if (most)
+    text += fmt::format("; largest heap {}, {}", show_heap(most), name_of(cases[largest]).text());
+  return text + "\n";
+}
+
 }  // namespace
 
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders) {
@@ -224,15 +254,13 @@ PastRecords read_past_records(const std::vector<std::filesystem::path>& folders)
     std::error_code error;
     if (!std::filesystem::exists(file, error)) continue;
     try {
-      std::vector<Record> records = read_records(file, Studies::include);
-      std::move(records.begin(), records.end(), std::back_inserter(past.records));
+      std::ranges::move(read_records(file, Studies::include), std::back_inserter(past.records));
     } catch (const FileError& unusable) {
       past.passed_over.push_back(unusable.what());
     }
   }
-  std::stable_sort(past.records.begin(), past.records.end(), [](const Record& a, const Record& b) {
-    return context_word(a, "date") < context_word(b, "date");
-  });
+  std::ranges::stable_sort(past.records, {},
+                           [](const Record& record) { return context_word(record, "date"); });
   return past;
 }
 
@@ -242,13 +270,13 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
                               stability_scenes = data_folder("scenes/stability");
   std::vector<std::filesystem::path> folders = {committed / "paper", committed / "direct",
                                                 committed / "size", committed / "growth", besides};
-  // Most of all bytes; no law of a size comes from its two meshes.
-  if (std::any_of(cases.begin(), cases.end(), [&](const Record& c) {
-        std::error_code error;
-        return c.scene != "default" &&
-               std::filesystem::exists(stability_scenes / (c.scene + ".json"), error);
-      }))
-    folders.push_back(committed / "stability");
+  // The largest file, and only two meshes: elsewhere no law of a size comes from it.
+  const bool of_stability = std::ranges::any_of(cases, [&](const Record& c) {
+    std::error_code error;
+    return c.scene != "default" &&
+           std::filesystem::exists(stability_scenes / (c.scene + ".json"), error);
+  });
+  if (of_stability) folders.push_back(committed / "stability");
   return read_past_records(folders);
 }
 
@@ -263,8 +291,8 @@ double run_seconds(double time_s, double tuning_s, const RunLimits& limits) {
 
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits) {
-  // The reference takes so many times as long as HYBRID, from which it starts: 2.8 on Mesh0, 1.9 on
-  // Mesh6.
+  // The reference takes this many times as long as HYBRID, from which it starts: 2.8 on Mesh0, 1.9
+  // on Mesh6.
   constexpr double reference_per_hybrid = 2.5;
   const Past past(records);
   Forecast result;
@@ -279,13 +307,40 @@ Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& r
     hybrid_case.scene = c.scene;
     hybrid_case.n_phi = c.n_phi;
     hybrid_case.method = hybrid_case.general_name = hybrid_case.family = "HYBRID";
-    const auto hybrid = past.estimate(hybrid_case, time_of, scatter_of_time);
+    const auto hybrid = past.estimate(hybrid_case, time_quantity);
     if (!hybrid || !result.references_s)
       result.references_s.reset();
     else
       *result.references_s += reference_per_hybrid * hybrid->estimate.value;
   }
   return result;
+}
+
+std::string prediction_table(const std::vector<Record>& cases, const Forecast& forecast,
+                             const RunLimits& limits) {
+  std::vector<std::vector<std::string>> rows = {
+      {"case", "n_phi", "time", "range", "heap", "in the run", "from"}};
+  std::string marks;
+  const auto add_mark = [&](const std::string& name, LimitMark mark, const std::string& limit) {
+    if (mark == LimitMark::below) return;
+    const char* const verb = mark == LimitMark::above ? "above" : "may pass";
+    marks += fmt::format("{}: {} {}\n", name, verb, limit);
+  };
+  for (std::size_t k = 0; k < cases.size(); ++k) {
+    const Prediction& p = forecast.cases[k];
+    const std::string name = name_of(cases[k]).text();
+    std::string time = "-", range = "-";
+    if (p.time_s) {
+      time = show_time(p.time_s->value);
+      range = fmt::format("{} .. {}", show_time(p.time_s->low), show_time(p.time_s->high));
+    }
+    rows.push_back({name, cases[k].n_phi ? fmt::format("{}", *cases[k].n_phi) : "-", time, range,
+                    show_heap(p.peak_heap_bytes), p.run_s ? show_time(*p.run_s) : "-", p.basis});
+    add_mark(name, p.timeout, fmt::format("--timeout={}", limits.timeout_s));
+    add_mark(name, p.memory_limit,
+             fmt::format("--memory-limit={}", limits.memory_limit_bytes.value_or(0) >> 20));
+  }
+  return aligned_table(rows, 1) + totals(cases, forecast) + marks;
 }
 
 }  // namespace airybench

@@ -1,7 +1,7 @@
-// What planned cases will take, from earlier records, before anything is run.
+// Time and memory of planned cases, predicted from earlier records.
 //
 // In this order, for time, tuning and memory each:
-//   1. the latest record of the same case (mesh, size, scene, method, stop, knob);
+//   1. the latest record of the same case (mesh, size, scene, method, stop, parameter of a study);
 //   2. the power law over the method's other meshes (power_law.hpp), of the same scene where that
 //      has two sizes;
 //   3. with one size only: that, with the exponent common to all methods;
@@ -44,20 +44,20 @@ struct Forecast {
   std::optional<double> references_s;  // one per mesh and scene; empty: unknown for one of them
 };
 
-// The records of these folders, studies included, oldest first; a folder without one is passed
-// over. A file that cannot be used is passed over too, with a line that says why: a prediction is
-// no reason to refuse a run.
+// The records of these folders, studies included, oldest first. Folders without records are passed
+// over, also files that cannot be used, with a line that says why: a prediction is no reason to
+// refuse a run.
 struct PastRecords {
   std::vector<Record> records;
   std::vector<std::string> passed_over;
 };
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders);
-// Of the committed runs that tell of these cases, and of one folder besides.
+// Of the committed runs that have such cases, and of one more folder.
 PastRecords read_committed_records(const std::vector<Record>& cases,
                                    const std::filesystem::path& besides);
 
-// Of cases as they are planned: blank records. Of several records of one case the last one counts,
-// but a study's only where there is no other: its runs do more than the method alone.
+// Cases are blank records. Of several records of one case the last one counts, but a study's only
+// where there is no other: its runs do more than the method alone.
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
 

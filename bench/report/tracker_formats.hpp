@@ -1,4 +1,4 @@
-// Records in the formats of other trackers.
+// Records in the formats of build servers and other trackers.
 #pragma once
 
 #include <string>
@@ -7,6 +7,12 @@
 #include "bench/records/record.hpp"
 
 namespace airybench {
+
+// JUnit XML, which build servers show as test results: a testsuite per mesh and scene with the
+// context as properties, a testcase per method: ok passes; crashed, machine_fault, timeout and
+// out_of_memory are errors, skipped and unstressed are skipped, every other status is a failure
+// with its reason. `time` is the median of one solve in s.
+std::string junit_xml(const std::vector<Record>& cases);
 
 // github-action-benchmark, tool customSmallerIsBetter: a list of {name, unit, value, range, extra}
 // with time (ms), peak heap (B) and the errors of stress and force of every case that has them.

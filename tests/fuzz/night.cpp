@@ -1,13 +1,13 @@
 #include "bench/report/history.hpp"
-#include "bench/report/judge.hpp"
+#include "bench/report/track.hpp"
 #include "tests/fuzz/readers.hpp"
 
 namespace airybench::fuzz {
 
 void night(const std::string& text) {
-  const Night night = parse_night(text, "fuzz.json");
-  std::vector<Night> history = {night, night};
-  judge_newest(history, TimeRules());
+  const TrackedRun run = parse_tracked_run(text, "fuzz.json");
+  std::vector<TrackedRun> history = {run, run};
+  track_newest(history, TimeRules());
 }
 
 }  // namespace airybench::fuzz

@@ -4,7 +4,7 @@
 #include "bench/records/google_benchmark.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/report/junit.hpp"
+#include "bench/report/tracker_formats.hpp"
 #include "tests/fuzz/readers.hpp"
 
 namespace airybench::fuzz {

@@ -15,7 +15,6 @@
 #include "bench/records/record.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/robust.hpp"
-#include "bench/report/junit.hpp"
 #include "bench/report/tracker_formats.hpp"
 #include "tests/support/bench_command.hpp"
 

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <random>
 
-#include "bench/report/compare_report.hpp"
-
 namespace airybench::compare_test {
 namespace {
 
@@ -49,39 +47,38 @@ Sides interleaved(double ratio, std::optional<double> drift = {}, int runs = 4) 
 }
 
 Comparison compared(const Sides& sides) { return compare(sides.a, sides.b, {}); }
-Comparison compared(double ratio, std::optional<double> drift = {}, int runs = 4) {
-  return compared(interleaved(ratio, drift, runs));
-}
-TimeVerdict verdict(const Comparison& comparison) { return comparison.cases.at(0).verdict; }
+TimeVerdict verdict(const Sides& sides) { return compared(sides).cases.at(0).verdict; }
 
-TEST(Compare, SlowerFasterAndNotSeparated) {
-  EXPECT_EQ(verdict(compared(1.1)), TimeVerdict::slower);
-  EXPECT_EQ(verdict(compared(0.9)), TimeVerdict::faster);
-  EXPECT_EQ(verdict(compared(1)), TimeVerdict::not_separated);
-  EXPECT_EQ(verdict(compared(1.02)), TimeVerdict::not_separated);  // below the minimum effect
-  EXPECT_TRUE(compared(1.1).has_regression());
-  EXPECT_FALSE(compared(0.9).has_regression());
-  EXPECT_NEAR(compared(1.1).cases[0].ratio, 1.1, 2e-3);
-}
+using enum TimeVerdict;
 
-TEST(Compare, AnEffectMustExceedTheDrift) {
-  EXPECT_EQ(verdict(compared(1.2, 1.2)), TimeVerdict::not_separated);
-  EXPECT_EQ(verdict(compared(1.25, 1.2)), TimeVerdict::not_separated);  // 1.04 by the drift
-  EXPECT_EQ(verdict(compared(1.5, 1.2)), TimeVerdict::slower);
-  EXPECT_EQ(verdict(compared(0.9, 0.8)), TimeVerdict::not_separated);  // raw faster, else slower
-  EXPECT_EQ(verdict(compared(1.1, 0.95)), TimeVerdict::slower);
-  EXPECT_EQ(verdict(compared(0.5, 0.8)), TimeVerdict::faster);
-  EXPECT_FALSE(compared(1.1).drift);
+TEST(Compare, AnEffectMustExceedTheMinimumAndTheDrift) {
+  struct Effect {
+    double ratio;
+    std::optional<double> drift;
+    TimeVerdict verdict;
+  };
+  for (const auto& [ratio, drift, expected] :
+       {Effect{1.1, {}, slower}, Effect{0.9, {}, faster}, Effect{1, {}, not_separated},
+        Effect{1.02, {}, not_separated},  // below the minimum effect
+        Effect{1.2, 1.2, not_separated}, Effect{1.25, 1.2, not_separated},  // 1.04 by the drift
+        Effect{0.9, 0.8, not_separated},  // raw faster, else slower
+        Effect{1.5, 1.2, slower}, Effect{1.1, 0.95, slower}, Effect{0.5, 0.8, faster}}) {
+    const Comparison comparison = compared(interleaved(ratio, drift));
+    EXPECT_EQ(comparison.cases.at(0).verdict, expected) << ratio << ", " << drift.value_or(1);
+    EXPECT_EQ(comparison.has_regression(), expected == slower);
+    EXPECT_NEAR(comparison.cases[0].ratio, ratio, 2e-3);
+    EXPECT_EQ(comparison.drift.has_value(), drift.has_value());
+  }
 }
 
 TEST(Compare, OneRunEachIsNotSeparatedHoweverManyRepetitions) {
   const Comparison one =
       compare({{record("3STEPD", 1, 1000)}}, {{record("3STEPD", 1.6, 1000)}}, {});
-  EXPECT_EQ(verdict(one), TimeVerdict::one_run_each);
+  EXPECT_EQ(one.cases.at(0).verdict, one_run_each);
   EXPECT_FALSE(one.has_regression());
   EXPECT_NEAR(one.cases[0].ratio, 1.6, 1e-9);
   EXPECT_FALSE(one.cases[0].interval) << "nothing is known of the scatter of runs";
-  for (const std::string& text : {comparison_text(one), comparison_markdown(one)}) {
+  for (const std::string& text : {one.text(), one.markdown()}) {
     EXPECT_NE(text.find("not separated: one run each"), std::string::npos) << text;
     EXPECT_NE(text.find("1 runs of A, 1 of B: with 1 cases 4 interleaved runs on both sides would"),
               std::string::npos)
@@ -90,15 +87,14 @@ TEST(Compare, OneRunEachIsNotSeparatedHoweverManyRepetitions) {
 }
 
 TEST(Compare, SaysHowManyRunsWouldDo) {
-  const Comparison few = compared(1.5, {}, 3);
-  EXPECT_EQ(verdict(few), TimeVerdict::too_few_runs);
+  const Comparison few = compared(interleaved(1.5, {}, 3));
+  EXPECT_EQ(few.cases.at(0).verdict, too_few_runs);
   EXPECT_EQ(few.runs_needed, 4u);
   EXPECT_FALSE(few.has_regression());
 }
 
 TEST(Compare, RunsMustHaveBeenInterleaved) {
   const Sides good = interleaved(1.5);
-  EXPECT_EQ(verdict(compared(good)), TimeVerdict::slower);
   Sides first_all_of_a = good, no_dates = good, at_once = good, abba = good;
   for (int run = 0; run < 4; ++run) {
     first_all_of_a.a[run][0].context["date"] = date(run);
@@ -107,12 +103,10 @@ TEST(Compare, RunsMustHaveBeenInterleaved) {
     at_once.b[run][0].context["date"] = date(2 * run);
     if (run % 2 == 1) std::swap(abba.a[run][0].context["date"], abba.b[run][0].context["date"]);
   }
-  EXPECT_EQ(verdict(compared(first_all_of_a)), TimeVerdict::not_interleaved);
+  for (const Sides& sides : {good, at_once, abba}) EXPECT_EQ(verdict(sides), slower);
+  for (const Sides& sides : {first_all_of_a, no_dates}) EXPECT_EQ(verdict(sides), not_interleaved);
   EXPECT_FALSE(compared(first_all_of_a).has_regression());
-  EXPECT_NE(comparison_text(compared(first_all_of_a)).find("run A, B, A, B"), std::string::npos);
-  EXPECT_EQ(verdict(compared(no_dates)), TimeVerdict::not_interleaved);
-  EXPECT_EQ(verdict(compared(at_once)), TimeVerdict::slower);
-  EXPECT_EQ(verdict(compared(abba)), TimeVerdict::slower);
+  EXPECT_NE(compared(first_all_of_a).text().find("run A, B, A, B"), std::string::npos);
 }
 
 // Runs of two programs whose times differ by `ratio`. Every run has a pace of its own, which all
@@ -127,18 +121,28 @@ Sides drifting(double ratio, unsigned seed, int runs, int cases) {
   for (int run = 0; run < 2 * runs; ++run) {
     drift = 0.7 * drift + scatter(0.05);
     const bool is_b = run % 2 == 1;
-    std::vector<Record> records;
+    std::vector<Record>& records = (is_b ? sides.b : sides.a).emplace_back();
     for (int c = 0; c < cases; ++c) {
       const double pace = std::exp(drift + scatter(0.03)) * (is_b ? ratio : 1);
-      Record one = record("METHOD" + std::to_string(c), 0.01, 0);
+      Record& one = records.emplace_back(record("METHOD" + std::to_string(c), 0.01, 0));
       for (int i = 0; i < 11; ++i)
         one.samples_s.push_back(0.01 * (1 + c) * pace * std::exp(scatter(0.005)));
       one.context["date"] = date(run);
-      records.push_back(std::move(one));
     }
-    (is_b ? sides.b : sides.a).push_back(std::move(records));
   }
   return sides;
+}
+
+// The rule that compare's replaced took every repetition for a run.
+Runs repetitions_as_runs(const Record& run, int first_minute) {
+  Runs runs;
+  for (const double sample : run.samples_s) {
+    Record one = run;
+    one.samples_s = {sample};
+    one.context["date"] = date(2 * static_cast<int>(runs.size()) + first_minute);
+    runs.push_back({one});
+  }
+  return runs;
 }
 
 TEST(Compare, WhatARunsRepetitionsShareIsNoRegression) {
@@ -147,19 +151,9 @@ TEST(Compare, WhatARunsRepetitionsShareIsNoRegression) {
   for (unsigned seed = 1; seed <= tries; ++seed) {
     const Sides sides = drifting(1, seed, 6, 2);
     by_runs += compared(sides).has_regression() ? 1 : 0;
-    // The rule that this one replaces took every repetition for a run.
-    const auto as_runs = [](const Record& run, int first) {
-      Runs runs;
-      for (const double sample : run.samples_s) {
-        Record one = run;
-        one.samples_s = {sample};
-        one.context["date"] = date(2 * static_cast<int>(runs.size()) + first);
-        runs.push_back({one});
-      }
-      return runs;
-    };
-    by_repetitions +=
-        compare(as_runs(sides.a[0][0], 0), as_runs(sides.b[0][0], 1), {}).has_regression() ? 1 : 0;
+    const Sides as_runs = {repetitions_as_runs(sides.a[0][0], 0),
+                           repetitions_as_runs(sides.b[0][0], 1)};
+    by_repetitions += compared(as_runs).has_regression() ? 1 : 0;
   }
   EXPECT_LE(by_runs, static_cast<int>(tries / 40));
   EXPECT_GE(by_repetitions, static_cast<int>(tries / 10)) << "this test has no drift to see";
@@ -204,12 +198,12 @@ TEST(Compare, ABrokenCaseIsARegressionAndOtherChangesAreNamed) {
   b.linear_iterations = 12;
   const Comparison comparison = compare({{a, record("P2", 1)}}, {{b, record("P2", 1)}}, {});
   EXPECT_TRUE(comparison.has_regression());
-  for (const std::string& text : {comparison_text(comparison), comparison_markdown(comparison)}) {
+  for (const std::string& text : {comparison.text(), comparison.markdown()}) {
     EXPECT_NE(text.find("Mesh0/default/ALM: status ok → inaccurate\n"), std::string::npos) << text;
     EXPECT_NE(text.find("ALM: error_force 1e-07 → 2e-06\n"), std::string::npos) << text;
     EXPECT_NE(text.find("ALM: linear_iterations 10 → 12\n"), std::string::npos) << text;
   }
-  EXPECT_EQ(comparison_json(comparison)["regression"], true);
+  EXPECT_EQ(comparison.json()["regression"], true);
   // In one run of several; but not where A had failed, too.
   EXPECT_TRUE(compare({{a}, {a}}, {{b}, {a}}, {}).has_regression());
   EXPECT_FALSE(compare({{a}, {b}}, {{b}, {a}}, {}).has_regression());
@@ -224,7 +218,7 @@ TEST(Compare, TheGeometricMeanIsOverTheCasesThatAllRunsHave) {
   EXPECT_DOUBLE_EQ(comparison.mean_ratio.value_or(0), 1);
   EXPECT_FALSE(comparison.mean_interval);
   EXPECT_FALSE(compare({{crashed}}, {{crashed}}, {}).mean_ratio);
-  const Comparison several = compared(1.1);
+  const Comparison several = compared(interleaved(1.1));
   ASSERT_TRUE(several.mean_interval);
   EXPECT_LE(several.mean_interval->low, 1.1);
   EXPECT_GE(several.mean_interval->high, 1.1);

@@ -1,4 +1,5 @@
-// The statistics behind comparisons, against published tables and figures worked out by hand.
+// The statistics behind comparisons and claims, against published tables and figures worked out by
+// hand.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,8 +11,9 @@
 #include "bench/records/bootstrap.hpp"
 #include "bench/records/median_interval.hpp"
 #include "bench/records/robust.hpp"
+#include "bench/report/claims.hpp"
 #include "bench/report/mann_whitney.hpp"
-#include "bench/report/multiple_testing.hpp"
+#include "solvers/methods.hpp"
 
 namespace airybench::statistics_test {
 namespace {
@@ -77,34 +79,27 @@ TEST(MedianInterval, UncertaintyIsOfTheFartherEnd) {
   EXPECT_DOUBLE_EQ(*median_uncertainty({0.6, 1, 1, 1, 1, 1.1}), 0.4);
 }
 
-struct TableEntry {
-  int m, n, u;
-  double p;  // two-sided
-};
-
-class MannWhitneyTable : public ::testing::TestWithParam<TableEntry> {};
-
-TEST_P(MannWhitneyTable, ExactP) {
-  const auto [m, n, u, p] = GetParam();
-  const auto [a, b] = samples_with(m, n, u);
-  const MannWhitney forward = mann_whitney(a, b), backward = mann_whitney(b, a);
-  EXPECT_TRUE(forward.exact);
-  EXPECT_EQ(forward.u, u);
-  EXPECT_EQ(backward.u, m * n - u);
-  EXPECT_NEAR(forward.p, p, 1e-12);
-  EXPECT_NEAR(backward.p, p, 1e-12);
-}
-
 // Mann and Whitney's Tab. I (one tail there), and counts by hand: of C(6, 3) = 20 orderings one has
 // U = 0 and one U = 1, and so on.
-INSTANTIATE_TEST_SUITE_P(
-    Published, MannWhitneyTable,
-    ::testing::Values(TableEntry{3, 3, 0, 2.0 / 20}, TableEntry{3, 3, 1, 4.0 / 20},
-                      TableEntry{3, 3, 2, 8.0 / 20}, TableEntry{4, 4, 0, 2.0 / 70},
-                      TableEntry{4, 4, 1, 4.0 / 70}, TableEntry{4, 4, 2, 8.0 / 70},
-                      TableEntry{5, 5, 2, 8.0 / 252}, TableEntry{5, 5, 3, 14.0 / 252},
-                      TableEntry{3, 4, 0, 2.0 / 35}, TableEntry{2, 5, 0, 2.0 / 21},
-                      TableEntry{9, 9, 0, 2.0 / 48620}, TableEntry{3, 3, 9, 2.0 / 20}));
+TEST(MannWhitney, ExactPOfThePublishedTable) {
+  struct Entry {
+    int m, n, u;
+    double p;  // two-sided
+  };
+  for (const auto& [m, n, u, p] :
+       {Entry{3, 3, 0, 2.0 / 20}, Entry{3, 3, 1, 4.0 / 20}, Entry{3, 3, 2, 8.0 / 20},
+        Entry{4, 4, 0, 2.0 / 70}, Entry{4, 4, 1, 4.0 / 70}, Entry{4, 4, 2, 8.0 / 70},
+        Entry{5, 5, 2, 8.0 / 252}, Entry{5, 5, 3, 14.0 / 252}, Entry{3, 4, 0, 2.0 / 35},
+        Entry{2, 5, 0, 2.0 / 21}, Entry{9, 9, 0, 2.0 / 48620}, Entry{3, 3, 9, 2.0 / 20}}) {
+    const auto [a, b] = samples_with(m, n, u);
+    const MannWhitney forward = mann_whitney(a, b), backward = mann_whitney(b, a);
+    EXPECT_TRUE(forward.exact);
+    EXPECT_EQ(forward.u, u);
+    EXPECT_EQ(backward.u, m * n - u);
+    EXPECT_NEAR(forward.p, p, 1e-12) << m << " " << n << " " << u;
+    EXPECT_NEAR(backward.p, p, 1e-12) << m << " " << n << " " << u;
+  }
+}
 
 // The tabulated critical values of the two-sided test at 5 %: the largest U that rejects.
 TEST(MannWhitney, CriticalValuesAtFivePercent) {
@@ -174,7 +169,6 @@ TEST(Bootstrap, IsInsideTheSamplesAndRepeatable) {
   EXPECT_GT(interval.high, 2);
   EXPECT_EQ(bootstrap_median(samples).low, interval.low);
   EXPECT_EQ(bootstrap_median({3}).low, 3);
-  EXPECT_EQ(bootstrap_ratio_of_medians({3}, {2}).high, 1.5);
 }
 
 // Of a normal sample: 95 % nominal; the percentile bootstrap of 9 values covers nearly that.
@@ -194,6 +188,71 @@ TEST(Bootstrap, CoversTheMedian) {
     covered += interval.low <= 0 && 0 <= interval.high;
   }
   EXPECT_GT(covered, trials * 0.88);
+}
+
+TEST(Verdicts, ConjunctionOfVerdicts) {
+  using enum Verdict;
+  EXPECT_EQ(all_of({}), reproduced);
+  EXPECT_EQ(all_of({reproduced, undecided}), undecided);
+  EXPECT_EQ(all_of({undecided, not_reproduced, reproduced}), not_reproduced);
+  EXPECT_EQ(opposite(reproduced), not_reproduced);
+  EXPECT_EQ(opposite(undecided), undecided);
+}
+
+TEST(Verdicts, AnIntervalThatStraddlesTheThresholdDecidesNothing) {
+  using enum Verdict;
+  const Interval above_one = {1, infinity}, within_a_factor = {1 / 1.5, 1.5};
+  EXPECT_EQ(is_within({1.1, 1.3}, above_one), reproduced);
+  EXPECT_EQ(is_within({0.9, 1.3}, above_one), undecided);
+  EXPECT_EQ(is_within({0.9, 1}, above_one), not_reproduced);
+  EXPECT_EQ(is_within({3, infinity}, above_one), reproduced);
+  EXPECT_EQ(is_within({0.7, 1.4}, within_a_factor), reproduced);
+  EXPECT_EQ(is_within({0.7, 1.6}, within_a_factor), undecided);
+  EXPECT_EQ(is_within({0.3, 0.5}, within_a_factor), not_reproduced);
+  EXPECT_EQ(is_within({1.6, infinity}, within_a_factor), not_reproduced);
+  EXPECT_EQ(is_within({0, 1.5}, {-infinity, 1.5}), reproduced);
+}
+
+TEST(Verdicts, BootstrapOfTheRatioOfMedians) {
+  const CaseTime slow = {2, {2, 2.1, 1.9, 2.2, 1.8}}, fast = {1, {1, 1.05, 0.95, 1, 1}};
+  const Ratio ratio = ratio_of(slow, fast);
+  EXPECT_DOUBLE_EQ(ratio.figure, 2);
+  EXPECT_GE(ratio.interval.low, 1.8 / 1.05);
+  EXPECT_LE(ratio.interval.high, 2.2 / 0.95);
+  EXPECT_LT(ratio.interval.low, 1.95);
+  EXPECT_GT(ratio.interval.high, 2.05);
+  const Ratio single = ratio_of({3, {3}}, {2, {2}});
+  EXPECT_EQ(single.interval.low, 1.5);
+  EXPECT_EQ(single.interval.high, 1.5);
+}
+
+TEST(Verdicts, TimedOutCasesEnterWithTheTimeTheySpent) {
+  const CaseTime stopped = {100, {}, 10}, measured = {2, {2}};
+  const Ratio above = ratio_of(stopped, measured), below = ratio_of(measured, stopped);
+  EXPECT_TRUE(above.estimated);
+  EXPECT_EQ(above.figure, 50);
+  EXPECT_EQ(above.interval.low, 5);
+  EXPECT_EQ(above.interval.high, infinity);
+  EXPECT_EQ(below.interval.low, 0);
+  EXPECT_EQ(below.interval.high, 0.2);
+  const Ratio unknown = ratio_of(stopped, stopped);
+  EXPECT_EQ(unknown.interval.low, 0);
+  EXPECT_EQ(unknown.interval.high, infinity);
+}
+
+TEST(Verdicts, SpreadIsGeometricMeanAndRange) {
+  const Ratio all = spread({{2, {1.9, 2.1}}, {8, {7, 9}}});
+  EXPECT_DOUBLE_EQ(all.figure, 4);
+  EXPECT_EQ(all.interval.low, 2);
+  EXPECT_EQ(all.interval.high, 8);
+  const Ratio with_timeout = spread({{2, {1.9, 2.1}}, {8, {1, infinity}, true}});
+  EXPECT_EQ(with_timeout.interval.low, 1);
+  EXPECT_EQ(with_timeout.interval.high, infinity);
+}
+
+TEST(Verdicts, ThePapersNamesAreTheMethods) {
+  for (const auto& [of_paper, general] : paper_names)
+    EXPECT_EQ(select_methods(of_paper).front().identity(), general);
 }
 
 }  // namespace

@@ -135,9 +135,22 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
   expect_refused("track --history=h --from=b", "2026-11-21T030000Z.json: not a whole night");
 }
 
-TEST(Nights, ThatAreWrongAreNamedByFileKeyAndValue) {
-  const Json good = Json::parse(testing::text_of(testing::test_data("fuzz/night/good-one")));
+TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
+  const auto refusal = [](const std::string& text) -> std::string {
+    try {
+      parse_tracked_run(text, "n.json");
+    } catch (const RecordError& error) {
+      return error.what();
+    }
+    return "taken";
+  };
+  const std::string whole = testing::text_of(testing::test_data("fuzz/night/good-one"));
+  const Json good = Json::parse(whole);
   const std::string longish(5000, 'x');
+  std::vector<std::pair<std::string, std::string>> refused = {
+      {whole.substr(0, whole.size() / 2), "n.json: not a whole night: "},
+      {"", "n.json: not a whole night: "},
+      {"[]", "n.json: [] (allowed: a JSON object)"}};
   for (const auto& [path, value, named] :
        {std::tuple<const char*, Json, const char*>("/format", 1, "n.json: format: 1 (allowed: \""),
         {"/format", longish, "n.json: format: \"xxx"},
@@ -148,21 +161,22 @@ TEST(Nights, ThatAreWrongAreNamedByFileKeyAndValue) {
         {"/noise/samples_s", "fast", "n.json: noise: samples_s: \"fast\" (allowed: a list of"},
         {"/cases", nullptr, "n.json: cases: null (allowed: a list)"},
         {"/cases/0/n_phi", "many", "n.json: case 1: n_phi: \"many\" (allowed: a whole number"},
+        {"/cases/0/status", "fine", "n.json: case 1: status: \"fine\" (allowed: ok, "},
         {"/verdicts/0", 3, "n.json: verdict 1: 3 (allowed: a JSON object)"},
         {"/verdicts/0/lane", longish, "n.json: verdict 1: lane: \"xxx"},
         {"/verdicts/0/kind", "odd", "n.json: verdict 1: kind: \"odd\" (allowed: worse, better, ch"},
         {"/verdicts/0/ratio", "2", "n.json: verdict 1: ratio: \"2\" (allowed: a number, null)"},
         {"/failed", "no", "n.json: failed: \"no\" (allowed: true, false)"}}) {
-    Json night = good;
-    night[Json::json_pointer(path)] = value;
-    try {
-      parse_night(night.dump(), "n.json");
-      ADD_FAILURE() << path << ": taken";
-    } catch (const RecordError& error) {
-      EXPECT_EQ(std::string(error.what()).find(named), 0u) << error.what();
-      EXPECT_LT(std::string(error.what()).size(), 250u);
-    }
+    Json wrong = good;
+    wrong[Json::json_pointer(path)] = value;
+    refused.emplace_back(wrong.dump(), named);
   }
+  for (const auto& [text, named] : refused) {
+    EXPECT_EQ(refusal(text).find(named), 0u) << refusal(text);
+    EXPECT_LT(refusal(text).size(), 250u);
+    EXPECT_EQ(refusal(text).find('\n'), std::string::npos);
+  }
+  EXPECT_EQ(refusal(whole), "taken");
 }
 
 TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {
