@@ -1,5 +1,5 @@
-// A case with load steps: its whole path is one solve, and every step is judged as a problem of its
-// own. A case without is a path of one step.
+// A case with load steps: its whole path is one solve, and every step is judged as a separate
+// problem. A case without is a path of one step.
 #pragma once
 
 #include <memory>
@@ -47,7 +47,7 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
                     const VisitStep& visit, double& watched_s);
 
 // "load step 3 of 20: ", or nothing where there is one only.
-std::string step_prefix(std::size_t step, const Problem& first);
+std::string step_prefix(std::int64_t step, const Problem& first);
 
 // The step whose worst measure is largest, a NaN above all; steps: some. Where a step is
 // another solution, its measures are to that one.
@@ -56,8 +56,8 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps);
 // Record::steps.
 Json steps_of(const std::vector<JudgedStep>& steps);
 
-// The same of a path whose steps are gone in two halves each, by HYBRID, where both halves are
-// done; at their ends the loads are those of the path's own steps. What friction takes is of both.
+// The same of a path whose steps are taken in two halves each, by HYBRID, where both halves are
+// done; at their ends the loads are those of the path's own steps. The dissipation is that of both.
 Json steps_in_halves(const Problem& first);
 
 }  // namespace airybench

@@ -7,8 +7,8 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <vector>
 
-#include "bench/records/robust.hpp"
 #include "support/seconds_since.hpp"
 
 #ifdef __linux__
@@ -109,14 +109,6 @@ double run_noise_kernel(int threads) {
     });
   workers.clear();  // joins
   return *std::max_element(seconds.begin(), seconds.end());
-}
-
-NoiseSummary summarise_noise(std::vector<double> samples_s) {
-  NoiseSummary summary;
-  summary.median_s = median(samples_s);
-  summary.mad_s = median_absolute_deviation(samples_s);
-  summary.samples = std::move(samples_s);
-  return summary;
 }
 
 }  // namespace airybench

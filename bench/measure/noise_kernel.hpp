@@ -7,8 +7,6 @@
 // matters. Its data are in static storage, so that heap figures do not see them.
 #pragma once
 
-#include <vector>
-
 namespace airybench {
 
 // Seconds of one pass. Allocates nothing. Not for several threads at once.
@@ -28,12 +26,5 @@ inline constexpr int noise_sweep_length = 1 << 14;
 #else
 inline constexpr int noise_sweep_length = 1 << 20;
 #endif
-
-struct NoiseSummary {
-  double median_s = 0, mad_s = 0;  // median absolute deviation from the median
-  std::vector<double> samples;     // s, in order
-  double spread() const { return mad_s / median_s; }
-};
-NoiseSummary summarise_noise(std::vector<double> samples_s);  // at least one
 
 }  // namespace airybench

@@ -9,16 +9,9 @@
 #include <memory>
 
 #include "bench/measure/activity_board.hpp"
-#include "bench/measure/assembled_blocks.hpp"
 #include "bench/measure/load_step_runs.hpp"
-#include "bench/measure/memory_split.hpp"
-#include "bench/measure/timed_run.hpp"
+#include "bench/measure/record_notes.hpp"
 #include "bench/plan/options.hpp"
-#include "bench/records/record.hpp"
-#include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/reference.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/methods.hpp"
 
 namespace airybench {

@@ -1,11 +1,10 @@
-// What a Workbench knows of the mesh's own error, and the fields that it writes with it.
+// The mesh's own error in a Workbench, and the fields that it writes with it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "bench/measure/field_files.hpp"
-#include "bench/measure/record_notes.hpp"
 #include "bench/measure/workbench.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 

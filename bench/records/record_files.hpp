@@ -19,7 +19,7 @@ namespace airybench {
 // What becomes of the records that a folder has.
 enum class Keep {
   none,      // they go when the first of this run comes
-  others,    // only those of the same cases go, whatever they were measured with
+  others,    // those of the same cases go, whatever they were measured with
   finished,  // all stay, and must be of the same machine, program and settings as this run
 };
 
@@ -53,9 +53,6 @@ class RecordFiles {
   bool torn_ = false;
   Journal journal_;
 };
-
-// The lines of a folder's records, packed or not. Throws FileError, also where there is none.
-std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 
 // records.jsonl, results.csv and results.json of these; each file whole or not at all. Throws
 // FileError, also when another process holds the folder.

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/records/bootstrap.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 

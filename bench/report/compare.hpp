@@ -21,7 +21,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/bootstrap.hpp"
+#include "bench/records/robust.hpp"
 #include "bench/records/record_reader.hpp"
 
 namespace airybench {

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "assembly/scene.hpp"
-#include "bench/measure/contact_picture.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"

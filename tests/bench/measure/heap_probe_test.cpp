@@ -12,7 +12,6 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/measure/rss_probe.hpp"
 #include "bench/measure/workbench.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
