@@ -104,33 +104,32 @@ Context describe_environment(int threads) {
 
 Context context_of_run(const Options& options) {
   Context context = describe_environment(options.threads);
-  const Context settings = {
-      {"target_error", fmt::format("{}", options.target_error)},
-      {"timeout_s", fmt::format("{}", options.timeout_s)},
-      {"long_case_s", fmt::format("{}", options.long_case_s)},
-      {"repetitions", std::to_string(options.repetitions)},
-      {"interleaved", options.interleave ? "yes" : "no"},
-      {"memory_limit_bytes",
-       options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
+  const auto set = [&](const char* key, const auto& value) {
+    context[key] = fmt::format("{}", value);
   };
-  context.insert(settings.begin(), settings.end());
-  if (options.tuning_budget_s)
-    context["tuning_budget_s"] = fmt::format("{}", *options.tuning_budget_s);
-  if (!options.budgets_s.empty())
-    context["budgets_s"] = fmt::format("{}", fmt::join(options.budgets_s, ","));
-  if (options.study == Study::scaling)
-    context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
-  if (options.precision) {
-    context["precision"] = fmt::format("{}", *options.precision);
-    context["max_repetitions"] = std::to_string(options.max_repetitions);
-  }
-  if (options.retry_noisy) context["retry_noisy"] = fmt::format("{}", *options.retry_noisy);
+  const auto set_if_any = [&](const char* key, const auto& value) {
+    if (value) set(key, *value);
+  };
+  set("target_error", options.target_error);
+  set("timeout_s", options.timeout_s);
+  set("long_case_s", options.long_case_s);
+  set("repetitions", options.repetitions);
+  set("interleaved", options.interleave ? "yes" : "no");
+  set("memory_limit_bytes", "none");
+  set_if_any("memory_limit_bytes", options.memory_limit_bytes);
+  set_if_any("tuning_budget_s", options.tuning_budget_s);
+  const auto list = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
+  if (!options.budgets_s.empty()) set("budgets_s", list(options.budgets_s));
+  if (options.study == Study::scaling) set("threads", list(options.thread_counts));
+  set_if_any("precision", options.precision);
+  if (options.precision) set("max_repetitions", options.max_repetitions);
+  set_if_any("retry_noisy", options.retry_noisy);
   if (!options.adapt.empty()) {
-    context["adapt"] = text_of(options.adapt);
-    if (options.marking) context["marking"] = fmt::format("{}", *options.marking);
-    context["adapt_by"] = options.adapt_by;
+    set("adapt", text_of(options.adapt));
+    set_if_any("marking", options.marking);
+    set("adapt_by", options.adapt_by);
   }
-  if (options.shard.count > 1) context["shard"] = name_of(options.shard);
+  if (options.shard.count > 1) set("shard", name_of(options.shard));
   for (const auto& [key, value] : options.own_context) {
     constexpr std::array words_of_the_plan = {"shard", "cases_planned", "plan_sha256"};
     if (context.contains(key) ||

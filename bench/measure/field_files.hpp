@@ -35,8 +35,8 @@
 namespace airybench {
 
 // Per contact point of the system, two per edge, in Problem::frame_of_moment(). Gap and slip are
-// what the contact law has: moments over the edge (edge_forces.hpp), a gap of zero where it is
-// closed and a slip of zero where it sticks, from the load step before.
+// those of the contact law: moments over the edge (edge_forces.hpp), from the load step before; a
+// closed point has no gap, a sticking one no slip.
 struct ContactPicture {
   std::vector<Eigen::Vector2d> at_mm;
   std::vector<EdgeFrame> frame;

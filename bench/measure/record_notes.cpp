@@ -63,13 +63,6 @@ TimedRun timed_run_of(const Json& json) {
           json.at("program_s").get<double>()};
 }
 
-std::map<std::string, double> by_name(const StageTimes& times) {
-  std::map<std::string, double> seconds;
-  for (const Stage stage : all_stages)
-    if (times[stage]) seconds[std::string(name_of(stage))] = *times[stage];
-  return seconds;
-}
-
 void add_run(const TimedRun& run, Record& record) {
   if (run.runs_s > 0) record.runs_s = run.runs_s;
   if (run.status == record.claimed_status) {

@@ -7,11 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/measure/memory_watch.hpp"
+#include "bench/measure/solve_watch.hpp"
 #include "bench/records/record.hpp"
 #include "bench/verify/contact_intervals.hpp"
 #include "bench/verify/discretisation_error.hpp"
-#include "solvers/base/stage_times.hpp"
 
 namespace airybench {
 
@@ -25,7 +24,7 @@ struct AssembledBlocks {
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
                                      int repetitions);
 
-// Nothing where the heap is not watched.
+// Empty where the heap is not watched.
 std::optional<std::int64_t> if_probed(std::int64_t bytes);
 
 // One timed run of a case, as it travels from the case's process.
@@ -41,25 +40,21 @@ struct TimedRun {
 Json to_json(const TimedRun& run);
 TimedRun timed_run_of(const Json& json);
 
-// The stages that there are.
-std::map<std::string, double> by_name(const StageTimes& times);
-
-// Adds its sample. A run that ended otherwise than the detail run did sets the record's status, and
-// takes the samples away.
+// Adds its sample. A run that ended otherwise than the detail run sets the record's status, and
+// removes the samples.
 void add_run(const TimedRun& run, Record& record);
 
-// The method's own word, with counts and sizes.
 void note(const Solution& solution, Record& record);
 // by: whose displacements it was made with, Record::discretisation_by. After the verification.
 void note(const ConstitutiveError& error, const char* by, Record& record);
 void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
-// Of an ok case, after the verification: nothing touches, nothing can touch, nothing is free.
+// Reasons of an ok case, after the verification. Nothing touches, can touch, or is free:
 void note_what_is_idle(const Problem& problem, Record& record);
-// The same, of a path in equilibrium stresses: that another number of contact points sticks, or
-// resultants move by more than 1 %, where every step is taken in two halves.
+// Of a path in equilibrium stresses, where every step is taken in two halves: other numbers of
+// points stick or slip, or resultants move by more than 1 %.
 void note_slip_of_half_steps(Record& record);
-// The same: strains for which linear elasticity does not hold.
+// Strains for which linear elasticity does not hold.
 void note_large_strains(const Problem& problem, const StressField& stress, Record& record);
 
 }  // namespace airybench

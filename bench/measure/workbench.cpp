@@ -9,7 +9,6 @@
 #include <new>
 
 #include "bench/measure/heap_probe.hpp"
-#include "bench/measure/instruction_counter.hpp"
 #include "bench/plan/blank_record.hpp"
 #include "bench/verify/answer_hash.hpp"
 #include "bench/verify/moments_check.hpp"
@@ -236,9 +235,9 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
-    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    // Another's discrete law is not ours; the violations in N stay.
     result.verification.natural_map_residual.reset();
-    // And no stress of its own is no reason to think that there is none.
+    // Its own stress, which is zero, does not tell whether there is none.
     result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
   }
   return result;
@@ -357,9 +356,7 @@ Workbench::Examination Workbench::examine(const Method& method,
                     (run.time_s > options_.long_case_s || options_.study == Study::stability);
   if (once && is_measured(record)) {
     record.measured_once = true;
-    record.samples_s.push_back(run.time_s);
-    record.stage_samples.push_back(by_name(solution.times));
-    if (solution.program) record.program_samples_s.push_back(solution.program->wall_s);
+    add_run(timed(run), record);
     note_memory(run, record);
   }
   return examination;
@@ -383,16 +380,20 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   record.instructions = run.instructions;
 }
 
+TimedRun Workbench::timed(const Run& run) {
+  TimedRun result;
+  result.time_s = run.time_s;
+  result.status = run.solution.status;
+  result.message = run.solution.message;
+  for (const Stage stage : all_stages)
+    if (const auto& seconds = run.solution.times[stage])
+      result.stages[std::string(name_of(stage))] = *seconds;
+  if (run.solution.program) result.program_s = run.solution.program->wall_s;
+  return result;
+}
+
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
-  const Run run = solve(choice, blocks(method.blocks), Activity::timed_run);
-  const Solution& solution = run.solution;
-  TimedRun timed;
-  timed.time_s = run.time_s;
-  timed.stages = by_name(solution.times);
-  timed.status = solution.status;
-  timed.message = solution.message;
-  if (solution.program) timed.program_s = solution.program->wall_s;
-  return timed;
+  return timed(solve(choice, blocks(method.blocks), Activity::timed_run));
 }
 
 }  // namespace airybench

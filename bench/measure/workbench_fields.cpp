@@ -166,25 +166,20 @@ void Workbench::judge_discretisation(const Method& method, Record& record) {
   }
 }
 
-std::optional<DisplacementField> Workbench::displacement_of(const DualSystem& system,
-                                                            const Solution& solution,
-                                                            const Discretisation* known) {
-  std::optional<DisplacementField> w;
-  if (solution.displacement.cols() > 0)
-    w = solution.displacement;
-  else if (solution.edge_moments.cols() > 0)
-    w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  else if (known != nullptr)
-    w = known->u;
-  return w && w->allFinite() ? w : std::nullopt;
-}
-
 void Workbench::write_fields_of(const Method& method, const DualSystem& system,
                                 const Solution& solution, const Record& record,
                                 const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
-  SolvedFields fields{system, solution, displacement_of(system, solution, known), nullptr, {}};
+  SolvedFields fields{system, solution, {}, nullptr, {}};
+  // The method's own displacement, one recovered from its edge moments, or one that is known.
+  if (solution.displacement.cols() > 0)
+    fields.w = solution.displacement;
+  else if (solution.edge_moments.cols() > 0)
+    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  else if (known != nullptr)
+    fields.w = known->u;
+  if (fields.w && !fields.w->allFinite()) fields.w.reset();
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
     if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);

@@ -126,13 +126,12 @@ Json json_of_text(const std::string& text, const std::string& place);
 
 CaseName name_of(const Record& record);
 
-// Of the run's context; "": it has none.
+// "": its context has none.
 std::string context_word(const Record& record, const std::string& key);
 
-// Has the verifier seen it?
 bool is_verified(const Record& record);
 
-// Has it an answer whose time and memory are worth taking? Also one that was cut short on purpose.
+// Has an answer whose time and memory are worth taking, also one that was cut short on purpose.
 bool is_measured(const Record& record);
 
 }  // namespace airybench

@@ -25,8 +25,8 @@ enum class Keep {
 
 class RecordFiles {
  public:
-  // Makes the folder, and holds it. Throws FileError: the folder, also when another process holds
-  // it; records to keep that cannot be read or, with Keep::finished, are of another run.
+  // Makes the folder, and locks it. Throws FileError: the folder cannot be made or is locked;
+  // records to keep cannot be read or, with Keep::finished, are of another run.
   RecordFiles(const std::filesystem::path& folder, Context context, Keep keep);
 
   // With Keep::finished: the record of this case, if there is one that no fault of the machine
@@ -55,7 +55,7 @@ class RecordFiles {
 };
 
 // records.jsonl, results.csv and results.json of these; each file whole or not at all. Throws
-// FileError, also when another process holds the folder.
+// FileError, also when the folder is locked.
 void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines);
 
 }  // namespace airybench

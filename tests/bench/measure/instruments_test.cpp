@@ -11,7 +11,6 @@
 
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
-#include "bench/measure/instruction_counter.hpp"
 #include "bench/measure/noise_kernel.hpp"
 #include "bench/measure/record_notes.hpp"
 

@@ -1,10 +1,9 @@
-// What one solve needs of memory: its heap by owner (memory_owner.hpp) and by stage, next to what
-// the method counts for itself, and the process's resident set.
+// What one solve takes besides time: heap by owner (memory_owner.hpp) and by stage, next to what
+// the method counts for itself; resident set; instructions.
 //
 // All bytes of heap are above what was live before the solve, the blocks counted in. Measured and
-// counted are compared at one moment: an owner's bytes at the ends of stages, the most of them. By
-// then the workspace of building is gone and what the method keeps, which is what it counts, is
-// there; at the overall peak one owner may be half built, copied or gone. The vectors of an
+// counted are compared at the ends of stages, the most of an owner's bytes there: by then the
+// workspace of building is gone and what the method keeps, and counts, is there. The vectors of an
 // iteration live inside a stage, so theirs is the owner's own highest.
 #pragma once
 
@@ -62,12 +61,29 @@ class MemoryWatch : public StageObserver {
   ObservedStages observed_{this};
 };
 
-// The process's resident set, from Linux's /proc. Includes everything: code, heap, mapped buffers.
+// The process's resident set: code, heap, mapped buffers.
 namespace rss {
 // Sets the kernel's high-water mark to the present resident set; false where that is not allowed.
 bool reset_peak();
-// The high-water mark (VmHWM), bytes.
-std::optional<std::int64_t> peak_bytes();
+std::optional<std::int64_t> peak_bytes();  // the high-water mark, VmHWM
 }  // namespace rss
+
+// Instructions that this process executes in user space, by Linux's perf_event_open(2): other work
+// on the machine does not disturb the figure. Of threads those count that are started while the
+// counter lives, by the thread that made it or its descendants.
+class InstructionCounter {
+ public:
+  InstructionCounter();  // begins to count
+  ~InstructionCounter();
+  InstructionCounter(const InstructionCounter&) = delete;
+  InstructionCounter& operator=(const InstructionCounter&) = delete;
+
+  // Since construction. Empty where the machine has no such counter (many virtual ones), the kernel
+  // forbids it (/proc/sys/kernel/perf_event_paranoid), or others had it for part of the time.
+  std::optional<std::int64_t> count() const;
+
+ private:
+  int file_;  // -1: not available
+};
 
 }  // namespace airybench
