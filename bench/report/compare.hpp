@@ -21,8 +21,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/robust.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 
