@@ -135,7 +135,7 @@ struct Rule {
 const std::string status_words = fmt::format("{}", fmt::join(names_of(all_statuses), ", "));
 const std::string solver_words = fmt::format("{}", fmt::join(names_of(all_contact_solvers), ", "));
 
-namespace rule {
+namespace rules {
 const Rule name{"a text that is not empty, without / and control characters", is_name_of_something,
                 true};
 const Rule text{"a text, null", is_text};
@@ -169,7 +169,7 @@ const Rule steps{
     is_list_of<is_load_step>};
 const Rule attempts{"a list of {tolerance, claimed_status[, error_estimate][, error]}, null",
                     is_list_of<is_attempt>};
-}  // namespace rule
+}  // namespace rules
 
 template <auto member>
 Json value_of(const Record& record) {
@@ -185,7 +185,7 @@ void read(const Json& value, const std::string& place, const char* key, Record& 
           fmt::format("{}: {}: {} (allowed: {})", place, key, shortened(json_text(part)), allowed));
   };
   check(rule.accepts(value), value, rule.allowed);
-  if constexpr (&rule == &rule::times)
+  if constexpr (&rule == &rules::times)
     for (const Json& time : value) check(is_time(time), time, "numbers > 0");
   convert(value, record.*member);
 }
@@ -202,7 +202,7 @@ const std::vector<Field>& record_fields() {
    meaning,                                                  \
    value_of<&Record::name>,                                  \
    [](Record& record) { record.name = Record().name; },      \
-   read<rule::kind, &Record::name>},
+   read<rules::kind, &Record::name>},
 #include "bench/records/record_fields.def"
   };
   return fields;
