@@ -15,8 +15,6 @@
 #include "bench/commands/posed_scenes.hpp"
 #include "bench/external/external_method.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/measure/machine_warnings.hpp"
-#include "bench/measure/noise_kernel.hpp"
 #include "bench/plan/blank_record.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/plan.hpp"
@@ -108,10 +106,7 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
   for (const Record& record : result.records)
     noise.insert(noise.end(), record.noise_kernel_samples_s.begin(),
                  record.noise_kernel_samples_s.end());
-  const std::optional<double> spread =
-      noise.empty() ? std::nullopt : std::optional(summarise_noise(noise).spread());
-  for (const std::string& warning :
-       machine_warnings(machine_state(context, least_repetitions(options), spread)))
+  for (const std::string& warning : machine_warnings(context, least_repetitions(options), noise))
     fmt::print("note: {}\n", warning);
   if (const int early = accepted_too_early(result.records); early > 0)
     fmt::print(

@@ -1,5 +1,6 @@
 #include "bench/measure/activity_board.hpp"
 
+#include <fmt/format.h>
 #include <sys/mman.h>
 
 #include <array>
@@ -11,9 +12,10 @@ namespace airybench {
 namespace {
 
 std::int64_t now_ns() {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
-      .count();
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+double seconds_after(std::int64_t began_ns) {
+  return 1e-9 * static_cast<double>(now_ns() - began_ns);
 }
 
 }  // namespace
@@ -59,9 +61,7 @@ void ActivityBoard::ends() {
 }
 
 void ActivityBoard::beat() { page_->beat_ns = now_ns(); }
-double ActivityBoard::silent_s() const {
-  return 1e-9 * static_cast<double>(now_ns() - page_->beat_ns);
-}
+double ActivityBoard::silent_s() const { return seconds_after(page_->beat_ns); }
 
 void ActivityBoard::begins(Stage stage) { page_->stage = static_cast<int>(stage); }
 void ActivityBoard::ends(Stage) { page_->stage = -1; }
@@ -69,17 +69,13 @@ void ActivityBoard::ends(Stage) { page_->stage = -1; }
 Activity ActivityBoard::activity() const { return static_cast<Activity>(page_->activity.load()); }
 
 double ActivityBoard::seconds() const {
-  return activity() == Activity::none ? 0 : 1e-9 * static_cast<double>(now_ns() - page_->began_ns);
+  return activity() == Activity::none ? 0 : seconds_after(page_->began_ns);
 }
 
 std::string ActivityBoard::where() const {
-  std::string text(name_of(activity()));
+  const std::string text(name_of(activity()));
   const int stage = page_->stage;
-  if (stage >= 0) {
-    text += ", ";
-    text += name_of(static_cast<Stage>(stage));
-  }
-  return text;
+  return stage < 0 ? text : fmt::format("{}, {}", text, name_of(static_cast<Stage>(stage)));
 }
 
 double ActivityBoard::seconds_in_runs() const {

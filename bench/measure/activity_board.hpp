@@ -1,5 +1,5 @@
-// What a process is doing, on a page of memory that it shares with the process that watches it: so
-// that the watcher can say where a crash came, and end what takes too long.
+// What a process is doing, on a page of memory shared with the process that watches it, which can
+// so report where a crash came, and end what takes too long.
 #pragma once
 
 #include <atomic>
@@ -47,9 +47,8 @@ class ActivityBoard : public StageObserver {
   std::string where() const;       // "timed run, factor"
   double seconds_in_runs() const;  // of all runs that have ended, or are under way
 
-  // That the process still listens, while it waits for others; begins() and ends() say so, too.
-  void beat();
-  double silent_s() const;  // since the last of these
+  void beat();              // the process is alive, though it waits for others
+  double silent_s() const;  // since the last beat(), begins() or ends()
 
  private:
   struct Page {

@@ -20,9 +20,11 @@
 
 #include "bench/measure/build_info.hpp"
 #include "bench/measure/heap_probe.hpp"
+#include "bench/records/robust.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "support/errors.hpp"
+#include "support/numbers.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
 
@@ -102,43 +104,85 @@ Context describe_environment(int threads) {
 
 Context context_of_run(const Options& options) {
   Context context = describe_environment(options.threads);
-  const Context settings = {
-      {"target_error", fmt::format("{}", options.target_error)},
-      {"timeout_s", fmt::format("{}", options.timeout_s)},
-      {"long_case_s", fmt::format("{}", options.long_case_s)},
-      {"repetitions", std::to_string(options.repetitions)},
-      {"interleaved", options.interleave ? "yes" : "no"},
-      {"memory_limit_bytes",
-       options.memory_limit_bytes ? std::to_string(*options.memory_limit_bytes) : "none"},
+  const auto set = [&](const char* key, const auto& value) {
+    context[key] = fmt::format("{}", value);
   };
-  context.insert(settings.begin(), settings.end());
-  if (options.tuning_budget_s)
-    context["tuning_budget_s"] = fmt::format("{}", *options.tuning_budget_s);
-  if (!options.budgets_s.empty())
-    context["budgets_s"] = fmt::format("{}", fmt::join(options.budgets_s, ","));
-  if (options.study == Study::scaling)
-    context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
-  if (options.precision) {
-    context["precision"] = fmt::format("{}", *options.precision);
-    context["max_repetitions"] = std::to_string(options.max_repetitions);
-  }
-  if (options.retry_noisy) context["retry_noisy"] = fmt::format("{}", *options.retry_noisy);
+  const auto set_if_any = [&](const char* key, const auto& value) {
+    if (value) set(key, *value);
+  };
+  set("target_error", options.target_error);
+  set("timeout_s", options.timeout_s);
+  set("long_case_s", options.long_case_s);
+  set("repetitions", options.repetitions);
+  set("interleaved", options.interleave ? "yes" : "no");
+  set("memory_limit_bytes", "none");
+  set_if_any("memory_limit_bytes", options.memory_limit_bytes);
+  set_if_any("tuning_budget_s", options.tuning_budget_s);
+  const auto list = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
+  if (!options.budgets_s.empty()) set("budgets_s", list(options.budgets_s));
+  if (options.study == Study::scaling) set("threads", list(options.thread_counts));
+  set_if_any("precision", options.precision);
+  if (options.precision) set("max_repetitions", options.max_repetitions);
+  set_if_any("retry_noisy", options.retry_noisy);
   if (!options.adapt.empty()) {
-    context["adapt"] = text_of(options.adapt);
-    if (options.marking) context["marking"] = fmt::format("{}", *options.marking);
-    context["adapt_by"] = options.adapt_by;
+    set("adapt", text_of(options.adapt));
+    set_if_any("marking", options.marking);
+    set("adapt_by", options.adapt_by);
   }
-  if (options.shard.count > 1) context["shard"] = name_of(options.shard);
+  if (options.shard.count > 1) set("shard", name_of(options.shard));
   for (const auto& [key, value] : options.own_context) {
     constexpr std::array words_of_the_plan = {"shard", "cases_planned", "plan_sha256"};
-    if (context.contains(key) || std::find(words_of_the_plan.begin(), words_of_the_plan.end(),
-                                           key) != words_of_the_plan.end())
+    if (context.contains(key) ||
+        std::ranges::find(words_of_the_plan, key) != words_of_the_plan.end())
       throw UsageError(fmt::format(
           "-- --benchmark_context: {} (allowed: another word; this one is the run's own)",
           shortened(key)));
     context[key] = value;
   }
   return context;
+}
+
+std::vector<std::string> machine_warnings(const Context& environment, int repetitions,
+                                          const std::vector<double>& noise_kernel_s) {
+  constexpr double most_load_per_cpu = 0.2, most_noise = 0.05;
+  constexpr int fewest_repetitions = 5;  // two samples of five differ at p < 0.01, of four never
+  const auto known = [&](const char* key) {
+    const std::string word = context_word(environment, key);
+    return word == "unknown" ? "" : word;
+  };
+  const std::string governor = known("cpu_governor"), build_type = known("build_type");
+  const double load = parse_number(known("load_1min_at_start")).value_or(-1);
+  const auto cpus = parse_whole(known("cpus")).value_or(0);
+  const auto threads = parse_whole(known("threads")).value_or(1);
+  const double noise = median_absolute_deviation(noise_kernel_s) / median(noise_kernel_s);
+  std::vector<std::string> lines;
+  if (!governor.empty() && governor != "performance")
+    lines.push_back(fmt::format(
+        "the CPU's frequency follows its load (governor {}, steady with performance)", governor));
+  if (const double most = most_load_per_cpu * static_cast<double>(cpus); cpus > 0 && load > most)
+    lines.push_back(
+        fmt::format("other work on the machine: load {:.2f} on {} CPUs (quiet: at most {:.1f})",
+                    load, cpus, most));
+  if (cpus > 0 && threads > cpus)
+    lines.push_back(fmt::format("--threads={}: more than the {} CPUs: they wait for one another",
+                                threads, cpus));
+  if (noise > most_noise)
+    lines.push_back(
+        fmt::format("times scatter by {:.1f} % in a loop that is always the same (quiet: at most "
+                    "{:.0f} %)",
+                    100 * noise, 100 * most_noise));
+  if (repetitions < fewest_repetitions)
+    lines.push_back(fmt::format(
+        "--repetitions={}: too few for a sound interval, and for two methods to differ at "
+        "p < 0.01 (both from {} on)",
+        repetitions, fewest_repetitions));
+  if (known("heap_probe") != "on")
+    lines.push_back("the heap is not counted: this build has no heap probe");
+  if (!build_type.empty() && build_type != "Release")
+    lines.push_back(fmt::format("build type {}: times are those of Release only", build_type));
+  if (known("git_dirty") == "yes")
+    lines.push_back("the sources have changes that are in no git revision");
+  return lines;
 }
 
 }  // namespace airybench

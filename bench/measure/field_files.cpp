@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
-#include "bench/measure/contact_picture.hpp"
+#include "assembly/control_points.hpp"
+#include "assembly/edge_forces.hpp"
 #include "bench/measure/vtu_file.hpp"
+#include "solvers/contact/coulomb_law.hpp"
 #include "support/atomic_file.hpp"
 
 namespace airybench {
@@ -64,22 +67,18 @@ std::string displacement_csv(const Problem& problem, const DisplacementField& u)
   return text;
 }
 
-std::string contact_csv(const DualSystem& system, const ContactPicture& picture) {
-  const Mesh& mesh = system.problem->mesh;
-  const ContactPoints& contact = system.contact;
-  const auto value = [](const std::vector<double>& values, int p) {
-    return values.empty() ? std::string() : fmt::format("{}", values[static_cast<std::size_t>(p)]);
+std::string contact_csv(const ContactPicture& picture) {
+  const auto value = [](const std::vector<double>& values, std::size_t p) {
+    return values.empty() ? std::string() : fmt::format("{}", values[p]);
   };
   std::string text =
       "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state\n";
-  for (int p = 0; p < contact.count; ++p) {
-    const auto [a, b] = mesh.boundary[contact.boundary[p]].vertices;
-    const EdgeFrame frame = system.problem->frame_of_moment(contact.boundary[p], p % 2);
-    const Eigen::Vector2d x = mesh.vertices[p % 2 == 0 ? a : b];
-    text +=
-        fmt::format("{},{},{},{},{},{},{},{},{},{}\n", x.x(), x.y(), frame.normal.x(),
-                    frame.normal.y(), frame.length_mm, picture.force[p](0), picture.force[p](1),
-                    value(picture.gap_mm, p), value(picture.slip_mm, p), name_of(picture.state[p]));
+  for (std::size_t p = 0; p < picture.force.size(); ++p) {
+    const EdgeFrame& frame = picture.frame[p];
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", picture.at_mm[p].x(),
+                        picture.at_mm[p].y(), frame.normal.x(), frame.normal.y(), frame.length_mm,
+                        picture.force[p](0), picture.force[p](1), value(picture.gap_mm, p),
+                        value(picture.slip_mm, p), name_of(picture.state[p]));
   }
   return text;
 }
@@ -121,7 +120,8 @@ std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
 std::string vtu_of_body(const Problem& problem, const StressField& stress,
                         const std::optional<DisplacementField>& u, const ConstitutiveError* error) {
   VtuGrid grid;
-  std::vector<double> stresses, displacements;
+  std::vector<double> stresses;
+  std::vector<Eigen::Vector2d> displacements;
   std::vector<std::int32_t> triangles;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
@@ -130,14 +130,12 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
     triangles.push_back(t + 1);
     if (!u) continue;
     const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
-    for (int c = 0; c < 9; ++c) {
-      const Eigen::Vector2d here =
-          c % 3 == 2 ? value_at_centroid(values) : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3));
-      displacements.insert(displacements.end(), {here.x(), here.y(), 0});
-    }
+    for (int c = 0; c < 9; ++c)
+      displacements.push_back(c % 3 == 2 ? value_at_centroid(values)
+                                         : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
   }
   grid.of_points.push_back({"stress_MPa", {"xx", "yy", "xy"}, std::move(stresses)});
-  if (u) grid.of_points.push_back({"displacement_mm", {"x", "y", "z"}, std::move(displacements)});
+  if (u) grid.of_points.push_back(vtu_vectors("displacement_mm", displacements));
   const std::vector<int>& bodies = problem.mesh.triangle_body;
   grid.of_cells.push_back(
       {"body", {}, of_thirds(std::vector<std::int32_t>(bodies.begin(), bodies.end()))});
@@ -147,31 +145,115 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
   return vtu_text(grid);
 }
 
-std::string vtu_of_contact(const DualSystem& system, const ContactPicture& picture) {
-  const Mesh& mesh = system.problem->mesh;
-  VtuGrid grid;
-  grid.cell = VtuCell::line;
-  std::vector<double> normals, F_n, F_t;
-  std::vector<std::int32_t> states;
-  for (int p = 0; p < system.contact.count; ++p) {
-    const auto [a, b] = mesh.boundary[system.contact.boundary[p]].vertices;
-    const EdgeFrame frame = system.problem->frame_of_moment(system.contact.boundary[p], p % 2);
-    grid.points.push_back(mesh.vertices[p % 2 == 0 ? a : b]);
-    normals.insert(normals.end(), {frame.normal.x(), frame.normal.y(), 0});
-    F_n.push_back(picture.force[p](0));
-    F_t.push_back(picture.force[p](1));
-    states.push_back(static_cast<std::int32_t>(picture.state[p]));
+std::string vtu_of_contact(const ContactPicture& picture) {
+  std::vector<double> F_n, F_t;
+  for (const Eigen::Vector2d& force : picture.force) {
+    F_n.push_back(force(0));
+    F_t.push_back(force(1));
   }
+  std::vector<Eigen::Vector2d> normals;
+  for (const EdgeFrame& frame : picture.frame) normals.push_back(frame.normal);
+  std::vector<std::int32_t> states;
+  for (const ContactState state : picture.state) states.push_back(static_cast<std::int32_t>(state));
+  VtuGrid grid = {VtuCell::line, picture.at_mm, {}, {}};
   grid.of_points = {{"F_n_N", {}, std::move(F_n)},
                     {"F_t_N", {}, std::move(F_t)},
-                    {"normal", {"x", "y", "z"}, std::move(normals)},
+                    vtu_vectors("normal", normals),
                     {"state", {}, std::move(states)}};
   if (!picture.gap_mm.empty()) grid.of_points.push_back({"gap_mm", {}, picture.gap_mm});
   if (!picture.slip_mm.empty()) grid.of_points.push_back({"slip_mm", {}, picture.slip_mm});
   return vtu_text(grid);
 }
 
+void take_forces(const ContactPoints& contact, const Solution& solution, ContactPicture& picture) {
+  picture.state = contact_states(contact, solution.F_C);
+  const int m = contact.components;
+  for (int p = 0; p < contact.count; ++p)
+    picture.force.emplace_back(solution.F_C(m * p), m == 2 ? solution.F_C(m * p + 1) : 0.0);
+}
+
+// The control point of an edge's end; where that is prescribed, of the edge.
+void take_forces_of_displacements(const DualSystem& system, const Solution& solution,
+                                  ContactPicture& picture) {
+  const Problem& problem = *system.problem;
+  const ControlPoints control = control_points(problem);
+  const std::vector<ContactState> states = contact_states(control.law, solution.F_C);
+  std::map<int, ContactState> state_of_node;
+  for (int p = 0; p < control.law.count; ++p) state_of_node[control.node[p]] = states[p];
+  std::map<int, std::pair<int, int>> side_of_edge;  // triangle, which of its sides
+  for (int t = 0; t < static_cast<int>(solution.stress.size()); ++t)
+    for (int k = 0; k < 3; ++k) side_of_edge[problem.edges.of_triangle[t][k]] = {t, k};
+
+  for (int p = 0; p < system.contact.count; ++p) {
+    const int row = system.contact.boundary[p], end = p % 2;
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    const auto found = state_of_node.find(nodes[2 * end]);
+    picture.state.push_back(found != state_of_node.end() ? found->second
+                                                         : state_of_node.at(nodes[1]));
+    const auto [t, k] = side_of_edge.at(problem.edges.of_boundary[row]);
+    const Eigen::Vector2d force =
+        element_edge_forces(problem.vertices_of(t), solution.stress[t], k).col(end);
+    picture.force.emplace_back(picture.frame[p].normal.dot(force),
+                               picture.frame[p].tangent.dot(force));
+  }
+}
+
+// r = (w_n − (g0 − ρ_n), w_t − (s0 − ρ_t)) in moments, per contact point.
+std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const DisplacementField& w,
+                                        const std::vector<EdgeFrame>& frames) {
+  const Problem& problem = *system.problem;
+  std::vector<Eigen::Vector2d> moments;
+  for (int p = 0; p < system.contact.count; ++p) {
+    const int row = system.contact.boundary[p], end = p % 2;
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    const Eigen::Vector2d &a = problem.mesh.vertices[nodes[0]],
+                          &b = problem.mesh.vertices[nodes[2]];
+    const EdgeFrame& frame = frames[p];
+    const auto r = [&](const Eigen::Vector2d& x, const Eigen::Vector2d& u) -> Eigen::Vector2d {
+      return Eigen::Vector2d(frame.normal.dot(u), frame.tangent.dot(u)) -
+             problem.wall_distance(x, row, frame);
+    };
+    const Eigen::Vector2d at_a = w.col(nodes[0]), at_b = w.col(nodes[2]),
+                          middle = (at_a + 2 * w.col(nodes[1]) + at_b) / 4;
+    const auto [first, second] = edge_moments(r(a, at_a), r((a + b) / 2, middle), r(b, at_b));
+    moments.push_back(end == 0 ? first : second);
+  }
+  return moments;
+}
+
 }  // namespace
+
+ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
+                               const std::optional<DisplacementField>& w) {
+  const ContactPoints& contact = system.contact;
+  const bool has_own_points = solution.displacement.cols() == 0;
+  ContactPicture picture;
+  for (int p = 0; p < contact.count; ++p) {
+    const int row = contact.boundary[p];
+    const auto& ends = system.problem->mesh.boundary[row].vertices;
+    picture.at_mm.push_back(system.problem->mesh.vertices[ends[p % 2]]);
+    picture.frame.push_back(system.problem->frame_of_moment(row, p % 2));
+  }
+  if (has_own_points)
+    take_forces(contact, solution, picture);
+  else
+    take_forces_of_displacements(system, solution, picture);
+  if (w)
+    for (const Eigen::Vector2d& r : moments_of(system, *w, picture.frame)) {
+      picture.gap_mm.push_back(-r.x());
+      picture.slip_mm.push_back(r.y());
+    }
+  if (!has_own_points || contact.count == 0) return picture;
+  const Eigen::VectorXd r = relative_to_gap(contact, solution.contact_displacement);
+  const int m = contact.components;
+  picture.gap_mm.clear();
+  if (m == 2) picture.slip_mm.clear();
+  for (int p = 0; p < contact.count; ++p) {
+    picture.gap_mm.push_back(-r(m * p));
+    if (m == 2) picture.slip_mm.push_back(r(m * p + 1));
+  }
+  return picture;
+}
 
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const SolvedFields& fields) {
@@ -185,13 +267,13 @@ void write_fields(const std::filesystem::path& folder, const std::string& name,
     write_file_atomically(folder / (name + part), text);
   };
   write(".stress.csv", stress_csv(problem, solution.stress));
-  write(".contact.csv", contact_csv(system, contact));
+  write(".contact.csv", contact_csv(contact));
   write(".boundary.csv", boundary_csv(problem.mesh));
   if (u) write(".displacement.csv", displacement_csv(problem, *u));
   if (error != nullptr) write(".error.csv", error_csv(*error));
   if (mean) write(".mean.csv", stress_csv(problem, *mean));
   write(".vtu", vtu_of_body(problem, solution.stress, u, error));
-  write(".contact.vtu", vtu_of_contact(system, contact));
+  write(".contact.vtu", vtu_of_contact(contact));
 }
 
 }  // namespace airybench

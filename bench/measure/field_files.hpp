@@ -6,9 +6,8 @@
 //                     six rows per triangle: its corners, then the middles of its edges from corner
 //                     1 to 2, 2 to 3, 3 to 1; quadratic between them, continuous
 //   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
-//   slip_mm,
-//                     state
-//                     a row per contact point (contact_picture.hpp); state open, stick or slip
+//                     slip_mm, state
+//                     a row per contact point (ContactPicture); state open, stick or slip
 //   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, role
 //   NAME.error.csv    triangle, error_share
 //                     a row per triangle, in the order of NAME.stress.csv: its share, 0 to 1, of
@@ -19,17 +18,38 @@
 //                     triangle) of cells
 //   NAME.contact.vtu  a line per contact edge with two points: what NAME.contact.csv has, and state
 //                     0 open, 1 stick, 2 slip
-// What is not known is left out.
+// Unknown values are left out.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "assembly/displacement_field.hpp"
 #include "assembly/dual_system.hpp"
 #include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/verifier.hpp"
 #include "solvers/base/solution.hpp"
 
 namespace airybench {
+
+// Per contact point of the system, two per edge, in Problem::frame_of_moment(). Gap and slip are
+// those of the contact law: moments over the edge (edge_forces.hpp), from the load step before; a
+// closed point has no gap, a sticking one no slip.
+struct ContactPicture {
+  std::vector<Eigen::Vector2d> at_mm;
+  std::vector<EdgeFrame> frame;
+  std::vector<Eigen::Vector2d> force;  // normal, tangential, N
+  std::vector<ContactState> state;
+  std::vector<double> gap_mm;   // g0 − u_n
+  std::vector<double> slip_mm;  // u_t against the wall; empty: not known
+};
+
+// A displacement method: the tractions of its stresses, the states of its control points. w: a
+// displacement of the solution without the problem's rigid motion, where there is one.
+ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
+                               const std::optional<DisplacementField>& w);
 
 struct SolvedFields {
   const DualSystem& system;

@@ -44,44 +44,43 @@ std::atomic<std::int64_t> copied_at{0};  // live bytes then
 std::atomic_flag copying = ATOMIC_FLAG_INIT;
 
 bool raise(std::atomic<std::int64_t>& highest, std::int64_t now) {
-  std::int64_t before = highest.load(std::memory_order_relaxed);
+  std::int64_t before = highest;
   while (now > before)
-    if (highest.compare_exchange_weak(before, now, std::memory_order_relaxed)) return true;
+    if (highest.compare_exchange_weak(before, now)) return true;
   return false;
 }
 
 void copy(const Counters& from, Counters& to) {
-  for (std::size_t k = 0; k < from.size(); ++k)
-    to[k].store(from[k].load(std::memory_order_relaxed), std::memory_order_relaxed);
+  for (std::size_t k = 0; k < from.size(); ++k) to[k] = from[k].load();
 }
 
 ByOwner<std::int64_t> values_of(const Counters& counters) {
   ByOwner<std::int64_t> values;
-  for (std::size_t k = 0; k < counters.size(); ++k) values.values[k] = counters[k].load();
+  for (std::size_t k = 0; k < counters.size(); ++k) values.values[k] = counters[k];
   return values;
 }
 
 // Copies the owners' bytes when the peak has grown by a thousandth since the last copy; not when
 // another thread is at it.
 void copy_at_peak(std::int64_t now) {
-  const std::int64_t grown = now - copied_at.load(std::memory_order_relaxed);
+  const std::int64_t grown = now - copied_at;
   if (grown <= now / 1000 || copying.test_and_set(std::memory_order_acquire)) return;
   copy(live_of, at_peak);
-  copied_at.store(now, std::memory_order_relaxed);
+  copied_at = now;
   copying.clear(std::memory_order_release);
 }
 
 void add(MemoryOwner owner, std::int64_t bytes) {
   const auto k = static_cast<std::size_t>(owner);
-  raise(highest_of[k], live_of[k].fetch_add(bytes, std::memory_order_relaxed) + bytes);
-  const std::int64_t now = live.fetch_add(bytes, std::memory_order_relaxed) + bytes;
+  raise(highest_of[k], live_of[k].fetch_add(bytes) + bytes);
+  const std::int64_t now = live.fetch_add(bytes) + bytes;
   raise(lap_peak, now);
   if (raise(peak, now)) copy_at_peak(now);
 }
 
-// A block's tag stands in the last byte that it has, so one byte more is asked for: its owner, and
-// whether glibc, whose blocks end 8 bytes after a multiple of 16, gave 16 bytes more for that.
-// These are the probe's own and do not count.
+// The last byte of a block, for which one byte more is asked, is its tag: its owner, and whether
+// glibc, whose blocks end 8 bytes after a multiple of 16, gave 16 bytes more for it. These belong
+// to the probe and do not count.
 constexpr unsigned char enlarged = 0x80;
 constexpr std::int64_t enlargement_bytes = 16;
 constexpr std::size_t with_tag(std::size_t bytes) {
@@ -102,14 +101,12 @@ std::int64_t size_of(void* block) {
 }
 
 bool too_much(std::size_t bytes) {
-  if (live.load(std::memory_order_relaxed) > backstop.load(std::memory_order_relaxed))
-    _exit(airybench::heap::backstop_exit_code);
-  const std::int64_t most = limit.load(std::memory_order_relaxed);
+  if (live > backstop) _exit(airybench::heap::backstop_exit_code);
+  const std::int64_t most = limit;
   if (most == no_limit) return false;
-  const bool passed =
-      bytes > static_cast<std::size_t>(std::max<std::int64_t>(most, 0)) ||
-      live.load(std::memory_order_relaxed) + static_cast<std::int64_t>(bytes) > most;
-  if (passed) limit_passed.store(true, std::memory_order_relaxed);
+  const bool passed = bytes > static_cast<std::size_t>(std::max<std::int64_t>(most, 0)) ||
+                      live + static_cast<std::int64_t>(bytes) > most;
+  if (passed) limit_passed = true;
   return passed && bytes >= always_granted;
 }
 
@@ -121,12 +118,12 @@ void* refused() {
 // block: given for so many bytes and the tag, or null.
 void* counted(void* block, std::size_t bytes, MemoryOwner owner = current_memory_owner) {
   if (block == nullptr) {
-    refused_by_machine.store(true, std::memory_order_relaxed);
+    refused_by_machine = true;
   } else {
     tag_of(block) = static_cast<unsigned char>(owner) | (fills_a_block(bytes) ? enlarged : 0);
     add(owner, size_of(block));
-    count.fetch_add(1, std::memory_order_relaxed);
-    given_out.fetch_add(static_cast<std::int64_t>(bytes), std::memory_order_relaxed);
+    count.fetch_add(1);
+    given_out.fetch_add(static_cast<std::int64_t>(bytes));
   }
   return block;
 }
@@ -188,38 +185,38 @@ void* valloc(std::size_t bytes) { return memalign(4096, bytes); }
 namespace airybench::heap {
 
 bool is_active() { return true; }
-std::int64_t live_bytes() { return live.load(std::memory_order_relaxed); }
-std::int64_t peak_bytes() { return peak.load(std::memory_order_relaxed); }
-std::int64_t allocations() { return count.load(std::memory_order_relaxed); }
+std::int64_t live_bytes() { return live; }
+std::int64_t peak_bytes() { return peak; }
+std::int64_t allocations() { return count; }
 std::int64_t peak_ever_bytes() {
   raise(peak_ever, peak_bytes());
-  return peak_ever.load(std::memory_order_relaxed);
+  return peak_ever;
 }
 void reset_peak() {
   raise(peak_ever, peak_bytes());
-  copied_at.store(live_bytes(), std::memory_order_relaxed);
+  copied_at = live_bytes();
   copy(live_of, at_peak);
   copy(live_of, highest_of);
-  peak.store(live_bytes(), std::memory_order_relaxed);
+  peak = live_bytes();
 }
-bool was_refused() { return refused_by_machine.load(std::memory_order_relaxed); }
-std::int64_t lap_peak_bytes() { return lap_peak.load(std::memory_order_relaxed); }
-void reset_lap_peak() { lap_peak.store(live_bytes(), std::memory_order_relaxed); }
-std::int64_t allocated_bytes() { return given_out.load(std::memory_order_relaxed); }
+bool was_refused() { return refused_by_machine; }
+std::int64_t lap_peak_bytes() { return lap_peak; }
+void reset_lap_peak() { lap_peak = live_bytes(); }
+std::int64_t allocated_bytes() { return given_out; }
 ByOwner<std::int64_t> live_by_owner() { return values_of(live_of); }
 ByOwner<std::int64_t> peak_by_owner() { return values_of(at_peak); }
 ByOwner<std::int64_t> highest_by_owner() { return values_of(highest_of); }
 
 Limit::Limit(std::int64_t live_bytes_at_most) {
-  limit_passed.store(false);
-  limit.store(live_bytes_at_most);
+  limit_passed = false;
+  limit = live_bytes_at_most;
 }
-Limit::~Limit() { limit.store(no_limit); }
-bool Limit::exceeded() const { return limit_passed.load(); }
+Limit::~Limit() { limit = no_limit; }
+bool Limit::exceeded() const { return limit_passed; }
 
 Backstop::Backstop(std::optional<std::int64_t> limit_bytes) {
   [[maybe_unused]] static const int registered = std::atexit([] {
-    if (limit.load() != no_limit && limit_passed.load()) _exit(backstop_exit_code);
+    if (limit != no_limit && limit_passed) _exit(backstop_exit_code);
   });
   std::int64_t available = no_limit / 2;
   std::ifstream file("/proc/meminfo");
@@ -229,8 +226,8 @@ Backstop::Backstop(std::optional<std::int64_t> limit_bytes) {
   }
   const std::int64_t granted =
       limit_bytes ? std::min(available, *limit_bytes + *limit_bytes / 2) : available;
-  backstop.store(live_bytes() + granted);
+  backstop = live_bytes() + granted;
 }
-Backstop::~Backstop() { backstop.store(no_limit); }
+Backstop::~Backstop() { backstop = no_limit; }
 
 }  // namespace airybench::heap

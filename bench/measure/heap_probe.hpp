@@ -1,14 +1,11 @@
-// What the process has on the heap, counted at the allocator itself.
-//
-// heap_probe.cpp replaces malloc, calloc, realloc, free and the aligned family for the whole
-// process, so the libraries' allocations (Eigen, CHOLMOD, METIS, LAPACK) are counted as well as
-// ours; operator new goes through malloc. A block counts with its usable size, for the owner that
-// its thread had named (memory_owner.hpp); a library's blocks are for whom it was called. Memory
-// that is mapped without the allocator is not heap: OpenBLAS maps one packing buffer per thread at
-// its first call, which shows in the resident set only.
+// The process's heap, counted at the allocator: heap_probe.cpp replaces malloc, calloc, realloc,
+// free and the aligned family, so the libraries' allocations count as well as ours. A block counts
+// with its usable size, for the owner that its thread has named (memory_owner.hpp). Memory that is
+// mapped without the allocator is not heap: OpenBLAS's packing buffers show in the resident set
+// only.
 //
 // Where the probe cannot be (sanitizers bring their own allocator), heap_probe_off.cpp stands in
-// and is_active() says so.
+// and is_active() is false.
 #pragma once
 
 #include <cstdint>
@@ -36,9 +33,9 @@ ByOwner<std::int64_t> highest_by_owner();  // each owner's own highest since res
 std::int64_t lap_peak_bytes();  // highest live_bytes() since reset_lap_peak()
 void reset_lap_peak();
 
-// Allocations that would lift live_bytes() above the limit fail, as on a full machine, for the
-// scope of the object. Blocks below 64 KiB are granted all the same, because libraries (OpenBLAS,
-// OpenMP's) do not survive their refusal; exceeded() then says that the limit was passed.
+// For the scope of the object, allocations that would lift live_bytes() above the limit fail, as on
+// a full machine. Blocks below 64 KiB are granted all the same, because OpenBLAS and OpenMP do not
+// survive their refusal; exceeded() is then true.
 class Limit {
  public:
   explicit Limit(std::int64_t live_bytes_at_most);
@@ -48,10 +45,10 @@ class Limit {
   bool exceeded() const;
 };
 
-// Ends the process with backstop_exit_code when the heap grows beyond what a Limit can hold: by
-// small blocks without end, or past all memory that the machine has left; or when a library calls
-// exit() because a Limit has refused it a block, as OpenBLAS's threads do. For the scope of the
-// object. limit_bytes: of the Limits to come, or empty; half of it again is granted.
+// For the scope of the object, ends the process with backstop_exit_code when the heap grows beyond
+// what a Limit can hold: by small blocks without end, or past the memory that the machine has left;
+// or when a library calls exit() because a Limit has refused it a block, as OpenBLAS's threads do.
+// limit_bytes: of the Limits to come, or empty; half of it again is granted.
 class Backstop {
  public:
   explicit Backstop(std::optional<std::int64_t> limit_bytes);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <tuple>
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/methods.hpp"
@@ -11,6 +12,19 @@
 
 namespace airybench {
 namespace {
+
+// A path has spent the sum over its steps of these …
+constexpr std::tuple sums = {&Solution::factor_flops, &Solution::linear_iterations,
+                             &Solution::contact_iterations, &Solution::newton_steps,
+                             &Solution::uzawa_iterations};
+// … and the largest of these.
+constexpr std::tuple maxima = {&Solution::library_bytes, &Solution::factor_entries,
+                               &Solution::error_estimate, &Solution::condition_estimate};
+
+template <typename Members, typename Each>
+void for_each(const Members& members, Each each) {
+  std::apply([&](const auto&... member) { (each(member), ...); }, members);
+}
 
 template <typename T>
 void add(const std::optional<T>& more, std::optional<T>& sum) {
@@ -22,53 +36,30 @@ void raise(const std::optional<T>& other, std::optional<T>& largest) {
   if (other && !(largest.value_or(*other) > *other)) largest = other;  // NaN is largest
 }
 
-// What a path has spent up to here.
-class PathTotals {
- public:
-  void take(const std::string& prefix, const Solution& step) {
-    for (const Stage stage : all_stages) add(step.times[stage], all_.times[stage]);
-    for (const MemoryOwner owner : all_memory_owners)
-      all_.storage[owner] = std::max(all_.storage[owner], step.storage[owner]);
-    all_.file_bytes = std::max(all_.file_bytes, step.file_bytes);
-    raise(step.library_bytes, all_.library_bytes);
-    raise(step.factor_entries, all_.factor_entries);
-    add(step.factor_flops, all_.factor_flops);
-    add(step.linear_iterations, all_.linear_iterations);
-    add(step.contact_iterations, all_.contact_iterations);
-    add(step.newton_steps, all_.newton_steps);
-    add(step.uzawa_iterations, all_.uzawa_iterations);
-    raise(step.error_estimate, all_.error_estimate);
-    raise(step.condition_estimate, all_.condition_estimate);
-    if (all_.parameters.empty()) all_.parameters = step.parameters;
-    // A step that cannot be gone on from is the last.
-    if (is_first_ || all_.status == Status::ok || !has_answer(step.status)) {
-      all_.status = step.status;
-      all_.message = step.message.empty() ? "" : prefix + step.message;
-    }
-    is_first_ = false;
+void take_step(bool is_first, const std::string& prefix, const Solution& step, Solution& path) {
+  for (const Stage stage : all_stages) add(step.times[stage], path.times[stage]);
+  for (const MemoryOwner owner : all_memory_owners)
+    path.storage[owner] = std::max(path.storage[owner], step.storage[owner]);
+  path.file_bytes = std::max(path.file_bytes, step.file_bytes);
+  for_each(sums, [&](auto member) { add(step.*member, path.*member); });
+  for_each(maxima, [&](auto member) { raise(step.*member, path.*member); });
+  if (path.parameters.empty()) path.parameters = step.parameters;
+  // A path ends with a step that has no answer.
+  if (is_first || path.status == Status::ok || !has_answer(step.status)) {
+    path.status = step.status;
+    path.message = step.message.empty() ? "" : prefix + step.message;
   }
-  void hand_over(Solution& last) {
-    last.status = all_.status;
-    last.message = std::move(all_.message);
-    last.times = all_.times;
-    last.storage = all_.storage;
-    last.file_bytes = all_.file_bytes;
-    last.library_bytes = all_.library_bytes;
-    last.factor_entries = all_.factor_entries;
-    last.factor_flops = all_.factor_flops;
-    last.linear_iterations = all_.linear_iterations;
-    last.contact_iterations = all_.contact_iterations;
-    last.newton_steps = all_.newton_steps;
-    last.uzawa_iterations = all_.uzawa_iterations;
-    last.error_estimate = all_.error_estimate;
-    last.condition_estimate = all_.condition_estimate;
-    last.parameters = std::move(all_.parameters);
-  }
+}
 
- private:
-  Solution all_;
-  bool is_first_ = true;
-};
+void hand_over(Solution& path, Solution& last) {
+  last.status = path.status;
+  last.message = std::move(path.message);
+  last.times = path.times;
+  last.storage = path.storage;
+  last.file_bytes = path.file_bytes;
+  last.parameters = std::move(path.parameters);
+  for_each(std::tuple_cat(sums, maxima), [&](auto member) { last.*member = path.*member; });
+}
 
 }  // namespace
 
@@ -101,7 +92,7 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, doub
   solve_load_steps(solve, system, {}, [&](int step, const DualSystem&, const Solution& answer) {
     if (has_answer(answer.status)) return;
     path.missing =
-        step_prefix(static_cast<std::size_t>(step), *first) +
+        step_prefix(step, *first) +
         (answer.status == Status::out_of_memory ? "no reference: out of memory" : answer.message);
   });
   if (!path.missing.empty()) path.steps.clear();
@@ -113,30 +104,29 @@ Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& co
   watched_s = 0;
   if (system.problem->later_steps.empty()) return run(solve, system, control);
   const std::shared_ptr<const Problem> first = system.problem;
-  PathTotals totals;
-  Solution last = solve_load_steps(
-      solve, system, control, [&](int step, const DualSystem& posed, const Solution& answer) {
-        totals.take(step_prefix(static_cast<std::size_t>(step), *first), answer);
-        if (!visit) return;
-        const auto start = std::chrono::steady_clock::now();
-        visit(step, posed, answer);
-        watched_s += seconds_since(start);
-      });
-  totals.hand_over(last);
+  Solution path;
+  Solution last = solve_load_steps(solve, system, control,
+                                   [&](int step, const DualSystem& posed, const Solution& answer) {
+                                     take_step(step == 0, step_prefix(step, *first), answer, path);
+                                     if (!visit) return;
+                                     const auto start = std::chrono::steady_clock::now();
+                                     visit(step, posed, answer);
+                                     watched_s += seconds_since(start);
+                                   });
+  hand_over(path, last);
   return last;
 }
 
-std::string step_prefix(std::size_t step, const Problem& first) {
+std::string step_prefix(std::int64_t step, const Problem& first) {
   const int count = count_of_steps(first);
   return count == 1 ? "" : fmt::format("load step {} of {}: ", step + 1, count);
 }
 
 std::size_t worst_step(const std::vector<JudgedStep>& steps) {
-  const auto error_of = [](const JudgedStep& step) { return worst_measure(step.seen()).value; };
   std::size_t worst = 0;
-  double largest = error_of(steps.front());
+  double largest = worst_measure(steps.front().seen()).value;
   for (std::size_t k = 1; k < steps.size(); ++k)
-    if (const double value = error_of(steps[k]); !(value <= largest)) {
+    if (const double value = worst_measure(steps[k].seen()).value; !(value <= largest)) {
       worst = k;
       largest = value;
     }

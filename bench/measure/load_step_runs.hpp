@@ -1,5 +1,5 @@
-// A case with load steps: its whole path is one solve, and every step is judged as a problem of its
-// own. A case without is a path of one step.
+// A case with load steps: its whole path is one solve, and every step is judged as a separate
+// problem. A case without is a path of one step.
 #pragma once
 
 #include <memory>
@@ -17,8 +17,7 @@ inline int count_of_steps(const Problem& problem) {
   return 1 + static_cast<int>(problem.later_steps.size());
 }
 
-// The references of all steps, each with the slip of those before it: errors against them are those
-// of the path up to there.
+// The references of all steps, each with the slip of those before it.
 struct ReferencePath {
   std::vector<Reference> steps;  // all of them, or none …
   std::string missing;           // … and why
@@ -26,7 +25,7 @@ struct ReferencePath {
 // error_at_most: of every reference, by its own estimate.
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most);
 
-// The reference as an answer that a path can go on from.
+// From which a path can go on.
 Solution answer_of(const Reference& reference);
 
 struct JudgedStep {
@@ -41,23 +40,21 @@ struct JudgedStep {
 };
 
 // The answer of the last step, with the times and iterations of all, the largest storage and error
-// estimate, and the status of the step that fares worst. watched_s: what visiting took; it is part
-// of no stage's time.
+// estimate, and the worst status. watched_s: the time of visiting, which is part of no stage.
 Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s);
 
 // "load step 3 of 20: ", or nothing where there is one only.
-std::string step_prefix(std::size_t step, const Problem& first);
+std::string step_prefix(std::int64_t step, const Problem& first);
 
-// The step whose worst measure is largest, a NaN above all; steps: some. Where a step is
-// another solution, its measures are to that one.
+// The step whose worst measure is largest, a NaN above all; there must be one.
 std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
 // Record::steps.
 Json steps_of(const std::vector<JudgedStep>& steps);
 
-// The same of a path whose steps are gone in two halves each, by HYBRID, where both halves are
-// done; at their ends the loads are those of the path's own steps. What friction takes is of both.
+// The same of a path whose steps are taken in two halves each, by HYBRID, where both halves are
+// done; at their ends the loads are those of the path's own steps. The dissipation is that of both.
 Json steps_in_halves(const Problem& first);
 
 }  // namespace airybench

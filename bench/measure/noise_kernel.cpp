@@ -7,8 +7,8 @@
 #include <chrono>
 #include <memory>
 #include <thread>
+#include <vector>
 
-#include "bench/records/robust.hpp"
 #include "support/seconds_since.hpp"
 
 #ifdef __linux__
@@ -20,8 +20,7 @@ namespace {
 
 constexpr int rows = 128;
 
-// Plain arrays, and no sanitizer on what loops over them: calibration would take a sanitized run's
-// tests longer than what they test.
+// Plain arrays, and no sanitizer on the loops over them, which would be too slow.
 struct Work {
   double column[rows][rows];  // lower triangle: column[j][i], i ≥ j
   double values[noise_sweep_length];
@@ -64,14 +63,14 @@ constexpr std::size_t page = 4096;
 alignas(page) Work own_work;
 static_assert(sizeof(Work) % page == 0);
 
-// Forks get zeros instead: of a page that is shared with one the next pass would make a copy, which
-// took longer than what the pass is to time. Hints, nothing else.
+// Hints: a fork gets zeros, because the next pass would copy each page that is shared with one,
+// which takes longer than the work itself.
 void take_pages([[maybe_unused]] Work& work) {
 #ifdef MADV_WIPEONFORK
   ::madvise(&work, sizeof work, MADV_WIPEONFORK);
 #endif
 #ifdef MADV_POPULATE_WRITE
-  // All at once, but not by 2 MiB as map_at_once does: the yardstick would be another.
+  // All at once, but not by 2 MiB as map_at_once does: times of earlier runs would not compare.
   ::madvise(&work, sizeof work, MADV_POPULATE_WRITE);
 #endif
 }
@@ -109,14 +108,6 @@ double run_noise_kernel(int threads) {
     });
   workers.clear();  // joins
   return *std::max_element(seconds.begin(), seconds.end());
-}
-
-NoiseSummary summarise_noise(std::vector<double> samples_s) {
-  NoiseSummary summary;
-  summary.median_s = median(samples_s);
-  summary.mad_s = median_absolute_deviation(samples_s);
-  summary.samples = std::move(samples_s);
-  return summary;
 }
 
 }  // namespace airybench

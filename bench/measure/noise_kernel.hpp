@@ -1,13 +1,10 @@
-// How steadily the machine computes: a fixed piece of work of one or two milliseconds, timed again
-// and again between the measurements. Its times would all be the same on a machine that does
-// nothing else; how much they scatter is what the measurements beside them have to bear.
+// How steadily the machine computes: a fixed piece of work of one or two milliseconds, timed
+// between the measurements. On a machine that does nothing else its times would all be the same.
 //
 // The work has a part in the processor's caches, an LDLᵀ factorisation of 128 rows, and a part in
-// its memory, two sweeps over 8 MiB; both are loops of our own, so that no library's version
-// matters. Its data are in static storage, so that heap figures do not see them.
+// its memory, two sweeps over 8 MiB; no library's version matters. Its data are in static storage,
+// which heap figures do not see.
 #pragma once
-
-#include <vector>
 
 namespace airybench {
 
@@ -18,22 +15,13 @@ double run_noise_kernel();
 // Over those of one: what frequency, shared caches and memory, or other work take from each.
 double run_noise_kernel(int threads);
 
-// The work itself; always the same number.
 double noise_kernel_checksum();
 
-// Doubles: 8 MiB. Fewer in a sanitized program, which is not timed: a sixth of a short run went
-// into getting their pages.
+// Doubles: 8 MiB. Fewer in a sanitized program, which is not timed.
 #ifdef AIRYBENCH_SANITIZED
 inline constexpr int noise_sweep_length = 1 << 14;
 #else
 inline constexpr int noise_sweep_length = 1 << 20;
 #endif
-
-struct NoiseSummary {
-  double median_s = 0, mad_s = 0;  // median absolute deviation from the median
-  std::vector<double> samples;     // s, in order
-  double spread() const { return mad_s / median_s; }
-};
-NoiseSummary summarise_noise(std::vector<double> samples_s);  // at least one
 
 }  // namespace airybench

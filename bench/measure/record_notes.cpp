@@ -3,68 +3,100 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
-#include "bench/records/summary.hpp"
-#include "bench/verify/answer_hash.hpp"
+#include "bench/measure/heap_probe.hpp"
+#include "support/seconds_since.hpp"
 
 namespace airybench {
+namespace {
+
+void add_reason(const std::string& text, Record& record) {
+  record.status_reason += (record.status_reason.empty() ? "" : "; ") + text;
+}
+
+void note(const std::optional<Bracket>& bracket, std::optional<double>& low,
+          std::optional<double>& high) {
+  if (!bracket) return;
+  low = bracket->low;
+  high = bracket->high;
+}
+
+}  // namespace
+
+AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
+                                     int repetitions) {
+  AssembledBlocks blocks;
+  for (int i = 0; i < repetitions; ++i) {
+    blocks.system.reset();
+    heap::reset_peak();
+    const std::int64_t before = heap::live_bytes();
+    const auto start = std::chrono::steady_clock::now();
+    const OwnerScope scope(MemoryOwner::blocks);
+    blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
+    blocks.assembly_samples_s.push_back(seconds_since(start));
+    blocks.blocks_heap_bytes = if_probed(heap::live_bytes() - before);
+    blocks.assembly_peak_heap_bytes = if_probed(heap::peak_bytes() - before);
+  }
+  return blocks;
+}
+
+std::optional<std::int64_t> if_probed(std::int64_t bytes) {
+  return heap::is_active() ? std::optional(bytes) : std::nullopt;
+}
+
+Json to_json(const TimedRun& run) {
+  return {{"time_s", run.time_s},   {"stages", run.stages},      {"status", name_of(run.status)},
+          {"message", run.message}, {"signal", run.signal},      {"ended_in", run.ended_in},
+          {"runs_s", run.runs_s},   {"program_s", run.program_s}};
+}
+
+TimedRun timed_run_of(const Json& json) {
+  return {json.at("time_s").get<double>(),
+          json.at("stages").get<std::map<std::string, double>>(),
+          status_of(json.at("status").get<std::string>()).value_or(Status::crashed),
+          json.at("message").get<std::string>(),
+          json.at("signal").get<std::string>(),
+          json.at("ended_in").get<std::string>(),
+          json.at("runs_s").get<double>(),
+          json.at("program_s").get<double>()};
+}
+
+void add_run(const TimedRun& run, Record& record) {
+  if (run.runs_s > 0) record.runs_s = run.runs_s;
+  if (run.status == record.claimed_status) {
+    record.samples_s.push_back(run.time_s);
+    record.stage_samples.push_back(run.stages);
+    if (run.program_s > 0) record.program_samples_s.push_back(run.program_s);
+    return;
+  }
+  record.status = run.status;
+  record.status_reason = "in a timed run: " + run.message;
+  record.signal = run.signal;
+  record.ended_in = run.ended_in;
+  if (!run.ended_in.empty()) record.time_so_far_s = run.time_s;
+  record.samples_s.clear();
+  record.stage_samples.clear();
+  record.program_samples_s.clear();
+  for (const char* name :
+       {"peak_heap_bytes", "peak_rss_bytes", "memory_by_owner", "memory_by_stage",
+        "memory_counts_differ", "memory_count_ratio", "heap_allocations", "heap_allocated_bytes"})
+    field_named(name).clear(record);
+}
 
 void note(const Solution& solution, Record& record) {
-  record.status = solution.status;
+  take_over(solution, record);
   record.status_reason = solution.message;
   record.claimed_status = solution.status;
-  record.error_estimate = solution.error_estimate;
-  record.condition_estimate = solution.condition_estimate;
   if (const std::size_t bytes = matrix_bytes(solution); bytes > 0)
     record.storage_bytes = static_cast<std::int64_t>(bytes);
-  record.library_bytes = solution.library_bytes;
-  record.factor_entries = solution.factor_entries;
   if (solution.factor_flops) record.factor_flops = std::llround(*solution.factor_flops);
-  record.linear_iterations = solution.linear_iterations;
-  record.contact_iterations = solution.contact_iterations;
-  record.newton_steps = solution.newton_steps;
-  record.uzawa_iterations = solution.uzawa_iterations;
   if (const auto& times = solution.iteration_times) {
     record.iteration_matrix_s = times->matrix_s;
     record.iteration_smoother_s = times->smoother_s;
     record.iteration_coarse_s = times->coarse_s;
   }
-  record.parameters = solution.parameters;
-}
-
-void note(const std::vector<IterationHistory>& histories, Record& record) {
-  for (const IterationHistory& history : histories)
-    record.histories[history.what] = history.residual;
-}
-
-void note(const std::vector<GridPoint>& grid, Record& record) {
-  for (const GridPoint& point : grid)
-    record.grid.push_back({{"r", point.r},
-                           {"rho", point.rho},
-                           {"iterations", point.iterations},
-                           {"outcome", point.outcome}});
-}
-
-void note(const Verification& v, Record& record) {
-  record.error_stress = v.error_stress;
-  record.error_stress_absolute = v.error_stress_absolute;
-  record.reference_error = v.reference_error;
-  record.friction_coupling = v.friction_coupling;
-  record.error_force = v.error_force;
-  record.equilibrium_residual = v.equilibrium_residual;
-  record.siconos_error = v.siconos_error;
-  record.natural_map_residual = v.natural_map_residual;
-  record.signorini_violation_N = v.signorini_violation_N;
-  record.coulomb_violation_N = v.coulomb_violation_N;
-  record.normal_resultant_N = v.normal_resultant_N;
-  record.tangential_resultant_N = v.tangential_resultant_N;
-  record.strain_energy_Nmm = v.strain_energy_Nmm;
-  record.complementary_energy_Nmm = v.complementary_energy_Nmm;
-  record.n_open = v.n_open;
-  record.n_stick = v.n_stick;
-  record.n_slip = v.n_slip;
-  record.answer_hash = answer_hash(v);
 }
 
 void note_what_is_idle(const Problem& problem, Record& record) {
@@ -83,14 +115,12 @@ void note_what_is_idle(const Problem& problem, Record& record) {
 
 void note_slip_of_half_steps(Record& record) {
   constexpr double little = 0.01;
-  const auto add = [&](const std::string& text) {
-    record.status_reason += (record.status_reason.empty() ? "" : "; ") + text;
-  };
   const bool all_ok = std::ranges::all_of(record.steps_in_halves, [](const Json& step) {
     return step.at("claimed_status") == name_of(Status::ok);
   });
   if (record.steps_in_halves.size() != record.steps.size() || !all_ok)
-    return add("with every load step in two halves there is no answer to compare with");
+    return add_reason("with every load step in two halves there is no answer to compare with",
+                      record);
   const Json &last = record.steps.back(), &halved = record.steps_in_halves.back();
   const auto resultants = [](const Json& step) {
     return Eigen::Vector2d(step.at("normal_resultant_N").get<double>(),
@@ -100,12 +130,14 @@ void note_slip_of_half_steps(Record& record) {
   if (last.at("n_stick") == halved.at("n_stick") && last.at("n_slip") == halved.at("n_slip") &&
       (F - F_halved).norm() <= little * F_halved.norm())
     return;
-  add(fmt::format(
-      "with every load step in two halves {} points stick and {} slip at the end, not {} and {}; "
-      "F = ({:.5g}, {:.5g}) N, not ({:.5g}, {:.5g})",
-      halved.at("n_stick").get<int>(), halved.at("n_slip").get<int>(),
-      last.at("n_stick").get<int>(), last.at("n_slip").get<int>(), F_halved.x(), F_halved.y(),
-      F.x(), F.y()));
+  add_reason(
+      fmt::format(
+          "with every load step in two halves {} points stick and {} slip at the end, not {} and "
+          "{}; F = ({:.5g}, {:.5g}) N, not ({:.5g}, {:.5g})",
+          halved.at("n_stick").get<int>(), halved.at("n_slip").get<int>(),
+          last.at("n_stick").get<int>(), last.at("n_slip").get<int>(), F_halved.x(), F_halved.y(),
+          F.x(), F.y()),
+      record);
 }
 
 void note_large_strains(const Problem& problem, const StressField& stress, Record& record) {
@@ -118,10 +150,12 @@ void note_large_strains(const Problem& problem, const StressField& stress, Recor
                  radius = std::hypot((strain(0) - strain(1)) / 2, strain(2) / 2);
     largest = std::max(largest, std::abs(middle) + radius);
   }
-  if (!(largest > largest_small)) return;
-  record.status_reason += fmt::format(
-      "{}strains of up to {:.2g} %: small strains, which all of this assumes, do not hold",
-      record.status_reason.empty() ? "" : "; ", 100 * largest);
+  if (largest > largest_small)
+    add_reason(
+        fmt::format(
+            "strains of up to {:.2g} %: small strains, which all of this assumes, do not hold",
+            100 * largest),
+        record);
 }
 
 void note(const ConstitutiveError& error, const char* by, Record& record) {
@@ -141,20 +175,13 @@ void note(const ConstitutiveError& error, const char* by, Record& record) {
 
 void note(const ContactIntervals& intervals, Record& record) {
   record.intervals = intervals.guaranteed ? "guaranteed" : "estimated";
-  if (const auto& normal = intervals.normal_resultant_N) {
-    record.normal_resultant_low_N = normal->low;
-    record.normal_resultant_high_N = normal->high;
-  }
-  if (const auto& tangential = intervals.tangential_resultant_N) {
-    record.tangential_resultant_low_N = tangential->low;
-    record.tangential_resultant_high_N = tangential->high;
-  }
+  note(intervals.normal_resultant_N, record.normal_resultant_low_N, record.normal_resultant_high_N);
+  note(intervals.tangential_resultant_N, record.tangential_resultant_low_N,
+       record.tangential_resultant_high_N);
   record.largest_pressure_MPa = intervals.largest_pressure_MPa;
   record.largest_pressure_is = name_of(intervals.peak);
-  if (const auto& within = intervals.largest_pressure_within_MPa) {
-    record.largest_pressure_low_MPa = within->low;
-    record.largest_pressure_high_MPa = within->high;
-  }
+  note(intervals.largest_pressure_within_MPa, record.largest_pressure_low_MPa,
+       record.largest_pressure_high_MPa);
   record.contact_ends = Json::array();
   for (const ContactEnd& end : intervals.ends)
     record.contact_ends.push_back({{"face", end.face},
@@ -167,12 +194,11 @@ void note(const ContactIntervals& intervals, Record& record) {
 }
 
 void note(const MemorySplit& memory, Record& record) {
+  take_over(memory, record);
   record.memory_by_owner = by_owner(memory);
   record.memory_by_stage = by_stage(memory);
   record.memory_counts_differ = counts_differ(memory);
   record.memory_count_ratio = count_ratio(memory);
-  record.heap_allocations = memory.allocations;
-  record.heap_allocated_bytes = memory.allocated_bytes;
 }
 
 }  // namespace airybench

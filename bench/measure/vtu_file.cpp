@@ -6,6 +6,7 @@
 #include <cstring>
 #include <numeric>
 #include <string_view>
+#include <type_traits>
 
 namespace airybench {
 namespace {
@@ -27,15 +28,12 @@ std::string base64(std::string_view bytes) {
 }
 
 template <typename Number>
-constexpr const char* type_name = "";
-template <>
-constexpr const char* type_name<double> = "Float64";
-template <>
-constexpr const char* type_name<std::int32_t> = "Int32";
-template <>
-constexpr const char* type_name<std::int64_t> = "Int64";
-template <>
-constexpr const char* type_name<std::uint8_t> = "UInt8";
+std::string type_name() {
+  const char* kind = std::is_floating_point_v<Number> ? "Float"
+                     : std::is_signed_v<Number>       ? "Int"
+                                                      : "UInt";
+  return fmt::format("{}{}", kind, 8 * sizeof(Number));
+}
 
 // The number of bytes, then the bytes.
 template <typename Number>
@@ -45,7 +43,7 @@ std::string data_array(const std::string& attributes, const std::vector<Number>&
   std::memcpy(bytes.data(), &size, sizeof size);
   if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
   return fmt::format("<DataArray type=\"{}\" {} format=\"binary\">{}</DataArray>\n",
-                     type_name<Number>, attributes, base64(bytes));
+                     type_name<Number>(), attributes, base64(bytes));
 }
 
 std::string attributes_of(const VtuArray& array) {
@@ -65,12 +63,6 @@ std::string data_arrays(const char* where, const std::vector<VtuArray>& arrays) 
   return text + fmt::format("</{}>\n", where);
 }
 
-std::string points_text(const std::vector<Eigen::Vector2d>& points) {
-  std::vector<double> xyz;
-  for (const Eigen::Vector2d& point : points) xyz.insert(xyz.end(), {point.x(), point.y(), 0});
-  return "<Points>\n" + data_array("NumberOfComponents=\"3\"", xyz) + "</Points>\n";
-}
-
 std::string cells_text(VtuCell cell, std::size_t points, std::size_t corners) {
   std::vector<std::int64_t> connectivity(points), offsets;
   std::iota(connectivity.begin(), connectivity.end(), 0);
@@ -84,18 +76,25 @@ std::string cells_text(VtuCell cell, std::size_t points, std::size_t corners) {
 
 }  // namespace
 
+VtuArray vtu_vectors(const std::string& name, const std::vector<Eigen::Vector2d>& vectors) {
+  std::vector<double> xyz;
+  for (const Eigen::Vector2d& vector : vectors) xyz.insert(xyz.end(), {vector.x(), vector.y(), 0});
+  return {name, {"x", "y", "z"}, std::move(xyz)};
+}
+
 std::string vtu_text(const VtuGrid& grid) {
   const std::size_t points = grid.points.size(), corners = grid.cell == VtuCell::line ? 2 : 3;
+  const auto xyz = std::get<std::vector<double>>(vtu_vectors("points", grid.points).values);
   constexpr bool is_little = std::endian::native == std::endian::little;
   return fmt::format(
       "<?xml version=\"1.0\"?>\n"
       "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
       "header_type=\"UInt64\">\n"
       "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-      "{}{}{}{}</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+      "{}{}<Points>\n{}</Points>\n{}</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
       is_little ? "LittleEndian" : "BigEndian", points, points / corners,
       data_arrays("PointData", grid.of_points), data_arrays("CellData", grid.of_cells),
-      points_text(grid.points), cells_text(grid.cell, points, corners));
+      data_array("NumberOfComponents=\"3\"", xyz), cells_text(grid.cell, points, corners));
 }
 
 }  // namespace airybench

@@ -16,6 +16,8 @@ struct VtuArray {
   std::vector<std::string> components;  // their names; empty: one component
   std::variant<std::vector<double>, std::vector<std::int32_t>> values;  // component by component
 };
+// With a z that is 0.
+VtuArray vtu_vectors(const std::string& name, const std::vector<Eigen::Vector2d>& vectors);
 
 enum class VtuCell : std::uint8_t { line = 3, triangle = 5 };  // VTK's own numbers
 

@@ -9,11 +9,8 @@
 #include <new>
 
 #include "bench/measure/heap_probe.hpp"
-#include "bench/measure/instruction_counter.hpp"
-#include "bench/measure/memory_watch.hpp"
-#include "bench/measure/record_notes.hpp"
-#include "bench/measure/rss_probe.hpp"
 #include "bench/plan/blank_record.hpp"
+#include "bench/verify/answer_hash.hpp"
 #include "bench/verify/moments_check.hpp"
 #include "support/seconds_since.hpp"
 
@@ -82,28 +79,28 @@ const Reference* Workbench::reference(int step) {
 
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 Activity what) {
-  const bool histories = what == Activity::detail_run;
+  const bool in_detail = what == Activity::detail_run;
   if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
   RunControl control;
   control.deadline = Deadline::after(run_limit_s(what, options_));
-  control.histories = histories;
+  control.histories = in_detail;
   control.threads = options_.threads;
   control.stop = options_.stop;
   control.contact = options_.contact.value_or(control.contact);
   control.target_error = options_.target_error;
-  control.condition = histories && asks_for_condition(options_.study);
+  control.condition = in_detail && asks_for_condition(options_.study);
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
-  const std::int64_t of_blocks = blocks.heap_bytes.value_or(0);
+  const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
   const MemoryWatch watch(of_blocks);
   const std::int64_t limit_base = heap::live_bytes() - of_blocks;
   std::optional<InstructionCounter> counter;
   if (what == Activity::memory_run) counter.emplace();
   Run result;
   VisitStep visit;
-  if (histories)
+  if (in_detail)
     visit = [&](int step, const DualSystem& posed, const Solution& answer) {
       if (!answer.stress.empty()) result.judged.push_back(judged(step, posed, answer));
     };
@@ -158,7 +155,11 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   };
   const Run tuned = solve({tune, choice.tolerance}, blocks, Activity::tuning);
   record.tuning_s = tuned.time_s;
-  note(tuning.grid, record);
+  for (const GridPoint& point : tuning.grid)
+    record.grid.push_back({{"r", point.r},
+                           {"rho", point.rho},
+                           {"iterations", point.iterations},
+                           {"outcome", point.outcome}});
   record.tuning_cut =
       tuned.solution.status == Status::timeout ||
       std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
@@ -176,7 +177,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   return choice;
 }
 
-// What the method said with a tolerance, and what was true: nobody has told it.
+// What the method said with a tolerance, and what was true, which it is not told.
 void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run,
                              Record& record) {
   Json attempt = {{"tolerance", choice.tolerance},
@@ -195,7 +196,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
   std::optional<Run> finished;  // not accurate enough, with the tolerance before
   double finished_with = 0;
   for (int attempt = 1;; ++attempt) {
-    malloc_trim(0);  // what earlier runs freed shall not count
+    malloc_trim(0);  // memory that earlier runs freed must not count
     Run run = solve(choice, assembled, Activity::detail_run);
     const Solution& solution = run.solution;
     if (finished && !has_answer(solution.status)) {  // better than nothing
@@ -234,9 +235,9 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
-    // Another's discrete law is not ours; how far it is from it, in N, is said.
+    // Another's discrete law is not ours; the violations in N stay.
     result.verification.natural_map_residual.reset();
-    // And no stress of its own is no reason to think that there is none.
+    // Its own stress, which is zero, does not tell whether there is none.
     result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
   }
   return result;
@@ -267,7 +268,8 @@ std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem
 
 void Workbench::judge(const Method& method, const Run& run, Record& record) {
   const Verification& v = run.judged.back().seen();
-  note(v, record);
+  take_over(v, record);
+  record.answer_hash = answer_hash(v);
   if (record.status != Status::ok) return;
   const std::size_t at = worst_step(run.judged);
   const WorstMeasure worst = worst_measure(run.judged[at].seen());
@@ -278,7 +280,7 @@ void Workbench::judge(const Method& method, const Run& run, Record& record) {
     record.status_reason = fmt::format(
         "{}another solution than the reference's, {:.1e} of its stress away; errors are to this "
         "one",
-        step_prefix(static_cast<std::size_t>(other - run.judged.begin()), *problem_),
+        step_prefix(other - run.judged.begin(), *problem_),
         other->verification.error_stress.value_or(0));
   } else if (!(worst.value <= options_.target_error)) {
     record.status = Status::inaccurate;
@@ -318,9 +320,7 @@ Workbench::Examination Workbench::examine(const Method& method,
     return examination;
   }
   const AssembledBlocks& assembled = blocks(method.blocks);
-  record.assembly_samples_s = assembled.samples_s;
-  record.blocks_heap_bytes = assembled.heap_bytes;
-  record.assembly_peak_heap_bytes = assembled.peak_heap_bytes;
+  take_over(assembled, record);
 
   Choice& choice = examination.choice;
   choice = choose(method, assembled, record);
@@ -331,15 +331,13 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
   if (record.tuning_cut && record.status != Status::ok)
     record.status_reason += "; the search was cut: see tuning_cut";
-  if (options_.histories) note(solution.histories, record);
-  if (solution.status == Status::timeout) {
-    record.done_fraction = solution.done_fraction;
-    record.error_so_far = solution.error_so_far;
-    if (solution.done_fraction) {  // the solve itself was at work: at least so much memory
-      record.peak_heap_bytes = run.peak_heap_bytes;
-      record.peak_rss_bytes = run.peak_rss_bytes;
-    }
-    if (solution.done_fraction.value_or(0) > 0)
+  if (options_.histories)
+    for (const IterationHistory& history : solution.histories)
+      record.histories[history.what] = history.residual;
+  if (solution.done_fraction) {  // on timeout, the solve itself at work: at least so much memory
+    record.peak_heap_bytes = run.peak_heap_bytes;
+    record.peak_rss_bytes = run.peak_rss_bytes;
+    if (*solution.done_fraction > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
   if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
@@ -358,9 +356,7 @@ Workbench::Examination Workbench::examine(const Method& method,
                     (run.time_s > options_.long_case_s || options_.study == Study::stability);
   if (once && is_measured(record)) {
     record.measured_once = true;
-    record.samples_s.push_back(run.time_s);
-    record.stage_samples.push_back(by_name(solution.times));
-    if (solution.program) record.program_samples_s.push_back(solution.program->wall_s);
+    add_run(timed(run), record);
     note_memory(run, record);
   }
   return examination;
@@ -384,15 +380,20 @@ void Workbench::measure_memory(const Method& method, const Choice& choice, Recor
   record.instructions = run.instructions;
 }
 
+TimedRun Workbench::timed(const Run& run) {
+  TimedRun result;
+  result.time_s = run.time_s;
+  result.status = run.solution.status;
+  result.message = run.solution.message;
+  for (const Stage stage : all_stages)
+    if (const auto& seconds = run.solution.times[stage])
+      result.stages[std::string(name_of(stage))] = *seconds;
+  if (run.solution.program) result.program_s = run.solution.program->wall_s;
+  return result;
+}
+
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
-  const Run run = solve(choice, blocks(method.blocks), Activity::timed_run);
-  TimedRun timed;
-  timed.time_s = run.time_s;
-  timed.stages = by_name(run.solution.times);
-  timed.status = run.solution.status;
-  timed.message = run.solution.message;
-  if (run.solution.program) timed.program_s = run.solution.program->wall_s;
-  return timed;
+  return timed(solve(choice, blocks(method.blocks), Activity::timed_run));
 }
 
 }  // namespace airybench

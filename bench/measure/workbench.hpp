@@ -1,29 +1,21 @@
 // One mesh under one scene: its blocks, its reference, and the measuring of methods on them.
 //
 // Detail (errors, counts, histories), memory and time are taken in separate runs of the same solve,
-// so that none disturbs the others. A solve that takes long is measured once: its detail run then
-// is the other two as well.
+// so that none disturbs the others. Of a long solve the detail run is the other two as well.
 #pragma once
 
 #include <map>
 #include <memory>
 
 #include "bench/measure/activity_board.hpp"
-#include "bench/measure/assembled_blocks.hpp"
 #include "bench/measure/load_step_runs.hpp"
-#include "bench/measure/memory_split.hpp"
-#include "bench/measure/timed_run.hpp"
+#include "bench/measure/record_notes.hpp"
 #include "bench/plan/options.hpp"
-#include "bench/records/record.hpp"
-#include "bench/verify/contact_intervals.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/reference.hpp"
-#include "bench/verify/verifier.hpp"
 #include "solvers/methods.hpp"
 
 namespace airybench {
 
-// What broke the process that tried it, and is not to be tried again; the text says how.
+// Parts that broke the process that tried them, and are not to be tried again; the text says how.
 struct LeftOut {
   std::map<Blocks, std::string> blocks;
   std::string reference, discretisation;
@@ -68,25 +60,12 @@ class Workbench {
     double time_s = 0;
     std::optional<std::int64_t> peak_heap_bytes, peak_rss_bytes, instructions;
     std::optional<MemorySplit> memory;
-    // Where it has been asked for; of a path every step, as far as it went.
-    std::vector<JudgedStep> judged;
+    std::vector<JudgedStep> judged;  // where asked for; of a path every step, as far as it went
   };
   const AssembledBlocks& blocks(Blocks which);
   bool is_too_large_for_reference() const;
   double reference_error_at_most() const;
-  // Null when there is none; no_reference_ says why.
-  const Reference* reference(int step = 0);
-  struct Discretisation {  // of the last load step
-    ConstitutiveError error;
-    DisplacementField u;
-    std::optional<ContactIntervals> intervals;  // of recovery, where the error is one
-    Json of_steps = Json::array();              // what Record::steps has of each
-  };
-  // Whose displacements the discretisation error of the method's record is made with.
-  std::optional<Bound> bound_for(const Method& method) const;
-  // Null when the stresses or the displacements are missing.
-  const Discretisation* discretisation(Bound bound);
-  std::optional<Discretisation> compute_discretisation(Bound bound);
+  const Reference* reference(int step = 0);  // null: there is none, and no_reference_ says why
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // The run that meets the target, or the last that was tried; the choice has its tolerance.
@@ -96,29 +75,36 @@ class Workbench {
   bool is_answered(const Solution& solution) const;  // there is something to judge
   JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is
-  static void note_memory(const Run& run, Record& record);
-  // Sets what the verifier decides, from a run that is verified.
-  void judge(const Method& method, const Run& run, Record& record);
-  // Of a path with friction and a reference, else null: how far it is from one with twice the
-  // steps.
-  const Json* half_steps();
-  void note_half_steps(Record& record);
-  // What is known of the discretisation error.
-  void note_discretisation(const Method& method, const Solution& solution, Record& record);
-  // Nothing above 100 % is ok, and what has no other error than this one says why there is none.
-  static void judge_discretisation(const Method& method, Record& record);
-  // Of another's displacements, made admissible.
-  void note_error_of_displacement(const Solution& solution, Record& record);
-  // The method's own, recovered from its edge moments, or the one that is known of the solution.
-  static std::optional<DisplacementField> displacement_of(const DualSystem& system,
-                                                          const Solution& solution,
-                                                          const Discretisation* known);
-  void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
-                       const Record& record, const std::filesystem::path& file);
   // Against the solution that is nearest to it, where that is none of the reference's.
   std::optional<Verification> verify_as_other_solution(const DualSystem& system,
                                                        const Solution& solution,
                                                        const Verification& v);
+  // Sets what the verifier decides, from a run that is verified.
+  void judge(const Method& method, const Run& run, Record& record);
+  static void note_memory(const Run& run, Record& record);
+  static TimedRun timed(const Run& run);
+
+  struct Discretisation {  // of the last load step
+    ConstitutiveError error;
+    DisplacementField u;
+    std::optional<ContactIntervals> intervals;  // of recovery, where the error is one
+    Json of_steps = Json::array();              // into Record::steps
+  };
+  // The displacements that the discretisation error of the method's record is made with.
+  std::optional<Bound> bound_for(const Method& method) const;
+  const Discretisation* discretisation(Bound bound);  // null: stresses or displacements are missing
+  std::optional<Discretisation> compute_discretisation(Bound bound);
+  void note_discretisation(const Method& method, const Solution& solution, Record& record);
+  // Of another's displacements, made admissible.
+  void note_error_of_displacement(const Solution& solution, Record& record);
+  // Nothing above 100 % is ok; the reason is given where a case has no other error than this one.
+  static void judge_discretisation(const Method& method, Record& record);
+  // How far a path with friction is from one with twice the steps; null: there is no such path, or
+  // no reference.
+  const Json* half_steps();
+  void note_half_steps(Record& record);
+  void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
+                       const Record& record, const std::filesystem::path& file);
 
   std::shared_ptr<const Problem> problem_;
   const Options& options_;

@@ -1,11 +1,10 @@
-// What a Workbench knows of the mesh's own error, and the fields that it writes with it.
+// The mesh's own error in a Workbench, and the fields that it writes with it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "bench/measure/field_files.hpp"
-#include "bench/measure/record_notes.hpp"
 #include "bench/measure/workbench.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 
@@ -167,25 +166,20 @@ void Workbench::judge_discretisation(const Method& method, Record& record) {
   }
 }
 
-std::optional<DisplacementField> Workbench::displacement_of(const DualSystem& system,
-                                                            const Solution& solution,
-                                                            const Discretisation* known) {
-  std::optional<DisplacementField> w;
-  if (solution.displacement.cols() > 0)
-    w = solution.displacement;
-  else if (solution.edge_moments.cols() > 0)
-    w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  else if (known != nullptr)
-    w = known->u;
-  return w && w->allFinite() ? w : std::nullopt;
-}
-
 void Workbench::write_fields_of(const Method& method, const DualSystem& system,
                                 const Solution& solution, const Record& record,
                                 const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
-  SolvedFields fields{system, solution, displacement_of(system, solution, known), nullptr, {}};
+  SolvedFields fields{system, solution, {}, nullptr, {}};
+  // The method's own displacement, one recovered from its edge moments, or one that is known.
+  if (solution.displacement.cols() > 0)
+    fields.w = solution.displacement;
+  else if (solution.edge_moments.cols() > 0)
+    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  else if (known != nullptr)
+    fields.w = known->u;
+  if (fields.w && !fields.w->allFinite()) fields.w.reset();
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
     if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);

@@ -5,28 +5,12 @@
 #include "bench/plan/stages.hpp"
 
 namespace airybench {
-namespace {
-
-// How bodies are told apart.
-void note(const Mesh& mesh, Record& record) {
-  const MeshExtent extent = extent_of(mesh);
-  record.area_mm2 = extent.area_mm2;
-  record.contact_length_mm = extent.contact_length_mm;
-  record.width_mm = extent.width_mm;
-  record.height_mm = extent.height_mm;
-}
-
-}  // namespace
 
 void describe(const Method& method, Record& record) {
+  take_over(method, record);
   record.method = method.name;
   record.general_name = method.identity();
-  record.family = method.family;
-  record.preconditioner = method.preconditioner;
-  record.program = method.program;
   record.iterative = method.is_iterative();
-  record.in_paper = method.in_paper;
-  record.in_displacements = method.in_displacements;
 }
 
 Record blank_record(const Problem& problem, const Method& method, const Options& options) {
@@ -38,15 +22,10 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
     record.status_reason = std::move(why);
   }
   record.mesh = problem.mesh.name;
-  if (!problem.given) note(problem.mesh, record);
+  if (!problem.given) take_over(extent_of(problem.mesh), record);  // tells bodies apart
   describe(method, record);
-  record.threads = options.threads;
-  record.precision = options.precision;
-  record.retry_noisy = options.retry_noisy;
-  record.tuning_budget_s = options.tuning_budget_s;
-  record.stop = options.stop;
+  take_over(options, record);
   record.study = name_of(options.study);
-  record.target_error = options.target_error;
   if (!problem.given) {
     record.n_phi = sizes.n_phi;
     record.n_f = sizes.n_f;

@@ -30,20 +30,18 @@ struct CaseName {
 
   std::string text() const;
   std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
-  // The text as a part of a file's name, of each name another: "--" for '/', '+' for ':', and "%2B"
-  // for what would be mistaken for these.
+  // As a part of a file's name, of each name another: "--" for '/', '+' for ':', and escapes as
+  // "%2B" for these themselves.
   std::string file() const;
 };
 
-// Of a case that is not told: Newton; with the paper's stop, or where sweeps are counted,
-// Gauss–Seidel.
+// Newton; with the paper's stop, or where sweeps are counted, Gauss–Seidel.
 ContactSolver implied_contact_solver(Stop stop, std::string_view knob);
 // For CaseName::contact.
 std::optional<ContactSolver> unless_implied(std::optional<ContactSolver> solver, Stop stop,
                                             std::string_view knob);
 
-// May a mesh, a scene or a method be called that? UTF-8 without '/' and control characters, not
-// empty.
+// Of a mesh, a scene or a method: UTF-8 without '/' and control characters, not empty.
 bool is_name(std::string_view text);
 
 // Empty: this is no case's name.

@@ -25,12 +25,6 @@ std::string printable(std::string text) {
   return text;
 }
 
-void add_counters(const Record& record, Run& run) {
-  for (const auto& [key, value] : numbers_of(record))
-    if (!key.starts_with("time_") && key != "threads" && key != "repetitions")
-      run.counters[key] = value;
-}
-
 Run run_of(const Record& record, std::size_t family) {
   Run run;
   run.run_name.function_name = printable(name_of(record).text());
@@ -40,7 +34,7 @@ Run run_of(const Record& record, std::size_t family) {
   run.per_family_instance_index = 0;
   run.threads = record.threads.value_or(1);
   run.time_unit = benchmark::kMillisecond;
-  run.repetitions = static_cast<std::int64_t>(record.samples_s.size());
+  run.repetitions = std::ssize(record.samples_s);
   run.repetition_index = 0;
   return run;
 }
@@ -57,16 +51,8 @@ void fail(AnyRun& run, const std::string& message) {
   }
 }
 
-Run failed_run(const Record& record, std::size_t family) {
-  Run run = run_of(record, family);
-  fail(run, printable(fmt::format("{}: {}", name_of(record.status), record.status_reason)));
-  return run;
-}
-
 // A time in s, or for a percentage the fraction itself.
-Run aggregate(const Record& record, std::size_t family, const char* name, double value,
-              benchmark::StatisticUnit unit) {
-  Run run = run_of(record, family);
+Run aggregate(Run run, const char* name, double value, benchmark::StatisticUnit unit) {
   run.run_type = Run::RT_Aggregate;
   run.aggregate_name = name;
   run.aggregate_unit = unit;
@@ -80,34 +66,37 @@ Run aggregate(const Record& record, std::size_t family, const char* name, double
 
 std::vector<Run> runs_of(const Record& record, std::size_t family) {
   const std::vector<double>& samples = record.samples_s;
-  if (samples.empty()) return {failed_run(record, family)};
-  std::vector<Run> runs;
+  const Run bare = run_of(record, family);
+  if (samples.empty()) {
+    Run failed = bare;
+    fail(failed, printable(fmt::format("{}: {}", name_of(record.status), record.status_reason)));
+    return {failed};
+  }
+  Run counting = bare;
+  for (const auto& [key, value] : numbers_of(record))
+    if (!key.starts_with("time_") && key != "threads" && key != "repetitions")
+      counting.counters[key] = value;
+  std::vector<Run> runs(samples.size(), counting);
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    Run run = run_of(record, family);
-    run.repetition_index = static_cast<std::int64_t>(k);
-    run.real_accumulated_time = samples[k];
-    add_counters(record, run);
-    runs.push_back(std::move(run));
+    runs[k].repetition_index = static_cast<std::int64_t>(k);
+    runs[k].real_accumulated_time = samples[k];
   }
   if (samples.size() < 2) return runs;
   const double mean = boost::math::statistics::mean(samples);
   const double deviation = std::sqrt(boost::math::statistics::sample_variance(samples));
   using enum benchmark::StatisticUnit;
-  runs.push_back(aggregate(record, family, "mean", mean, kTime));
-  add_counters(record, runs.back());
-  runs.push_back(aggregate(record, family, "median", median(samples), kTime));
-  add_counters(record, runs.back());
-  runs.push_back(aggregate(record, family, "stddev", deviation, kTime));
-  if (mean > 0) runs.push_back(aggregate(record, family, "cv", deviation / mean, kPercentage));
+  runs.push_back(aggregate(counting, "mean", mean, kTime));
+  runs.push_back(aggregate(counting, "median", median(samples), kTime));
+  runs.push_back(aggregate(bare, "stddev", deviation, kTime));
+  if (mean > 0) runs.push_back(aggregate(bare, "cv", deviation / mean, kPercentage));
   return runs;
 }
 
 // The keys that the library writes, as far as a record knows them, and then the record's own.
 Json context_of(const std::vector<Record>& cases) {
-  const std::map<std::string, std::string> known =
-      cases.empty() ? std::map<std::string, std::string>() : cases.front().context;
+  const Context known = cases.empty() ? Context() : cases.front().context;
   Json context = {
-      {"date", known.contains("date") ? known.at("date") : ""},
+      {"date", context_word(known, "date")},
       {"host_name", ""},
       {"executable", "bench"},
       {"num_cpus", parse_whole(context_word(known, "cpus")).value_or(0)},

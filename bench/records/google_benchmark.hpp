@@ -9,12 +9,11 @@
 
 namespace airybench {
 
-// A case is the benchmark MESH/SCENE/METHOD/iterations:1/manual_time: real_time is one timed solve
-// in ms, a run per sample, then mean, median, stddev and cv where there are two samples or more;
-// cpu_time is not measured and 0. Counters: the numeric columns but those that the schema has
-// itself. A case without samples is one run with error_occurred and "status: reason". `context` is
-// that of the first case, not of the machine that exports. Throws std::runtime_error when the
-// library wrote what is not JSON.
+// A case is the benchmark MESH/SCENE/METHOD/iterations:1/manual_time: a run per sample, real_time
+// in ms, then mean, median, stddev and cv of two samples or more; cpu_time is 0. Counters: the
+// numeric columns but those of the schema. A case without samples is one run with error_occurred
+// and "status: reason". `context` is that of the first case, not of the machine that exports.
+// Throws std::runtime_error when the library wrote what is not JSON.
 std::string google_benchmark_json(const std::vector<Record>& cases);
 
 }  // namespace airybench

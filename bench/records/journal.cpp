@@ -15,7 +15,7 @@
 namespace airybench {
 
 Journal::Journal(const std::filesystem::path& file) : file_(file) {
-  // A pipe that nobody reads shall not be waited for.
+  // O_NONBLOCK: do not block on a FIFO.
   descriptor_ = open(file.c_str(), O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0666);
   if (descriptor_ < 0)
     throw FileError(fmt::format("{}: cannot be written: {}", file.string(), strerror(errno)));
@@ -48,7 +48,7 @@ void Journal::append(const std::string& line) {
   int error = write_all(descriptor_, line + "\n");
   if (error == 0 && fsync(descriptor_) != 0) error = errno;
   if (error == 0) return;
-  // If this fails as well, a torn line stays, and read_journal() passes over it.
+  // If this fails as well, a torn line stays, which read_journal() ignores.
   [[maybe_unused]] const int taken_back = ftruncate(descriptor_, before);
   throw FileError(fmt::format("{}: cannot be written: {}", file_.string(), strerror(error)));
 }

@@ -1,4 +1,4 @@
-// A file of lines that only grows, each line on disk before the next thing happens.
+// A file of lines that only grows, each line on disk before the run goes on.
 #pragma once
 
 #include <filesystem>
@@ -19,8 +19,8 @@ class Journal {
   Journal& operator=(Journal&& other) noexcept;
 
   bool is_open() const { return descriptor_ >= 0; }
-  // Writes the line and waits until it is on disk (fsync). Throws FileError: it cannot be written,
-  // and what was of the line is taken back; or the file was removed or replaced.
+  // Returns when the line is on disk (fsync). Throws FileError: it cannot be written, and is taken
+  // back; or the file was removed or replaced.
   void append(const std::string& line);
 
  private:
@@ -28,11 +28,9 @@ class Journal {
   int descriptor_ = -1;
 };
 
-// The whole lines of a file, without their ends. What follows the last end of line is the start of
-// a line whose writer was stopped: it is no line.
 struct JournalLines {
-  std::vector<std::string> lines;
-  bool torn = false;  // there was such a start
+  std::vector<std::string> lines;  // whole ones, without their ends
+  bool torn = false;               // the start of another follows, whose writer was stopped
 };
 JournalLines journal_lines_of(const std::string& text);
 // A file that is not there has no lines. Throws FileError.

@@ -8,7 +8,7 @@ namespace airybench {
 
 namespace {
 
-// What is read recursively, or written, must not be deeper than the stack is.
+// Reading and writing are recursive: the stack limits the depth.
 void check_text(const std::string& text) {
   constexpr int deepest = 32;
   int depth = 0;

@@ -9,15 +9,14 @@ namespace airybench {
 
 using Json = nlohmann::ordered_json;
 
-// Compiled once: parsing and dumping take the compiler as long as everything else a file does with
-// JSON.
+// Here and not in every file, because parsing and dumping take long to compile.
 
 // Throws Json::exception, also where arrays and objects are nested more than 32 deep.
 Json parse_json(const std::string& text);
-// Tells sax what is read, in its order, instead of keeping all.
+// Hands each value to sax instead of keeping all.
 void parse_json(const std::string& text, Json::json_sax_t& sax);
 bool is_utf8(std::string_view text);
-// On one line; what is not UTF-8, in a file's name say, is replaced.
+// On one line; invalid UTF-8, as in a file's name, is replaced.
 std::string json_text(const Json& json);
 std::string indented_json_text(const Json& json, int indent);
 

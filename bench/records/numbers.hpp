@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/bootstrap.hpp"
 #include "bench/records/record.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 

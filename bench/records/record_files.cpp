@@ -14,37 +14,32 @@ namespace {
 
 std::string text_of(const std::vector<RecordLine>& lines) {
   std::string text;
-  for (const RecordLine& line : lines) {
-    text += json_text(line.json);
-    text += '\n';
-  }
+  for (const RecordLine& line : lines) text += json_text(line.json) + "\n";
   return text;
 }
 
-// To keep a folder's files in step, what belongs to other records goes first.
+// Before records change, so that none of a folder's files belongs to others.
 void remove_summaries(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* stale : {"results.csv", "results.json"})
     std::filesystem::remove(folder / stale, ignored);
 }
 
-// The files that follow from the records.
 struct Summaries {
   std::string csv, google_benchmark;
-
-  explicit Summaries(const std::vector<RecordLine>& lines) {
-    std::vector<Record> records;
-    for (const RecordLine& line : lines) records.push_back(line.record);
-    csv = csv_text(records);
-    google_benchmark = google_benchmark_json(records);
-  }
-  void write(const std::filesystem::path& folder) const {
-    write_file_atomically(folder / "results.csv", csv);
-    write_file_atomically(folder / "results.json", google_benchmark);
-  }
 };
+Summaries summaries_of(const std::vector<RecordLine>& lines) {
+  std::vector<Record> records;
+  for (const RecordLine& line : lines) records.push_back(line.record);
+  return {csv_text(records), google_benchmark_json(records)};
+}
 
-// The folder, made, when nothing in it stands in the way of its files.
+void write(const Summaries& summaries, const std::filesystem::path& folder) {
+  write_file_atomically(folder / "results.csv", summaries.csv);
+  write_file_atomically(folder / "results.json", summaries.google_benchmark);
+}
+
+// Throws FileError where something else has the name of one of its files.
 std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
   make_folder(folder);
   for (const char* name : {"records.jsonl", "results.csv", "results.json"})
@@ -61,19 +56,12 @@ std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
 
 }  // namespace
 
-std::vector<RecordLine> lines_in(const std::filesystem::path& folder) {
-  const std::filesystem::path file = records_file_in(folder);
-  if (!std::filesystem::exists(file))
-    throw FileError(file.string() + ": no such file (a folder that bench --out wrote has it)");
-  return std::move(read_record_lines(file).lines);
-}
-
 void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
-  const Summaries summaries(lines);
+  const Summaries summaries = summaries_of(lines);
   const FolderLock lock(folder_for_records(folder));
   remove_summaries(folder);
   write_file_atomically(folder / "records.jsonl", text_of(lines));
-  summaries.write(folder);
+  write(summaries, folder);
 }
 
 RecordFiles::RecordFiles(const std::filesystem::path& folder, Context context, Keep keep)
@@ -130,7 +118,7 @@ void RecordFiles::append(Record record) {
 
 void RecordFiles::finish() const {
   if (keep_ == Keep::none && lines_.empty()) return;  // an earlier run's files stay
-  Summaries(lines_).write(folder_);
+  write(summaries_of(lines_), folder_);
 }
 
 }  // namespace airybench

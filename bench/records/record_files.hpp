@@ -19,14 +19,14 @@ namespace airybench {
 // What becomes of the records that a folder has.
 enum class Keep {
   none,      // they go when the first of this run comes
-  others,    // only those of the same cases go, whatever they were measured with
+  others,    // those of the same cases go, whatever they were measured with
   finished,  // all stay, and must be of the same machine, program and settings as this run
 };
 
 class RecordFiles {
  public:
-  // Makes the folder, and holds it. Throws FileError: the folder, also when another process holds
-  // it; records to keep that cannot be read or, with Keep::finished, are of another run.
+  // Makes the folder, and locks it. Throws FileError: the folder cannot be made or is locked;
+  // records to keep cannot be read or, with Keep::finished, are of another run.
   RecordFiles(const std::filesystem::path& folder, Context context, Keep keep);
 
   // With Keep::finished: the record of this case, if there is one that no fault of the machine
@@ -54,11 +54,8 @@ class RecordFiles {
   Journal journal_;
 };
 
-// The lines of a folder's records, packed or not. Throws FileError, also where there is none.
-std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
-
 // records.jsonl, results.csv and results.json of these; each file whole or not at all. Throws
-// FileError, also when another process holds the folder.
+// FileError, also when the folder is locked.
 void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines);
 
 }  // namespace airybench

@@ -1,4 +1,4 @@
-// Reads files of records back.
+// Reads files of records back, also packed ones.
 #pragma once
 
 #include <filesystem>
@@ -28,10 +28,16 @@ std::filesystem::path records_file_in(const std::filesystem::path& folder);
 RecordLines read_record_lines(const std::filesystem::path& file);
 // The same of a file's text; file is what messages name.
 RecordLines record_lines_of(const std::string& text, const std::string& file);
+// Of a folder's records, packed or not. Throws FileError, also where there is none.
+std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 
 enum class Studies { leave_out, include };
 // In the order of the lines. Throws RecordError, also where there is no such file.
 std::vector<Record> read_records(const std::filesystem::path& file,
                                  Studies studies = Studies::leave_out);
+
+// The bytes of a .gz (RFC 1952), of one member or several, unpacked: at most 1 GiB. Throws
+// FileError "file: why".
+std::string unpacked(const std::string& bytes, const std::string& file);
 
 }  // namespace airybench

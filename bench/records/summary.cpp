@@ -2,35 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
-#include "bench/records/bootstrap.hpp"
-#include "bench/records/median_interval.hpp"
 #include "bench/records/robust.hpp"
 
 namespace airybench {
 namespace {
 
-std::optional<double> median_of(const std::vector<double>& samples) {
-  const double value = median(samples);
+std::optional<double> if_finite(double value) {
   return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+std::optional<double> median_of(const std::vector<double>& samples) {
+  return if_finite(median(samples));
+}
+
+void set_interval(const std::optional<Interval>& interval, std::optional<double>& low,
+                  std::optional<double>& high) {
+  low = interval ? std::optional(interval->low) : std::nullopt;
+  high = interval ? std::optional(interval->high) : std::nullopt;
 }
 
 void summarise_times(Record& r) {
   const std::vector<double>& samples = r.samples_s;
-  r.repetitions = static_cast<std::int64_t>(samples.size());
+  r.repetitions = std::ssize(samples);
   r.time_s = median_of(samples);
-  r.time_min_s.reset();
-  r.time_mad_s.reset();
-  if (!samples.empty()) {
-    r.time_min_s = *std::min_element(samples.begin(), samples.end());
-    r.time_mad_s = median_absolute_deviation(samples);
-  }
-  const Interval interval = samples.size() > 1 ? bootstrap_median(samples) : Interval{};
-  r.time_low_s = interval.low > 0 ? std::optional(interval.low) : std::nullopt;
-  r.time_high_s = interval.low > 0 ? std::optional(interval.high) : std::nullopt;
-  const std::optional<Interval> ordered = median_interval(samples);
-  r.time_ci_low_s = ordered ? std::optional(ordered->low) : std::nullopt;
-  r.time_ci_high_s = ordered ? std::optional(ordered->high) : std::nullopt;
+  r.time_min_s = samples.empty() ? std::nullopt : std::optional(std::ranges::min(samples));
+  r.time_mad_s = if_finite(median_absolute_deviation(samples));
+  set_interval(samples.size() > 1 ? std::optional(bootstrap_median(samples)) : std::nullopt,
+               r.time_low_s, r.time_high_s);
+  set_interval(median_interval(samples), r.time_ci_low_s, r.time_ci_high_s);
   const std::optional<double> uncertainty = median_uncertainty(samples);
   r.precision_reached = r.precision && uncertainty && *uncertainty <= *r.precision;
   r.assembly_s = median_of(r.assembly_samples_s);
@@ -41,14 +41,14 @@ void summarise_times(Record& r) {
 
 // A stage's median is over the runs that have it.
 void summarise_stages(Record& r) {
-  std::map<std::string, std::vector<double>> times_of;
-  for (const auto& run : r.stage_samples)
-    for (const auto& [stage, seconds] : run) times_of[column_of_stage(stage)].push_back(seconds);
   for (const Field* field : fields_with(column)) {
     if (!std::string_view(field->name).starts_with("stage_")) continue;
+    std::vector<double> times;
+    for (const auto& run : r.stage_samples)
+      for (const auto& [stage, seconds] : run)
+        if ("stage_" + stage + "_s" == field->name) times.push_back(seconds);
     field->clear(r);
-    if (const auto found = times_of.find(field->name); found != times_of.end())
-      field->read(median(found->second), "a stage's median", field->name, r);
+    if (!times.empty()) field->read(median(times), "a stage's median", field->name, r);
   }
 }
 
@@ -101,8 +101,6 @@ std::string outcome_of(const Record& r) {
     return r.error_stress ? "wrong_success" : "unverified";
   return r.other_solution ? "other_solution" : std::string(name_of(r.status));
 }
-
-std::string column_of_stage(const std::string& stage) { return "stage_" + stage + "_s"; }
 
 void summarise(Record& r) {
   summarise_times(r);

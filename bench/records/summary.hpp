@@ -9,10 +9,8 @@ namespace airybench {
 // claimed_status; error_discretisation and error_stress.
 void summarise(Record& record);
 
-// `wrong_success` where the method said ok and the verifier disagrees, `unverified` where that has
-// no reference to say; else the status. A mesh on which nothing is known is not the method's fault.
+// `wrong_success` where the method said ok and the verifier disagrees, `unverified` where it has no
+// reference; else the status. A mesh on which nothing is known is not the method's fault.
 std::string outcome_of(const Record& record);
-
-std::string column_of_stage(const std::string& stage);  // "stage_factor_s"
 
 }  // namespace airybench

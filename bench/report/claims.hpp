@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/bootstrap.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 

@@ -21,9 +21,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/records/bootstrap.hpp"
 #include "bench/records/json.hpp"
 #include "bench/records/record_reader.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 

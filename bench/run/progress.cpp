@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/records/median_interval.hpp"
+#include "bench/records/robust.hpp"
 #include "support/seconds_since.hpp"
 #include "support/text_table.hpp"
 

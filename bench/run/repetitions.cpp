@@ -4,7 +4,7 @@
 #include <iterator>
 #include <numeric>
 
-#include "bench/records/median_interval.hpp"
+#include "bench/records/robust.hpp"
 
 namespace airybench {
 

@@ -10,7 +10,6 @@
 #include <sstream>
 
 #include "assembly/scene.hpp"
-#include "bench/measure/contact_picture.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
@@ -26,25 +25,22 @@ namespace fs = std::filesystem;
 
 using Columns = std::map<std::string, std::vector<std::string>>;
 
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line + ",");
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
 Columns read_csv(const fs::path& file) {
   std::istringstream text(testing::text_of(file));
-  const auto split = [](const std::string& line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line)
-      if (c == ',')
-        cells.emplace_back();
-      else
-        cells.back() += c;
-    return cells;
-  };
   std::string line;
   std::getline(text, line);
-  const std::vector<std::string> names = split(line);
+  const std::vector<std::string> names = cells_of(line);
   Columns columns;
-  while (std::getline(text, line)) {
-    const std::vector<std::string> cells = split(line);
-    for (std::size_t k = 0; k < names.size(); ++k) columns[names[k]].push_back(cells.at(k));
-  }
+  while (std::getline(text, line))
+    for (std::size_t k = 0; k < names.size(); ++k)
+      columns[names[k]].push_back(cells_of(line).at(k));
   return columns;
 }
 
@@ -52,6 +48,14 @@ std::vector<double> numbers(const Columns& columns, const std::string& name) {
   std::vector<double> values;
   for (const std::string& cell : columns.at(name)) values.push_back(std::stod(cell));
   return values;
+}
+
+// The tooth without a contact boundary.
+Mesh free_tooth(int nx, int ny) {
+  Mesh mesh = testing::small_tooth(nx, ny);
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  return mesh;
 }
 
 struct Solved {
@@ -69,6 +73,10 @@ struct Solved {
       w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
   }
   ContactPicture contact() const { return contact_picture(system, solution, w); }
+  void write(const fs::path& folder, const std::string& name = "a",
+             const ConstitutiveError* error = nullptr) const {
+    write_fields(folder, name, {system, solution, w, error, {}});
+  }
   double largest_force() const {
     double largest = 0;
     for (const Eigen::Vector2d& force : contact().force) largest = std::max(largest, force.norm());
@@ -77,16 +85,14 @@ struct Solved {
 };
 
 TEST(FieldFiles, DisplacementsAreTheExactOnesWithTheRigidMotion) {
-  Mesh mesh = testing::small_tooth(5, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  const Mesh mesh = free_tooth(5, 4);
   for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3))
     for (const char* method : {"HYBRID", "P2"}) {
       const Solved solved(
           make_problem(mesh, {compliance({2000, 0.3}, Plane::stress)}, testing::loads_of(exact), 0),
           method);
       const testing::TemporaryFolder folder;
-      write_fields(folder.path(), "a", {solved.system, solved.solution, solved.w, nullptr, {}});
+      solved.write(folder.path());
       const Columns rows = read_csv(folder / "a.displacement.csv");
       const auto x = numbers(rows, "x_mm"), y = numbers(rows, "y_mm"), ux = numbers(rows, "ux_mm"),
                  uy = numbers(rows, "uy_mm");
@@ -196,7 +202,7 @@ TEST(FieldFiles, VtkReadsBackWhatIsWritten) {
     const Solution dual = run(select_methods("HYBRID").front(), solved.system, {});
     const ConstitutiveError error =
         constitutive_error(solved.system, dual.stress, dual.F_C, *solved.w);
-    write_fields(folder.path(), method, {solved.system, solved.solution, solved.w, &error, {}});
+    solved.write(folder.path(), method, &error);
     const int code = read_back(folder.path(), method);
     if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
     EXPECT_EQ(code, 0) << method;
@@ -215,7 +221,7 @@ TEST(FieldFiles, TheElementMapHasARowPerTriangleAndSharesThatSumToOne) {
   const Solved solved(pose({}, testing::small_tooth(6, 5)), "HYBRID");
   const ConstitutiveError error =
       constitutive_error(solved.system, solved.solution.stress, solved.solution.F_C, *solved.w);
-  write_fields(folder.path(), "a", {solved.system, solved.solution, {}, &error, {}});
+  solved.write(folder.path(), "a", &error);
   const Columns rows = read_csv(folder / "a.error.csv");
   const std::vector<double> triangle = numbers(rows, "triangle"),
                             share = numbers(rows, "error_share");
@@ -230,14 +236,10 @@ TEST(FieldFiles, TheElementMapHasARowPerTriangleAndSharesThatSumToOne) {
 }
 
 TEST(FieldFiles, ABodyWithoutContactHasAnEmptyGrid) {
-  Mesh mesh = testing::small_tooth(4, 3);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
   Scene scene;
   scene.boundary["force"].pressure_MPa = {{3, 3}};
-  const Solved solved(pose(scene, mesh), "HYBRID");
   const testing::TemporaryFolder folder;
-  write_fields(folder.path(), "a", {solved.system, solved.solution, solved.w, nullptr, {}});
+  Solved(pose(scene, free_tooth(4, 3)), "HYBRID").write(folder.path());
   const int code = read_back(folder.path(), "a");
   if (code == 77) GTEST_SKIP() << "no VTK for Python here (Debian: python3-vtk9)";
   EXPECT_EQ(code, 0);
@@ -246,7 +248,7 @@ TEST(FieldFiles, ABodyWithoutContactHasAnEmptyGrid) {
 TEST(FieldFiles, WhatIsNotKnownIsLeftOut) {
   const testing::TemporaryFolder folder;
   const Solved solved(pose(Scene(), testing::small_tooth(4, 3)), "3STEPD");
-  write_fields(folder.path(), "a", {solved.system, solved.solution, {}, nullptr, {}});
+  solved.write(folder.path());  // an Airy method knows no displacement
   EXPECT_FALSE(fs::exists(folder / "a.displacement.csv"));
   EXPECT_FALSE(fs::exists(folder / "a.error.csv"));
   EXPECT_EQ(testing::text_of(folder / "a.vtu").find("displacement_mm"), std::string::npos);

@@ -3,14 +3,17 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
-#include "bench/measure/workbench.hpp"
+#include <algorithm>
+#include <functional>
+#include <numeric>
+
 #include "bench/records/summary.hpp"
-#include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/bench/measure/examined.hpp"
 
 namespace airybench::load_step_runs_test {
 namespace {
+
+using testing::examined;
 
 std::shared_ptr<const Problem> sheared_and_back() {
   Scene scene;
@@ -21,19 +24,21 @@ std::shared_ptr<const Problem> sheared_and_back() {
   return testing::posed(scene);
 }
 
-Record examined(const Method& method, Options options = {}) {
-  options.repetitions = 1;
-  Workbench bench(sheared_and_back(), options);
-  const auto [record, choice] = bench.examine(method, {});
-  Record result = record;
-  if (is_measured(result)) add_run(bench.measure_time(method, choice), result);
-  summarise(result);
-  return result;
+Record summarised(const Method& method) {
+  Record record = testing::measured(sheared_and_back(), method);
+  summarise(record);
+  return record;
+}
+
+std::vector<double> of_steps(const Record& record, const char* key) {
+  std::vector<double> values;
+  for (const Json& step : record.steps) values.push_back(step.at(key).get<double>());
+  return values;
 }
 
 TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   for (const Method& method : select_methods("HYBRID,P2,3STEPD:CHOLMOD,BLIND:SCHUR,ALM:AUTO")) {
-    const Record record = examined(method);
+    const Record record = summarised(method);
     EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
     EXPECT_EQ(record.load_steps, 3);
     ASSERT_EQ(record.steps.size(), 3u) << method.name;
@@ -44,11 +49,9 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
     EXPECT_EQ(record.steps[2].at("tangential_resultant_N"), record.tangential_resultant_N);
     EXPECT_EQ(record.steps[2].at("n_slip"), record.n_slip);
     // Sheared it is another than pressed, and the way back leaves forces behind.
-    const auto tangential = [&](int k) {
-      return record.steps[k].at("tangential_resultant_N").get<double>();
-    };
-    EXPECT_LT(tangential(1), tangential(0) - 1);
-    EXPECT_GT(tangential(2), tangential(0) + 1);
+    const std::vector<double> tangential = of_steps(record, "tangential_resultant_N");
+    EXPECT_LT(tangential[1], tangential[0] - 1);
+    EXPECT_GT(tangential[2], tangential[0] + 1);
     EXPECT_NEAR(*record.time_per_load_s * 3 + *record.time_once_s, *record.time_s, 1e-9);
   }
 }
@@ -58,10 +61,7 @@ TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
   const auto examined_in = [&](int steps, double friction, const char* method = "HYBRID") {
     scene.equal_steps = steps;
     scene.friction = friction;
-    Options options;
-    options.repetitions = 1;
-    Workbench bench(testing::posed(scene, testing::small_tooth(16, 12)), options);
-    return bench.examine(select_methods(method).front(), {}).record;
+    return examined(testing::posed(scene, testing::small_tooth(16, 12)), method);
   };
   EXPECT_TRUE(examined_in(1, 0.2).steps_in_halves.empty());
   EXPECT_TRUE(examined_in(2, 0).steps_in_halves.empty());
@@ -73,10 +73,9 @@ TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
       EXPECT_EQ(halved.at(key), second.at(key));
     for (const char* key : {"normal_resultant_N", "tangential_resultant_N"})
       EXPECT_NEAR(halved.at(key).get<double>() / second.at(key).get<double>(), 1, 1e-9) << key;
+    const std::vector<double> dissipated = of_steps(four, "dissipation_Nmm");
     EXPECT_NEAR(halved.at("dissipation_Nmm").get<double>(),
-                second.at("dissipation_Nmm").get<double>() +
-                    four.steps[2 * k].at("dissipation_Nmm").get<double>(),
-                1e-9);
+                dissipated[2 * k] + dissipated[2 * k + 1], 1e-9);
   }
   EXPECT_NE(two.steps.back().at("n_stick"), two.steps_in_halves.back().at("n_stick"));
   EXPECT_NE(two.status_reason.find("with every load step in two halves "), std::string::npos)
@@ -84,18 +83,15 @@ TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
   EXPECT_EQ(examined_in(2, 0.2, "P2").steps_in_halves, two.steps_in_halves);
 }
 
-// Without friction nothing is remembered: the last of several equal steps is the one of all of
-// them.
+// Without friction nothing is remembered: the last of several equal steps is the single one.
 TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
   Scene scene;
   scene.friction = 0;
   const auto examined_in = [&](int steps, const char* method) {
     scene.equal_steps = steps;
     Options options;
-    options.repetitions = 1;
     options.fields = true;
-    Workbench bench(testing::posed(scene), options);
-    return bench.examine(select_methods(method).front(), {}).record;
+    return examined(testing::posed(scene), method, options);
   };
   for (const char* method : {"HYBRID", "P2"}) {
     const Record once = examined_in(1, method), path = examined_in(3, method);
@@ -118,61 +114,46 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
 // u_t is less what slipped before: the way back would else have an error of its own past.
 TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   Options options;
-  options.repetitions = 1;
   options.fields = true;
-  Workbench bench(sheared_and_back(), options);
   for (const char* method : {"HYBRID", "P2"}) {
-    const Record record = bench.examine(select_methods(method).front(), {}).record;
+    const Record record = examined(sheared_and_back(), method, options);
     ASSERT_EQ(record.steps.size(), 3u);
-    const auto error = [&](int k) {
-      return record.steps[k].at("error_discretisation").get<double>();
-    };
-    EXPECT_LT(error(2), 1.3 * error(0)) << method;
-    double dissipated = 0;
-    for (const Json& step : record.steps) {
-      EXPECT_GE(step.at("dissipation_Nmm").get<double>(), -1e-12);
-      dissipated += step.at("dissipation_Nmm").get<double>();
-    }
-    EXPECT_GT(dissipated, 1e-4) << method;
+    const std::vector<double> error = of_steps(record, "error_discretisation"),
+                              dissipated = of_steps(record, "dissipation_Nmm");
+    EXPECT_LT(error[2], 1.3 * error[0]) << method;
+    EXPECT_GE(std::ranges::min(dissipated), -1e-12) << method;
+    EXPECT_GT(std::reduce(dissipated.begin(), dissipated.end()), 1e-4) << method;
   }
 }
 
-TEST(LoadStepRuns, AStepThatIsWrongSpoilsTheCase) {
+// HYBRID, on its own in every step, with this done to the second answer.
+Method disturbed(const std::function<void(Solution&)>& disturb) {
   Method method = select_methods("HYBRID").front();
-  // Says ok of every step, but the second, the sheared one, has contact forces too large.
-  method.solve = [solve = method.solve, count = 0](const DualSystem& system,
-                                                   const RunControl& control) mutable {
-    RunControl alone = control;
-    alone.keep_body = false;
-    Solution solution = solve(system, alone);
-    if (count++ % 3 == 1) solution.F_C *= 1.001;
+  method.solve = [=, solve = method.solve, count = 0](const DualSystem& system,
+                                                      RunControl control) mutable {
+    control.keep_body = false;
+    Solution solution = solve(system, control);
+    if (count++ % 3 == 1) disturb(solution);
     return solution;
   };
-  const Record record = examined(method);
+  return method;
+}
+
+TEST(LoadStepRuns, AStepThatIsWrongSpoilsTheCase) {
+  const Record record = summarised(disturbed([](Solution& second) { second.F_C *= 1.001; }));
   EXPECT_EQ(record.outcome, "wrong_success");
   EXPECT_TRUE(record.status_reason.starts_with("load step 2 of 3: ")) << record.status_reason;
 }
 
 TEST(LoadStepRuns, AStepWithoutAnAnswerIsTheLast) {
-  Method method = select_methods("HYBRID").front();
-  method.solve = [solve = method.solve, count = 0](const DualSystem& system,
-                                                   const RunControl& control) mutable {
-    if (count++ == 1) throw Breakdown("no pivot");
-    RunControl alone = control;
-    alone.keep_body = false;
-    return solve(system, alone);
-  };
-  const Record record = examined(method);
+  const Record record = summarised(disturbed([](Solution&) { throw Breakdown("no pivot"); }));
   EXPECT_EQ(record.status, Status::breakdown);
   EXPECT_EQ(record.status_reason, "load step 2 of 3: no pivot");
   EXPECT_EQ(record.steps.size(), 1u);
 }
 
 TEST(LoadStepRuns, ASceneWithoutAPathHasOneStep) {
-  Options options;
-  options.repetitions = 1;
-  Workbench bench(testing::posed({}), options);
-  const Record record = bench.examine(select_methods("HYBRID").front(), {}).record;
+  const Record record = examined(testing::posed({}), "HYBRID");
   EXPECT_EQ(record.load_steps, 1);
   EXPECT_TRUE(record.steps.is_null());
 }

@@ -10,7 +10,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
-#include "bench/measure/memory_watch.hpp"
+#include "bench/measure/solve_watch.hpp"
 #include "bench/measure/workbench.hpp"
 #include "mesh/msh_format.hpp"
 #include "solvers/base/parallel.hpp"
@@ -66,7 +66,7 @@ TEST(OwnerScope, IsOfOneThreadAndOurParallelRangesTakeItAlong) {
   for (const MemoryOwner owner : seen) EXPECT_EQ(owner, MemoryOwner::iteration);
 }
 
-TEST(MemoryOwner, EveryKindOfAllocationBelongsToTheScope) {
+TEST(MemoryOwner, EveryKindOfAllocationIsCountedForTheScope) {
   struct Kind {
     const char* name;
     std::function<void*()> allocate;
@@ -74,8 +74,9 @@ TEST(MemoryOwner, EveryKindOfAllocationBelongsToTheScope) {
   const Kind kinds[] = {
       {"malloc", [] { return std::malloc(MiB); }},
       {"calloc", [] { return std::calloc(MiB / 8, 8); }},
+      {"realloc", [] { return std::realloc(std::malloc(100), MiB); }},
       {"realloc of nothing", [] { return std::realloc(nullptr, MiB); }},
-      {"memalign", [] { return std::aligned_alloc(4096, MiB); }},
+      {"aligned_alloc", [] { return std::aligned_alloc(4096, MiB); }},
       {"posix_memalign",
        [] {
          void* block = nullptr;
@@ -83,20 +84,35 @@ TEST(MemoryOwner, EveryKindOfAllocationBelongsToTheScope) {
        }},
       {"operator new", [] { return ::operator new(MiB, std::nothrow); }},
   };
-  for (const Kind& kind : kinds) {
-    const Gained gained;
-    void* block = nullptr;
-    {
-      const OwnerScope scope(MemoryOwner::preconditioner);
-      block = kind.allocate();
+  for (const bool on_another_thread : {false, true})
+    for (const Kind& kind : kinds) {
+      const std::int64_t before = heap::live_bytes();
+      heap::reset_peak();
+      const Gained gained;
+      void* block = nullptr;
+      const auto allocate = [&] {
+        const OwnerScope scope(MemoryOwner::preconditioner);
+        block = kind.allocate();
+      };
+      if (on_another_thread)
+        std::thread(allocate).join();
+      else
+        allocate();
+      ASSERT_NE(block, nullptr) << kind.name;
+      expect_about(gained(MemoryOwner::preconditioner), MiB, kind.name);
+      if (!on_another_thread) {
+        expect_about(heap::live_bytes() - before, MiB, kind.name);
+      }
+      EXPECT_GE(heap::peak_bytes(), heap::live_bytes()) << kind.name;
+      const OwnerScope scope(MemoryOwner::condensed);  // who frees does not matter
+      std::free(block);
+      EXPECT_EQ(gained(MemoryOwner::preconditioner), 0) << kind.name;
+      EXPECT_EQ(gained(MemoryOwner::condensed), 0) << kind.name;
+      if (!on_another_thread) {
+        EXPECT_EQ(heap::live_bytes(), before) << kind.name;
+      }
+      EXPECT_GE(heap::peak_bytes() - before, MiB) << kind.name;
     }
-    ASSERT_NE(block, nullptr) << kind.name;
-    expect_about(gained(MemoryOwner::preconditioner), MiB, kind.name);
-    const OwnerScope scope(MemoryOwner::condensed);  // who frees does not matter
-    std::free(block);
-    EXPECT_EQ(gained(MemoryOwner::preconditioner), 0) << kind.name;
-    EXPECT_EQ(gained(MemoryOwner::condensed), 0) << kind.name;
-  }
 }
 
 // Of any size, also those that fill their usable bytes: 24, 40, … and whole pages.

@@ -1,10 +1,7 @@
 // --tuning-budget: the search for parameters and tolerances ends with the best found, and says so.
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
-#include "bench/measure/workbench.hpp"
-#include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/bench/measure/examined.hpp"
 
 namespace airybench::tuning_budget_test {
 namespace {
@@ -13,10 +10,8 @@ constexpr double next_to_nothing_s = 1e-9, plenty_s = 1000;
 
 Record examined(const Method& method, std::optional<double> budget_s) {
   Options options;
-  options.repetitions = 1;
   options.tuning_budget_s = budget_s;
-  Workbench bench(testing::posed(Scene(), testing::small_tooth(6, 4)), options);
-  return bench.examine(method, {}).record;
+  return testing::examined(testing::posed(Scene(), testing::small_tooth(6, 4)), method, options);
 }
 
 // SYMMLQ that begins with a tolerance of 1e-5, and has to be tightened.

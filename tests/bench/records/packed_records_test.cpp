@@ -1,7 +1,6 @@
 // Records that gzip has packed are read as if they were not, and never written to.
 #include <gtest/gtest.h>
 
-#include "bench/records/gzip.hpp"
 #include "bench/records/record_reader.hpp"
 #include "support/errors.hpp"
 #include "tests/support/bench_command.hpp"

@@ -7,11 +7,9 @@
 #include <fstream>
 #include <set>
 
-#include "bench/measure/memory_split.hpp"
-#include "bench/measure/timed_run.hpp"
 #include "bench/records/csv.hpp"
-#include "bench/records/gzip.hpp"
 #include "bench/records/journal.hpp"
+#include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/run/progress.hpp"
 #include "support/atomic_file.hpp"
@@ -228,63 +226,6 @@ TEST(RecordFormat, IsKnownToThePlots) {
     write_file_atomically(file, text);
   else
     EXPECT_EQ(file_text(file), text) << "tests/update_tables.sh";
-}
-
-MemorySplit made_up_memory() {
-  MemorySplit memory;
-  memory.at_peak[MemoryOwner::factor] = 9'000'000;
-  memory.held[MemoryOwner::factor] = memory.counted[MemoryOwner::factor] = 8'000'000;
-  memory.held[MemoryOwner::blocks] = 5;  // is not the method's
-  memory.counted[MemoryOwner::blocks] = 4'000;
-  memory.held[MemoryOwner::other] = 700;
-  memory.stage_peak[static_cast<int>(Stage::factor)] = 9'100'000;
-  return memory;
-}
-
-TEST(MemorySplit, IsByOwnerAndByStage) {
-  const MemorySplit memory = made_up_memory();
-  const Json owners = by_owner(memory);
-  EXPECT_EQ(owners["factor"].dump(),
-            R"({"peak_bytes":9000000,"held_bytes":8000000,"counted_bytes":8000000})");
-  EXPECT_TRUE(owners["other"]["counted_bytes"].is_null());
-  EXPECT_FALSE(owners.contains("answer"));
-  EXPECT_EQ(by_stage(memory).dump(), R"({"factor":9100000})");
-  EXPECT_FALSE(counts_differ(memory));
-  EXPECT_EQ(count_ratio(memory), 1.0);
-}
-
-TEST(MemorySplit, DiffersBeyondATenthAndTheSlackInEitherDirection) {
-  MemorySplit memory = made_up_memory();
-  EXPECT_FALSE(counts_differ(memory));
-  for (const std::int64_t held : {7'190'000, 8'810'000}) {
-    memory.held[MemoryOwner::factor] = held;
-    EXPECT_TRUE(counts_differ(memory)) << held;
-  }
-  memory = made_up_memory();
-  memory.counted[MemoryOwner::answer] = 1;  // small: within the slack
-  memory.held[MemoryOwner::answer] = 60'000;
-  EXPECT_FALSE(counts_differ(memory));
-  memory.held[MemoryOwner::answer] = 70'000;
-  EXPECT_TRUE(counts_differ(memory));
-  EXPECT_FALSE(count_ratio(MemorySplit{}).has_value());
-}
-
-TEST(TimedRun, ThatEndsOtherwiseTakesTheMeasurementsAway) {
-  Record record = filled();
-  record.claimed_status = Status::ok;
-  record.peak_heap_bytes = 12;
-  record.memory_by_owner = by_owner(made_up_memory());
-  TimedRun run;
-  run.status = Status::ok;
-  run.time_s = 0.5;
-  add_run(run, record);
-  EXPECT_EQ(record.samples_s.size(), 4u);
-  run.status = Status::timeout;
-  add_run(timed_run_of(to_json(run)), record);
-  EXPECT_EQ(record.status, Status::timeout);
-  EXPECT_TRUE(record.samples_s.empty());
-  EXPECT_FALSE(record.peak_heap_bytes);
-  EXPECT_TRUE(record.memory_by_owner.is_null());
 }
 
 TEST(Terminal, ShowsUnitsAPersonReads) {

@@ -61,6 +61,24 @@ std::set<pid_t> descendants(pid_t of) {
   return found;
 }
 
+void expect_found(const std::string& text, const std::string& part) {
+  EXPECT_NE(text.find(part), std::string::npos) << text;
+}
+
+void expect_refused(const CommandResult& result, const std::string& why) {
+  EXPECT_EQ(result.code, 2);
+  expect_found(result.err, why);
+}
+
+// In one line, and nothing is written.
+void expect_merge_refused(const BenchCommand& bench, const std::string& arguments,
+                          const std::string& why) {
+  const CommandResult result = bench.run("merge " + arguments + " --out=no");
+  expect_refused(result, why);
+  EXPECT_EQ(std::ranges::count(result.err, '\n'), 1);
+  EXPECT_FALSE(std::filesystem::exists(bench.path("no")));
+}
+
 TEST(Resume, AfterKillAtRandomMomentsNothingIsLostOrRepeated) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(six + "--out=undisturbed").code, 0) << bench.content("err.txt");
@@ -96,9 +114,7 @@ TEST(Resume, ALineHalfWrittenIsRunAgain) {
   testing::write_text(bench.path("o/records.jsonl"), text.substr(0, text.size() - 100));
   const CommandResult result = bench.run(six + "--out=o --resume");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_NE(result.out.find("5 of these 6 records were there already, and the start of another"),
-            std::string::npos)
-      << result.out;
+  expect_found(result.out, "5 of these 6 records were there already, and the start of another");
   EXPECT_EQ(by_name(bench.records()), whole);
 }
 
@@ -106,9 +122,7 @@ TEST(Resume, AfterAFullDisk) {
   const BenchCommand bench;
   // A file may have so many KiB: a record is a few.
   const CommandResult full = bench.run(six + "--out=o", "ulimit -f 16; ");
-  EXPECT_EQ(full.code, 2);
-  EXPECT_NE(full.err.find("o/records.jsonl: cannot be written: File too large"), std::string::npos)
-      << full.err;
+  expect_refused(full, "o/records.jsonl: cannot be written: File too large");
   const auto first = by_name(bench.records());
   EXPECT_GE(first.size(), 1u);
   EXPECT_LT(first.size(), 6u);
@@ -127,31 +141,22 @@ TEST(Resume, RefusesToMixAndSaysWhatDiffers) {
   const auto refused = [&](const std::string& arguments, const std::string& what) {
     const CommandResult result =
         bench.run("--mesh=Mesh0 --method=HYBRID --out=o --resume " + arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find("o/records.jsonl:1: of another run"), std::string::npos)
-        << result.err;
-    EXPECT_NE(result.err.find(what), std::string::npos) << result.err;
-    EXPECT_EQ(bench.content("o/records.jsonl"), before);
+    expect_refused(result, "o/records.jsonl:1: of another run");
+    expect_found(result.err, what);
   };
   refused("--repetitions=1 --threads=2", "; threads: 1 and 2");
   refused("--repetitions=1 --target-error=1e-7", ": target_error: 1e-06 and 1e-07");
   refused("--repetitions=2", ": repetitions: 1 and 2");
   refused("--repetitions=1 --memory-limit=500", ": memory_limit_bytes: none and 524288000");
-  const CommandResult other =
-      bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --out=o --resume");
-  EXPECT_NE(other.err.find(": cases_planned: 1 and 2; plan_sha256: "), std::string::npos)
-      << other.err;
+  expect_refused(bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --out=o --resume"),
+                 ": cases_planned: 1 and 2; plan_sha256: ");
+  EXPECT_EQ(bench.content("o/records.jsonl"), before);
   // Another machine, another build: as the records say.
   for (const auto& [key, now] : {std::pair("cpu", "Abacus"), std::pair("compiler", "pencil")}) {
-    Json record = bench.records().front();
+    Json record = Json::parse(before);
     record["context"][key] = now;
     testing::write_text(bench.path("o/records.jsonl"), record.dump() + "\n");
-    const CommandResult result =
-        bench.run("--mesh=Mesh0 --method=HYBRID --out=o --resume --repetitions=1");
-    EXPECT_EQ(result.code, 2);
-    EXPECT_NE(result.err.find(std::string(key) + ": " + now + " and "), std::string::npos)
-        << result.err;
-    testing::write_text(bench.path("o/records.jsonl"), before);
+    refused("--repetitions=1", std::string(key) + ": " + now + " and ");
   }
 }
 
@@ -171,7 +176,7 @@ TEST(Interrupt, LeavesWhatWasMeasuredAndNoProcess) {
     if (signal == SIGKILL) continue;
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 128 + signal);
-    EXPECT_NE(bench.content("bg_err.txt").find("--resume goes on"), std::string::npos);
+    expect_found(bench.content("bg_err.txt"), "--resume goes on");
     EXPECT_EQ(bench.content("o/results.csv").substr(0, 5), "mesh,");
   }
 }
@@ -202,11 +207,7 @@ TEST(Shards, JoinToTheWhole) {
   EXPECT_EQ(bench.content("joined/results.csv").substr(0, 5), "mesh,");
 
   const auto refused = [&](const std::string& arguments, const std::string& why) {
-    const CommandResult result = bench.run("merge " + arguments + " --out=no");
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1);
-    EXPECT_FALSE(std::filesystem::exists(bench.path("no")));
+    expect_merge_refused(bench, arguments, why);
   };
   refused("part1 part3", "2 of 6 cases are missing: 2, 5");
   refused("part1 part2 part3 part2", "both are case 2, Mesh0/default/BLIND");
@@ -239,10 +240,7 @@ TEST(Runs, OfDifferentPlansJoinInTheirOrder) {
   EXPECT_EQ(methods, (std::vector<std::string>{"HYBRID", "3STEPD", "P2"}));
 
   const auto refused = [&](const std::string& arguments, const std::string& why) {
-    const CommandResult result = bench.run("merge " + arguments + " --out=no");
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find(why), std::string::npos) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(bench.path("no")));
+    expect_merge_refused(bench, arguments, why);
   };
   refused("a b", "do not mix: ");
   refused("--runs a b a", "both are Mesh0/default/3STEPD");
@@ -284,19 +282,14 @@ TEST(Replay, RunsOneRecordedCaseAgain) {
     testing::write_text(bench.path("c/records.jsonl"), record.dump() + "\n");
     return bench.run("replay c:1 --out=again2");
   };
-  CommandResult result = changed("n_slip", 1);
-  EXPECT_EQ(result.code, 1);
-  EXPECT_NE(result.out.find("differs"), std::string::npos);
-  result = changed("mesh_sha256", "0123");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("is not the mesh of the record"), std::string::npos) << result.err;
-  result = changed("study", nullptr, {{"program_sha256", "0123"}});
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("program_sha256: 0123 and "), std::string::npos) << result.err;
+  const CommandResult differing = changed("n_slip", 1);
+  EXPECT_EQ(differing.code, 1);
+  expect_found(differing.out, "differs");
+  expect_refused(changed("mesh_sha256", "0123"), "is not the mesh of the record");
+  expect_refused(changed("study", nullptr, {{"program_sha256", "0123"}}),
+                 "program_sha256: 0123 and ");
   EXPECT_EQ(bench.run("replay c:1 --other-program --out=again2").code, 0);
-  result = bench.run("replay o:1 --out=./o");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_NE(result.err.find("allowed: another folder than the record's"), std::string::npos);
+  expect_refused(bench.run("replay o:1 --out=./o"), "allowed: another folder than the record's");
   EXPECT_EQ(bench.records().size(), 2u);
 }
 

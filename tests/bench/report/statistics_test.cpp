@@ -8,8 +8,6 @@
 #include <numeric>
 #include <random>
 
-#include "bench/records/bootstrap.hpp"
-#include "bench/records/median_interval.hpp"
 #include "bench/records/robust.hpp"
 #include "bench/report/claims.hpp"
 #include "bench/report/mann_whitney.hpp"

@@ -1,0 +1,159 @@
+#include "bench/measure/solve_watch.hpp"
+
+#include <linux/perf_event.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+#include "bench/measure/heap_probe.hpp"
+
+namespace airybench {
+namespace {
+
+std::int64_t bytes_of_answer(const Solution& solution) {
+  const auto doubles = solution.F_C.size() + solution.phi.size() + solution.displacement.size() +
+                       solution.edge_moments.size();
+  return static_cast<std::int64_t>(static_cast<std::size_t>(doubles) * sizeof(double) +
+                                   solution.stress.size() * sizeof(ElementStress));
+}
+
+int open_counter() {
+  perf_event_attr attributes = {};
+  attributes.size = sizeof attributes;
+  attributes.type = PERF_TYPE_HARDWARE;
+  attributes.config = PERF_COUNT_HW_INSTRUCTIONS;
+  attributes.exclude_kernel = 1;
+  attributes.exclude_hv = 1;
+  attributes.inherit = 1;
+  attributes.read_format = PERF_FORMAT_TOTAL_TIME_ENABLED | PERF_FORMAT_TOTAL_TIME_RUNNING;
+  constexpr int this_thread = 0, any_cpu = -1, no_group = -1;
+  return static_cast<int>(syscall(SYS_perf_event_open, &attributes, this_thread, any_cpu, no_group,
+                                  PERF_FLAG_FD_CLOEXEC));
+}
+
+}  // namespace
+
+std::optional<double> count_ratio(const MemorySplit& memory) {
+  std::int64_t held = 0, counted = 0;
+  for (const MemoryOwner owner : all_memory_owners) {
+    if (owner == MemoryOwner::blocks || memory.counted[owner] == 0) continue;
+    held += memory.held[owner];
+    counted += memory.counted[owner];
+  }
+  if (counted == 0) return {};
+  return static_cast<double>(held) / static_cast<double>(counted);
+}
+
+bool counts_differ(const MemorySplit& memory) {
+  constexpr std::int64_t slack_bytes = 64 * 1024;
+  return std::ranges::any_of(all_memory_owners, [&](MemoryOwner owner) {
+    const std::int64_t counted = memory.counted[owner];
+    return counted > 0 &&
+           std::abs(memory.held[owner] - counted) > std::max(counted / 10, slack_bytes);
+  });
+}
+
+Json by_owner(const MemorySplit& memory) {
+  Json json = Json::object();
+  for (const MemoryOwner owner : all_memory_owners) {
+    const std::int64_t peak = memory.at_peak[owner], held = memory.held[owner],
+                       counted = memory.counted[owner];
+    if (peak == 0 && held == 0 && counted == 0) continue;
+    json[std::string(name_of(owner))] = {{"peak_bytes", peak},
+                                         {"held_bytes", held},
+                                         {"counted_bytes", counted > 0 ? Json(counted) : nullptr}};
+  }
+  return json;
+}
+
+Json by_stage(const MemorySplit& memory) {
+  Json json = Json::object();
+  for (const Stage stage : all_stages)
+    if (const auto& bytes = memory.stage_peak[static_cast<std::size_t>(stage)])
+      json[std::string(name_of(stage))] = *bytes;
+  return json;
+}
+
+MemoryWatch::MemoryWatch(std::int64_t held_by_blocks) : held_by_blocks_(held_by_blocks) {
+  seen_.heap_allocations = heap::allocations();
+  seen_.heap_allocated_bytes = heap::allocated_bytes();
+  heap::reset_peak();
+  before_ = heap::live_bytes();
+  before_by_owner_ = heap::live_by_owner();
+}
+
+void MemoryWatch::begins(Stage) { heap::reset_lap_peak(); }
+
+void MemoryWatch::ends(Stage stage) {
+  std::optional<std::int64_t>& peak = seen_.stage_peak[static_cast<std::size_t>(stage)];
+  peak = std::max(peak.value_or(0), of_solve(heap::lap_peak_bytes()));
+  const ByOwner<std::int64_t> live = of_solve(heap::live_by_owner());
+  for (const MemoryOwner owner : all_memory_owners)
+    seen_.held[owner] = std::max(seen_.held[owner], live[owner]);
+}
+
+std::int64_t MemoryWatch::peak_bytes() const { return of_solve(heap::peak_bytes()); }
+
+MemorySplit MemoryWatch::split(const Solution& solution, std::size_t counted_blocks) const {
+  MemorySplit memory = seen_;
+  memory.at_peak = of_solve(heap::peak_by_owner());
+  memory.held[MemoryOwner::iteration] = of_solve(heap::highest_by_owner())[MemoryOwner::iteration];
+  std::ranges::copy(solution.storage.values, memory.counted.values.begin());
+  memory.counted[MemoryOwner::blocks] = static_cast<std::int64_t>(counted_blocks);
+  memory.counted[MemoryOwner::answer] = bytes_of_answer(solution);
+  memory.heap_allocations = heap::allocations() - seen_.heap_allocations;
+  memory.heap_allocated_bytes = heap::allocated_bytes() - seen_.heap_allocated_bytes;
+  return memory;
+}
+
+std::int64_t MemoryWatch::of_solve(std::int64_t live_bytes) const {
+  return live_bytes - before_ + held_by_blocks_;
+}
+
+ByOwner<std::int64_t> MemoryWatch::of_solve(ByOwner<std::int64_t> live_bytes) const {
+  for (const MemoryOwner owner : all_memory_owners) live_bytes[owner] -= before_by_owner_[owner];
+  live_bytes[MemoryOwner::blocks] += held_by_blocks_;
+  return live_bytes;
+}
+
+namespace rss {
+
+bool reset_peak() {
+  std::ofstream file("/proc/self/clear_refs");
+  file << "5" << std::flush;  // proc(5): reset the peak resident set size
+  return file.good();
+}
+
+std::optional<std::int64_t> peak_bytes() {
+  std::ifstream file("/proc/self/status");
+  for (std::string word; file >> word;) {
+    if (word != "VmHWM:") continue;
+    std::int64_t kibibytes = 0;
+    if (file >> kibibytes) return kibibytes * 1024;
+  }
+  return std::nullopt;
+}
+
+}  // namespace rss
+
+InstructionCounter::InstructionCounter() : file_(open_counter()) {}
+
+InstructionCounter::~InstructionCounter() {
+  if (file_ >= 0) close(file_);
+}
+
+std::optional<std::int64_t> InstructionCounter::count() const {
+  struct {
+    std::uint64_t instructions, time_enabled, time_running;
+  } counted = {};
+  if (file_ < 0 || read(file_, &counted, sizeof counted) != sizeof counted) return {};
+  // A counter that was shared out, or never ran, has only part of them.
+  if (counted.time_running == 0 || counted.time_running != counted.time_enabled) return {};
+  return static_cast<std::int64_t>(counted.instructions);
+}
+
+}  // namespace airybench
