@@ -44,10 +44,6 @@ std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   return cuts;
 }
 
-BisectedMesh refined(const Mesh& mesh, const std::vector<double>& parts, double marking) {
-  return bisected(mesh, cuts_of(parts, marking));
-}
-
 }  // namespace
 
 void AdaptiveLoop::StepErrors::add(const ConstitutiveError& error, const std::string& prefix) {
@@ -155,9 +151,9 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   const double needed = goal.error ? margin * unknowns * error / *goal.error  // e ~ 1/N
                                    : *goal.unknowns;
   double marking = *settings_.marking;
-  BisectedMesh finer = refined(mesh_, parts_Nmm_, marking);
+  BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, marking));
   while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
-    BisectedMesh smaller = refined(mesh_, parts_Nmm_, marking *= step);
+    BisectedMesh smaller = bisected(mesh_, cuts_of(parts_Nmm_, marking *= step));
     if (mesh_sizes(smaller.mesh).n_phi < needed) break;
     finer = std::move(smaller);
   }

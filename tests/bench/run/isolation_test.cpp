@@ -11,10 +11,8 @@
 #include "assembly/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/run/child_process.hpp"
-#include "bench/run/oom_kills.hpp"
+#include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
-#include "bench/run/scene_process.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/posed.hpp"
@@ -212,21 +210,22 @@ TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   EXPECT_NE(record.status_reason.find("time limit"), std::string::npos) << record.status_reason;
 }
 
+// Does it where a stage begins and where it ends.
+struct AtStage : StageObserver {
+  std::function<void(Stage)> at_begin = [](Stage) {}, at_end = [](Stage) {};
+  void begins(Stage stage) override { at_begin(stage); }
+  void ends(Stage stage) override { at_end(stage); }
+};
+
 TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
-  struct EndsTheTime : StageObserver {
-    RunControl& control;
-    explicit EndsTheTime(RunControl& of) : control(of) {}
-    void begins(Stage of) override {
-      if (of == Stage::contact) control.deadline = Deadline::after(0);
-    }
-    void ends(Stage) override {}
-  };
   Method late = method_;
   late.solve = [this](const DualSystem& system, const RunControl& control) {
     RunControl own = control;
-    EndsTheTime ender(own);
-    const bool is_large = system.problem == large_.problem;
-    const ObservedStages scope(is_large ? &ender : nullptr);
+    AtStage ender;
+    ender.at_begin = [&](Stage stage) {
+      if (stage == Stage::contact) own.deadline = Deadline::after(0);
+    };
+    const ObservedStages scope(system.problem == large_.problem ? &ender : nullptr);
     return method_.solve(system, own);
   };
   const Record record = run_large(late);
@@ -235,20 +234,14 @@ TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
 }
 
 TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
-  struct KillsAtTheEnd : StageObserver {
-    Stage stage;
-    explicit KillsAtTheEnd(Stage of) : stage(of) {}
-    void begins(Stage) override {}
-    void ends(Stage of) override {
-      if (of == stage) die_of(SIGKILL);
-    }
-  };
   for (const Stage stage : {Stage::precondition, Stage::contact, Stage::check}) {
     Method killed = method_;
     killed.solve = [this, stage](const DualSystem& system, const RunControl& control) {
-      KillsAtTheEnd killer(stage);
-      const bool is_large = system.problem == large_.problem;
-      const ObservedStages scope(is_large ? &killer : nullptr);
+      AtStage killer;
+      killer.at_end = [&](Stage of) {
+        if (of == stage) die_of(SIGKILL);
+      };
+      const ObservedStages scope(system.problem == large_.problem ? &killer : nullptr);
       return method_.solve(system, control);
     };
     const Record record = run_large(killed);
@@ -268,6 +261,17 @@ TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
     std::free(block);
   });
   EXPECT_EQ(run_between(gives_up).status, Status::out_of_memory);
+  // The machine refuses it.
+  options_.memory_limit_bytes.reset();
+  const Method gets_none = harmful("GETS NONE", [](Solution&) {
+    volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max() / 2;
+    void* volatile block = std::malloc(too_much);  // or the compiler leaves it out
+    std::free(block);
+    std::exit(1);
+  });
+  const Record record = run_between(gets_none);
+  EXPECT_EQ(record.status, Status::out_of_memory);
+  EXPECT_NE(record.status_reason.find("there was no memory"), std::string::npos);
   // Where nothing was refused, an exit is a crash.
   EXPECT_EQ(run_between(harmful("EXITS", [](Solution&) { std::exit(1); })).status, Status::crashed);
 }
@@ -301,22 +305,7 @@ TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
   }
 }
 
-// Whom the kernel killed is what its counters say: the control group's, else the machine's.
-TEST(OomKills, AreTheKernelsCount) {
-  const testing::TemporaryFolder root;
-  EXPECT_EQ(oom_kills(root.path()), std::nullopt);
-  for (const char* folder : {"proc/self", "sys/fs/cgroup/night/run"})
-    std::filesystem::create_directories(root / folder);
-  testing::write_text(root / "proc/vmstat", "nr_free_pages 81\noom_kill 4\nswap_ra 0\n");
-  EXPECT_EQ(oom_kills(root.path()), 4);
-  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/night/run\n");
-  EXPECT_EQ(oom_kills(root.path()), 4) << "the group has no count";
-  testing::write_text(root / "sys/fs/cgroup/night/run/memory.events",
-                      "low 0\nhigh 7\nmax 9\noom 3\noom_kill 2\noom_group_kill 1\n");
-  EXPECT_EQ(oom_kills(root.path()), 2);
-}
-
-TEST(ChildProcess, ThatIsKilledWithoutTheKernelsCountIsNotOutOfMemory) {
+TEST(Obituary, OfOneKilledWithoutTheKernelsCountIsNotOutOfMemory) {
   ActivityBoard board;
   ChildEnd end;
   end.signal = SIGKILL;
@@ -327,7 +316,7 @@ TEST(ChildProcess, ThatIsKilledWithoutTheKernelsCountIsNotOutOfMemory) {
   EXPECT_EQ(obituary_of(end, board, Options()).status, Status::machine_fault);
 }
 
-TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
+TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
   for (const bool in_noexcept : {false, true}) {
     ChildProcess child([&](Channel& channel) {
       channel.receive();
@@ -342,39 +331,6 @@ TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
     board.begins(Activity::detail_run);
     EXPECT_EQ(obituary_of(child.end(), board, Options()).status, Status::out_of_memory);
   }
-}
-
-// As OpenMP's library does.
-TEST(ChildProcess, ThatALibraryEndsForLackOfMemoryIsNoCrash) {
-  if (!heap::is_active()) GTEST_SKIP();
-  ChildProcess child([](Channel& channel) {
-    channel.receive();
-    volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max() / 2;
-    void* volatile block = std::malloc(too_much);  // or the compiler leaves it out
-    std::free(block);
-    std::exit(1);
-  });
-  EXPECT_FALSE(child.ask("are you there"));
-  EXPECT_EQ(child.end().exit_code, no_memory_exit_code);
-}
-
-TEST(ChildProcess, AnswersUntilItEnds) {
-  ChildProcess child([](Channel& channel) {
-    while (const auto line = channel.receive()) channel.send("you said " + *line);
-  });
-  EXPECT_EQ(child.ask("yes"), "you said yes");
-  const std::string text(1 << 20, 'x');  // more than a socket holds
-  EXPECT_EQ(child.ask(text).value_or("").size(), text.size() + 9);
-}
-
-TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
-  ChildProcess child([](Channel&) {
-    for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
-    for (;;) pause();
-  });
-  EXPECT_FALSE(child.ask("are you there"));
-  EXPECT_EQ(child.end().signal, SIGKILL);
-  EXPECT_TRUE(child.end().lingered);
 }
 
 }  // namespace
