@@ -23,7 +23,6 @@
 namespace airybench {
 namespace {
 
-// What becomes of a case whose program gave no answer.
 struct NoAnswer : std::runtime_error {
   NoAnswer(Status what, const std::string& message) : std::runtime_error(message), status(what) {}
   Status status;
@@ -57,7 +56,6 @@ void write_folder(const std::filesystem::path& folder, const Files& files) {
   }
 }
 
-// One run of the program on one problem.
 class ProgramSolve {
  public:
   ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
@@ -106,12 +104,12 @@ class ProgramSolve {
   }
   const Answer& answer() const { return answer_; }
 
-  // The handing over ends here: what follows is ours, on our clock.
+  // What follows is on our clock.
   void end_handing_over() {
     work_.reset();
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
-  // The same of a program that solves all of it: its word and its stages.
+  // Of a program that solves all of it.
   Solution take_over(const RunControl& control) {
     end_handing_over();
     Solution solution;
@@ -120,7 +118,6 @@ class ProgramSolve {
     return solution;
   }
 
-  // Its word.
   void note(const RunControl& control, Solution& solution) const {
     solution.status = answer_.status;
     solution.message = answer_.status == Status::ok ? "" : answer_.message;
@@ -208,7 +205,6 @@ void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
   }
 }
 
-// Edge displacements u are those of HYBRID, and so is what is made of them.
 Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
                                const RunControl& control) {
   const Problem& problem = *system.problem;

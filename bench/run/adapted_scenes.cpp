@@ -57,7 +57,7 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   return json_text(json);
 }
 
-// Writes a level's mesh to its file; what the loop's process answers of it.
+// And writes the level's mesh.
 Json answer_for(AdaptiveLevel& level, const Options& options, const std::string& mesh_name,
                 const std::filesystem::path& folder) {
   level.mesh.name =
@@ -70,7 +70,7 @@ Json answer_for(AdaptiveLevel& level, const Options& options, const std::string&
           {"time_s", level.time_s},        {"estimate_s", level.estimate_s}};
 }
 
-// The loop's own process: a level per line that it is sent.
+// Runs in the loop's process: a level per line that it is sent.
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
                 const std::filesystem::path& folder) {
   tell_refused_memory_at_exit();

@@ -24,7 +24,6 @@ namespace {
 constexpr double most_correction = 3;
 constexpr int most_cuts = 24;  // of a triangle in a level
 
-// How often each triangle is to be cut (adaptive_loop.hpp).
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   constexpr double part_of_a_cut = 4;
   constexpr double cheap = 0.1;  // of the triangles, that a level may add at least
@@ -127,7 +126,6 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
   estimate_s_ += seconds_since(estimating);
 }
 
-// Sets which goals are reached, and ends what gets nowhere.
 void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   constexpr int growth = 8;
   constexpr double least_gain = 0.9;

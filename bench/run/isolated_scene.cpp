@@ -39,7 +39,7 @@ double limit_s(const ActivityBoard& board, const Options& options) {
                                   : std::max(options.timeout_s, least_for_others_s);
 }
 
-// With a grace in which a method can end by itself, and say how far it came.
+// With a grace in which a method can end by itself and report how far it came.
 bool is_overdue(const ActivityBoard& board, const Options& options) {
   return board.seconds() > 1.1 * limit_s(board, options) + 2;
 }
@@ -51,7 +51,6 @@ void keep_log(const Case& c, const Options& options, const std::string& log) {
   write_file_atomically(options.out / "programs" / (c.name().file() + ".txt"), log);
 }
 
-// Runs in the case's process.
 void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
                 const ActivityBoard& board) {
   set_threads(c.knob.threads.value_or(options.threads));
@@ -90,7 +89,6 @@ struct CaseProcess {
   std::unique_ptr<ChildProcess> process;
 };
 
-// Of a case whose process ended in its examination.
 Record record_of_end(const Case& c, const Options& options, const TimedRun& last) {
   Record record = blank_record(c, options);
   record.status = last.status;
@@ -102,7 +100,7 @@ Record record_of_end(const Case& c, const Options& options, const TimedRun& last
   return record;
 }
 
-// Runs in the scene's process. Its board shows preparations, and beats while a case is waited for.
+// The scene's board shows preparations, and beats while a case is waited for.
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
                  ActivityBoard& board, const LeftOut& left_out) {
   tell_refused_memory_at_exit();
@@ -147,7 +145,6 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
   }
 }
 
-// Of a scene's process.
 std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
   if (end.stopped)
     return {Status::machine_fault, "the process of its scene was stopped by somebody, and ended"};

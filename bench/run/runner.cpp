@@ -38,8 +38,8 @@ constexpr bool takes_unit = requires(State& state) {
   state.skipped();
 };
 
-// All that its environment variables could change (BENCHMARK_FILTER and so on) is set: a run is
-// what its own options say.
+// Sets all that environment variables could change (BENCHMARK_FILTER and so on): only bench's own
+// options count.
 void initialize_benchmark(bool interleave) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
   std::vector<std::string> wanted = {
@@ -85,7 +85,7 @@ class Listener : public benchmark::BenchmarkReporter {
   Ended ended_;
 };
 
-// Runs what is registered, and forgets it. Returns the first complaint.
+// Returns the first complaint.
 std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
   struct Forgets {
     ~Forgets() { benchmark::ClearRegisteredBenchmarks(); }
@@ -97,7 +97,6 @@ std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
   return line;
 }
 
-// The cases of one scene.
 class SceneRunner {
  public:
   SceneRunner(const std::vector<const Case*>& cases, const Options& options, RecordFiles& files,
@@ -137,7 +136,6 @@ class SceneRunner {
     bool shown_once = false;  // of a long case: Google Benchmark has its only sample
   };
 
-  // A repetition.
   void measure(std::size_t k, benchmark::State& state) {
     throw_if_interrupted();
     const auto start = std::chrono::steady_clock::now();

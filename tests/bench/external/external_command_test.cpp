@@ -145,12 +145,8 @@ TEST_F(ExternalCommand, FoldersOfAllKinds) {
   for (const char* folder : {"tmp", "t m ü p", "{input}", "{output}{threads}"}) {
     SCOPED_TRACE(folder);
     std::filesystem::create_directories(bench_.path(folder) / "of it");
-    const Json declaration = {{"name", "one"},
-                              {"reads", "condensed"},
-                              {"format", "matrix-market"},
-                              {"returns", "contact_forces"},
-                              {"command", {"./a program", "{output}", "{input}"}}};
-    write(std::string(folder) + "/of it/ö, ne.json", declaration.dump());
+    write(std::string(folder) + "/of it/ö, ne.json",
+          declaration("one", "condensed", {"./a program", "{output}", "{input}"}).dump());
     const auto program = std::string(folder) + "/of it/a program";
     write(program, "#!/bin/sh\ntest -d \"$2\" && cp ../../right/* \"$1\"\n");
     std::filesystem::permissions(bench_.path(program), std::filesystem::perms::owner_all);
@@ -230,11 +226,7 @@ TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
 }
 
 TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
-  const Json right = {{"name", "one"},
-                      {"reads", "condensed"},
-                      {"format", "matrix-market"},
-                      {"returns", "contact_forces"},
-                      {"command", {"true", "{output}"}}};
+  const Json right = declaration("one", "condensed", {"true", "{output}"});
   const auto refused = [&](const std::string& text, const std::string& line) {
     SCOPED_TRACE(line);
     write("one.json", text);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -45,15 +46,18 @@ void die_of(int signal) {
 
 class Isolation : public ::testing::Test {
  protected:
-  // The method between two that are sound.
+  // The methods between two that are sound.
+  std::vector<Record> run_between(std::vector<Method> methods) {
+    for (const char* sound : {"HYBRID", "P2"}) methods.push_back(select_methods(sound).front());
+    std::rotate(methods.begin(), methods.end() - 1, methods.end());
+    std::vector<Record> records = run(methods);
+    EXPECT_EQ(records.size(), methods.size());
+    for (const Record& sound : {records.front(), records.back()})
+      EXPECT_EQ(sound.status, Status::ok) << sound.status_reason;
+    return {records.begin() + 1, records.end() - 1};
+  }
   Record run_between(const Method& method) {
-    const Method sound = select_methods("HYBRID").front();
-    const std::vector<Record> records = run({sound, method, select_methods("P2").front()});
-    EXPECT_EQ(records.size(), 3u);
-    EXPECT_EQ(records.front().status, Status::ok) << records.front().status_reason;
-    EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
-    EXPECT_EQ(records.at(1).method, method.name);
-    return records.at(1);
+    return run_between(std::vector<Method>{method}).front();
   }
   std::vector<Record> run(const std::vector<Method>& methods) {
     return run_cases(plan_cases({posed_}, methods), options_, {}).records;
@@ -71,27 +75,41 @@ class Isolation : public ::testing::Test {
   PosedScene posed_;
 };
 
-TEST_F(Isolation, CrashesAreRecordedWithSignalAndStage) {
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) {
-    const Record record = run_between(harmful("CRASH", [signal](Solution&) { die_of(signal); }));
-    EXPECT_EQ(record.status, Status::crashed);
-    EXPECT_EQ(record.signal, signal_name(signal));
+TEST_F(Isolation, CrashesExitsAndExceptionsAreRecordsOfTheirCasesAlone) {
+  // Killed as by the kernel, when memory runs out; but it counts those.
+  const Status killed = oom_kills() ? Status::machine_fault : Status::out_of_memory;
+  const struct {
+    const char* name;
+    Harm harm;
+    Status status;
+    const char *signal, *reason;
+  } harms[] = {
+      {"SEGV", [](Solution&) { die_of(SIGSEGV); }, Status::crashed, "SIGSEGV", "by SIGSEGV"},
+      {"ABRT", [](Solution&) { die_of(SIGABRT); }, Status::crashed, "SIGABRT", "by SIGABRT"},
+      {"FPE", [](Solution&) { die_of(SIGFPE); }, Status::crashed, "SIGFPE", "by SIGFPE"},
+      {"BUS", [](Solution&) { die_of(SIGBUS); }, Status::crashed, "SIGBUS", "by SIGBUS"},
+      {"KILLED", [](Solution&) { die_of(SIGKILL); }, killed, "SIGKILL", "by SIGKILL"},
+      {"THROWS 42", [](Solution&) { throw 42; }, Status::crashed, "SIGABRT", "by SIGABRT"},
+      {"LEAVES", [](Solution&) { _exit(3); }, Status::crashed, "", "exit code 3"},
+      {"THROWS", [](Solution&) { throw std::runtime_error("no such luck"); }, Status::crashed, "",
+       "no such luck"},
+  };
+  std::vector<Method> methods;
+  for (const auto& harm : harms) methods.push_back(harmful(harm.name, harm.harm));
+  const std::vector<Record> records = run_between(methods);
+  ASSERT_EQ(records.size(), std::size(harms));
+  for (std::size_t k = 0; k < std::size(harms); ++k) {
+    const Record& record = records[k];
+    SCOPED_TRACE(record.method + ": " + record.status_reason);
+    EXPECT_EQ(record.method, harms[k].name);
+    EXPECT_EQ(record.status, harms[k].status);
+    EXPECT_EQ(record.signal, harms[k].signal);
+    EXPECT_NE(record.status_reason.find(harms[k].reason), std::string::npos);
+    EXPECT_TRUE(record.samples_s.empty());
+    if (record.signal.empty()) continue;
     EXPECT_EQ(record.ended_in, "detail run, factor");
     EXPECT_TRUE(record.time_so_far_s);
-    EXPECT_TRUE(record.samples_s.empty());
-    EXPECT_NE(record.status_reason.find(signal_name(signal)), std::string::npos);
   }
-}
-
-TEST_F(Isolation, AProcessThatLeavesOrIsKilledIsRecorded) {
-  Record record = run_between(harmful("LEAVES", [](Solution&) { _exit(3); }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_NE(record.status_reason.find("exit code 3"), std::string::npos) << record.status_reason;
-  // As the kernel does to one that takes the last of the machine's memory; but it counts those.
-  record = run_between(harmful("KILLED", [](Solution&) { die_of(SIGKILL); }));
-  EXPECT_EQ(record.status, oom_kills() ? Status::machine_fault : Status::out_of_memory)
-      << record.status_reason;
-  EXPECT_EQ(record.signal, "SIGKILL");
 }
 
 TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
@@ -103,17 +121,6 @@ TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
   EXPECT_EQ(record.ended_in, "timed run, factor");
   EXPECT_TRUE(record.samples_s.empty());
   EXPECT_TRUE(is_verified(record));
-}
-
-TEST_F(Isolation, ExceptionsAreRecorded) {
-  Record record =
-      run_between(harmful("THROWS", [](Solution&) { throw std::runtime_error("no such luck"); }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_EQ(record.status_reason, "no such luck");
-  EXPECT_EQ(record.signal, "");
-  record = run_between(harmful("THROWS", [](Solution&) { throw 42; }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_EQ(record.signal, "SIGABRT");
 }
 
 TEST_F(Isolation, AHangIsEnded) {
@@ -309,11 +316,11 @@ TEST(Obituary, OfOneKilledWithoutTheKernelsCountIsNotOutOfMemory) {
   ActivityBoard board;
   ChildEnd end;
   end.signal = SIGKILL;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory) << "a guess";
-  end.oom_killed = true;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory);
-  end.oom_killed = false;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::machine_fault);
+  for (const std::optional<bool> counted : {std::optional<bool>(), {true}, {false}}) {
+    end.oom_killed = counted;
+    EXPECT_EQ(obituary_of(end, board, Options()).status,
+              counted == false ? Status::machine_fault : Status::out_of_memory);
+  }
 }
 
 TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
