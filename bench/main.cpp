@@ -17,11 +17,10 @@
 #include "bench/commands/replay_command.hpp"
 #include "bench/commands/run_command.hpp"
 #include "bench/commands/track_command.hpp"
-#include "bench/run/isolated_scene.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
-#include "support/lack_of_memory.hpp"
-#include "support/standard_streams.hpp"
+#include "support/errors.hpp"
+#include "support/this_process.hpp"
 
 namespace {
 

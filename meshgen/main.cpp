@@ -13,7 +13,7 @@
 #include "meshgen/commands.hpp"
 #include "support/data_folder.hpp"
 #include "support/numbers.hpp"
-#include "support/standard_streams.hpp"
+#include "support/this_process.hpp"
 
 namespace {
 

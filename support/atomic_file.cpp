@@ -5,8 +5,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <random>
-#include <string>
 #include <system_error>
 
 #include "support/errors.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void fail(const fs::path& file, int error) {
+[[noreturn]] void fail_to_write(const fs::path& file, int error) {
   throw FileError(file.string() + ": cannot be written: " + std::generic_category().message(error));
 }
 
@@ -26,29 +26,25 @@ fs::path end_of_links(const fs::path& file) {
   fs::path target = file;
   std::error_code error;
   for (int links = 0; fs::is_symlink(target, error); ++links) {
-    if (links == most_links) fail(file, ELOOP);
+    if (links == most_links) fail_to_write(file, ELOOP);
     target = target.parent_path() / fs::read_symlink(target, error);  // absolute: that alone
   }
   return target;
 }
 
-// Opens a file that nobody could have put there before.
-int open_new(const fs::path& target, fs::path& beside) {
-  for (;;) {
-    beside = name_beside(target);
-    const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor >= 0 || errno != EEXIST) return descriptor;
-  }
+// Makes what nobody could have put there before; its name is in `made`. False: see errno.
+template <typename Make>
+bool make_beside(const fs::path& target, fs::path& made, const Make& make) {
+  do {
+    std::random_device random;
+    made = target;
+    made += ".part" + std::to_string(random()) + std::to_string(random());
+    if (make(made.c_str())) return true;
+  } while (errno == EEXIST);
+  return false;
 }
 
 }  // namespace
-
-fs::path name_beside(const fs::path& target) {
-  std::random_device chance;
-  fs::path beside = target;
-  beside += ".part" + std::to_string(chance()) + std::to_string(chance());
-  return beside;
-}
 
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -83,8 +79,12 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
     throw FileError(file.string() +
                     ": is no regular file (allowed: one, or a name that is not there)");
   fs::path beside;
-  const int descriptor = open_new(target, beside);
-  if (descriptor < 0) fail(file, errno);
+  int descriptor = -1;
+  const bool is_made = make_beside(target, beside, [&](const char* name) {
+    descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor >= 0;
+  });
+  if (!is_made) fail_to_write(file, errno);
   int error = write_all(descriptor, bytes);
   if (error == 0 && exists && fchmod(descriptor, there.st_mode & 07777) != 0) error = errno;
   if (error == 0 && fsync(descriptor) != 0) error = errno;
@@ -92,7 +92,7 @@ void write_file_atomically(const fs::path& file, std::string_view bytes) {
   if (error == 0 && rename(beside.c_str(), target.c_str()) != 0) error = errno;
   if (error != 0) {
     unlink(beside.c_str());
-    fail(file, error);
+    fail_to_write(file, error);
   }
   sync_folder(target.parent_path());
 }
@@ -101,6 +101,45 @@ void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) throw FileError(folder.string() + ": cannot be made a folder: " + error.message());
+}
+
+void check_is_free(const fs::path& folder) {
+  std::error_code error;
+  const fs::file_status there = fs::symlink_status(folder, error);
+  if (!fs::exists(there)) return;
+  if (!fs::is_directory(there) || !fs::is_empty(folder, error) || error)
+    throw FileError(folder.string() +
+                    ": is there already (allowed: an empty folder, or a name that is not there)");
+}
+
+void write_folder_atomically(const fs::path& asked, const Files& files) {
+  const fs::path folder =
+      asked.has_filename() ? asked : asked.parent_path();  // no slash at its end
+  check_is_free(folder);
+  if (folder.has_parent_path()) make_folder(folder.parent_path());
+  fs::path made;
+  if (!make_beside(folder, made, [](const char* name) { return mkdir(name, 0777) == 0; }))
+    fail_to_write(folder, errno);
+  const TemporaryFolder beside(made);
+  for (const auto& [name, bytes] : files) write_file_atomically(made / name, bytes);
+  if (rename(made.c_str(), folder.c_str()) != 0)  // takes the place of an empty one
+    fail_to_write(folder, errno);
+  sync_folder(folder.parent_path());
+}
+
+TemporaryFolder::TemporaryFolder() {
+  const char* given = std::getenv("TMPDIR");
+  const fs::path parent = fs::absolute(given == nullptr || *given == '\0' ? "/tmp" : given);
+  std::string name = (parent / "airybench-XXXXXX").string();
+  if (mkdtemp(name.data()) == nullptr)
+    throw FileError("TMPDIR: " + parent.string() +
+                    ": no folder can be made there: " + std::generic_category().message(errno));
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
 }
 
 }  // namespace airybench

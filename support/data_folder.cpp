@@ -3,16 +3,30 @@
 #include "support/errors.hpp"
 
 namespace airybench {
+namespace {
 
-std::filesystem::path data_folder(std::string_view name) {
-  const auto executable = std::filesystem::read_symlink("/proc/self/exe");
-  const auto place = executable.parent_path().parent_path() / "share" / "airybench" / name;
+namespace fs = std::filesystem;
+
+fs::path folder_of_program() { return fs::read_symlink("/proc/self/exe").parent_path(); }
+
+}  // namespace
+
+fs::path data_folder(std::string_view name) {
+  const fs::path place = folder_of_program().parent_path() / "share" / "airybench" / name;
   // Permission is missing where a folder above cannot be entered by the user who started us.
   std::error_code error;
-  std::filesystem::path folder = std::filesystem::weakly_canonical(place, error);
+  fs::path folder = fs::weakly_canonical(place, error);
   if (error)
     throw FileError(place.string() + ": the program's data cannot be read: " + error.message());
   return folder;
+}
+
+std::optional<fs::path> program_of_ours(const std::string& name) {
+  const fs::path folder = folder_of_program();
+  std::error_code error;
+  for (const fs::path& file : {folder / ("airybench-" + name), folder / ".." / name / name})
+    if (fs::is_regular_file(file, error)) return file.lexically_normal();
+  return {};
 }
 
 }  // namespace airybench

@@ -14,66 +14,51 @@
 namespace airybench {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, const std::string& why) {
+[[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& why) {
   throw FileError(file.string() + ": " + why);
 }
 
-class Descriptor {
- public:
-  // Does not wait for who might write into a pipe.
-  explicit Descriptor(const std::filesystem::path& file)
-      : number(open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {}
-  ~Descriptor() {
-    if (number >= 0) close(number);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  const int number;
-};
-
-// Of what is a regular file, and not too large.
-std::size_t checked_size(const Descriptor& in, const std::filesystem::path& file) {
-  constexpr std::int64_t most = std::int64_t{1} << 30;
-  if (in.number < 0) fail(file, "cannot be opened: " + std::generic_category().message(errno));
-  struct stat opened = {};
-  if (fstat(in.number, &opened) != 0 || !S_ISREG(opened.st_mode))
-    fail(file, S_ISDIR(opened.st_mode) ? "a folder, not a file" : "is no regular file");
-  if (opened.st_size > most) fail(file, "larger than 1 GiB");
-  return static_cast<std::size_t>(opened.st_size);
+std::string because_of(const char* what) {
+  return what + (": " + std::generic_category().message(errno));
 }
 
-// As much as one call gives; 0: the end.
-std::size_t read_some(const Descriptor& in, const std::filesystem::path& file, char* to,
-                      std::size_t most) {
-  for (;;) {
-    const ssize_t n = read(in.number, to, most);
-    if (n >= 0) return static_cast<std::size_t>(n);
-    if (errno != EINTR) fail(file, "cannot be read: " + std::generic_category().message(errno));
+// begin: is told the size.
+void read_file(const std::filesystem::path& file, const std::function<void(std::size_t)>& begin,
+               const std::function<void(std::string_view)>& take) {
+  constexpr std::int64_t most = std::int64_t{1} << 30;
+  // Does not wait for who might write into a pipe.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) fail_to_read(file, because_of("cannot be opened"));
+  const struct Closer {
+    int descriptor;
+    ~Closer() { close(descriptor); }
+  } closer{descriptor};
+  struct stat opened = {};
+  if (fstat(descriptor, &opened) != 0 || !S_ISREG(opened.st_mode))
+    fail_to_read(file, S_ISDIR(opened.st_mode) ? "a folder, not a file" : "is no regular file");
+  if (opened.st_size > most) fail_to_read(file, "larger than 1 GiB");
+  begin(static_cast<std::size_t>(opened.st_size));
+  std::array<char, 1 << 15> part;
+  while (const ssize_t n = read(descriptor, part.data(), part.size())) {
+    if (n > 0) take({part.data(), static_cast<std::size_t>(n)});
+    if (n < 0 && errno != EINTR) fail_to_read(file, because_of("cannot be read"));
   }
 }
 
 }  // namespace
 
 std::string file_text(const std::filesystem::path& file) {
-  const Descriptor in(file);
-  std::string text(checked_size(in, file), '\0');
-  std::size_t size = 0;  // it may be changing
-  while (size < text.size()) {
-    const std::size_t n = read_some(in, file, text.data() + size, text.size() - size);
-    if (n == 0) break;
-    size += n;
-  }
-  text.resize(size);
+  std::string text;
+  read_file(
+      file, [&](std::size_t size) { text.reserve(size); },
+      [&](std::string_view part) { text += part; });
   return text;
 }
 
 void read_parts(const std::filesystem::path& file,
                 const std::function<void(std::string_view part)>& take) {
-  const Descriptor in(file);
-  checked_size(in, file);
-  std::array<char, 1 << 15> part;
-  while (const std::size_t n = read_some(in, file, part.data(), part.size()))
-    take({part.data(), n});
+  read_file(
+      file, [](std::size_t) {}, take);
 }
 
 }  // namespace airybench

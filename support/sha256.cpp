@@ -3,6 +3,8 @@
 // OpenSSL's newer functions set up the library first, which does not survive a refused allocation
 // (OpenSSL 3.0).
 #define OPENSSL_SUPPRESS_DEPRECATED
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <openssl/sha.h>
 
 #include <array>
@@ -10,41 +12,28 @@
 #include "support/file_text.hpp"
 
 namespace airybench {
-
 namespace {
 
-class Sha256 {
- public:
-  Sha256() { SHA256_Init(&state_); }
-  void add(std::string_view bytes) { SHA256_Update(&state_, bytes.data(), bytes.size()); }
-  std::string hex() {
-    std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
-    SHA256_Final(digest.data(), &state_);
-    constexpr std::string_view digits = "0123456789abcdef";
-    std::string hex;
-    for (const unsigned char byte : digest) {
-      hex += digits[byte >> 4];
-      hex += digits[byte & 15];
-    }
-    return hex;
-  }
-
- private:
-  SHA256_CTX state_;
-};
+std::string hex_digest(SHA256_CTX& state) {
+  std::array<unsigned char, SHA256_DIGEST_LENGTH> digest;
+  SHA256_Final(digest.data(), &state);
+  return fmt::format("{:02x}", fmt::join(digest, ""));
+}
 
 }  // namespace
 
 std::string sha256_hex(std::string_view bytes) {
-  Sha256 hash;
-  hash.add(bytes);
-  return hash.hex();
+  SHA256_CTX state;
+  SHA256_Init(&state);
+  SHA256_Update(&state, bytes.data(), bytes.size());
+  return hex_digest(state);
 }
 
 std::string sha256_of_file(const std::filesystem::path& file) {
-  Sha256 hash;
-  read_parts(file, [&](std::string_view part) { hash.add(part); });
-  return hash.hex();
+  SHA256_CTX state;
+  SHA256_Init(&state);
+  read_parts(file, [&](std::string_view part) { SHA256_Update(&state, part.data(), part.size()); });
+  return hex_digest(state);
 }
 
 }  // namespace airybench

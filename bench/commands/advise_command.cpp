@@ -17,12 +17,13 @@
 #include "bench/records/csv.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/run/adapted_scenes.hpp"
-#include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
+#include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
 #include "support/shortened.hpp"
 #include "support/text_table.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {

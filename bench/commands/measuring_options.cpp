@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "bench/run/repetitions.hpp"
+#include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"

@@ -8,13 +8,13 @@
 #include "bench/plan/plan.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/record_files.hpp"
-#include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/methods.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {

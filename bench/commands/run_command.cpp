@@ -21,15 +21,13 @@
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
 #include "bench/report/prediction.hpp"
-#include "bench/run/benchmark_flags.hpp"
-#include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
-#include "bench/run/repetitions.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
 #include "support/text_table.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {

@@ -1,121 +1,132 @@
 #include "bench/external/answer.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <fstream>
 #include <limits>
+#include <regex>
 #include <sstream>
 
-#include "bench/external/npy_array.hpp"
-#include "bench/records/json.hpp"
-#include "support/errors.hpp"
+#include "bench/external/json_file.hpp"
 #include "support/file_text.hpp"
-#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
 
-constexpr const char* answer_file = "answer.json";
+bool is_file(const std::filesystem::path& file) {
+  std::error_code unknown;
+  return std::filesystem::is_regular_file(file, unknown);
+}
 
-// The folder is ours, its name says nothing to a user.
+// Without the folder's name, which means nothing to a user.
 std::string text_of(const std::filesystem::path& folder, const std::string& name) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(folder / name, error))
-    throw FileError(name + ": there is none in {output}");
+  if (!is_file(folder / name)) throw FileError(name + ": there is none in {output}");
   return file_text(folder / name);
 }
 
-[[noreturn]] void fail(const char* key, const Json& value, const std::string& allowed) {
-  throw FileError(fmt::format("{}: {}: {} (allowed: {})", answer_file, key,
-                              shortened(json_text(value)), allowed));
-}
-
-double seconds(const char* key, const Json& value) {
-  if (!value.is_number() || !(value.get<double>() >= 0)) fail(key, value, "seconds, at least 0");
-  return value.get<double>();
-}
-
-std::string text(const char* key, const Json& json) {
-  if (!json.contains(key)) return {};
-  if (!json.at(key).is_string()) fail(key, json.at(key), "a text");
-  return shortened(json.at(key).get<std::string>(), 300);
-}
+bool is_amount(const Json& value) { return value.is_number() && value.get<double>() >= 0; }
 
 template <typename Whole>
-std::optional<Whole> count(const char* key, const Json& json) {
-  if (!json.contains(key)) return {};
-  const Json& value = json.at(key);
+void read_count(JsonFile& json, const char* key, std::optional<Whole>& count) {
   constexpr std::int64_t most = std::numeric_limits<Whole>::max();
-  if (!value.is_number_integer() || value < 0 || value > most)
-    fail(key, value, fmt::format("a whole number from 0 to {}", most));
-  return value.get<Whole>();
+  json.read(key, JsonFile::Need::may_be_left_out, fmt::format("a whole number from 0 to {}", most),
+            [&](const Json& value) {
+              if (!value.is_number_integer() || value < 0 || value > most) return false;
+              count = value.get<Whole>();
+              return true;
+            });
 }
 
-Status status_in(const Json& json) {
-  constexpr std::array<Status, 4> possible = {Status::ok, Status::inaccurate, Status::not_converged,
-                                              Status::breakdown};
-  const std::string allowed = fmt::format("{}", fmt::join(names_of(possible), ", "));
-  const Json value = json.contains("status") ? json.at("status") : Json();
-  const auto status = value.is_string() ? status_of(value.get<std::string>()) : std::nullopt;
-  if (!status || std::ranges::find(possible, *status) == possible.end())
-    fail("status", value, allowed);
-  return *status;
-}
-
-std::map<Stage, double> stages_in(const Json& json) {
-  std::map<Stage, double> stages;
-  if (!json.contains("stages")) return stages;
-  const Json& given = json.at("stages");
-  if (!given.is_object()) fail("stages", given, "an object: stage to seconds");
-  for (const auto& [name, value] : given.items()) {
-    const auto stage = std::ranges::find(all_stages, name, [](Stage s) { return name_of(s); });
-    if (stage == all_stages.end())
-      fail("stages", name, fmt::format("{}", fmt::join(names_of(all_stages), ", ")));
-    stages[*stage] = seconds("stages", value);
-  }
-  return stages;
+// "\x93NUMPY", version 1 0, two bytes of length, the header as a Python dictionary, the numbers.
+Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string& name,
+                         Eigen::Index rows, Eigen::Index columns) {
+  std::ifstream file(folder / name, std::ios::binary);
+  std::string start(10, '\0');
+  file.read(start.data(), 10);
+  if (!file || !start.starts_with(std::string("\x93NUMPY\x01\x00", 8)))
+    throw FileError(name + ": its first bytes (allowed: NumPy's format 1.0)");
+  const auto byte = [&](int at) { return static_cast<unsigned char>(start[at]); };
+  std::string header(byte(8) + 256U * byte(9), '\0');
+  file.read(header.data(), static_cast<std::streamsize>(header.size()));
+  static const std::regex form(
+      R"(\{'descr': '<f8', 'fortran_order': (True|False), 'shape': \((\d+), ?(\d*)\), \}\s*)");
+  std::smatch found;
+  const std::string shape = fmt::format("{}, {}", rows, columns);
+  if (!file || !std::regex_match(header, found, form) ||
+      found[2].str() + ", " + (found[3].length() > 0 ? found[3].str() : "1") != shape)
+    throw FileError(
+        fmt::format("{}: {} (allowed: '<f8', shape ({}))", name, shortened(header, 100), shape));
+  const auto read_into = [&](auto values) {
+    file.read(
+        reinterpret_cast<char*>(values.data()),
+        static_cast<std::streamsize>(static_cast<std::size_t>(values.size()) * sizeof(double)));
+    if (!file || file.peek() != std::ifstream::traits_type::eof())
+      throw FileError(fmt::format("{}: its length (allowed: {} numbers)", name, values.size()));
+    return values;
+  };
+  if (found[1] == "True") return read_into(Eigen::MatrixXd(rows, columns));
+  return read_into(
+      Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>(rows, columns));
 }
 
 }  // namespace
 
 Answer read_answer(const std::filesystem::path& folder) {
-  Json json;
-  try {
-    json = parse_json(text_of(folder, answer_file));
-  } catch (const Json::exception& wrong) {
-    throw FileError(fmt::format("{}: {}", answer_file, shortened(without_prefix(wrong), 200)));
-  }
-  if (!json.is_object()) fail("the file", json, "a JSON object");
+  constexpr auto needed = JsonFile::Need::must_be_there, optional = JsonFile::Need::may_be_left_out;
+  constexpr std::array<Status, 4> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
+                                              Status::breakdown};
+  constexpr const char* seconds = "seconds, at least 0";
+  JsonFile json("answer.json", text_of(folder, "answer.json"));
   Answer answer;
-  answer.status = status_in(json);
-  answer.message = text("message", json);
-  answer.parameters = text("parameters", json);
-  answer.time_s = seconds("time_s", json.contains("time_s") ? json.at("time_s") : Json());
-  answer.stages = stages_in(json);
+  json.read("status", needed, fmt::format("{}", fmt::join(names_of(statuses), ", ")),
+            [&](const Json& value) {
+              const auto status = std::ranges::find_if(
+                  statuses, [&](Status possible) { return value == name_of(possible); });
+              if (status != statuses.end()) answer.status = *status;
+              return status != statuses.end();
+            });
+  const auto into = [](std::string& text) {
+    return [&text](const Json& value) {
+      if (value.is_string()) text = shortened(value.get<std::string>(), 300);
+      return value.is_string();
+    };
+  };
+  json.read("message", optional, "a text", into(answer.message));
+  json.read("parameters", optional, "a text", into(answer.parameters));
+  json.read("time_s", needed, seconds, [&](const Json& value) {
+    if (is_amount(value)) answer.time_s = value;
+    return is_amount(value);
+  });
   double sum = 0;
-  for (const auto& [stage, s] : answer.stages) sum += s;
+  json.read("stages", optional, "an object: stage to seconds", [&](const Json& stages) {
+    if (!stages.is_object()) return false;
+    for (const auto& [name, value] : stages.items()) {
+      const auto stage = std::ranges::find(all_stages, name, [](Stage s) { return name_of(s); });
+      if (stage == all_stages.end())
+        json.fail("stages", name, fmt::format("{}", fmt::join(names_of(all_stages), ", ")));
+      if (!is_amount(value)) json.fail("stages", value, seconds);
+      sum += answer.stages[*stage] = value;
+    }
+    return true;
+  });
   constexpr double rounding = 1e-3;
   if (sum > (1 + rounding) * answer.time_s)
-    fail("stages", sum, fmt::format("together at most time_s, {}", answer.time_s));
-  answer.linear_iterations = count<std::int64_t>("linear_iterations", json);
-  answer.contact_iterations = count<int>("contact_iterations", json);
-  if (json.contains("error_estimate")) {
-    const Json& value = json.at("error_estimate");
-    if (!value.is_number() || !(value.get<double>() >= 0))
-      fail("error_estimate", value, "a number, at least 0");
-    answer.error_estimate = value.get<double>();
-  }
+    json.fail("stages", sum, fmt::format("together at most time_s, {}", answer.time_s));
+  read_count(json, "linear_iterations", answer.linear_iterations);
+  read_count(json, "contact_iterations", answer.contact_iterations);
+  json.read("error_estimate", optional, "a number, at least 0", [&](const Json& value) {
+    if (is_amount(value)) answer.error_estimate = value.get<double>();
+    return is_amount(value);
+  });
   return answer;
 }
 
 std::string read_log(const std::filesystem::path& folder) {
   constexpr std::size_t most = 1 << 20;
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(folder / "log.txt", error)) return {};
+  if (!is_file(folder / "log.txt")) return {};
   std::ifstream file(folder / "log.txt", std::ios::binary);
   std::string log(most, '\0');
   file.read(log.data(), static_cast<std::streamsize>(most));
@@ -125,9 +136,8 @@ std::string read_log(const std::filesystem::path& folder) {
 
 Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::string& name,
                            Eigen::Index rows, Eigen::Index columns) {
-  std::error_code unknown;
   if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
-      std::filesystem::is_regular_file(folder / binary, unknown))
+      is_file(folder / binary))
     return read_npy(folder, binary, rows, columns);
   std::istringstream file(text_of(folder, name));
   std::string line;

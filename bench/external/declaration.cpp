@@ -4,93 +4,39 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <map>
+#include <fstream>
 
-#include "bench/external/process_tree.hpp"
-#include "bench/external/work_folder.hpp"
+#include "bench/external/json_file.hpp"
 #include "bench/problems/problem_files.hpp"
-#include "bench/records/case_name.hpp"
-#include "bench/records/json.hpp"
-#include "support/errors.hpp"
+#include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
-#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
 
-using Reads = Declaration::Reads;
 using Returns = Declaration::Returns;
-const std::map<std::string, Reads> all_that_is_read = {
-    {"airy", Reads::airy}, {"body", Reads::body}, {"condensed", Reads::condensed}};
-const std::map<Reads, std::map<std::string, Returns>> all_that_is_returned = {
-    {Reads::airy, {{"airy_function", Returns::airy_function}}},
-    {Reads::body,
-     {{"displacement", Returns::displacement},
-      {"edge_displacements", Returns::edge_displacements}}},
-    {Reads::condensed, {{"contact_forces", Returns::contact_forces}}},
+struct Kind {
+  Returns returns;
+  std::string_view name, reads;
 };
+constexpr std::array<Kind, 4> kinds = {{
+    {Returns::airy_function, "airy_function", "airy"},
+    {Returns::displacement, "displacement", "body"},
+    {Returns::edge_displacements, "edge_displacements", "body"},
+    {Returns::contact_forces, "contact_forces", "condensed"},
+}};
 
-template <typename Value>
-std::string names_in(const std::map<std::string, Value>& values) {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : values) names.push_back(name);
-  return fmt::format("{}", fmt::join(names, ", "));
+template <typename Words>
+std::string list_of(const Words& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
-// The values of one file's keys; what does not fit is a FileError.
-class Reader {
- public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()) {
-    try {
-      json_ = parse_json(file_text(file));
-    } catch (const Json::exception& wrong) {
-      throw FileError(fmt::format("{}: {}", file_, shortened(without_prefix(wrong), 200)));
-    }
-    if (!json_.is_object()) fail("the file", json_, "a JSON object");
-    constexpr std::array<std::string_view, 8> keys = {
-        "name", "summary", "reads", "format", "returns", "command", "version", "first_tolerance"};
-    for (const auto& [key, value] : json_.items())
-      if (std::ranges::find(keys, key) == keys.end())
-        throw FileError(fmt::format("{}: {}: unknown key (allowed: {})", file_, shortened(key),
-                                    fmt::join(keys, ", ")));
-  }
+bool is_text(const Json& value) { return value.is_string() && !value.get<std::string>().empty(); }
 
-  bool has(const char* key) const { return json_.contains(key); }
-  [[noreturn]] void fail(const std::string& key, const Json& value,
-                         const std::string& allowed) const {
-    throw FileError(
-        fmt::format("{}: {}: {} (allowed: {})", file_, key, shortened(json_text(value)), allowed));
-  }
-  std::string text(const char* key, const std::string& allowed = "a text") const {
-    const Json& value = at(key, allowed);
-    if (!value.is_string() || value.get<std::string>().empty()) fail(key, value, allowed);
-    return value.get<std::string>();
-  }
-  std::vector<std::string> texts(const char* key) const {
-    constexpr const char* allowed = "a list of texts, the program first";
-    const Json& value = at(key, allowed);
-    const auto is_text = [](const Json& item) { return item.is_string(); };
-    if (!value.is_array() || value.empty() || !std::ranges::all_of(value, is_text) ||
-        value.front().get<std::string>().empty())
-      fail(key, value, allowed);
-    return value.get<std::vector<std::string>>();
-  }
-  double number(const char* key, const char* allowed) const {
-    const Json& value = at(key, allowed);
-    if (!value.is_number() || !(value.get<double>() > 0)) fail(key, value, allowed);
-    return value.get<double>();
-  }
-
- private:
-  const Json& at(const char* key, const std::string& allowed) const {
-    if (!json_.contains(key))
-      throw FileError(fmt::format("{}: {}: is missing (allowed: {})", file_, key, allowed));
-    return json_.at(key);
-  }
-
-  std::string file_;
-  Json json_;
-};
+bool is_command(const Json& value) {
+  return value.is_array() && !value.empty() && is_text(value.front()) &&
+         std::ranges::all_of(value, [](const Json& word) { return word.is_string(); });
+}
 
 // A name that can be asked for: no glob, no list, no part of a path.
 bool is_plain(const std::string& name) {
@@ -99,78 +45,112 @@ bool is_plain(const std::string& name) {
   });
 }
 
-void check_placeholders(const Reader& file, const std::vector<std::string>& command) {
+// A word of the command whose placeholder is none of ours; nullptr: there is none.
+const std::string* unknown_placeholder(const std::vector<std::string>& command) {
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {
       const std::size_t end = word.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", open + 1);
       if (end == word.npos || end == open + 1 || word[end] != '}') continue;  // other braces
       const auto& all = placeholder::all;
-      if (std::ranges::find(all, word.substr(open, end + 1 - open)) == all.end())
-        file.fail("command", word, fmt::format("{}", fmt::join(all, ", ")));
+      if (std::ranges::find(all, word.substr(open, end + 1 - open)) == all.end()) return &word;
     }
+  return nullptr;
 }
 
-std::string version_of(const std::filesystem::path& file, const Declaration& declaration,
+std::string version_of(const std::filesystem::path& file, const std::filesystem::path& folder,
                        const std::vector<std::string>& command) {
   constexpr double limit_s = 60;
-  const WorkFolder work;
+  const TemporaryFolder work;
   const std::filesystem::path printed = work.path() / "version";
-  const ProcessTreeEnd end =
-      run_process_tree({command, declaration.folder, {}, printed, work.path()}, {limit_s});
+  const ChildEnd end = run_program(
+      {.command = command, .folder = folder, .output = printed, .scratch = work.path()}, {limit_s});
   const std::vector<std::string> lines = printed_lines(printed);
   if (end.exit_code != 0 || lines.empty())
-    throw FileError(fmt::format("{}: version: {}: {}{}", file.string(),
+    throw FileError(fmt::format("{}: version: {}: {}", file.string(),
                                 shortened(fmt::format("{}", fmt::join(command, " "))),
-                                how_it_ended(end, limit_s),
-                                lines.empty() ? "" : ": " + lines.back()));
+                                how_it_ended(end, limit_s, lines)));
   return lines.front();
 }
 
 }  // namespace
 
 Declaration read_declaration(const std::filesystem::path& file) {
-  const Reader reader(file);
+  constexpr auto needed = JsonFile::Need::must_be_there, optional = JsonFile::Need::may_be_left_out;
+  constexpr const char* a_command = "a list of texts, the program first";
+  JsonFile json(file.string(), file_text(file));
   Declaration declaration;
   declaration.folder = std::filesystem::absolute(file).parent_path();
-  declaration.name = reader.text("name");
-  if (!is_plain(declaration.name))
-    reader.fail("name", declaration.name, "letters, digits, '-', '_' and '.'");
-  if (reader.has("summary")) declaration.summary = reader.text("summary");
-
-  const std::string allowed = names_in(all_that_is_read);
-  const std::string reads = reader.text("reads", allowed);
-  const auto found = all_that_is_read.find(reads);
-  if (found == all_that_is_read.end()) reader.fail("reads", reads, allowed);
-  declaration.reads = found->second;
-  const auto& possible = all_that_is_returned.at(declaration.reads);
-  const std::string returns = reader.text("returns", names_in(possible));
-  const auto returned = possible.find(returns);
-  if (returned == possible.end())
-    reader.fail("returns", returns, fmt::format("{}, as it reads {}", names_in(possible), reads));
-  declaration.returns = returned->second;
-
-  const bool condensed = declaration.reads == Declaration::Reads::condensed;
-  std::vector<std::string_view> formats = problem_formats();
-  if (!condensed) std::erase(formats, "fclib");
-  const std::string formats_allowed = fmt::format("{}", fmt::join(formats, ", "));
-  declaration.format = reader.text("format", formats_allowed);
-  if (std::ranges::find(formats, declaration.format) == formats.end())
-    reader.fail("format", declaration.format, formats_allowed);
-
-  declaration.command = reader.texts("command");
-  check_placeholders(reader, declaration.command);
-  if (reader.has("first_tolerance")) {
-    declaration.first_tolerance = reader.number("first_tolerance", "a number > 0");
-    const auto uses = [](const std::string& word) {
-      return word.find(placeholder::tolerance) != word.npos;
+  const auto into = [](std::string& text) {
+    return [&text](const Json& value) {
+      if (is_text(value)) text = value.get<std::string>();
+      return is_text(value);
     };
-    if (std::ranges::none_of(declaration.command, uses))
-      reader.fail("first_tolerance", declaration.first_tolerance,
-                  "with {tolerance} in the command");
-  }
-  if (reader.has("version"))
-    declaration.version = version_of(file, declaration, reader.texts("version"));
+  };
+  json.read("name", needed, "a text", into(declaration.name));
+  if (!is_plain(declaration.name))
+    json.fail("name", declaration.name, "letters, digits, '-', '_' and '.'");
+  json.read("summary", optional, "a text", into(declaration.summary));
+
+  std::string reads;
+  json.read("reads", needed, "airy, body, condensed", [&](const Json& value) {
+    return into(reads)(value) && std::ranges::find(kinds, reads, &Kind::reads) != kinds.end();
+  });
+  std::vector<std::string_view> formats = problem_formats();
+  if (reads != "condensed") std::erase(formats, "fclib");
+  json.read("format", needed, list_of(formats), [&](const Json& value) {
+    return into(declaration.format)(value) &&
+           std::ranges::find(formats, declaration.format) != formats.end();
+  });
+  std::vector<std::string_view> returned;
+  for (const Kind& kind : kinds)
+    if (kind.reads == reads) returned.push_back(kind.name);
+  json.read("returns", needed, list_of(returned) + ", as it reads " + reads,
+            [&](const Json& value) {
+              const auto kind = std::ranges::find_if(
+                  kinds, [&](const Kind& k) { return k.reads == reads && value == k.name; });
+              if (kind != kinds.end()) declaration.returns = kind->returns;
+              return kind != kinds.end();
+            });
+
+  const auto command_into = [](std::vector<std::string>& command) {
+    return [&command](const Json& value) {
+      if (is_command(value)) command = value.get<std::vector<std::string>>();
+      return is_command(value);
+    };
+  };
+  json.read("command", needed, a_command, command_into(declaration.command));
+  if (const std::string* word = unknown_placeholder(declaration.command))
+    json.fail("command", *word, list_of(placeholder::all));
+  std::vector<std::string> version;
+  json.read("version", optional, a_command, command_into(version));
+  json.read("first_tolerance", optional, "a number > 0", [&](const Json& value) {
+    if (value.is_number()) declaration.first_tolerance = value;
+    return declaration.first_tolerance > 0;
+  });
+  if (declaration.first_tolerance > 0 &&
+      std::ranges::none_of(declaration.command, [](const std::string& word) {
+        return word.find(placeholder::tolerance) != word.npos;
+      }))
+    json.fail("first_tolerance", declaration.first_tolerance, "with {tolerance} in the command");
+  json.refuse_other_keys();
+  if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
+}
+
+std::vector<std::string> printed_lines(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find_first_not_of(" \t\r") == line.npos) continue;
+    if (lines.size() < 2) lines.emplace_back();
+    lines.back() = shortened(line, 200);
+  }
+  return lines;
+}
+
+std::string how_it_ended(const ChildEnd& end, double limit_s,
+                         const std::vector<std::string>& printed) {
+  return how_it_ended(end, limit_s) + (printed.empty() ? "" : ": " + printed.back());
 }
 
 }  // namespace airybench

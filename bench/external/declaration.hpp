@@ -24,7 +24,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solvers/base/method.hpp"
+#include "support/process.hpp"
 
 namespace airybench {
 
@@ -37,13 +37,11 @@ inline constexpr std::array<std::string_view, 5> all = {input, output, threads, 
 }  // namespace placeholder
 
 struct Declaration {
-  enum class Reads { airy, condensed, body };
-  enum class Returns { airy_function, contact_forces, displacement, edge_displacements };
+  enum class Returns { airy_function, displacement, edge_displacements, contact_forces };
 
   std::filesystem::path folder;
   std::string name, summary, format;
-  Reads reads = Reads::airy;
-  Returns returns = Returns::airy_function;
+  Returns returns = Returns::airy_function;  // which tells what it reads
   std::vector<std::string> command;
   std::string version = "unknown version";  // what its command printed
   double first_tolerance = 0;
@@ -52,5 +50,12 @@ struct Declaration {
 // And asks the program for its version. Throws FileError, one line: file, key, value, what is
 // allowed.
 Declaration read_declaration(const std::filesystem::path& file);
+
+// Lines that a program printed and that are not empty, each shortened: the first, and the last if
+// there are more.
+std::vector<std::string> printed_lines(const std::filesystem::path& file);
+// "ended with exit code 3: the last line".
+std::string how_it_ended(const ChildEnd& end, double limit_s,
+                         const std::vector<std::string>& printed);
 
 }  // namespace airybench

@@ -3,26 +3,26 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <fstream>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
 
 #include "assembly/control_points.hpp"
 #include "bench/external/answer.hpp"
-#include "bench/external/process_tree.hpp"
-#include "bench/external/work_folder.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/moments_check.hpp"
 #include "solvers/contact/contact_result.hpp"
 #include "solvers/methods.hpp"
+#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
 namespace {
 
-// What becomes of a case whose program gave no answer.
 struct NoAnswer : std::runtime_error {
   NoAnswer(Status what, const std::string& message) : std::runtime_error(message), status(what) {}
   Status status;
@@ -44,42 +44,50 @@ std::string filled_in(std::string_view word, const std::map<std::string, std::st
   }
   return result;
 }
-std::vector<std::string> filled_in(std::vector<std::string> command,
-                                   const std::map<std::string, std::string>& values) {
-  for (std::string& word : command) word = filled_in(word, values);
-  return command;
+
+void write_folder(const std::filesystem::path& folder, const Files& files) {
+  std::filesystem::create_directory(folder);
+  for (const auto& [name, bytes] : files) {
+    std::ofstream out(folder / name, std::ios::binary);
+    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    if (!out.flush())
+      throw FileError(fmt::format("{}: cannot be written: {}", (folder / name).string(),
+                                  std::generic_category().message(errno)));
+  }
 }
 
-// One run of the program on one problem.
 class ProgramSolve {
  public:
   ProgramSolve(const Caller& caller, const std::function<Files()>& problem,
-               const RunControl& control)
-      : name_(caller.declaration.name) {
+               const RunControl& control) {
     const Declaration& declaration = caller.declaration;
-    const std::string input = hand_over(problem);
+    hand_over(problem());
     const double limit_s = control.deadline.remaining_s();
     if (!(limit_s > 0)) throw TimeoutReached("time limit reached before the program began");
     const std::string threads = std::to_string(control.threads);
-    const Program program = {
-        filled_in(declaration.command,
-                  {{placeholder::input, input},
-                   {placeholder::output, output_.string()},
-                   {placeholder::threads, threads},
-                   {placeholder::tolerance, fmt::format("{}", control.tolerance)},
-                   {placeholder::time_limit_s, fmt::format("{:.3f}", std::min(limit_s, 1e9))}}),
-        declaration.folder,
-        {{"OMP_NUM_THREADS", threads},
-         {"OPENBLAS_NUM_THREADS", threads},
-         {"MKL_NUM_THREADS", threads},
-         {"LC_ALL", "C.UTF-8"},
-         {"PYTHONDONTWRITEBYTECODE", "1"}},
-        work_->path() / "printed",
-        work_->path()};
-    const ProcessTreeEnd end = run_process_tree(program, {limit_s, caller.memory_limit_bytes});
+    const std::map<std::string, std::string> values = {
+        {placeholder::input, (work_->path() / "input").string()},
+        {placeholder::output, output_.string()},
+        {placeholder::threads, threads},
+        {placeholder::tolerance, fmt::format("{}", control.tolerance)},
+        {placeholder::time_limit_s, fmt::format("{:.3f}", std::min(limit_s, 1e9))}};
+    Program program = {.folder = declaration.folder,
+                       .environment = {{"OMP_NUM_THREADS", threads},
+                                       {"OPENBLAS_NUM_THREADS", threads},
+                                       {"MKL_NUM_THREADS", threads},
+                                       {"LC_ALL", "C.UTF-8"},
+                                       {"PYTHONDONTWRITEBYTECODE", "1"}},
+                       .output = work_->path() / "printed",
+                       .scratch = work_->path()};
+    for (const std::string& word : declaration.command)
+      program.command.push_back(filled_in(word, values));
+    const ChildEnd end = run_program(program, {limit_s, caller.memory_limit_bytes});
     run_.wall_s = end.wall_s;
     run_.peak_bytes = end.peak_bytes;
-    if (end.exit_code != 0) throw NoAnswer(status_of_end(end), message_of(end, limit_s));
+    if (end.exit_code != 0)
+      throw NoAnswer(
+          status_of_end(end),
+          declaration.name + " " + how_it_ended(end, limit_s, printed_lines(program.output)));
     run_.log = read_log(output_);
     answer_ = read_answer(output_);
     if (!has_answer(answer_.status))
@@ -96,12 +104,12 @@ class ProgramSolve {
   }
   const Answer& answer() const { return answer_; }
 
-  // The handing over ends here: what follows is ours, on our clock.
+  // What follows is on our clock.
   void end_handing_over() {
     work_.reset();
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
-  // The same of a program that solves all of it: its word and its stages.
+  // Of a program that solves all of it.
   Solution take_over(const RunControl& control) {
     end_handing_over();
     Solution solution;
@@ -110,7 +118,6 @@ class ProgramSolve {
     return solution;
   }
 
-  // Its word.
   void note(const RunControl& control, Solution& solution) const {
     solution.status = answer_.status;
     solution.message = answer_.status == Status::ok ? "" : answer_.message;
@@ -123,32 +130,25 @@ class ProgramSolve {
   }
 
  private:
-  // The problem's folder.
-  std::string hand_over(const std::function<Files()>& problem) {
-    const Files files = problem();
+  void hand_over(const Files& problem) {
     try {
       work_.emplace();
-      output_ = work_->add("output", {});
-      return work_->add("input", files).string();
+      output_ = work_->path() / "output";
+      write_folder(output_, {});
+      write_folder(work_->path() / "input", problem);
     } catch (const FileError& why) {
       throw NoAnswer(Status::machine_fault, why.what());
     }
   }
-  static Status status_of_end(const ProcessTreeEnd& end) {
+  static Status status_of_end(const ChildEnd& end) {
     return end.start_error != 0 ? Status::machine_fault
            : end.timed_out      ? Status::timeout
            : end.over_memory    ? Status::out_of_memory
                                 : Status::crashed;
   }
-  std::string message_of(const ProcessTreeEnd& end, double limit_s) const {
-    const std::vector<std::string> lines = printed_lines(work_->path() / "printed");
-    return fmt::format("{} {}{}", name_, how_it_ended(end, limit_s),
-                       lines.empty() ? "" : ": " + lines.back());
-  }
 
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  std::string name_;
-  std::optional<WorkFolder> work_;
+  std::optional<TemporaryFolder> work_;
   std::filesystem::path output_;
   Answer answer_;
   ProgramRun run_;
@@ -205,7 +205,6 @@ void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
   }
 }
 
-// Edge displacements u are those of HYBRID, and so is what is made of them.
 Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
                                const RunControl& control) {
   const Problem& problem = *system.problem;
@@ -269,38 +268,31 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
 
 Method external_method(const Declaration& declaration,
                        std::optional<std::int64_t> memory_limit_bytes) {
-  const Caller caller = {declaration, memory_limit_bytes};
   Method method;
-  std::function<Solution(const DualSystem&, const RunControl&)> solve;
-  switch (declaration.reads) {
-    case Declaration::Reads::airy:
-      solve = [caller](const DualSystem& s, const RunControl& c) {
-        return solve_airy(caller, s, c);
-      };
+  std::function<Solution(const Caller&, const DualSystem&, const RunControl&)> solve;
+  switch (declaration.returns) {
+    case Declaration::Returns::airy_function:
+      solve = solve_airy;
       break;
-    case Declaration::Reads::body:
+    case Declaration::Returns::displacement:
       method.blocks = Blocks::contact_points;
-      if (declaration.returns == Declaration::Returns::edge_displacements) {
-        solve = [caller](const DualSystem& s, const RunControl& c) {
-          return solve_hybridized_body(caller, s, c);
-        };
-        break;
-      }
       method.in_displacements = true;
-      solve = [caller](const DualSystem& s, const RunControl& c) {
-        return solve_body(caller, s, c);
-      };
+      solve = solve_body;
       break;
-    case Declaration::Reads::condensed:
+    case Declaration::Returns::edge_displacements:
+      method.blocks = Blocks::contact_points;
+      solve = solve_hybridized_body;
+      break;
+    case Declaration::Returns::contact_forces:
       method = select_methods("HYBRID").front();
       method.takes = Method::Takes::both;
-      solve = [caller, of_body = method.solve, of_given = condensed_contact().solve](
-                  const DualSystem& s, const RunControl& c) {
+      solve = [of_body = method.solve, of_given = condensed_contact().solve](
+                  const Caller& caller, const DualSystem& s, const RunControl& c) {
         return solve_contact_law(caller, s.problem->given ? of_given : of_body, s, c);
       };
       break;
   }
-  if (declaration.reads != Declaration::Reads::condensed) method.stages = {Stage::recover};
+  if (declaration.returns != Declaration::Returns::contact_forces) method.stages = {Stage::recover};
   method.name = "EXTERNAL:" + declaration.name;
   method.family = method.name;
   method.summary = declaration.summary;
@@ -308,20 +300,19 @@ Method external_method(const Declaration& declaration,
   method.knob =
       declaration.first_tolerance > 0 ? AccuracyKnob::krylov_tolerance : AccuracyKnob::none;
   method.first_tolerance = declaration.first_tolerance;
-  method.solve = [solve](const DualSystem& system, const RunControl& control) {
-    const auto failed = [](Status status, const std::string& message) {
-      Solution solution;
-      solution.status = status;
-      solution.message = message;
-      return solution;
-    };
+  method.solve = [solve, caller = Caller{declaration, memory_limit_bytes}](
+                     const DualSystem& system, const RunControl& control) {
+    Solution failed;
     try {
-      return solve(system, control);
+      return solve(caller, system, control);
     } catch (const NoAnswer& why) {
-      return failed(why.status, why.what());
+      failed.status = why.status;
+      failed.message = why.what();
     } catch (const FileError& why) {
-      return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
+      failed.status = Status::breakdown;
+      failed.message = fmt::format("its answer: {}", why.what());
     }
+    return failed;
   };
   return method;
 }

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "bench/external/declaration.hpp"
+#include "solvers/base/method.hpp"
 
 namespace airybench {
 

@@ -6,8 +6,9 @@
 #include <iostream>
 #include <sstream>
 
+#include "support/data_folder.hpp"
 #include "support/errors.hpp"
-#include "support/program.hpp"
+#include "support/process.hpp"
 
 namespace airybench {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "bench/plan/plan.hpp"
 #include "bench/problems/problem_arrays.hpp"
-#include "support/atomic_folder.hpp"
+#include "support/atomic_file.hpp"
 
 namespace airybench {
 

@@ -11,16 +11,17 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/json.hpp"
 #include "bench/run/adaptive_loop.hpp"
-#include "bench/run/child_process.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
+#include "support/process.hpp"
 #include "support/seconds_since.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
 #include "support/text_table.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -39,8 +40,7 @@ Method adapting_method(const std::string& name) {
   throw UsageError(fmt::format("--adapt-by: {} (allowed: {})", shortened(name), allowed));
 }
 
-// The definition on the mesh that the scene has made: layers are bodies with materials of their
-// own there.
+// The definition on the mesh that the scene has made: layers are bodies there, with materials.
 std::string definition_on(const Mesh& mesh, const std::string& definition,
                           const std::string& place) {
   Json json = parse_json(definition);
@@ -57,42 +57,34 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   return json_text(json);
 }
 
-// What the loop's process says of a level.
-Json said_of(const std::optional<AdaptiveLevel>& level, const AdaptiveLoop& loop,
-             const std::filesystem::path& file) {
-  Json json = {{"reached", loop.reached()}, {"ended", loop.why_ended()}};
-  if (!level) return json;
-  json["file"] = file.string();
-  json["number"] = level->number;
-  json["unknowns"] = level->unknowns;
-  if (level->error) json["error"] = *level->error;
-  json["reaches"] = level->reaches_goal;
-  json["angle"] = level->smallest_angle_deg;
-  json["time_s"] = level->time_s;
-  json["estimate_s"] = level->estimate_s;
-  return json;
+// And writes the level's mesh.
+Json answer_for(AdaptiveLevel& level, const Options& options, const std::string& mesh_name,
+                const std::filesystem::path& folder) {
+  level.mesh.name =
+      fmt::format("{}+{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt", level.number);
+  const std::filesystem::path file = folder / (level.mesh.name + ".msh");
+  write_file_atomically(file, msh_text(level.mesh));
+  return {{"file", file.string()},         {"number", level.number},
+          {"unknowns", level.unknowns},    {"error", level.error ? Json(*level.error) : Json()},
+          {"reaches", level.reaches_goal}, {"angle", level.smallest_angle_deg},
+          {"time_s", level.time_s},        {"estimate_s", level.estimate_s}};
 }
 
-// The loop's own process: a level per line that it is sent.
+// Runs in the loop's process: a level per line that it is sent.
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
                 const std::filesystem::path& folder) {
+  tell_refused_memory_at_exit();
   set_threads(options.threads);
   const heap::Backstop backstop(options.memory_limit_bytes);
   AdaptiveLoop loop(scene, mesh, adapting_method(options.adapt_by),
                     {options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
                      options.threads});
   while (channel.receive()) {
-    Json answer;
+    Json answer = Json::object();
     try {
-      std::optional<AdaptiveLevel> level = loop.next();
-      std::filesystem::path file;
-      if (level) {
-        level->mesh.name = fmt::format("{}+{}{}", mesh.name,
-                                       options.marking == 1. ? "refined" : "adapt", level->number);
-        file = folder / (level->mesh.name + ".msh");
-        write_file_atomically(file, msh_text(level->mesh));
-      }
-      answer = said_of(level, loop, file);
+      if (auto level = loop.next()) answer = answer_for(*level, options, mesh.name, folder);
+      answer["reached"] = loop.reached();
+      answer["ended"] = loop.why_ended();
     } catch (const InputError& error) {
       answer = {{"refused", error.what()}};
     }
@@ -103,10 +95,9 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
 constexpr double grace_s = 60;  // beyond the solve, for posing, judging and bisecting
 
 std::string obituary(const ChildEnd& end) {
-  if (end.given_up) return "a level took longer than --timeout";
+  if (end.timed_out) return "a level took longer than --timeout";
   if (end.exit_code == heap::backstop_exit_code) return "it passed the memory limit";
-  if (end.signal != 0) return fmt::format("its process was ended by {}", signal_name(end.signal));
-  return fmt::format("its process ended with exit code {}", end.exit_code);
+  return "its process " + how_it_ended(end, grace_s);
 }
 
 PosedScene posed_level(const Json& said, const Scene& scene, const std::string& definition,
@@ -124,8 +115,9 @@ PosedScene posed_level(const Json& said, const Scene& scene, const std::string& 
 }
 
 void print(const Json& said, const std::string& name) {
+  const Json& part = said["error"];
   const std::string error =
-      said.contains("error") ? fmt::format("{:.3g} %", 100 * said["error"].get<double>()) : "?";
+      part.is_null() ? "?" : fmt::format("{:.3g} %", 100 * part.get<double>());
   std::cerr << fmt::format(
       "adapt {}: level {}, n_phi {}, total error {}, smallest angle {:.1f}°, {}\n", name,
       said["number"].get<int>(), said["unknowns"].get<int>(), error, said["angle"].get<double>(),

@@ -1,11 +1,10 @@
 // The levels of an adaptive loop as scenes of a plan.
 //
-// The loop runs in a process of its own, so that a crash, a hang or a lack of memory ends the loop
-// and not the run: the levels before are there. Each level's mesh is a file
+// The loop runs in a process of its own: a crash, a hang or a lack of memory ends the loop and not
+// the run, which has the levels before. Each level's mesh is a file
 //   OUT/meshes/SCENE/MESH+adaptK.msh      (refined everywhere: MESH+refinedK.msh)
-// from which it is read back, and the scene on it is OUT/meshes/SCENE/SCENE.json: the scene's file
-// without what it did to the mesh, which is in the mesh now. With these two a level is a mesh as
-// any other.
+// and the scene on it is OUT/meshes/SCENE/SCENE.json: the scene's file without what it did to the
+// mesh. With these two a level is a mesh as any other.
 #pragma once
 
 #include "bench/plan/options.hpp"
@@ -22,7 +21,7 @@ struct AdaptedScenes {
 // Throws UsageError (the method of --adapt-by), FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
-// Level 0 refined once everywhere, as a mesh file beside it: MESH+refined1.msh.
+// Level 0 refined once everywhere, as a mesh file next to it: MESH+refined1.msh.
 PosedScene refined_scene(const PosedScene& level_0, const Options& options);
 
 }  // namespace airybench

@@ -24,7 +24,6 @@ namespace {
 constexpr double most_correction = 3;
 constexpr int most_cuts = 24;  // of a triangle in a level
 
-// How often each triangle is to be cut (adaptive_loop.hpp).
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   constexpr double part_of_a_cut = 4;
   constexpr double cheap = 0.1;  // of the triangles, that a level may add at least
@@ -42,10 +41,6 @@ std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   while (!marked.empty() && 2 * born() < cheap * static_cast<double>(parts.size()))
     for (const int t : marked) ++cuts[t];
   return cuts;
-}
-
-BisectedMesh refined(const Mesh& mesh, const std::vector<double>& parts, double marking) {
-  return bisected(mesh, cuts_of(parts, marking));
 }
 
 }  // namespace
@@ -131,7 +126,6 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
   estimate_s_ += seconds_since(estimating);
 }
 
-// Sets which goals are reached, and ends what gets nowhere.
 void AdaptiveLoop::judge_progress(AdaptiveLevel& level) {
   constexpr int growth = 8;
   constexpr double least_gain = 0.9;
@@ -155,9 +149,9 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   const double needed = goal.error ? margin * unknowns * error / *goal.error  // e ~ 1/N
                                    : *goal.unknowns;
   double marking = *settings_.marking;
-  BisectedMesh finer = refined(mesh_, parts_Nmm_, marking);
+  BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, marking));
   while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {
-    BisectedMesh smaller = refined(mesh_, parts_Nmm_, marking *= step);
+    BisectedMesh smaller = bisected(mesh_, cuts_of(parts_Nmm_, marking *= step));
     if (mesh_sizes(smaller.mesh).n_phi < needed) break;
     finer = std::move(smaller);
   }

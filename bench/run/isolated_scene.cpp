@@ -1,36 +1,154 @@
 #include "bench/run/isolated_scene.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
+#include <map>
+#include <sstream>
 #include <system_error>
 #include <tuple>
 
+#include "bench/measure/environment.hpp"
+#include "bench/measure/heap_probe.hpp"
 #include "bench/plan/blank_record.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
-#include "bench/run/scene_process.hpp"
+#include "support/atomic_file.hpp"
+#include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "support/text_table.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
 
-volatile std::sig_atomic_t interrupting_signal = 0;
+struct Command {
+  explicit Command(const std::string& line) { std::istringstream(line) >> verb >> k; }
+  std::string verb;
+  std::size_t k = 0;
+};
 
-void on_interrupt(int signal) {
-  if (interrupting_signal != 0) {
-    std::signal(signal, SIG_DFL);
-    std::raise(signal);
-  }
-  interrupting_signal = signal;
+// What an activity may take: a run --timeout, assembly, reference and verification a quarter of an
+// hour at least.
+double limit_s(const ActivityBoard& board, const Options& options) {
+  constexpr double least_for_others_s = 900;
+  return is_run(board.activity()) ? run_limit_s(board.activity(), options)
+                                  : std::max(options.timeout_s, least_for_others_s);
 }
 
-// Of a scene's process.
+// With a grace in which a method can end by itself and report how far it came.
+bool is_overdue(const ActivityBoard& board, const Options& options) {
+  return board.seconds() > 1.1 * limit_s(board, options) + 2;
+}
+
+// programs/CASE.txt: what another's program wrote about itself.
+void keep_log(const Case& c, const Options& options, const std::string& log) {
+  if (log.empty()) return;
+  make_folder(options.out / "programs");
+  write_file_atomically(options.out / "programs" / (c.name().file() + ".txt"), log);
+}
+
+void serve_case(Channel& channel, const Case& c, const Options& options, Workbench& bench,
+                const ActivityBoard& board) {
+  set_threads(c.knob.threads.value_or(options.threads));
+  const heap::Backstop backstop(options.memory_limit_bytes);
+  const std::filesystem::path fields =
+      options.fields ? options.out / "fields" / c.name().file() : std::filesystem::path();
+  Record record;
+  Workbench::Choice choice;
+  while (const auto line = channel.receive()) {
+    if (Command(*line).verb != "examine") {
+      TimedRun run = bench.measure_time(c.method, choice);
+      run.runs_s = board.seconds_in_runs();
+      channel.send(json_text(to_json(run)));
+      continue;
+    }
+    try {
+      auto examination = bench.examine(c.method, fields);
+      record = std::move(examination.record);
+      choice = std::move(examination.choice);
+      keep_log(c, options, bench.program_log());
+    } catch (const FileError& error) {  // of a field or a log
+      record = blank_record(c, options);
+      record.status = Status::machine_fault;
+      record.status_reason = error.what();
+    }
+    identify(c, record);
+    if (is_measured(record) && !record.measured_once)
+      bench.measure_memory(c.method, choice, record);
+    record.runs_s = board.seconds_in_runs();
+    channel.send(json_text(to_json(record)));
+  }
+}
+
+struct CaseProcess {
+  ActivityBoard board;
+  std::unique_ptr<ChildProcess> process;
+};
+
+Record record_of_end(const Case& c, const Options& options, const TimedRun& last) {
+  Record record = blank_record(c, options);
+  record.status = last.status;
+  record.status_reason = last.message;
+  record.signal = last.signal;
+  record.ended_in = last.ended_in;
+  record.time_so_far_s = last.time_s;
+  record.runs_s = last.runs_s;
+  return record;
+}
+
+// The scene's board shows preparations, and beats while a case is waited for.
+void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
+                 ActivityBoard& board, const LeftOut& left_out) {
+  tell_refused_memory_at_exit();
+  set_threads(1);  // OpenMP's threads would not be there in the cases' processes
+  Workbench bench(cases.front()->posed.problem, options, left_out);
+  bench.show_on(&board);
+  std::map<std::size_t, CaseProcess> processes;
+  while (const auto line = channel.receive()) {
+    const Command command(*line);
+    const Case& c = *cases[command.k];
+    if (command.verb == "prepare" || command.verb == "end") {
+      if (command.verb == "prepare")
+        bench.prepare(c.method);
+      else
+        processes.erase(command.k);
+      channel.send("{}");
+      continue;
+    }
+    CaseProcess& own = processes[command.k];
+    std::optional<std::string> answer;
+    TimedRun last;
+    try {
+      if (own.process == nullptr)
+        own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
+          bench.show_on(&own.board);
+          const ObservedStages observed(&own.board);
+          serve_case(to_scene, c, options, bench, own.board);
+        });
+      answer = own.process->ask(*line, [&] {
+        board.beat();
+        return is_overdue(own.board, options);
+      });
+      if (!answer) last = obituary_of(own.process->end(), own.board, options);
+    } catch (const std::system_error& error) {  // no process to be had
+      last.status = Status::machine_fault;
+      last.message = error.what();
+    }
+    if (!answer)
+      answer = json_text(command.verb == "examine" ? to_json(record_of_end(c, options, last))
+                                                   : to_json(last));
+    channel.send(*answer);
+  }
+}
+
 std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
   if (end.stopped)
     return {Status::machine_fault, "the process of its scene was stopped by somebody, and ended"};
-  if (end.given_up)
+  if (end.timed_out)
     return {Status::machine_fault, "the process of its scene did not answer, and was ended"};
   if (end.exit_code == no_memory_exit_code)
     return {Status::machine_fault, "the process of its scene ended for lack of memory"};
@@ -39,32 +157,63 @@ std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
 
 }  // namespace
 
-Interrupted::Interrupted(int number)
-    : std::runtime_error(fmt::format("ended by {}", signal_name(number))), signal(number) {}
-
-void catch_interrupts() {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that we can tell
+void tell_refused_memory_at_exit() {
+  std::atexit([] {
+    if (heap::was_refused()) _exit(no_memory_exit_code);
+  });
 }
 
-void throw_if_interrupted() {
-  if (interrupting_signal != 0) throw Interrupted(interrupting_signal);
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options) {
+  TimedRun run;
+  run.ended_in = board.where();
+  run.time_s = board.seconds();
+  run.runs_s = board.seconds_in_runs();
+  const std::string place = fmt::format("in {} after {}", run.ended_in, show_seconds(run.time_s));
+  const auto ended = [&](Status status, const std::string& how) {
+    run.status = status;
+    run.message = fmt::format("its process was ended {}{}", place, how);
+    return run;
+  };
+  if (end.stopped) {
+    run.status = Status::machine_fault;
+    run.message = fmt::format("its process was stopped by somebody {}, and ended", place);
+    return run;
+  }
+  if (end.timed_out)
+    return ended(Status::timeout, fmt::format(": the limit is {} s", limit_s(board, options)));
+  if (end.exit_code == heap::backstop_exit_code)
+    return ended(Status::out_of_memory, ": it passed the memory limit");
+  if (end.exit_code == no_memory_exit_code)
+    return ended(is_run(board.activity()) ? Status::out_of_memory : Status::machine_fault,
+                 ": there was no memory");
+  if (end.signal == 0) {
+    run.message = fmt::format("its process ended {} with exit code {}", place, end.exit_code);
+    return run;
+  }
+  run.signal = signal_name(end.signal);
+  const std::string by = " by " + run.signal;
+  if ((end.signal == SIGKILL || end.signal == SIGXCPU) && end.used_up_processor_time)
+    return ended(Status::machine_fault, by + ": the limit on processor time (ulimit -t)");
+  if (end.signal != SIGKILL || end.lingered) return ended(Status::crashed, by);
+  if (end.oom_killed == false)
+    return ended(Status::machine_fault, by + ", not of the kernel for lack of memory");
+  return ended(Status::out_of_memory,
+               by + (end.oom_killed ? " of the kernel for lack of memory"
+                                    : ", as the kernel does when memory runs out"));
 }
 
-IsolatedScene::IsolatedScene(const std::vector<const Case*>& cases, const Options& options)
-    : cases_(cases), options_(options) {}
-
-// Its process does something that it shows on the board, or waits for a case's and beats.
-bool IsolatedScene::overdue() const {
+// It neither does something that its board shows, nor waits for a case's process and beats.
+bool IsolatedScene::is_silent() const {
   constexpr double most_silent_s = 20;
-  return interrupting_signal != 0 || is_overdue(board_, options_) ||
-         (board_.activity() == Activity::none && board_.silent_s() > most_silent_s);
+  return board_.activity() == Activity::none && board_.silent_s() > most_silent_s;
 }
 
-std::optional<std::string> IsolatedScene::ask(const std::string& line) {
+std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size_t k) {
   if (process_ == nullptr) return {};
   board_.beat();
-  return process_->ask(line, [this] { return overdue(); });
+  return process_->ask(fmt::format("{} {}", verb, k), [this] {
+    return is_interrupted() || is_overdue(board_, options_) || is_silent();
+  });
 }
 
 // All before the first case: a scene's process that breaks takes its cases' processes along.
@@ -81,7 +230,7 @@ void IsolatedScene::prepare(std::size_t k) {
   constexpr int most_attempts = 4;  // assembly, reference and discretisation error may each break
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     if (process_ == nullptr) {
-      ++generation_;
+      examined_.clear();
       try {
         process_ = std::make_unique<ChildProcess>([this](Channel& channel) {
           serve_scene(channel, cases_, options_, board_, left_out_);
@@ -91,7 +240,7 @@ void IsolatedScene::prepare(std::size_t k) {
         return;
       }
     }
-    if (ask(fmt::format("prepare {}", k))) break;
+    if (ask("prepare", k)) break;
     throw_if_interrupted();
     const std::string why = obituary_of(process_->end(), board_, options_).message;
     switch (board_.activity()) {
@@ -116,34 +265,32 @@ Record IsolatedScene::examine(std::size_t k) {
   Record record = blank_record(*cases_[k], options_);
   if (record.status == Status::skipped) return record;
   prepare_all();
-  examined_in_[k] = generation_;
-  const std::optional<std::string> answer = ask(fmt::format("examine {}", k));
+  examined_.insert(k);
+  const std::optional<std::string> answer = ask("examine", k);
   throw_if_interrupted();
   if (answer) return record_of(parse_json(*answer), "the case's process");
-  if (process_ == nullptr) {
-    record.status = Status::machine_fault;
-    record.status_reason = no_process_;
-    return record;
-  }
-  std::tie(record.status, record.status_reason) = why_no_answer(process_->end());
+  std::tie(record.status, record.status_reason) =
+      process_ == nullptr ? std::pair(Status::machine_fault, no_process_)
+                          : why_no_answer(process_->end());
   process_.reset();
   return record;
 }
 
 TimedRun IsolatedScene::measure_time(std::size_t k) {
+  const bool is_there = examined_.contains(k);
   std::optional<std::string> answer;
-  if (examined_in_[k] == generation_) answer = ask(fmt::format("time {}", k));
+  if (is_there) answer = ask("time", k);
   throw_if_interrupted();
   if (answer) return timed_run_of(parse_json(*answer));
   TimedRun run;
   std::tie(run.status, run.message) =
       why_no_answer(process_ == nullptr ? ChildEnd() : process_->end());
-  if (examined_in_[k] == generation_) process_.reset();
+  if (is_there) process_.reset();
   return run;
 }
 
 void IsolatedScene::end(std::size_t k) {
-  if (process_ != nullptr && !ask(fmt::format("end {}", k))) process_.reset();
+  if (process_ != nullptr && !ask("end", k)) process_.reset();
 }
 
 }  // namespace airybench

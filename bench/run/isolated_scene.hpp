@@ -7,11 +7,12 @@
 // that the repetitions of several cases can be interleaved. A process that dies, hangs or eats all
 // memory becomes its case's record; when the scene's own does (in the assembly, in the reference),
 // another takes its place that leaves that out.
+//
+// Commands are lines, "prepare 3", "examine 3", "time 3", "end 3"; answers are JSON on a line.
 #pragma once
 
-#include <map>
 #include <memory>
-#include <stdexcept>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -20,24 +21,15 @@
 #include "bench/plan/options.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/records/record.hpp"
-#include "bench/run/child_process.hpp"
+#include "support/process.hpp"
 
 namespace airybench {
-
-// Ctrl-C, SIGTERM or SIGHUP: what() says which. What has been measured by then is on disk.
-struct Interrupted : std::runtime_error {
-  explicit Interrupted(int number);
-  int signal;
-};
-
-// Makes these signals end waiting with Interrupted; a second one ends the program at once.
-void catch_interrupts();
-void throw_if_interrupted();
 
 class IsolatedScene {
  public:
   // The cases of this scene, by their index from here on. Both must outlive the object.
-  IsolatedScene(const std::vector<const Case*>& cases, const Options& options);
+  IsolatedScene(const std::vector<const Case*>& cases, const Options& options)
+      : cases_(cases), options_(options) {}
 
   Record examine(std::size_t k);                           // detail and memory run
   TimedRun measure_time(std::size_t k);                    // one timed run
@@ -47,9 +39,9 @@ class IsolatedScene {
  private:
   void prepare_all();
   void prepare(std::size_t k);
-  bool overdue() const;
+  bool is_silent() const;
   // Empty: there is no process any more, or it is silent for too long and was ended.
-  std::optional<std::string> ask(const std::string& line);
+  std::optional<std::string> ask(const std::string& verb, std::size_t k);
 
   const std::vector<const Case*>& cases_;
   const Options& options_;
@@ -57,10 +49,17 @@ class IsolatedScene {
   LeftOut left_out_;     // what broke it
   std::unique_ptr<ChildProcess> process_;
   std::string no_process_ = "its scene's process ended again and again";  // why there is none
-  int generation_ = 0;                                                    // of the process
-  std::map<std::size_t, int> examined_in_;
-  bool prepared_ = false;  // what all cases share, in this generation
+  bool prepared_ = false;           // what all cases share, by this process
+  std::set<std::size_t> examined_;  // by this process
   double preparation_s_ = 0;
 };
+
+// A run of a process that ended without an answer: status, a sentence, signal, where and how long
+// it was there.
+TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
+
+// For a process of ours: exit() by a library to which the machine has refused memory ends it with
+// no_memory_exit_code.
+void tell_refused_memory_at_exit();
 
 }  // namespace airybench

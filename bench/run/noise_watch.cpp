@@ -63,18 +63,11 @@ double noise_of(const std::vector<double>& passes_s, double quiet_s) {
   return std::max(mean_s / quiet_s - 1, median_absolute_deviation(passes_s) / median(passes_s));
 }
 
-Attempt taken_from(Record& record) {
-  return {std::exchange(record.samples_s, {}), std::exchange(record.program_samples_s, {}),
-          std::exchange(record.noise_kernel_samples_s, {}),
-          std::exchange(record.busy_kernel_samples_s, {}), std::exchange(record.stage_samples, {})};
-}
-
-void give(Attempt attempt, Record& record) {
-  record.samples_s = std::move(attempt.samples_s);
-  record.program_samples_s = std::move(attempt.program_samples_s);
-  record.noise_kernel_samples_s = std::move(attempt.noise_kernel_samples_s);
-  record.busy_kernel_samples_s = std::move(attempt.busy_kernel_samples_s);
-  record.stage_samples = std::move(attempt.stage_samples);
+void swap_samples(Record& a, Record& b) {
+  for (const auto samples : {&Record::samples_s, &Record::program_samples_s,
+                             &Record::noise_kernel_samples_s, &Record::busy_kernel_samples_s})
+    std::swap(a.*samples, b.*samples);
+  std::swap(a.stage_samples, b.stage_samples);
 }
 
 NoiseWatch::NoiseWatch(std::optional<double> most_noise, Machine machine)
@@ -126,18 +119,18 @@ std::string NoiseWatch::line(const Record& record, std::size_t attempt, int most
       attempt, most_attempts, show_seconds(median(record.samples_s)));
 }
 
-void NoiseWatch::keep_quietest(std::vector<Attempt> earlier, Record& record,
+void NoiseWatch::keep_quietest(std::vector<Record> earlier, Record& record,
                                std::ostream& progress) const {
   if (!most_noise_ || record.samples_s.empty()) return;
   const std::size_t attempts = earlier.size() + 1;
   std::size_t kept = attempts;
   if (is_noisy(record)) {
-    earlier.push_back(taken_from(record));
-    const auto quietest = std::ranges::min_element(earlier, {}, [&](const Attempt& attempt) {
+    swap_samples(record, earlier.emplace_back());
+    const auto quietest = std::ranges::min_element(earlier, {}, [&](const Record& attempt) {
       return noise_beside(attempt.noise_kernel_samples_s);
     });
     kept = static_cast<std::size_t>(quietest - earlier.begin()) + 1;
-    give(std::move(*quietest), record);
+    swap_samples(record, *quietest);
   }
   record.noise_quiet_s = level_.seconds();
   record.noise_share = noise_beside(record.noise_kernel_samples_s);

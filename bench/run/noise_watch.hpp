@@ -16,7 +16,6 @@
 #include <chrono>
 #include <deque>
 #include <functional>
-#include <map>
 #include <optional>
 #include <ostream>
 #include <string>
@@ -48,13 +47,8 @@ class QuietLevel {
 
 double noise_of(const std::vector<double>& passes_s, double quiet_s);
 
-// What was measured in one attempt, and beside it.
-struct Attempt {
-  std::vector<double> samples_s, program_samples_s, noise_kernel_samples_s, busy_kernel_samples_s;
-  std::vector<std::map<std::string, double>> stage_samples;
-};
-Attempt taken_from(Record& record);  // which has none then
-void give(Attempt attempt, Record& record);
+// Swaps what was measured in an attempt, and beside it.
+void swap_samples(Record& a, Record& b);
 
 // Of a whole run.
 class NoiseWatch {
@@ -62,11 +56,11 @@ class NoiseWatch {
   // most_noise: that an attempt may have; empty: nothing is judged, nothing measured again.
   NoiseWatch(std::optional<double> most_noise, Machine machine);
 
-  // The passes of records that are there already.
+  // From a record that is there already.
   void learn(const Record& record) { level_.add(record.noise_kernel_samples_s); }
   // Times the loop beside a case, on one thread and on the case's where these are more.
   void add_passes(int count, int threads, Record& record);
-  // The last pass was a second ago or more: asked before each timed run.
+  // The last pass was a second ago or more.
   bool is_due() const;
   // Waits until the loop is quiet: two seconds at most, and all together ten seconds and a tenth of
   // the run's time.
@@ -74,11 +68,12 @@ class NoiseWatch {
 
   // Of the passes and samples that the record has now.
   bool is_noisy(const Record& record) const;
-  // What is said of a noisy attempt that others follow, the first being 1.
+  // Of a noisy attempt that others follow, the first being 1.
   std::string line(const Record& record, std::size_t attempt, int most_attempts) const;
-  // Leaves the least noisy attempt in the record, which has the last, with how noisy it was; says
-  // so where none was quiet. A case that failed in its last attempt has failed.
-  void keep_quietest(std::vector<Attempt> earlier, Record& record, std::ostream& progress) const;
+  // Leaves the samples of the least noisy attempt in the record, which has those of the last, with
+  // how noisy it was; progress tells where none was quiet. A case that failed in its last attempt
+  // has failed.
+  void keep_quietest(std::vector<Record> earlier, Record& record, std::ostream& progress) const;
 
  private:
   double noise_beside(const std::vector<double>& passes_s) const;
@@ -90,8 +85,7 @@ class NoiseWatch {
   double waited_s_ = 0;
 };
 
-// Records of this run that passed as quiet, before the machine became quieter by so much that they
-// would not.
+// Records of this run that passed as quiet, but would not by how quiet the machine was later.
 int accepted_too_early(const std::vector<Record>& records);
 
 }  // namespace airybench

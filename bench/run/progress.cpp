@@ -76,7 +76,7 @@ bool any_has(const std::vector<Record>& records, const char* field) {
       records, [&](const Record& r) { return !field_named(field).value(r).is_null(); });
 }
 
-// The total error is that of the mesh for most methods: shown where it tells them apart, or where a
+// For most methods the total error is that of the mesh: shown where it tells them apart, or where a
 // method has no other.
 std::vector<Column> columns_for(const std::vector<Record>& records) {
   std::vector<Column> columns;

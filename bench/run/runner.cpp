@@ -3,19 +3,27 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <functional>
 #include <iostream>
+#include <iterator>
 #include <map>
+#include <numeric>
 #include <set>
+#include <sstream>
+#include <utility>
 
 #include "bench/plan/blank_record.hpp"
+#include "bench/records/robust.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/run/benchmark_flags.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
-#include "bench/run/repetitions.hpp"
+#include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "support/shortened.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -23,104 +31,190 @@ namespace {
 constexpr int passes_beside = 3;  // before a case, and after it
 constexpr int most_attempts = 4;
 
-// The cases of one scene. Google Benchmark calls measure() once per repetition and the reporter
-// when a case has all of its own.
+// Since Google Benchmark 1.8, whose State has skipped(), a time needs its unit; before, it had
+// none.
+template <typename State>
+constexpr bool takes_unit = requires(State& state) {
+  state.skipped();
+};
+
+// Sets all that environment variables could change (BENCHMARK_FILTER and so on): only bench's own
+// options count.
+void initialize_benchmark(bool interleave) {
+  static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
+  std::vector<std::string> wanted = {
+      "bench",
+      "--benchmark_filter=all",
+      "--benchmark_list_tests=false",
+      "--benchmark_repetitions=1",
+      fmt::format("--benchmark_min_time={}", takes_unit<benchmark::State> ? "0s" : "0"),
+      "--benchmark_min_warmup_time=0",
+      "--benchmark_report_aggregates_only=false",
+      "--benchmark_display_aggregates_only=false",
+      "--benchmark_format=console",
+      "--benchmark_out=",
+      "--benchmark_out_format=json",
+      "--benchmark_color=false",
+      "--benchmark_counters_tabular=false",
+      "--benchmark_perf_counters=",
+      "--benchmark_context=",
+      "--benchmark_time_unit=ms",
+      "--v=0",
+      fmt::format("--benchmark_enable_random_interleaving={}", interleave)};
+  if (arguments == wanted) return;  // it complains of a context that it has already
+  arguments = std::move(wanted);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  int argc = static_cast<int>(argv.size());
+  benchmark::Initialize(&argc, argv.data());
+}
+
+// Hears which benchmarks have all of their repetitions, and what Google Benchmark complains of.
+class Listener : public benchmark::BenchmarkReporter {
+ public:
+  using Ended = std::function<void(const std::string& name)>;
+  explicit Listener(Ended ended) : ended_(std::move(ended)) { SetErrorStream(&complaints); }
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    if (!runs.empty() && runs.front().run_type == Run::RT_Iteration)
+      ended_(runs.front().run_name.function_name);
+  }
+  std::stringstream complaints;
+
+ private:
+  Ended ended_;
+};
+
+// Returns the first complaint.
+std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
+  struct Forgets {
+    ~Forgets() { benchmark::ClearRegisteredBenchmarks(); }
+  } forgets;
+  Listener listener(std::move(ended));
+  benchmark::RunSpecifiedBenchmarks(&listener, filter);
+  std::string line;
+  std::getline(listener.complaints, line);
+  return line;
+}
+
 class SceneRunner {
  public:
   SceneRunner(const std::vector<const Case*>& cases, const Options& options, RecordFiles& files,
               Progress& progress, NoiseWatch& watch)
-      : cases_(cases), options_(options), files_(files), progress_(progress), watch_(watch) {
-    records_.resize(cases.size());
+      : planned_(cases), options_(options), files_(files), progress_(progress), watch_(watch) {
+    cases_.resize(cases.size());
   }
+
+  // Interleaved cases end in random order, but all at about the same time: their records are kept
+  // in the plan's.
+  void run() {
+    for (std::size_t k = 0; k < cases_.size(); ++k)
+      benchmark::RegisterBenchmark(planned_[k]->name().text().c_str(),
+                                   [this, k](benchmark::State& state) { measure(k, state); })
+          ->UseManualTime()
+          ->Iterations(1)
+          ->Repetitions(most_repetitions(options_))
+          ->Unit(benchmark::kMillisecond);
+    run_benchmarks("all", [this](const std::string& name) { finish(index_of(name)); });
+    if (options_.interleave) write_finished();
+  }
+
+  std::vector<Record> records() const {
+    std::vector<Record> result;
+    for (const Measured& c : cases_)
+      if (c.finished) result.push_back(*c.record);
+    return result;
+  }
+  double preparation_s() const { return scene_.preparation_s(); }
+
+ private:
+  struct Measured {
+    std::optional<Record> record;
+    std::vector<Record> noisy;  // the samples of earlier attempts
+    double wall_s = 0;
+    bool finished = false, written = false;
+    bool shown_once = false;  // of a long case: Google Benchmark has its only sample
+  };
 
   void measure(std::size_t k, benchmark::State& state) {
     throw_if_interrupted();
     const auto start = std::chrono::steady_clock::now();
-    if (!records_[k]) examine(k);
-    Record& record = *records_[k];
+    if (!cases_[k].record) examine(k);
+    const Record& record = *cases_[k].record;
     for (auto _ : state) {
       if (!is_measured(record)) {
         state.SkipWithError(
             fmt::format("{}: {}", name_of(record.status), record.status_reason).c_str());
         break;
       }
-      state.SetIterationTime(next_sample(k, record, state));
+      state.SetIterationTime(next_sample(k, state));
     }
-    wall_s_[k] += seconds_since(start);
+    cases_[k].wall_s += seconds_since(start);
   }
 
-  void finish(const std::string& case_name) {
-    const std::size_t k = index_of(case_name);
-    if (!options_.retry_noisy) scene_.end(k);
-    time_loop(passes_beside, k);
-    finished_.insert(k);
-    if (options_.interleave) return;
-    measure_noisy_again();
-    write(k);
-  }
-
-  // Interleaved cases end in random order, but all at about the same time: their records are kept
-  // in the plan's.
-  void finish_interleaved() {
-    if (!options_.interleave) return;
-    measure_noisy_again();
-    for (const std::size_t k : finished_) write(k);
-  }
-
-  std::vector<Record> records() const {
-    std::vector<Record> result;
-    for (const std::size_t k : finished_) result.push_back(*records_[k]);
-    return result;
-  }
-  double preparation_s() const { return scene_.preparation_s(); }
-
- private:
-  void write(std::size_t k) {
-    Record& record = *records_[k];
-    if (options_.retry_noisy) scene_.end(k);
-    watch_.keep_quietest(std::move(attempts_[k]), record, std::cerr);
-    record.wall_s = wall_s_[k];
-    summarise(record);
-    files_.append(record);
-    std::cerr << progress_.line(record) << std::flush;
-    written_.insert(k);
-  }
   void examine(std::size_t k) {
     Record before;
     watch_.add_passes(passes_beside, threads_of(k), before);
-    records_[k] = scene_.examine(k);
-    records_[k]->noise_kernel_samples_s = std::move(before.noise_kernel_samples_s);
-    records_[k]->busy_kernel_samples_s = std::move(before.busy_kernel_samples_s);
+    Record& record = cases_[k].record.emplace(scene_.examine(k));
+    record.noise_kernel_samples_s = std::move(before.noise_kernel_samples_s);
+    record.busy_kernel_samples_s = std::move(before.busy_kernel_samples_s);
   }
+
   // The time of one repetition. A long case has its only one from its detail run.
-  double next_sample(std::size_t k, Record& record, benchmark::State& state) {
-    if (is_repeated(record, options_)) return add_sample(k);
-    const bool first = record.measured_once && shown_once_.insert(k).second;
-    if (!first) state.SkipWithError("not repeated: a long case, or precise enough");
-    return record.samples_s.back();
+  double next_sample(std::size_t k, benchmark::State& state) {
+    Measured& c = cases_[k];
+    if (is_repeated(*c.record, options_)) return add_sample(k);
+    if (!c.record->measured_once || std::exchange(c.shown_once, true))
+      state.SkipWithError("not repeated: a long case, or precise enough");
+    return c.record->samples_s.back();
   }
   double add_sample(std::size_t k) {
     if (watch_.is_due()) time_loop(1, k);
     const TimedRun run = scene_.measure_time(k);
-    add_run(run, *records_[k]);
+    add_run(run, *cases_[k].record);
     return run.time_s;
   }
   void time_loop(int passes, std::size_t k) {
-    watch_.add_passes(passes, threads_of(k), *records_[k]);
+    watch_.add_passes(passes, threads_of(k), *cases_[k].record);
   }
-  int threads_of(std::size_t k) const { return cases_[k]->knob.threads.value_or(options_.threads); }
+  int threads_of(std::size_t k) const {
+    return planned_[k]->knob.threads.value_or(options_.threads);
+  }
+
+  void finish(std::size_t k) {
+    if (!options_.retry_noisy) scene_.end(k);
+    time_loop(passes_beside, k);
+    cases_[k].finished = true;
+    if (!options_.interleave) write_finished();
+  }
+
+  void write_finished() {
+    measure_noisy_again();
+    for (std::size_t k = 0; k < cases_.size(); ++k) {
+      Measured& c = cases_[k];
+      if (!c.finished || std::exchange(c.written, true)) continue;
+      if (options_.retry_noisy) scene_.end(k);
+      watch_.keep_quietest(std::move(c.noisy), *c.record, std::cerr);
+      c.record->wall_s = c.wall_s;
+      summarise(*c.record);
+      files_.append(*c.record);
+      std::cerr << progress_.line(*c.record) << std::flush;
+    }
+  }
 
   // Those that are finished and were noisy, in turn. A long case has one sample more, of a timed
   // run.
   void measure_noisy_again() {
     for (std::size_t made = 1; made < most_attempts; ++made) {
       std::vector<std::size_t> noisy;
-      for (const std::size_t k : finished_)
-        if (!written_.contains(k) && watch_.is_noisy(*records_[k])) noisy.push_back(k);
+      for (std::size_t k = 0; k < cases_.size(); ++k)
+        if (cases_[k].finished && !cases_[k].written && watch_.is_noisy(*cases_[k].record))
+          noisy.push_back(k);
       if (noisy.empty()) return;
       for (const std::size_t k : noisy) {
-        std::cerr << watch_.line(*records_[k], made, most_attempts) << std::flush;
-        attempts_[k].push_back(taken_from(*records_[k]));
+        Record& record = *cases_[k].record;
+        std::cerr << watch_.line(record, made, most_attempts) << std::flush;
+        swap_samples(record, cases_[k].noisy.emplace_back());
       }
       watch_.wait_for_quiet();
       measure_again(noisy);
@@ -131,66 +225,68 @@ class SceneRunner {
     for (bool any = true; any;) {
       any = false;
       for (const std::size_t k : cases) {
-        if (!is_measured(*records_[k]) || !is_repeated(*records_[k], options_)) continue;
+        const Record& record = *cases_[k].record;
+        if (!is_measured(record) || !is_repeated(record, options_)) continue;
         any = true;
         const auto start = std::chrono::steady_clock::now();
         add_sample(k);
-        wall_s_[k] += seconds_since(start);
+        cases_[k].wall_s += seconds_since(start);
       }
     }
     for (const std::size_t k : cases) time_loop(passes_beside, k);
   }
-  std::size_t index_of(const std::string& case_name) const {
-    for (std::size_t k = 0; k < cases_.size(); ++k)
-      if (cases_[k]->name().text() == case_name) return k;
-    throw std::logic_error("no case is named " + case_name);
+
+  std::size_t index_of(const std::string& name) const {
+    const auto found = std::ranges::find(planned_, name, [](auto c) { return c->name().text(); });
+    return static_cast<std::size_t>(found - planned_.begin());
   }
 
-  const std::vector<const Case*>& cases_;
+  const std::vector<const Case*>& planned_;
   const Options& options_;
   RecordFiles& files_;
   Progress& progress_;
   NoiseWatch& watch_;
-  IsolatedScene scene_{cases_, options_};
-  std::vector<std::optional<Record>> records_;
-  std::map<std::size_t, std::vector<Attempt>> attempts_;  // that were noisy
-  std::map<std::size_t, double> wall_s_;
-  std::set<std::size_t> finished_, written_;
-  std::set<std::size_t> shown_once_;  // long cases whose sample Google Benchmark has
+  IsolatedScene scene_{planned_, options_};
+  std::vector<Measured> cases_;
 };
-
-class Reporter : public benchmark::BenchmarkReporter {
- public:
-  explicit Reporter(SceneRunner& run) : run_(run) {}
-  bool ReportContext(const Context&) override { return true; }
-  void ReportRuns(const std::vector<Run>& runs) override {
-    if (!runs.empty() && runs.front().run_type == Run::RT_Iteration)
-      run_.finish(runs.front().run_name.function_name);
-  }
-
- private:
-  SceneRunner& run_;
-};
-
-void run_scene(const std::vector<const Case*>& cases, const Options& options, SceneRunner& run) {
-  for (std::size_t k = 0; k < cases.size(); ++k)
-    benchmark::RegisterBenchmark(cases[k]->name().text().c_str(),
-                                 [&run, k](benchmark::State& state) { run.measure(k, state); })
-        ->UseManualTime()
-        ->Iterations(1)
-        ->Repetitions(most_repetitions(options))
-        ->Unit(benchmark::kMillisecond);
-  Reporter reporter(run);
-  try {
-    benchmark::RunSpecifiedBenchmarks(&reporter);
-  } catch (...) {
-    benchmark::ClearRegisteredBenchmarks();
-    throw;
-  }
-  benchmark::ClearRegisteredBenchmarks();
-}
 
 }  // namespace
+
+int least_repetitions(const Options& options) {
+  return options.precision ? std::max(options.repetitions, fewest_for_median_interval)
+                           : options.repetitions;
+}
+
+int most_repetitions(const Options& options) {
+  return options.precision ? options.max_repetitions : options.repetitions;
+}
+
+bool is_repeated(const Record& record, const Options& options) {
+  const std::vector<double>& samples = record.samples_s;
+  if (samples.empty()) return true;
+  const double so_far_s = std::accumulate(samples.begin(), samples.end(), 0.0);
+  if (record.measured_once || so_far_s >= options.long_case_s ||
+      std::ssize(samples) >= most_repetitions(options))
+    return false;
+  if (std::ssize(samples) < least_repetitions(options)) return true;
+  return *median_uncertainty(samples) > *options.precision;
+}
+
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave) {
+  initialize_benchmark(interleave);
+  for (const Case& c : plan)  // any setting would be part of the name; min_time=0 is one iteration
+    benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State& state) {
+      for (auto _ : state) continue;
+    });
+  std::set<std::string> selected;
+  const std::string complaint =
+      run_benchmarks(filter, [&](const std::string& name) { selected.insert(name); });
+  if (!complaint.empty() && !complaint.starts_with("Failed to match"))
+    throw UsageError(
+        fmt::format("-- --benchmark_filter={}: {}", shortened(filter), shortened(complaint, 200)));
+  std::erase_if(plan, [&](const Case& c) { return !selected.contains(c.name().text()); });
+  return plan;
+}
 
 RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
                     const Machine& machine) {
@@ -221,8 +317,7 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   for (const auto& cases : scenes) {
     SceneRunner run(cases, options, files, progress, watch);
     try {
-      run_scene(cases, options, run);
-      run.finish_interleaved();
+      run.run();
     } catch (const Interrupted&) {
       files.finish();
       throw;

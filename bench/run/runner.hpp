@@ -1,7 +1,17 @@
-// Runs cases through Google Benchmark: one registered benchmark a case, manual time, one iteration
-// per repetition. Each case runs in a process of its own (isolated_scene.hpp).
+// Runs cases. The way of one case, from the command to its record:
+//
+//   run_command()    bench/commands: plans the cases, hands all of them to
+//   run_cases()      which leaves out those that have a record already, and hands each scene's to
+//   Google Benchmark one benchmark a case, manual time, one iteration per repetition; it calls
+//   SceneRunner      (runner.cpp) which decides how often a case is timed, and whether again
+//                    because it was noisy (noise_watch.hpp); it asks
+//   IsolatedScene    (isolated_scene.hpp) for an examination and for times, which come from
+//   Workbench        bench/measure, in the case's process: it solves, verifies and measures.
+//   Record           JSON on the way back; SceneRunner adds the samples and appends it to
+//   RecordFiles      bench/records: a line on disk
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "bench/plan/options.hpp"
@@ -32,5 +42,16 @@ struct RunResult {
 // was measured is on disk then.
 RunResult run_cases(const std::vector<Case>& plan, const Options& options, const Context& context,
                     const Machine& machine = this_machine());
+
+// The cases whose names Google Benchmark's filter selects: a regular expression that matches
+// somewhere, with a leading '-' the others. Throws UsageError: no such expression.
+std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave);
+
+// How often a case is timed that is repeated at all, whatever the samples are.
+int least_repetitions(const Options& options);
+int most_repetitions(const Options& options);
+// Is a case with these samples timed once more? Up to --repetitions, then as long as --precision is
+// not reached; not when the samples add up to --long-case, nor after --max-repetitions.
+bool is_repeated(const Record& record, const Options& options);
 
 }  // namespace airybench

@@ -19,7 +19,6 @@
 namespace airybench {
 namespace {
 
-// All at once.
 bool can_start(int threads) {
   std::promise<void> end;
   const std::shared_future<void> ended = end.get_future().share();
@@ -53,7 +52,6 @@ std::string lack_of_address_space(int most, int asked) {
       limit / MiB, needed / MiB, most, most > asked ? ", fewer with OPENBLAS_NUM_THREADS=1" : "");
 }
 
-// Those that it starts when it is initialised.
 int threads_of_openblas(char** environment) {
   for (const std::string_view name : {"OPENBLAS_NUM_THREADS=", "OMP_NUM_THREADS="})
     for (char** variable = environment; *variable != nullptr; ++variable)

@@ -1,6 +1,6 @@
-// Can BLAS, OpenMP and the methods have their threads? A thread of BLAS asks for memory again and
-// again until it gets it, a fork waits for that thread, and so does the end of the program; OpenMP
-// ends a process that gets no thread. So it is asked before.
+// Can BLAS, OpenMP and the methods have their threads? It is asked before: a thread of BLAS asks
+// for memory until it gets it, and a fork or the end of the program waits for that thread; OpenMP
+// ends a process that gets no thread.
 #pragma once
 
 #include <string>
@@ -14,9 +14,8 @@ int processors_at_hand();
 // started by itself; empty: it is not.
 std::string lack_of_address_space(int threads);
 
-// As lack_of_address_space, before libraries are initialised, which OpenBLAS 0.3.29 does not end
-// without its memory: a function for the program's .preinit_array, which ends the program with a
-// line and exit code 2. Nothing is asked where there is no limit, or another BLAS.
+// The same before libraries are initialised, which OpenBLAS 0.3.29 does not end without its memory:
+// a function for the program's .preinit_array, which ends the program with a line and exit code 2.
 void end_for_lack_of_address_space(int, char**, char** environment);
 
 // Throws UsageError: not enough address space, or threads (ulimit -u).

@@ -1,4 +1,4 @@
-// The bench command beside the test.
+// The bench command in the background of a test, and other processes.
 #pragma once
 
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-// The bench command from outside, in a folder of its own.
+// The bench command from outside, in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,7 +1,5 @@
-// A folder of its own for a test, gone when the test ends.
+// A folder for a test, gone when the test ends, and texts in it.
 #pragma once
-
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -10,27 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "support/atomic_file.hpp"
+
 namespace airybench::testing {
 
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "airybench-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder: " + name);
-    path_ = name;
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
+struct TemporaryFolder : airybench::TemporaryFolder {
+  std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 };
 
 inline std::string text_of(const std::filesystem::path& file) {

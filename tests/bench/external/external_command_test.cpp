@@ -145,12 +145,8 @@ TEST_F(ExternalCommand, FoldersOfAllKinds) {
   for (const char* folder : {"tmp", "t m ü p", "{input}", "{output}{threads}"}) {
     SCOPED_TRACE(folder);
     std::filesystem::create_directories(bench_.path(folder) / "of it");
-    const Json declaration = {{"name", "one"},
-                              {"reads", "condensed"},
-                              {"format", "matrix-market"},
-                              {"returns", "contact_forces"},
-                              {"command", {"./a program", "{output}", "{input}"}}};
-    write(std::string(folder) + "/of it/ö, ne.json", declaration.dump());
+    write(std::string(folder) + "/of it/ö, ne.json",
+          declaration("one", "condensed", {"./a program", "{output}", "{input}"}).dump());
     const auto program = std::string(folder) + "/of it/a program";
     write(program, "#!/bin/sh\ntest -d \"$2\" && cp ../../right/* \"$1\"\n");
     std::filesystem::permissions(bench_.path(program), std::filesystem::perms::owner_all);
@@ -178,10 +174,7 @@ TEST_F(ExternalCommand, EndlessOutputIsEnded) {
 }
 
 TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
-  declare_honest();
   write_right();
-  std::filesystem::remove(bench_.path("airy.json"));
-  std::filesystem::remove(bench_.path("body.json"));
   declare("condensed", "condensed", "cp right/* $2");
   const auto result =
       bench_.run("--external=condensed.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
@@ -233,11 +226,7 @@ TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
 }
 
 TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
-  const Json right = {{"name", "one"},
-                      {"reads", "condensed"},
-                      {"format", "matrix-market"},
-                      {"returns", "contact_forces"},
-                      {"command", {"true", "{output}"}}};
+  const Json right = declaration("one", "condensed", {"true", "{output}"});
   const auto refused = [&](const std::string& text, const std::string& line) {
     SCOPED_TRACE(line);
     write("one.json", text);
@@ -246,33 +235,29 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
     EXPECT_EQ(result.err.rfind("bench: one.json: " + line, 0), 0u) << result.err;
     EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
   };
-  const auto with = [&](const Json& change) {
+  const auto with = [&](const Json& change) {  // null: without
     Json json = right;
-    json.update(change);
-    return json.dump();
-  };
-  const auto without = [&](const char* key) {
-    Json json = right;
-    json.erase(key);
+    json.merge_patch(change);
     return json.dump();
   };
   refused("", "parse error");
   refused("[1]", "the file: [1] (allowed: a JSON object)");
   refused(std::string(100'000, '['), "parse error at byte 33: nested more than 32 deep");
   refused(with({{"colour", 1}}), "colour: unknown key (allowed: name, summary, reads, ");
-  refused(without("name"), "name: is missing (allowed: a text)");
+  refused(with({{"name", nullptr}}), "name: is missing (allowed: a text)");
   refused(with({{"name", ""}}), "name: \"\" (allowed: a text)");
   refused(with({{"name", "a,b"}}), "name: \"a,b\" (allowed: letters, digits, '-', '_' and '.')");
   refused(with({{"name", "../a"}}), "name: \"../a\" (allowed: letters");
   refused(with({{"summary", 3}}), "summary: 3 (allowed: a text)");
-  refused(without("reads"), "reads: is missing (allowed: airy, body, condensed)");
+  refused(with({{"reads", nullptr}}), "reads: is missing (allowed: airy, body, condensed)");
   refused(with({{"reads", "mind"}}), "reads: \"mind\" (allowed: airy, body, condensed)");
   refused(with({{"returns", "airy_function"}}),
           "returns: \"airy_function\" (allowed: contact_forces, as it reads condensed)");
   refused(with({{"format", "xml"}}), "format: \"xml\" (allowed: matrix-market");
   refused(with({{"reads", "airy"}, {"returns", "airy_function"}, {"format", "fclib"}}),
           "format: \"fclib\" (allowed: matrix-market");
-  refused(without("command"), "command: is missing (allowed: a list of texts, the program first)");
+  refused(with({{"command", nullptr}}),
+          "command: is missing (allowed: a list of texts, the program first)");
   for (const Json& command :
        {Json("true"), Json::array(), Json::array({"", "a"}), Json::array({"true", 1})})
     refused(with({{"command", command}}), "command: " + command.dump() + " (allowed: a list of ");

@@ -1,4 +1,4 @@
-// Programs that a test writes, declared to the bench command beside them; right answers of Mesh0.
+// Programs that a test writes and declares to the bench command; right answers of Mesh0.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -81,16 +81,20 @@ class ExternalPrograms : public ::testing::Test {
     std::filesystem::create_directories(bench_.path(name).parent_path());
     write_text(bench_.path(name), text);
   }
-  // $1: {input}, $2: {output}; it runs in the test's folder.
-  void declare(const std::string& name, const std::string& reads, const std::string& script,
-               Json more = Json::object()) const {
+  static Json declaration(const std::string& name, const std::string& reads,
+                          const std::vector<std::string>& command) {
     static const std::map<std::string, std::string> returns = {
         {"airy", "airy_function"}, {"condensed", "contact_forces"}, {"body", "displacement"}};
-    Json json = {{"name", name},
-                 {"reads", reads},
-                 {"format", "matrix-market"},
-                 {"returns", returns.at(reads)},
-                 {"command", {"sh", "-c", script, "sh", "{input}", "{output}"}}};
+    return {{"name", name},
+            {"reads", reads},
+            {"format", "matrix-market"},
+            {"returns", returns.at(reads)},
+            {"command", command}};
+  }
+  // $1: {input}, $2: {output}; it runs in the test's folder.
+  void declare(const std::string& name, const std::string& reads, const std::string& script,
+               const Json& more = Json::object()) const {
+    Json json = declaration(name, reads, {"sh", "-c", script, "sh", "{input}", "{output}"});
     json.update(more);
     write(name + ".json", json.dump());
   }

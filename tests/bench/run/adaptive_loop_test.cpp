@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <set>
 
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
@@ -54,14 +56,6 @@ TEST(AdaptiveLoop, EndsAtTheFirstLevelBelowTheError) {
   }
 }
 
-TEST(AdaptiveLoop, EndsAtTheFirstLevelWithSoManyUnknowns) {
-  AdaptiveLoop loop({}, testing::small_tooth(6, 5), hybrid(), until({}, 1000));
-  const std::vector<AdaptiveLevel> levels = levels_of(loop);
-  EXPECT_TRUE(loop.reached());
-  for (std::size_t k = 0; k < levels.size(); ++k)
-    EXPECT_EQ(levels[k].unknowns >= 1000, k + 1 == levels.size());
-}
-
 TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
   AdaptiveSettings settings = until(0.03);
   settings.goals.push_back({0.01, {}});
@@ -70,14 +64,14 @@ TEST(AdaptiveLoop, SeveralGoalsAreReachedOneAfterTheOther) {
   const std::vector<AdaptiveLevel> levels = levels_of(loop);
   EXPECT_TRUE(loop.reached());
   std::vector<AdaptiveLevel> reaching;
-  for (const AdaptiveLevel& level : levels)
+  for (const AdaptiveLevel& level : levels) {
+    EXPECT_EQ(level.unknowns >= 5000, level.number == levels.back().number);
     if (level.reaches_goal) reaching.push_back(level);
+  }
   ASSERT_EQ(reaching.size(), 3u);
   EXPECT_LE(*reaching[0].error, 0.03);
   EXPECT_GT(*reaching[0].error, 0.01);
   EXPECT_LE(*reaching[1].error, 0.01);
-  EXPECT_LT(reaching[1].unknowns, 5000);
-  EXPECT_GE(reaching[2].unknowns, 5000);
   EXPECT_EQ(reaching[2].number, levels.back().number);
 }
 
@@ -102,61 +96,46 @@ TEST(AdaptiveLoop, WhatIsExpectedOfTheErrorSavesLevels) {
   EXPECT_LT(sum(few), 0.8 * static_cast<double>(sum(many)));
 }
 
-// An L of two materials that presses its foot against the wall.
+// An L of two materials that presses its foot against the wall: what is left of a block, its
+// vertices in another order, a boundary by where an edge is.
 Mesh corner_piece() {
-  Mesh mesh = testing::small_block(8, 8, 0);
-  Mesh piece = mesh;
+  const Mesh block = testing::small_block(8, 8, 0);
+  Mesh piece;
   piece.name = "L";
-  piece.triangles.clear();
-  piece.triangle_body.clear();
-  piece.boundary.clear();
   piece.body_names = {"upright", "foot"};
-  const auto is_there = [&](const std::array<int, 3>& t) {
-    const Eigen::Vector2d x = (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3;
-    return x.x() < 5 || x.y() < 5;
-  };
-  for (const auto& t : mesh.triangles)
-    if (is_there(t)) {
-      piece.triangles.push_back(t);
-      piece.triangle_body.push_back(
-          mesh.vertices[t[0]].x() + mesh.vertices[t[1]].x() + mesh.vertices[t[2]].x() > 15);
-    }
-  return piece;
-}
-
-// The body as a mesh: vertices that are used, a boundary by where an edge is.
-Mesh with_boundary(Mesh mesh) {
-  std::vector<int> number(mesh.vertices.size(), -1);
-  std::vector<Eigen::Vector2d> used;
-  for (auto& t : mesh.triangles)
+  std::map<int, int> number;  // of the block's vertices
+  std::set<std::array<int, 2>> sides;
+  for (std::array<int, 3> t : block.triangles) {
+    const Eigen::Vector2d middle =
+        (block.vertices[t[0]] + block.vertices[t[1]] + block.vertices[t[2]]) / 3;
+    if (middle.x() >= 5 && middle.y() >= 5) continue;
     for (int& v : t) {
-      if (number[v] < 0) {
-        number[v] = static_cast<int>(used.size());
-        used.push_back(mesh.vertices[v]);
-      }
-      v = number[v];
+      const auto [place, is_new] = number.emplace(v, std::ssize(piece.vertices));
+      if (is_new) piece.vertices.push_back(block.vertices[v]);
+      v = place->second;
     }
-  mesh.vertices = used;
-  std::map<std::array<int, 2>, int> sides;
-  for (const auto& t : mesh.triangles)
-    for (int k = 0; k < 3; ++k) ++sides[{t[k], t[(k + 1) % 3]}];
-  for (const auto& [side, count] : sides) {
-    if (sides.contains({side[1], side[0]})) continue;
-    const Eigen::Vector2d middle = (mesh.vertices[side[0]] + mesh.vertices[side[1]]) / 2;
-    mesh.boundary.push_back({side, middle.y() > 9.99   ? BoundaryRole::displacement
-                                   : middle.x() > 9.99 ? BoundaryRole::contact
-                                                       : BoundaryRole::force});
+    piece.triangles.push_back(t);
+    piece.triangle_body.push_back(middle.x() > 5);
+    for (int k = 0; k < 3; ++k) sides.insert({t[k], t[(k + 1) % 3]});
   }
-  validate(mesh);
-  return mesh;
+  for (const auto& [a, b] : sides) {
+    if (sides.contains({b, a})) continue;
+    const Eigen::Vector2d middle = (piece.vertices[a] + piece.vertices[b]) / 2;
+    piece.boundary.push_back({{a, b},
+                              middle.y() > 9.99   ? BoundaryRole::displacement
+                              : middle.x() > 9.99 ? BoundaryRole::contact
+                                                  : BoundaryRole::force});
+  }
+  validate(piece);
+  return piece;
 }
 
 // The singular corners of tooth and L cost nothing: e ~ N^-1, from 3 % on.
 TEST(AdaptiveLoop, TheErrorFallsWithTheInverseOfTheUnknowns) {
   Scene of_corner_piece;
   of_corner_piece.materials = {{"upright", {70000, 0.33}}, {"foot", {210000, 0.3}}};
-  const std::vector<std::pair<Scene, Mesh>> bodies = {
-      {{}, testing::catalogue_mesh("Mesh0")}, {of_corner_piece, with_boundary(corner_piece())}};
+  const std::vector<std::pair<Scene, Mesh>> bodies = {{{}, testing::catalogue_mesh("Mesh0")},
+                                                      {of_corner_piece, corner_piece()}};
   for (const auto& [scene, mesh] : bodies) {
     AdaptiveLoop loop(scene, mesh, hybrid(), until(0.003));
     const std::vector<AdaptiveLevel> levels = levels_of(loop);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -11,10 +12,8 @@
 #include "assembly/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/records/summary.hpp"
-#include "bench/run/child_process.hpp"
-#include "bench/run/oom_kills.hpp"
+#include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
-#include "bench/run/scene_process.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/posed.hpp"
@@ -47,15 +46,18 @@ void die_of(int signal) {
 
 class Isolation : public ::testing::Test {
  protected:
-  // The method between two that are sound.
+  // The methods between two that are sound.
+  std::vector<Record> run_between(std::vector<Method> methods) {
+    for (const char* sound : {"HYBRID", "P2"}) methods.push_back(select_methods(sound).front());
+    std::rotate(methods.begin(), methods.end() - 1, methods.end());
+    std::vector<Record> records = run(methods);
+    EXPECT_EQ(records.size(), methods.size());
+    for (const Record& sound : {records.front(), records.back()})
+      EXPECT_EQ(sound.status, Status::ok) << sound.status_reason;
+    return {records.begin() + 1, records.end() - 1};
+  }
   Record run_between(const Method& method) {
-    const Method sound = select_methods("HYBRID").front();
-    const std::vector<Record> records = run({sound, method, select_methods("P2").front()});
-    EXPECT_EQ(records.size(), 3u);
-    EXPECT_EQ(records.front().status, Status::ok) << records.front().status_reason;
-    EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
-    EXPECT_EQ(records.at(1).method, method.name);
-    return records.at(1);
+    return run_between(std::vector<Method>{method}).front();
   }
   std::vector<Record> run(const std::vector<Method>& methods) {
     return run_cases(plan_cases({posed_}, methods), options_, {}).records;
@@ -73,27 +75,41 @@ class Isolation : public ::testing::Test {
   PosedScene posed_;
 };
 
-TEST_F(Isolation, CrashesAreRecordedWithSignalAndStage) {
-  for (const int signal : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS}) {
-    const Record record = run_between(harmful("CRASH", [signal](Solution&) { die_of(signal); }));
-    EXPECT_EQ(record.status, Status::crashed);
-    EXPECT_EQ(record.signal, signal_name(signal));
+TEST_F(Isolation, CrashesExitsAndExceptionsAreRecordsOfTheirCasesAlone) {
+  // Killed as by the kernel, when memory runs out; but it counts those.
+  const Status killed = oom_kills() ? Status::machine_fault : Status::out_of_memory;
+  const struct {
+    const char* name;
+    Harm harm;
+    Status status;
+    const char *signal, *reason;
+  } harms[] = {
+      {"SEGV", [](Solution&) { die_of(SIGSEGV); }, Status::crashed, "SIGSEGV", "by SIGSEGV"},
+      {"ABRT", [](Solution&) { die_of(SIGABRT); }, Status::crashed, "SIGABRT", "by SIGABRT"},
+      {"FPE", [](Solution&) { die_of(SIGFPE); }, Status::crashed, "SIGFPE", "by SIGFPE"},
+      {"BUS", [](Solution&) { die_of(SIGBUS); }, Status::crashed, "SIGBUS", "by SIGBUS"},
+      {"KILLED", [](Solution&) { die_of(SIGKILL); }, killed, "SIGKILL", "by SIGKILL"},
+      {"THROWS 42", [](Solution&) { throw 42; }, Status::crashed, "SIGABRT", "by SIGABRT"},
+      {"LEAVES", [](Solution&) { _exit(3); }, Status::crashed, "", "exit code 3"},
+      {"THROWS", [](Solution&) { throw std::runtime_error("no such luck"); }, Status::crashed, "",
+       "no such luck"},
+  };
+  std::vector<Method> methods;
+  for (const auto& harm : harms) methods.push_back(harmful(harm.name, harm.harm));
+  const std::vector<Record> records = run_between(methods);
+  ASSERT_EQ(records.size(), std::size(harms));
+  for (std::size_t k = 0; k < std::size(harms); ++k) {
+    const Record& record = records[k];
+    SCOPED_TRACE(record.method + ": " + record.status_reason);
+    EXPECT_EQ(record.method, harms[k].name);
+    EXPECT_EQ(record.status, harms[k].status);
+    EXPECT_EQ(record.signal, harms[k].signal);
+    EXPECT_NE(record.status_reason.find(harms[k].reason), std::string::npos);
+    EXPECT_TRUE(record.samples_s.empty());
+    if (record.signal.empty()) continue;
     EXPECT_EQ(record.ended_in, "detail run, factor");
     EXPECT_TRUE(record.time_so_far_s);
-    EXPECT_TRUE(record.samples_s.empty());
-    EXPECT_NE(record.status_reason.find(signal_name(signal)), std::string::npos);
   }
-}
-
-TEST_F(Isolation, AProcessThatLeavesOrIsKilledIsRecorded) {
-  Record record = run_between(harmful("LEAVES", [](Solution&) { _exit(3); }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_NE(record.status_reason.find("exit code 3"), std::string::npos) << record.status_reason;
-  // As the kernel does to one that takes the last of the machine's memory; but it counts those.
-  record = run_between(harmful("KILLED", [](Solution&) { die_of(SIGKILL); }));
-  EXPECT_EQ(record.status, oom_kills() ? Status::machine_fault : Status::out_of_memory)
-      << record.status_reason;
-  EXPECT_EQ(record.signal, "SIGKILL");
 }
 
 TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
@@ -105,17 +121,6 @@ TEST_F(Isolation, ACrashInATimedRunTakesTheTimesAway) {
   EXPECT_EQ(record.ended_in, "timed run, factor");
   EXPECT_TRUE(record.samples_s.empty());
   EXPECT_TRUE(is_verified(record));
-}
-
-TEST_F(Isolation, ExceptionsAreRecorded) {
-  Record record =
-      run_between(harmful("THROWS", [](Solution&) { throw std::runtime_error("no such luck"); }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_EQ(record.status_reason, "no such luck");
-  EXPECT_EQ(record.signal, "");
-  record = run_between(harmful("THROWS", [](Solution&) { throw 42; }));
-  EXPECT_EQ(record.status, Status::crashed);
-  EXPECT_EQ(record.signal, "SIGABRT");
 }
 
 TEST_F(Isolation, AHangIsEnded) {
@@ -212,21 +217,22 @@ TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   EXPECT_NE(record.status_reason.find("time limit"), std::string::npos) << record.status_reason;
 }
 
+// Does it where a stage begins and where it ends.
+struct AtStage : StageObserver {
+  std::function<void(Stage)> at_begin = [](Stage) {}, at_end = [](Stage) {};
+  void begins(Stage stage) override { at_begin(stage); }
+  void ends(Stage stage) override { at_end(stage); }
+};
+
 TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
-  struct EndsTheTime : StageObserver {
-    RunControl& control;
-    explicit EndsTheTime(RunControl& of) : control(of) {}
-    void begins(Stage of) override {
-      if (of == Stage::contact) control.deadline = Deadline::after(0);
-    }
-    void ends(Stage) override {}
-  };
   Method late = method_;
   late.solve = [this](const DualSystem& system, const RunControl& control) {
     RunControl own = control;
-    EndsTheTime ender(own);
-    const bool is_large = system.problem == large_.problem;
-    const ObservedStages scope(is_large ? &ender : nullptr);
+    AtStage ender;
+    ender.at_begin = [&](Stage stage) {
+      if (stage == Stage::contact) own.deadline = Deadline::after(0);
+    };
+    const ObservedStages scope(system.problem == large_.problem ? &ender : nullptr);
     return method_.solve(system, own);
   };
   const Record record = run_large(late);
@@ -235,20 +241,14 @@ TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
 }
 
 TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
-  struct KillsAtTheEnd : StageObserver {
-    Stage stage;
-    explicit KillsAtTheEnd(Stage of) : stage(of) {}
-    void begins(Stage) override {}
-    void ends(Stage of) override {
-      if (of == stage) die_of(SIGKILL);
-    }
-  };
   for (const Stage stage : {Stage::precondition, Stage::contact, Stage::check}) {
     Method killed = method_;
     killed.solve = [this, stage](const DualSystem& system, const RunControl& control) {
-      KillsAtTheEnd killer(stage);
-      const bool is_large = system.problem == large_.problem;
-      const ObservedStages scope(is_large ? &killer : nullptr);
+      AtStage killer;
+      killer.at_end = [&](Stage of) {
+        if (of == stage) die_of(SIGKILL);
+      };
+      const ObservedStages scope(system.problem == large_.problem ? &killer : nullptr);
       return method_.solve(system, control);
     };
     const Record record = run_large(killed);
@@ -268,6 +268,17 @@ TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
     std::free(block);
   });
   EXPECT_EQ(run_between(gives_up).status, Status::out_of_memory);
+  // The machine refuses it.
+  options_.memory_limit_bytes.reset();
+  const Method gets_none = harmful("GETS NONE", [](Solution&) {
+    volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max() / 2;
+    void* volatile block = std::malloc(too_much);  // or the compiler leaves it out
+    std::free(block);
+    std::exit(1);
+  });
+  const Record record = run_between(gets_none);
+  EXPECT_EQ(record.status, Status::out_of_memory);
+  EXPECT_NE(record.status_reason.find("there was no memory"), std::string::npos);
   // Where nothing was refused, an exit is a crash.
   EXPECT_EQ(run_between(harmful("EXITS", [](Solution&) { std::exit(1); })).status, Status::crashed);
 }
@@ -301,33 +312,18 @@ TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
   }
 }
 
-// Whom the kernel killed is what its counters say: the control group's, else the machine's.
-TEST(OomKills, AreTheKernelsCount) {
-  const testing::TemporaryFolder root;
-  EXPECT_EQ(oom_kills(root.path()), std::nullopt);
-  for (const char* folder : {"proc/self", "sys/fs/cgroup/night/run"})
-    std::filesystem::create_directories(root / folder);
-  testing::write_text(root / "proc/vmstat", "nr_free_pages 81\noom_kill 4\nswap_ra 0\n");
-  EXPECT_EQ(oom_kills(root.path()), 4);
-  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/night/run\n");
-  EXPECT_EQ(oom_kills(root.path()), 4) << "the group has no count";
-  testing::write_text(root / "sys/fs/cgroup/night/run/memory.events",
-                      "low 0\nhigh 7\nmax 9\noom 3\noom_kill 2\noom_group_kill 1\n");
-  EXPECT_EQ(oom_kills(root.path()), 2);
-}
-
-TEST(ChildProcess, ThatIsKilledWithoutTheKernelsCountIsNotOutOfMemory) {
+TEST(Obituary, OfOneKilledWithoutTheKernelsCountIsNotOutOfMemory) {
   ActivityBoard board;
   ChildEnd end;
   end.signal = SIGKILL;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory) << "a guess";
-  end.oom_killed = true;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::out_of_memory);
-  end.oom_killed = false;
-  EXPECT_EQ(obituary_of(end, board, Options()).status, Status::machine_fault);
+  for (const std::optional<bool> counted : {std::optional<bool>(), {true}, {false}}) {
+    end.oom_killed = counted;
+    EXPECT_EQ(obituary_of(end, board, Options()).status,
+              counted == false ? Status::machine_fault : Status::out_of_memory);
+  }
 }
 
-TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
+TEST(Obituary, OfOneWithoutMemoryOutsideOfARunIsNoCrash) {
   for (const bool in_noexcept : {false, true}) {
     ChildProcess child([&](Channel& channel) {
       channel.receive();
@@ -342,39 +338,6 @@ TEST(ChildProcess, ThatGetsNoMemoryOutsideOfARunIsNoCrash) {
     board.begins(Activity::detail_run);
     EXPECT_EQ(obituary_of(child.end(), board, Options()).status, Status::out_of_memory);
   }
-}
-
-// As OpenMP's library does.
-TEST(ChildProcess, ThatALibraryEndsForLackOfMemoryIsNoCrash) {
-  if (!heap::is_active()) GTEST_SKIP();
-  ChildProcess child([](Channel& channel) {
-    channel.receive();
-    volatile std::size_t too_much = std::numeric_limits<std::ptrdiff_t>::max() / 2;
-    void* volatile block = std::malloc(too_much);  // or the compiler leaves it out
-    std::free(block);
-    std::exit(1);
-  });
-  EXPECT_FALSE(child.ask("are you there"));
-  EXPECT_EQ(child.end().exit_code, no_memory_exit_code);
-}
-
-TEST(ChildProcess, AnswersUntilItEnds) {
-  ChildProcess child([](Channel& channel) {
-    while (const auto line = channel.receive()) channel.send("you said " + *line);
-  });
-  EXPECT_EQ(child.ask("yes"), "you said yes");
-  const std::string text(1 << 20, 'x');  // more than a socket holds
-  EXPECT_EQ(child.ask(text).value_or("").size(), text.size() + 9);
-}
-
-TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
-  ChildProcess child([](Channel&) {
-    for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
-    for (;;) pause();
-  });
-  EXPECT_FALSE(child.ask("are you there"));
-  EXPECT_EQ(child.end().signal, SIGKILL);
-  EXPECT_TRUE(child.end().lingered);
 }
 
 }  // namespace

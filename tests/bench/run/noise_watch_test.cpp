@@ -68,12 +68,12 @@ TEST(NoiseWatch, KeepsTheLeastNoisyAttempt) {
   MadeUpMachine made_up;
   NoiseWatch watch(0.05, made_up.machine());
   Record record = timed(9);
-  std::vector<Attempt> earlier;
+  std::vector<Record> earlier;
   for (const double pace : {1.3, 1.1}) {
     made_up.pace_s = pace;
     watch.add_passes(3, 1, record);
     ASSERT_TRUE(watch.is_noisy(record));
-    earlier.push_back(taken_from(record));
+    swap_samples(record, earlier.emplace_back());
     EXPECT_FALSE(watch.is_noisy(record));  // nothing was measured
     record.samples_s = {10 * pace};
   }

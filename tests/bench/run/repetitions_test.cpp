@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "bench/records/summary.hpp"
-#include "bench/run/repetitions.hpp"
+#include "bench/run/runner.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::repetitions_test {

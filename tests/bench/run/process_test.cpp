@@ -1,5 +1,5 @@
-// Other people's programs and all that they start: how they end, and that nothing is left of them.
-#include "bench/external/process_tree.hpp"
+// Processes: how they end, what is told of it, and that nothing is left of them.
+#include "support/process.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -9,10 +9,11 @@
 #include <cerrno>
 #include <csignal>
 
+#include "support/data_folder.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace airybench::process_tree_test {
+namespace airybench::process_test {
 namespace {
 
 constexpr double patience_s = 600;  // of what is to end by itself
@@ -35,8 +36,8 @@ class ProcessTree : public ::testing::Test {
             .output = folder_ / "printed",
             .scratch = folder_ / "scratch"};
   }
-  ProcessTreeEnd run(const std::string& script, const ProcessLimits& limits = {patience_s}) const {
-    return run_process_tree(shell(script), limits);
+  ChildEnd run(const std::string& script, const ProgramLimits& limits = {patience_s}) const {
+    return run_program(shell(script), limits);
   }
   pid_t pid_in(const std::string& file) const {
     return std::stoi(testing::text_of(folder_ / file));
@@ -53,26 +54,37 @@ class ProcessTree : public ::testing::Test {
 TEST_F(ProcessTree, SaysHowTheProgramEnded) {
   EXPECT_EQ(run("exit 0").exit_code, 0);
   EXPECT_EQ(run("exit 3").exit_code, 3);
-  const ProcessTreeEnd killed = run("kill -SEGV $$");
+  const ChildEnd killed = run("kill -SEGV $$");
   EXPECT_EQ(killed.signal, SIGSEGV);
   EXPECT_EQ(killed.exit_code, -1);
   EXPECT_FALSE(killed.timed_out || killed.over_memory);
 }
 
 TEST_F(ProcessTree, WhatCannotBeStartedHasAnErrno) {
-  Program program = shell("");
-  program.command = {"no-such-program"};
-  EXPECT_EQ(run_process_tree(program, {patience_s}).start_error, ENOENT);
-  program = shell("exit 0");
-  program.folder = folder_ / "none";
-  EXPECT_EQ(run_process_tree(program, {patience_s}).start_error, ENOENT);
   testing::write_text(folder_ / "no-program", "text");
-  program = shell("");
-  program.command = {"./no-program"};
-  EXPECT_EQ(run_process_tree(program, {patience_s}).start_error, EACCES);
-  program = shell("exit 0");
-  program.output = folder_.path();
-  EXPECT_EQ(run_process_tree(program, {patience_s}).start_error, EISDIR);
+  const auto expect = [&](int error, const auto& change) {
+    Program program = shell("exit 0");
+    change(program);
+    EXPECT_EQ(run_program(program, {patience_s}).start_error, error);
+  };
+  expect(ENOENT, [](Program& program) { program.command = {"no-such-program"}; });
+  expect(ENOENT, [&](Program& program) { program.folder = folder_ / "none"; });
+  expect(EACCES, [](Program& program) { program.command = {"./no-program"}; });
+  expect(EISDIR, [&](Program& program) { program.output = folder_.path(); });
+}
+
+TEST_F(ProcessTree, WhatOneOfOursPrintsIsText) {
+  const auto shell = [](const char* script) {
+    return run_program("/bin/sh", {"-c", script}, patience_s);
+  };
+  const ProgramEnd end = shell("cat; echo out; echo err >&2; exit 7");
+  EXPECT_EQ(end.exit_code, 7);
+  EXPECT_EQ(end.out, "out\n");
+  EXPECT_EQ(end.err, "err\n");
+  const ProgramEnd much = shell("head -c 300000 /dev/zero >&2; head -c 300000 /dev/zero");
+  EXPECT_EQ(much.out.size(), 300000u);
+  EXPECT_EQ(much.err.size(), 300000u);
+  EXPECT_FALSE(program_of_ours("no-such-program"));
 }
 
 TEST_F(ProcessTree, InputIsEmptyPrintsAreKeptAndNoFilesAreInherited) {
@@ -80,7 +92,7 @@ TEST_F(ProcessTree, InputIsEmptyPrintsAreKeptAndNoFilesAreInherited) {
   const int open_here = dup(1);
   Program program = shell(script);
   program.environment = {{"OWN", "its own"}};
-  EXPECT_EQ(run_process_tree(program, {patience_s}).exit_code, 0);
+  EXPECT_EQ(run_program(program, {patience_s}).exit_code, 0);
   close(open_here);
   EXPECT_EQ(testing::text_of(folder_ / "printed"),
             "to stdout\nto stderr\nits own\n0\n1\n2\n3\n");  // 3: the folder that ls reads
@@ -92,16 +104,16 @@ TEST_F(ProcessTree, WhatTheProgramLeavesBehindIsEnded) {
 }
 
 TEST_F(ProcessTree, TheTimeLimitEndsAll) {
-  const ProcessTreeEnd end = run(std::string(three) + "sleep 1000", {0.5});
+  const ChildEnd end = run(std::string(three) + "sleep 1000", {0.5});
   EXPECT_TRUE(end.timed_out);
-  EXPECT_NE(end.exit_code, 0);
+  EXPECT_EQ(end.signal, SIGKILL);
   EXPECT_FALSE(end.over_memory);
   if (std::filesystem::exists(folder_ / "program")) expect_nobody_is_left();
 }
 
 TEST_F(ProcessTree, TheMemoryLimitEndsAll) {
-  const ProcessTreeEnd end = run(std::string(three) + "head -c 300M /dev/zero | tail -c 300M",
-                                 {patience_s, std::int64_t{100} << 20});
+  const ChildEnd end = run(std::string(three) + "head -c 300M /dev/zero | tail -c 300M",
+                           {patience_s, std::int64_t{100} << 20});
   EXPECT_TRUE(end.over_memory);
   EXPECT_NE(end.exit_code, 0);
   EXPECT_FALSE(end.timed_out);
@@ -109,7 +121,7 @@ TEST_F(ProcessTree, TheMemoryLimitEndsAll) {
 }
 
 TEST_F(ProcessTree, WhatItPrintsAndWritesIsLimited) {
-  ProcessLimits limits = {patience_s};
+  ProgramLimits limits = {patience_s};
   limits.file_bytes = 1 << 20;
   EXPECT_EQ(run("exec yes", limits).signal, SIGXFSZ);
   EXPECT_EQ(std::filesystem::file_size(folder_ / "printed"), 1u << 20);
@@ -118,7 +130,7 @@ TEST_F(ProcessTree, WhatItPrintsAndWritesIsLimited) {
 }
 
 TEST_F(ProcessTree, MemoryIsThatOfTheLargestMoment) {
-  const ProcessTreeEnd end =
+  const ChildEnd end =
       run("dd if=/dev/zero of=/dev/null bs=200M count=10", {patience_s, std::int64_t{1} << 30});
   EXPECT_EQ(end.exit_code, 0);
   EXPECT_GE(end.peak_bytes, std::int64_t{200} << 20);
@@ -157,5 +169,39 @@ TEST_P(CallerEnded, EverythingEndsWithIt) {
 INSTANTIATE_TEST_SUITE_P(By, CallerEnded, ::testing::Values(SIGKILL, SIGINT, SIGQUIT, SIGHUP),
                          [](const auto& of) { return std::string(sigabbrev_np(of.param)); });
 
+TEST(ChildProcess, AnswersUntilItEnds) {
+  ChildProcess child([](Channel& channel) {
+    while (const auto line = channel.receive()) channel.send("you said " + *line);
+  });
+  EXPECT_EQ(child.ask("yes"), "you said yes");
+  const std::string text(1 << 20, 'x');  // more than a socket holds
+  EXPECT_EQ(child.ask(text).value_or("").size(), text.size() + 9);
+}
+
+TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
+  ChildProcess child([](Channel&) {
+    for (int descriptor = 3; descriptor < 64; ++descriptor) close(descriptor);
+    for (;;) pause();
+  });
+  EXPECT_FALSE(child.ask("are you there"));
+  EXPECT_EQ(child.end().signal, SIGKILL);
+  EXPECT_TRUE(child.end().lingered);
+}
+
+// Whom the kernel killed is what its counters say: the control group's, else the machine's.
+TEST(OomKills, AreTheKernelsCount) {
+  const testing::TemporaryFolder root;
+  EXPECT_EQ(oom_kills(root.path()), std::nullopt);
+  for (const char* folder : {"proc/self", "sys/fs/cgroup/night/run"})
+    std::filesystem::create_directories(root / folder);
+  testing::write_text(root / "proc/vmstat", "nr_free_pages 81\noom_kill 4\nswap_ra 0\n");
+  EXPECT_EQ(oom_kills(root.path()), 4);
+  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/night/run\n");
+  EXPECT_EQ(oom_kills(root.path()), 4) << "the group has no count";
+  testing::write_text(root / "sys/fs/cgroup/night/run/memory.events",
+                      "low 0\nhigh 7\nmax 9\noom 3\noom_kill 2\noom_group_kill 1\n");
+  EXPECT_EQ(oom_kills(root.path()), 2);
+}
+
 }  // namespace
-}  // namespace airybench::process_tree_test
+}  // namespace airybench::process_test

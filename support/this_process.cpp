@@ -1,0 +1,83 @@
+#include "support/this_process.hpp"
+
+#include <fcntl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "support/errors.hpp"
+#include "support/process.hpp"
+
+namespace airybench {
+namespace {
+
+volatile std::sig_atomic_t interrupting_signal = 0;
+
+void on_interrupt(int signal) {
+  if (interrupting_signal != 0) {
+    std::signal(signal, SIG_DFL);
+    std::raise(signal);
+  }
+  interrupting_signal = signal;
+}
+
+const char* last_words = "";
+int last_code = 0;
+
+[[noreturn]] void end_for_lack_of_memory() {
+  try {
+    if (std::current_exception() != nullptr) throw;
+  } catch (const std::bad_alloc&) {
+    std::fputs(last_words, stderr);
+    std::_Exit(last_code);
+  } catch (...) {
+  }
+  std::abort();
+}
+
+}  // namespace
+
+Interrupted::Interrupted(int number)
+    : std::runtime_error("ended by " + signal_name(number)), signal(number) {}
+
+void catch_interrupts() {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that we can tell
+}
+
+bool is_interrupted() { return interrupting_signal != 0; }
+
+void throw_if_interrupted() {
+  if (is_interrupted()) throw Interrupted(interrupting_signal);
+}
+
+void open_standard_streams() {
+  for (const int descriptor : {0, 1, 2})
+    if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
+      // The lowest that is free: this one.
+      static_cast<void>(open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY));
+}
+
+int checked_exit_code(int code, const char* program) {
+  const bool flushed = std::fflush(stdout) == 0;
+  if (!flushed || std::ferror(stdout) != 0) {
+    std::fprintf(stderr, "%s: standard output: cannot be written (a full disk?)\n", program);
+    code = std::max<int>(code, wrong_usage);
+  }
+  if (std::ferror(stderr) != 0 || !std::cerr) code = std::max<int>(code, wrong_usage);
+  return code;
+}
+
+void end_for_lack_of_memory_with(const char* message, int exit_code) {
+  last_words = message;
+  last_code = exit_code;
+  std::set_terminate(end_for_lack_of_memory);
+}
+
+}  // namespace airybench
