@@ -1,28 +1,25 @@
 // What bench reads: edge_displacements_mm.npy, F_C.mtx, log.txt, and answer.json at last.
 #pragma once
 
-#include <filesystem>
 #include <map>
-#include <string>
 
-#include "peers/petsc/active_sets.hpp"
+#include "peers/petsc/edge_system.hpp"
+#include "solvers/two_level/active_rows.hpp"
 
 namespace airybench {
 
-// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; of u, with the
-// rigid motion; mm.
-using EdgeDisplacements = Eigen::Matrix4Xd;
-EdgeDisplacements gather_displacements(const EdgeSystem& system, Vec u);
-
 struct Said {
-  bool converged = false;
-  double estimate = 0, time_s = 0;
+  double estimate = 0, time_s = 0;  // estimate: of what has converged
   std::map<std::string, double> stages;
   std::string coarse;
   PetscInt coarse_unknowns = 0;
 };
+// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; of the rows' u,
+// with the rigid motion; mm.
+Eigen::Matrix4Xd gather_displacements(const EdgeSystem& system, const Eigen::VectorXd& u);
+
 // Collective; rank 0 writes.
-void write_answer(const std::filesystem::path& folder, const EdgeDisplacements& u,
-                  const ContactAnswer& answer, const Said& said);
+void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u,
+                  const RowsResult& answer, const Said& said);
 
 }  // namespace airybench

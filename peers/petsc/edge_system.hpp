@@ -1,24 +1,21 @@
 // The hybridized system over the ranks: K in 4×4 blocks over edges
-// (solvers/two_level/edge_matrix.hpp), four slots per edge, edges numbered as in MeshPart.
+// (solvers/two_level/edge_matrix.hpp), four slots per edge, edges numbered as in MeshPart. Vectors
+// have the slots of this rank's edges, or local: of all edges of its part.
 //
 //   A   K with the rows and columns of held slots empty but for the diagonal; the tangential row of
 //       a slipping point has ratio × its normal row taken from it
 //   K   all of it, but for the slots prescribed on Γ_D: these are in b
 //
-// The two differ in the blocks of edges on Γ_C only, each of which is in one triangle. The K_e of
-// these triangles are kept; when laws change, their blocks are put into A anew.
+// The two differ in the blocks of edges on Γ_C only, each of which is in one triangle. What the two
+// are of these triangles is kept; when laws change, their blocks are put into A anew.
 #pragma once
 
-#include <functional>
-
 #include "peers/petsc/body_part.hpp"
-#include "peers/petsc/rigid_modes.hpp"
-#include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/point_laws.hpp"
 
 namespace airybench {
 
-using ElementStiffness = Eigen::Matrix<double, 12, 12>;
+using ElementStiffness = ElementMatrices::Matrix;
 
 class EdgeSystem {
  public:
@@ -28,25 +25,27 @@ class EdgeSystem {
 
   // All collective. Laws of every contact point.
   void set_laws(const std::vector<PointLaw>& laws);
-  void multiply(Vec x, Vec y) const;  // y = K x
+  void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const;  // y = K x
   // r as the right-hand side of A: slip rows combined, zero where held.
-  void reduce(Vec r) const;
-  // The rows of F_C of a vector in slots, known to every rank; and back, set.
-  Eigen::VectorXd of_contact(Vec x) const;
-  void set_at_contact(const Eigen::VectorXd& rows, const std::vector<bool>& which, Vec x) const;
-  double energy(Vec u, Vec K_times_u) const;  // (u + ū0)ᵀ K (u + ū0)
-  parallel::OwnedVec new_vector() const;      // zeros
+  void reduce(Eigen::VectorXd& r) const;
+  Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const;  // in the rows of F_C, at every rank
+  double energy(const Eigen::VectorXd& u, const Eigen::VectorXd& K_times_u) const;  // of u + ū0
+  // Slots of other ranks' edges, too; and back, added up.
+  Eigen::VectorXd to_local(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd from_local(const Eigen::VectorXd& local) const;
 
-  // Four slots per local edge, those of other ranks' edges, too; and back, added up.
-  Eigen::VectorXd to_local(Vec x) const;
-  void add_from_local(const Eigen::VectorXd& local, Vec x) const;
+  // Calls set(row of F_C, slot) for the contact rows of this rank.
+  template <typename Set>
+  void visit_contact(Set set) const {
+    const int m = part_.contact.components;
+    for (const auto& [edge, first_point] : part_.contact_edges)
+      for (int end = 0; end < 2; ++end)
+        for (int k = 0; k < m; ++k) set(m * (first_point + end) + k, own_slot(edge) + 2 * end + k);
+  }
 
   Mat A() const { return A_; }
-  Vec b() const { return b_; }
-  bool slips() const { return slips_; }
+  const Eigen::VectorXd& b() const { return b_; }
   const BodyPart& part() const { return part_; }
-  // For recover_stresses: the slots of local edges are its unknowns, it has no K.
-  const HybridizedSystem& of_part() const { return local_; }
   const std::vector<PointLaw>& laws() const { return laws_; }
   // Of every row of F_C (contact_compliance.hpp).
   const Eigen::VectorXd& compliance_from_below() const { return compliance_from_below_; }
@@ -54,39 +53,25 @@ class EdgeSystem {
  private:
   struct ContactTriangle {
     int triangle;
-    ElementStiffness K = ElementStiffness::Zero();
-    std::array<bool, 12> on_contact = {}, held = {};
-    std::array<double, 12> ratio = {};
-  };
-  struct ContactEdge {
-    int edge, first_point;  // local; of its start
+    std::array<int, 3> first_point;  // of its edges; −1: not on Γ_C
+    ElementStiffness K, A;
   };
 
   void create_matrix();
-  void sum_compliance(const Eigen::Matrix4Xd& of_part);
-  std::vector<FramedPoint> points_of_slots() const;
-  std::array<PetscInt, 12> slots_of(int triangle) const;
+  void add_element(int triangle, const ElementStiffness& K_e);
+  void find_contact_triangles();
   PetscInt own_slot(int edge) const {  // of an edge of this rank, its first one
     return 4 * (part_.mesh.edges.global[edge] - part_.mesh.edges.begin);
   }
-  void find_contact();
-  void put_into_A(const ContactTriangle& of) const;
-  // x at the slots of contact triangles, 12 each.
-  Eigen::VectorXd at_contact_triangles(Vec x) const;
 
   const BodyPart& part_;
-  HybridizedSystem local_;
   parallel::OwnedMat A_;
-  parallel::OwnedVec b_, prescribed_force_;  // K ū0 at the slots that are not prescribed
-  double prescribed_energy_ = 0;             // ū0ᵀ K ū0
-  std::vector<ContactEdge> contact_edges_;   // of own triangles
-  std::vector<int> contact_triangle_of_;     // triangle → row of contact_triangles_, or −1
+  PetscInt block_size_ = 4;
+  Eigen::VectorXd b_, prescribed_force_;  // K ū0 at the slots that are not prescribed
+  double prescribed_energy_ = 0;          // ū0ᵀ K ū0
   std::vector<ContactTriangle> contact_triangles_;
-  parallel::OwnedScatter to_contact_triangles_, to_local_;
-  parallel::OwnedVec contact_values_, local_values_;
   std::vector<PointLaw> laws_;
   Eigen::VectorXd compliance_from_below_;
-  bool slips_ = false;
 };
 
 }  // namespace airybench

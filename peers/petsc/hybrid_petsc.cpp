@@ -1,15 +1,13 @@
 // hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of
 // an exported body (--format=npz) by hybridized equilibrium elements over the ranks of mpirun.
-#include <sys/resource.h>
-
 #include <charconv>
-#include <chrono>
 #include <cstring>
 #include <iostream>
 
-#include "assembly/load_scale.hpp"
 #include "peers/petsc/answer_files.hpp"
+#include "peers/petsc/rank_rows.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/two_level/rows_check.hpp"
 
 namespace airybench {
 namespace {
@@ -38,9 +36,33 @@ class Stages {
 };
 
 // The whole body's, by which an error counts where there is no stress.
-double energy_scale(const BodyPart& part) {
-  const double own = load_scale(part.problem).energy_norm;
-  return std::sqrt(sum(own * own));
+LoadScale scale_of(const BodyPart& part) {
+  const LoadScale own = load_scale(part.problem);
+  return {std::sqrt(sum(own.energy_norm * own.energy_norm)), largest(own.force_N)};
+}
+
+// The largest relative error that the answer's stresses and F_C have; adds its iterations.
+double estimate_error(const EdgeSystem& system, RankRows& rows, const LoadScale& scale,
+                      RowsResult& answer) {
+  const Problem& problem = system.part().problem;
+  UnbalancedForces unbalanced;
+  double stress_energy = 0;
+  {
+    const Eigen::VectorXd u = system.to_local(answer.u);
+    HybridizedAnswer recovered;
+    each_by_itself([&] { recovered = recover_stresses(problem, system.part().system, u); });
+    const UnbalancedForces& own = recovered.unbalanced;
+    unbalanced = {system.from_local(own.r), largest(own.largest), system.from_local(own.defect),
+                  sum(own.defect_energy)};
+    stress_energy = sum(stress_norm_squared(problem, recovered.stress));
+  }
+  system.visit_contact([&](int row, PetscInt slot) { unbalanced.r(slot) += answer.F_C(row); });
+  const double largest_r = largest(unbalanced.r.lpNorm<Eigen::Infinity>());
+  const Eigen::VectorXd u_C = system.of_contact(answer.u);
+  return rows_error(rows, std::move(unbalanced),
+                    {answer.laws, answer.F_C, u_C, system.compliance_from_below(),
+                     std::sqrt(stress_energy), largest_r, scale},
+                    answer.iterations);
 }
 
 double tolerance_in(const char* text) {
@@ -52,7 +74,9 @@ double tolerance_in(const char* text) {
 }
 
 void solve(const char* input, const char* output, const char* tolerance_text) {
-  const double tolerance = tolerance_in(tolerance_text);
+  RunControl control;
+  control.tolerance = tolerance_in(tolerance_text);
+  control.target_error = 1e-9;  // no tolerance below a thousandth of this can be reached
   std::unique_ptr<NpzSlices> file;
   each_by_itself(
       [&] { file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz"); });
@@ -63,29 +87,24 @@ void solve(const char* input, const char* output, const char* tolerance_text) {
   stages.end("order");
 
   std::unique_ptr<CoarseSpace> coarse;
-  if (LinearSolver::has_two_levels())
-    coarse = std::make_unique<CoarseSpace>(part, coarse_kind_for(part));
+  if (RankRows::has_two_levels()) coarse = std::make_unique<CoarseSpace>(part);
   EdgeSystem system(part, [&](int t, const ElementStiffness& K_e) {
     if (coarse) coarse->add(t, K_e);
   });
   if (coarse) coarse->end_assembly();
-  const double scale = energy_scale(part);
+  const LoadScale scale = scale_of(part);
   stages.end("precondition");
 
-  LinearSolver solver(system);
-  solver.set_coarse(coarse.get());
-  ContactAnswer answer = solve_contact(system, solver, scale, tolerance);
+  RankRows rows(system, coarse.get());
+  RowsResult answer = solve_contact_on_rows(rows, scale.energy_norm, control);
   answer.F_C = project_on_coulomb(part.contact, answer.F_C);
   stages.end("contact");
-  double estimate = std::numeric_limits<double>::infinity();
-  if (answer.converged) estimate = estimate_error(system, solver, scale, answer);
+  Said said;
+  if (answer.converged) said.estimate = estimate_error(system, rows, scale, answer);
   stages.end("check");
-  const EdgeDisplacements u = gather_displacements(system, answer.u);
+  const Eigen::Matrix4Xd u = gather_displacements(system, answer.u);
   stages.end("recover");
 
-  Said said;
-  said.converged = answer.converged;
-  said.estimate = estimate;
   said.stages = stages.spent();
   said.time_s = stages.total();
   said.coarse = !coarse ? "none" : coarse->kind() == CoarseKind::linear ? "linear" : "per-edge";

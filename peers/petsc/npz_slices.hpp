@@ -1,14 +1,12 @@
 // Arrays of an .npz file without compression, row by row: every rank reads its own rows.
-//
-// The layout is that of ZIP (with 64-bit sizes where they are needed) around NumPy's .npy, types
-// <i4 and <f8.
 #pragma once
+
+#include <zip.h>
 
 #include <Eigen/Core>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <map>
+#include <memory>
 #include <string>
 
 namespace airybench {
@@ -18,29 +16,34 @@ class NpzSlices {
   // Throws FileError: the file, and what is wrong.
   explicit NpzSlices(const std::filesystem::path& file);
 
-  std::int64_t rows(const std::string& name) const { return array(name).rows; }
-  // Rows [begin, end), all columns.
-  Eigen::MatrixXi integers(const std::string& name, std::int64_t begin, std::int64_t end);
-  Eigen::MatrixXd numbers(const std::string& name, std::int64_t begin, std::int64_t end);
-  Eigen::MatrixXi integers(const std::string& name) { return integers(name, 0, rows(name)); }
-  Eigen::MatrixXd numbers(const std::string& name) { return numbers(name, 0, rows(name)); }
+  std::int64_t rows(const std::string& name) const { return opened(name).rows; }
+  // Rows [begin, end), all columns; of <i4 and <f8 arrays.
+  Eigen::MatrixXi integers(const std::string& name, std::int64_t begin, std::int64_t end) const {
+    return slice<int>(name, begin, end);
+  }
+  Eigen::MatrixXd numbers(const std::string& name, std::int64_t begin, std::int64_t end) const {
+    return slice<double>(name, begin, end);
+  }
+  Eigen::MatrixXi integers(const std::string& name) const { return integers(name, 0, rows(name)); }
+  Eigen::MatrixXd numbers(const std::string& name) const { return numbers(name, 0, rows(name)); }
 
  private:
-  struct Array {
-    std::int64_t at = 0, rows = 0, columns = 1;
-    bool by_columns = false, whole_numbers = false;
+  struct Close {
+    void operator()(zip_t* archive) const { zip_discard(archive); }
+    void operator()(zip_file_t* file) const { zip_fclose(file); }
   };
-  const Array& array(const std::string& name) const;
-  Array header_at(const std::string& name, std::int64_t at);
+  struct Array {
+    std::unique_ptr<zip_file_t, Close> file;
+    std::int64_t start, rows, columns = 1;  // start: byte of the first number
+    bool by_columns, whole_numbers;
+  };
+  Array opened(const std::string& name) const;
   template <typename Scalar>
-  Eigen::MatrixX<Scalar> slice(const std::string& name, std::int64_t begin, std::int64_t end);
-  template <typename Number>
-  Number number_at(std::int64_t at);
+  Eigen::MatrixX<Scalar> slice(const std::string& name, std::int64_t begin, std::int64_t end) const;
   [[noreturn]] void fail(const std::string& what) const;
 
   std::string name_;
-  std::ifstream file_;
-  std::map<std::string, Array> arrays_;
+  std::unique_ptr<zip_t, Close> archive_;
 };
 
 }  // namespace airybench
