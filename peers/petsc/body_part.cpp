@@ -16,15 +16,15 @@ struct BoundaryArrays {
   Eigen::MatrixXi edges, roles, rollers;
   Eigen::MatrixXd u0_mm, traction_MPa, gap_mm, normals, moment_normals, friction;
   explicit BoundaryArrays(const NpzSlices& file)
-      : edges(file.integers("boundary")),
-        roles(file.integers("boundary_roles")),
-        rollers(file.integers("rollers")),
-        u0_mm(file.numbers("u0_mm")),
-        traction_MPa(file.numbers("traction_MPa")),
-        gap_mm(file.numbers("gap_mm")),
-        normals(file.numbers("contact_normals")),
-        moment_normals(file.numbers("contact_moment_normals")),
-        friction(file.numbers("friction")) {
+      : edges(file.read<int>("boundary")),
+        roles(file.read<int>("boundary_roles")),
+        rollers(file.read<int>("rollers")),
+        u0_mm(file.read<double>("u0_mm")),
+        traction_MPa(file.read<double>("traction_MPa")),
+        gap_mm(file.read<double>("gap_mm")),
+        normals(file.read<double>("contact_normals")),
+        moment_normals(file.read<double>("contact_moment_normals")),
+        friction(file.read<double>("friction")) {
     for (const int role : roles.reshaped())
       if (role < 0 || role > 2)
         throw FileError("problem.npz: boundary_roles: " + std::to_string(role) +
@@ -120,19 +120,6 @@ std::vector<int> local_vertices(const std::vector<int>& vertices, const MeshPart
   return local;
 }
 
-// The boundary's vertices, from whoever has them.
-std::vector<Eigen::Vector2d> places_of(const std::vector<int>& local, const MeshPart& mesh) {
-  Eigen::Matrix2Xd places = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(local.size()));
-  for (std::size_t k = 0; k < local.size(); ++k)
-    if (local[k] >= 0 && mesh.vertices.is_owned(local[k]))
-      places.col(static_cast<Eigen::Index>(k)) = mesh.vertices_mm[local[k]];
-  const Eigen::VectorXd all = sum(places.reshaped());
-  std::vector<Eigen::Vector2d> result;
-  for (std::size_t k = 0; k < local.size(); ++k)
-    result.emplace_back(all.segment<2>(2 * static_cast<Eigen::Index>(k)));
-  return result;
-}
-
 void take_out_rigid_motion(Problem& boundary, Problem& part) {
   const SplitDisplacement split = split_rigid_motion(boundary);
   boundary.motion = part.motion = split.motion;
@@ -189,19 +176,19 @@ BodyPart make_body_part(MeshPart mesh, const NpzSlices& file) {
   Eigen::Vector2d body_force;
   Mesh whole, local;
   MeshEdges whole_edges, edges = local_edges(mesh);
-  std::vector<int> all_rows, local_of_vertex;
+  std::vector<int> all_rows, vertices;  // of the boundary
   each_by_itself([&] {
     arrays = std::make_shared<BoundaryArrays>(file);
-    body_force = file.numbers("body_force_N_per_mm3");
-    const Eigen::MatrixXd materials = file.numbers("compliance_per_MPa");
+    body_force = file.read<double>("body_force_N_per_mm3");
+    const Eigen::MatrixXd materials = file.read<double>("compliance_per_MPa");
     for (Eigen::Index body = 0; body < materials.rows(); ++body) {
       compliance.emplace_back(materials.row(body).reshaped(3, 3));
       whole.body_names.push_back(std::to_string(body));
     }
-    std::vector<int> vertices(arrays->edges.data(), arrays->edges.data() + arrays->edges.size());
+    vertices.assign(arrays->edges.data(), arrays->edges.data() + arrays->edges.size());
     std::ranges::sort(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    local_of_vertex = local_vertices(vertices, mesh);
+    const std::vector<int> local_of_vertex = local_vertices(vertices, mesh);
     part.boundary_vertex.assign(mesh.vertices.input.size(), -1);
     for (std::size_t v = 0; v < vertices.size(); ++v)
       if (local_of_vertex[v] >= 0) part.boundary_vertex[local_of_vertex[v]] = static_cast<int>(v);
@@ -231,7 +218,7 @@ BodyPart make_body_part(MeshPart mesh, const NpzSlices& file) {
     local.triangles = mesh.triangles;
     local.vertices = mesh.vertices_mm;
   });
-  whole.vertices = places_of(local_of_vertex, mesh);
+  whole.vertices = places_of({vertices.begin(), vertices.end()}, mesh.vertex_slice_mm);
   part.problem = with_boundary(std::move(local), std::move(edges), compliance, arrays,
                                part.row_of_part, body_force);
   part.boundary = with_boundary(std::move(whole), std::move(whole_edges), std::move(compliance),

@@ -168,19 +168,10 @@ bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
   OwnedVec diagonal;
   check(MatCreateVecs(matrix_, nullptr, diagonal.put()));
   check(MatGetDiagonal(matrix_, diagonal));
-  check(MatZeroRowsColumns(held_matrix_, static_cast<PetscInt>(rows.size()), rows.data(), 1,
-                           nullptr, nullptr));
-  // A prescribed node on its own has no stiffness left.
-  const PetscScalar* own = nullptr;
   PetscScalar scale = 0;
   check(VecMax(diagonal, nullptr, &scale));
-  check(VecGetArrayRead(diagonal, &own));
-  for (const PetscInt row : rows) {
-    const PetscScalar value = own[row - 2 * nodes().begin];
-    check(MatSetValue(held_matrix_, row, row, value > 0 ? value : scale, INSERT_VALUES));
-  }
-  check(VecRestoreArrayRead(diagonal, &own));
-  assemble(held_matrix_);
+  check(MatZeroRowsColumns(held_matrix_, static_cast<PetscInt>(rows.size()), rows.data(), scale,
+                           nullptr, nullptr));
   return true;
 }
 

@@ -1,6 +1,6 @@
 // Coarse displacements of nodes (solvers/two_level/coarse_nodes.hpp) and their problem PᵀKP over
-// the ranks. A component is held where the slots of its edges are: P leaves it out, and in PᵀKP
-// only its diagonal stays.
+// the ranks. A component is held where the slots of its edges are: P leaves it out, and its rows
+// and columns in PᵀKP have a diagonal only.
 #pragma once
 
 #include "peers/petsc/body_part.hpp"

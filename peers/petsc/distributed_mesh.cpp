@@ -55,9 +55,8 @@ std::vector<int> parts_of(const MeshSlices& slices) {
     std::sort(neighbour + start[t], neighbour + start[t + 1]);
   }
   OwnedMat graph;
-  PetscInt all = own;
-  MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
-  check(MatCreateMPIAdj(PETSC_COMM_WORLD, own, all, start, neighbour, nullptr, graph.put()));
+  check(MatCreateMPIAdj(PETSC_COMM_WORLD, own, slices.triangles, start, neighbour, nullptr,
+                        graph.put()));
   MatPartitioning partitioning = nullptr;
   check(MatPartitioningCreate(PETSC_COMM_WORLD, &partitioning));
   check(MatPartitioningSetAdjacency(partitioning, graph));
@@ -73,9 +72,11 @@ std::vector<int> parts_of(const MeshSlices& slices) {
   return part;
 }
 
-// Of entities in the order in which their owner is to number them; own_slice: rows of the file.
-Numbering number_entities(std::vector<PetscInt> input, PetscInt own_slice) {
+// Of entities in the order in which their owner is to number them; all: in the file.
+Numbering number_entities(std::vector<PetscInt> input, PetscInt all) {
   Numbering result;
+  result.all = all;
+  const PetscInt own_slice = slice_begin(all, rank_here() + 1) - slice_begin(all, rank_here());
   const OwnedSf to_slices = rows_of(own_slice, input);
   std::vector<int> owner(input.size(), rank_here()),
       of_slice(static_cast<std::size_t>(own_slice), rank_count());
@@ -94,7 +95,8 @@ Numbering number_entities(std::vector<PetscInt> input, PetscInt own_slice) {
   return result;
 }
 
-// Coordinates of vertices from the ranks that have their slices.
+}  // namespace
+
 std::vector<Eigen::Vector2d> places_of(const std::vector<PetscInt>& vertices,
                                        const Eigen::MatrixXd& slice_mm) {
   const OwnedSf to_slices = rows_of(static_cast<PetscInt>(slice_mm.rows()), vertices);
@@ -104,30 +106,27 @@ std::vector<Eigen::Vector2d> places_of(const std::vector<PetscInt>& vertices,
   return {places.rowwise().begin(), places.rowwise().end()};
 }
 
-}  // namespace
-
 MeshSlices read_slices(const NpzSlices& file) {
   MeshSlices slices;
   std::vector<Side> sides;
   std::vector<int> to;
-  PetscInt triangle_count = 0;
   each_by_itself([&] {
     const auto total = [&](const char* name) { return static_cast<PetscInt>(file.rows(name)); };
     const auto first_row = [&](PetscInt rows) {
       return static_cast<int>(slice_begin(rows, rank_here()));
     };
     const auto slice_of = [&](const char* name, PetscInt rows) {
-      return file.integers(name, first_row(rows), slice_begin(rows, rank_here() + 1));
+      return file.read<int>(name, first_row(rows), slice_begin(rows, rank_here() + 1));
     };
-    const PetscInt vertices = total("vertices_mm");
-    triangle_count = total("triangles");
+    const PetscInt vertices = slices.vertices = total("vertices_mm");
+    slices.triangles = total("triangles");
     slices.edges = total("edges");
-    slices.vertices_mm =
-        file.numbers("vertices_mm", first_row(vertices), slice_begin(vertices, rank_here() + 1));
-    const Eigen::MatrixXi triangles = slice_of("triangles", triangle_count),
+    slices.vertices_mm = file.read<double>("vertices_mm", first_row(vertices),
+                                           slice_begin(vertices, rank_here() + 1));
+    const Eigen::MatrixXi triangles = slice_of("triangles", slices.triangles),
                           edges = slice_of("edges", slices.edges),
-                          body = slice_of("triangle_body", triangle_count);
-    const int first = first_row(triangle_count), first_edge = first_row(slices.edges);
+                          body = slice_of("triangle_body", slices.triangles);
+    const int first = first_row(slices.triangles), first_edge = first_row(slices.edges);
     const auto send = [&](int a, int b, int triangle, int side_or_edge) {
       for (const int vertex : {a, b})
         if (vertex < 0 || vertex >= vertices)
@@ -148,7 +147,7 @@ MeshSlices read_slices(const NpzSlices& file) {
   sides = exchanged(sides, to);
   to.clear();
   std::vector<Meeting> meetings;
-  each_by_itself([&] { meetings = meetings_of(std::move(sides), to, triangle_count); });
+  each_by_itself([&] { meetings = meetings_of(std::move(sides), to, slices.triangles); });
   for (const Meeting& met : exchanged(meetings, to)) {
     SlicedTriangle& triangle = slices.own[met.triangle - slices.own.front().number];
     triangle.edges[met.side] = met.edge;
@@ -165,7 +164,6 @@ MeshPart distribute(MeshSlices slices) {
     return own;
   }();
   MeshPart mesh;
-  mesh.edge_count = slices.edges;
   std::vector<PetscInt> vertices, edges;
   std::unordered_map<int, int> local_edge;
   local_edge.reserve(2 * triangles.size());
@@ -190,10 +188,9 @@ MeshPart distribute(MeshSlices slices) {
                                 vertices.begin());
   }
   mesh.vertices_mm = places_of(vertices, slices.vertices_mm);
-  mesh.vertices =
-      number_entities(std::move(vertices), static_cast<PetscInt>(slices.vertices_mm.rows()));
-  mesh.edges = number_entities(std::move(edges), slice_begin(slices.edges, rank_here() + 1) -
-                                                     slice_begin(slices.edges, rank_here()));
+  mesh.vertices = number_entities(std::move(vertices), slices.vertices);
+  mesh.edges = number_entities(std::move(edges), slices.edges);
+  mesh.vertex_slice_mm = std::move(slices.vertices_mm);
   return mesh;
 }
 

@@ -20,7 +20,7 @@ struct SlicedTriangle {
   std::array<int, 3> vertices, edges, neighbours;  // edge k joins vertices k, k + 1; −1: none
 };
 struct MeshSlices {
-  PetscInt edges = 0;  // of all ranks
+  PetscInt triangles = 0, edges = 0, vertices = 0;  // of all ranks
   std::vector<SlicedTriangle> own;
   Eigen::MatrixXd vertices_mm;
 };
@@ -30,6 +30,7 @@ MeshSlices read_slices(const NpzSlices& file);
 struct Numbering {
   std::vector<PetscInt> input;    // local → the number that it has in the file
   std::vector<PetscInt> global;   // local → its number among all ranks
+  PetscInt all = 0;               // of all ranks
   PetscInt owned = 0, begin = 0;  // global numbers [begin, begin + owned) are of this rank
   parallel::OwnedSf to_owned;     // local → its row among the owned ones of all ranks
 
@@ -38,13 +39,16 @@ struct Numbering {
 };
 
 struct MeshPart {
-  PetscInt edge_count = 0;                    // of all ranks
   std::vector<std::array<int, 3>> triangles;  // local vertices, in the order of their input numbers
   std::vector<std::array<int, 3>> edges_of_triangle;  // local
   std::vector<int> body;
   std::vector<Eigen::Vector2d> vertices_mm;
-  Numbering vertices, edges;  // vertices in the order of their input numbers
+  Numbering vertices, edges;        // vertices in the order of their input numbers
+  Eigen::MatrixXd vertex_slice_mm;  // of the vertices of the file
 };
 MeshPart distribute(MeshSlices slices);
+// Coordinates of vertices of the file from the ranks that have them in their slices.
+std::vector<Eigen::Vector2d> places_of(const std::vector<PetscInt>& vertices,
+                                       const Eigen::MatrixXd& slice_mm);
 
 }  // namespace airybench

@@ -92,7 +92,7 @@ Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows
                                                                      part.mesh.vertices_mm[high]));
     place.push_back(edges.input[edge]);
   }
-  Eigen::Matrix4Xd all(4, rank_here() == 0 ? part.mesh.edge_count : 0);
+  Eigen::Matrix4Xd all(4, rank_here() == 0 ? edges.all : 0);
   to_rows(rows_of(static_cast<PetscInt>(all.cols()), place), FourNumbers().type, own.data(),
           all.data(), MPI_REPLACE);
   return all;

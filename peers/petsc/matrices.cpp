@@ -18,11 +18,7 @@ OwnedMat square_matrix(const Numbering& entities, int unknowns, const std::vecto
       in[row] += own_row == own_column;
       out[row] += !own_row || !own_column;
     }
-  const PetscInt per_entity = unknowns / block_size, others = [&] {
-    PetscInt all = entities.owned;
-    MPI_Allreduce(MPI_IN_PLACE, &all, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
-    return all - entities.owned;
-  }();
+  const PetscInt per_entity = unknowns / block_size;
   const auto in_rows = [&](const std::vector<PetscInt>& counts, PetscInt most) {
     std::vector<PetscInt> of_row(static_cast<std::size_t>(entities.owned), 0), result;
     to_rows(entities.to_owned, MPIU_INT, counts.data(), of_row.data(), MPI_SUM);
@@ -31,7 +27,8 @@ OwnedMat square_matrix(const Numbering& entities, int unknowns, const std::vecto
                     per_entity * std::min(count, most));
     return result;
   };
-  const std::vector<PetscInt> in_row = in_rows(in, entities.owned), out_row = in_rows(out, others);
+  const std::vector<PetscInt> in_row = in_rows(in, entities.owned),
+                              out_row = in_rows(out, entities.all - entities.owned);
   OwnedMat matrix;
   const PetscInt own = unknowns * entities.owned;
   check(MatCreate(PETSC_COMM_WORLD, matrix.put()));

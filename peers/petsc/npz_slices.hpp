@@ -24,15 +24,28 @@ class NpzSlices {
   }
 
   std::int64_t rows(const std::string& name) const { return opened(name).rows; }
-  // Rows [begin, end), all columns; or all rows.
-  Eigen::MatrixXi integers(const std::string& name, std::int64_t begin, std::int64_t end) const {
-    return slice<int>(name, begin, end);
+  // Rows [begin, end), all columns; Scalar: int or double, as in the file.
+  static constexpr std::int64_t all = -1;
+  template <typename Scalar>
+  Eigen::MatrixX<Scalar> read(const std::string& name, std::int64_t begin = 0,
+                              std::int64_t end = all) const {
+    const Array of = opened(name);
+    if (end == all) end = of.rows;
+    if (of.whole_numbers != std::is_integral_v<Scalar>) fail(name + ": is of another type");
+    constexpr auto width = static_cast<std::int64_t>(sizeof(Scalar));
+    // Columns of the file's memory: they are the array's, or its rows.
+    const std::int64_t lines = of.by_columns ? of.columns : 1;
+    const std::int64_t first = of.by_columns ? begin : begin * of.columns;
+    Eigen::MatrixX<Scalar> values(of.by_columns ? end - begin : of.columns,
+                                  of.by_columns ? of.columns : end - begin);
+    for (std::int64_t line = 0; line < lines; ++line)
+      if (zip_fseek(of.file.get(), of.start + (line * of.rows + first) * width, SEEK_SET) != 0 ||
+          !of.read(values.data() + line * values.rows(),
+                   static_cast<std::size_t>(values.size() / lines * width)))
+        fail(name + ": the file ends too early");
+    if (of.by_columns) return values;
+    return values.transpose();
   }
-  Eigen::MatrixXd numbers(const std::string& name, std::int64_t begin, std::int64_t end) const {
-    return slice<double>(name, begin, end);
-  }
-  Eigen::MatrixXi integers(const std::string& name) const { return integers(name, 0, rows(name)); }
-  Eigen::MatrixXd numbers(const std::string& name) const { return numbers(name, 0, rows(name)); }
 
  private:
   struct Close {
@@ -74,26 +87,6 @@ class NpzSlices {
     array.rows = std::stoll(found[3]);
     if (found[4].length() > 0) array.columns = std::stoll(found[4]);
     return array;
-  }
-
-  template <typename Scalar>
-  Eigen::MatrixX<Scalar> slice(const std::string& name, std::int64_t begin,
-                               std::int64_t end) const {
-    const Array of = opened(name);
-    if (of.whole_numbers != std::is_integral_v<Scalar>) fail(name + ": is of another type");
-    constexpr auto width = static_cast<std::int64_t>(sizeof(Scalar));
-    // Columns of the file's memory: they are the array's, or its rows.
-    const std::int64_t lines = of.by_columns ? of.columns : 1;
-    const std::int64_t first = of.by_columns ? begin : begin * of.columns;
-    Eigen::MatrixX<Scalar> values(of.by_columns ? end - begin : of.columns,
-                                  of.by_columns ? of.columns : end - begin);
-    for (std::int64_t line = 0; line < lines; ++line)
-      if (zip_fseek(of.file.get(), of.start + (line * of.rows + first) * width, SEEK_SET) != 0 ||
-          !of.read(values.data() + line * values.rows(),
-                   static_cast<std::size_t>(values.size() / lines * width)))
-        fail(name + ": the file ends too early");
-    if (of.by_columns) return values;
-    return values.transpose();
   }
 
   std::string name_;
