@@ -98,24 +98,13 @@ using Ends = std::array<int, 2>;  // low and high vertex
 
 Ends low_first(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-MeshEdges local_edges(const MeshPart& mesh) {
-  MeshEdges edges;
-  edges.of_triangle = mesh.edges_of_triangle;
-  edges.vertices.resize(mesh.edges.input.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k)
-      edges.vertices[mesh.edges_of_triangle[t][k]] =
-          low_first(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-  return edges;
-}
-
 // Local numbers of these vertices of the file, −1 where the part has none.
-std::vector<int> local_vertices(const std::vector<int>& vertices, const MeshPart& mesh) {
+std::vector<int> local_vertices(const std::vector<int>& vertices, const Numbering& numbers) {
   std::vector<int> local;
   for (const int vertex : vertices) {
-    const auto at = std::ranges::lower_bound(mesh.vertices.input, vertex);
-    const bool is_there = at != mesh.vertices.input.end() && *at == vertex;
-    local.push_back(is_there ? static_cast<int>(at - mesh.vertices.input.begin()) : -1);
+    const auto at = std::ranges::lower_bound(numbers.input, vertex);
+    const bool is_there = at != numbers.input.end() && *at == vertex;
+    local.push_back(is_there ? static_cast<int>(at - numbers.input.begin()) : -1);
   }
   return local;
 }
@@ -169,13 +158,13 @@ Eigen::MatrixXd of_whole_boundary(const BodyPart& part, const Eigen::MatrixXd& o
   return sum(of_rows.reshaped()).reshaped(of_rows.rows(), of_rows.cols());
 }
 
-BodyPart make_body_part(MeshPart mesh, const NpzSlices& file) {
+BodyPart make_body_part(MeshPart own, const NpzSlices& file) {
   BodyPart part;
   std::shared_ptr<const BoundaryArrays> arrays;
   std::vector<Eigen::Matrix3d> compliance;
   Eigen::Vector2d body_force;
-  Mesh whole, local;
-  MeshEdges whole_edges, edges = local_edges(mesh);
+  Mesh whole;
+  MeshEdges whole_edges;
   std::vector<int> all_rows, vertices;  // of the boundary
   each_by_itself([&] {
     arrays = std::make_shared<BoundaryArrays>(file);
@@ -188,43 +177,44 @@ BodyPart make_body_part(MeshPart mesh, const NpzSlices& file) {
     vertices.assign(arrays->edges.data(), arrays->edges.data() + arrays->edges.size());
     std::ranges::sort(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    const std::vector<int> local_of_vertex = local_vertices(vertices, mesh);
-    part.boundary_vertex.assign(mesh.vertices.input.size(), -1);
+    const std::vector<int> local_of_vertex = local_vertices(vertices, own.vertex_numbers);
+    part.boundary_vertex.assign(own.mesh.vertices.size(), -1);
     for (std::size_t v = 0; v < vertices.size(); ++v)
       if (local_of_vertex[v] >= 0) part.boundary_vertex[local_of_vertex[v]] = static_cast<int>(v);
 
-    std::map<Ends, int> edge_of;  // local
-    for (int edge = 0; edge < edges.count(); ++edge) edge_of[edges.vertices[edge]] = edge;
+    std::map<Ends, int> edge_of;  // edges between vertices of the boundary
+    for (int edge = 0; edge < own.edges.count(); ++edge)
+      if (const auto [a, b] = own.edges.vertices[edge];
+          part.boundary_vertex[a] >= 0 && part.boundary_vertex[b] >= 0)
+        edge_of[{a, b}] = edge;
     for (int row = 0; row < static_cast<int>(arrays->edges.rows()); ++row) {
       const auto role = static_cast<BoundaryRole>(arrays->roles(row));
-      Ends ends, own;
+      Ends ends, local;
       for (int k = 0; k < 2; ++k) {
         ends[k] = static_cast<int>(std::ranges::lower_bound(vertices, arrays->edges(row, k)) -
                                    vertices.begin());
-        own[k] = local_of_vertex[ends[k]];
+        local[k] = local_of_vertex[ends[k]];
       }
       whole.boundary.push_back({ends, role});
       whole_edges.vertices.push_back(low_first(ends[0], ends[1]));
       whole_edges.of_boundary.push_back(row);
       all_rows.push_back(row);
-      const auto found = edge_of.find(low_first(own[0], own[1]));
+      const auto found = edge_of.find(low_first(local[0], local[1]));
       if (found == edge_of.end()) continue;
-      local.boundary.push_back({own, role});
-      edges.of_boundary.push_back(found->second);
+      own.mesh.boundary.push_back({local, role});
+      own.edges.of_boundary.push_back(found->second);
       part.row_of_part.push_back(row);
     }
-    local.body_names = whole.body_names;
-    local.triangle_body = mesh.body;
-    local.triangles = mesh.triangles;
-    local.vertices = mesh.vertices_mm;
+    own.mesh.body_names = whole.body_names;
   });
-  whole.vertices = places_of({vertices.begin(), vertices.end()}, mesh.vertex_slice_mm);
-  part.problem = with_boundary(std::move(local), std::move(edges), compliance, arrays,
+  whole.vertices = places_of({vertices.begin(), vertices.end()}, own.vertex_slice_mm);
+  part.problem = with_boundary(std::move(own.mesh), std::move(own.edges), compliance, arrays,
                                part.row_of_part, body_force);
   part.boundary = with_boundary(std::move(whole), std::move(whole_edges), std::move(compliance),
                                 arrays, std::move(all_rows), body_force);
   take_out_rigid_motion(part.boundary, part.problem);
-  part.mesh = std::move(mesh);
+  part.vertices = std::move(own.vertex_numbers);
+  part.edges = std::move(own.edge_numbers);
   part.contact = contact_points(part.boundary);
   part.contact_edges = contact_edges(part);
   part.compliance = rough_compliance(

@@ -16,7 +16,7 @@ struct ContactEdge {
 };
 
 struct BodyPart {
-  MeshPart mesh;
+  Numbering vertices, edges;
   // Triangles of the part; numbers are local. Its rigid motion is that of the whole body.
   Problem problem;
   // Without triangles, but the vertices and edges of the boundary only: every row of it.
@@ -29,7 +29,7 @@ struct BodyPart {
   HybridizedSystem system;  // slots of local edges are its unknowns; without K and loads
 };
 // A rank's own triangles; `file` has the boundary.
-BodyPart make_body_part(MeshPart mesh, const NpzSlices& file);
+BodyPart make_body_part(MeshPart own, const NpzSlices& file);
 
 // Columns, or numbers, of a part's rows of the boundary, in their rows of the whole one.
 Eigen::MatrixXd of_whole_boundary(const BodyPart& part, const Eigen::MatrixXd& of_part);

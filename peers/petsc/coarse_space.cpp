@@ -25,7 +25,7 @@ std::vector<int> numbers_up_to(int count) {
 
 std::vector<int> nodes_there(const BodyPart& part, CoarseKind kind) {
   if (kind == CoarseKind::linear) return part.boundary_vertex;
-  std::vector<int> there(part.mesh.edges.input.size(), CoarseNodes::none);
+  std::vector<int> there(part.edges.input.size(), CoarseNodes::none);
   for (std::size_t row = 0; row < part.row_of_part.size(); ++row)
     there[part.problem.edges.of_boundary[row]] = part.row_of_part[row];
   return there;
@@ -55,7 +55,7 @@ CoarseSpace::CoarseSpace(const BodyPart& part)
   if (kind() == CoarseKind::linear)
     for (const auto& [a, b] : part.problem.edges.vertices) pairs.push_back({a, b});
   else
-    for (const auto& [a, b, c] : part.mesh.edges_of_triangle)
+    for (const auto& [a, b, c] : part.problem.edges.of_triangle)
       pairs.insert(pairs.end(), {{a, b}, {b, c}, {c, a}});
   matrix_ = square_matrix(nodes(), 2, pairs, MATAIJ, 2, "coarse_");
   create_prolongation();
@@ -68,7 +68,7 @@ PetscInt CoarseSpace::unknowns() const {
 }
 
 void CoarseSpace::create_prolongation() {
-  const Numbering& edges = part_.mesh.edges;
+  const Numbering& edges = part_.edges;
   std::vector<int> inner;
   std::vector<PetscInt> in(static_cast<std::size_t>(4 * edges.owned), 0), out(in);
   for (const int edge : block_) {
@@ -95,7 +95,7 @@ void CoarseSpace::fill_prolongation(const std::vector<int>& edges) {
     const auto& ends = own_.nodes_of(edge);
     const int boundary = own_.boundary_of_block[edge];
     const Eigen::Matrix4d rows = own_.prolongation(edge);
-    const PetscInt slot = 4 * part_.mesh.edges.global[edge];
+    const PetscInt slot = 4 * part_.edges.global[edge];
     for (int n = 0; n < 2; ++n)
       for (int k = 0; ends[n] != CoarseNodes::none && k < 2; ++k)
         for (int i = 0; i < 4; ++i) {
@@ -110,8 +110,8 @@ void CoarseSpace::fill_prolongation(const std::vector<int>& edges) {
 
 void CoarseSpace::add(int triangle, const ElementMatrices::Matrix& K_e) {
   const std::array<int, 3>& own =
-      (kind() == CoarseKind::linear ? part_.mesh.triangles
-                                    : part_.mesh.edges_of_triangle)[triangle];
+      (kind() == CoarseKind::linear ? part_.problem.mesh.triangles
+                                    : part_.problem.edges.of_triangle)[triangle];
   const Eigen::Matrix<double, 12, 6> P =
       own_.prolongation(part_.problem, part_.system.unknown, block_, triangle, own);
   const Eigen::Matrix<double, 6, 6> of_element = P.transpose() * (K_e * P);
@@ -129,7 +129,7 @@ void CoarseSpace::end_assembly() {
   for (int node = 0; node < nodes().count(); ++node) {
     if (!nodes().is_owned(node)) continue;
     FramedPoint& point = points[nodes().global[node] - nodes().begin];
-    const std::vector<Eigen::Vector2d>& x = part_.mesh.vertices_mm;
+    const std::vector<Eigen::Vector2d>& x = part_.problem.mesh.vertices;
     if (kind() == CoarseKind::linear) {
       point.x = x[node];
     } else {

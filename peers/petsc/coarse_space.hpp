@@ -30,7 +30,7 @@ class CoarseSpace {
   using Components = std::vector<std::array<bool, 2>>;
 
   const Numbering& nodes() const {
-    return kind() == CoarseKind::linear ? part_.mesh.vertices : part_.mesh.edges;
+    return kind() == CoarseKind::linear ? part_.vertices : part_.edges;
   }
   bool is_held(int node, int component) const {
     return node_there_[node] >= 0 && held_[node_there_[node]][component];

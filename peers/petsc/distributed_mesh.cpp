@@ -163,35 +163,36 @@ MeshPart distribute(MeshSlices slices) {
     slices.own = {};
     return own;
   }();
-  MeshPart mesh;
+  MeshPart part;
   std::vector<PetscInt> vertices, edges;
+  for (const SlicedTriangle& triangle : triangles)
+    vertices.insert(vertices.end(), triangle.vertices.begin(), triangle.vertices.end());
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::unordered_map<int, int> local_edge;
   local_edge.reserve(2 * triangles.size());
   for (const SlicedTriangle& triangle : triangles) {
-    std::array<int, 3> own;
+    part.mesh.triangle_body.push_back(triangle.body);
+    std::array<int, 3>& corner = part.mesh.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      corner[k] = static_cast<int>(std::ranges::lower_bound(vertices, triangle.vertices[k]) -
+                                   vertices.begin());
+    std::array<int, 3>& side = part.edges.of_triangle.emplace_back();
     for (int k = 0; k < 3; ++k) {
       const auto [at, is_new] =
           local_edge.try_emplace(triangle.edges[k], static_cast<int>(edges.size()));
-      if (is_new) edges.push_back(triangle.edges[k]);
-      own[k] = at->second;
+      side[k] = at->second;
+      if (!is_new) continue;
+      edges.push_back(triangle.edges[k]);
+      const auto [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
+      part.edges.vertices.push_back({low, high});
     }
-    mesh.edges_of_triangle.push_back(own);
-    mesh.body.push_back(triangle.body);
-    vertices.insert(vertices.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (const SlicedTriangle& triangle : triangles) {
-    std::array<int, 3>& own = mesh.triangles.emplace_back();
-    for (int k = 0; k < 3; ++k)
-      own[k] = static_cast<int>(std::ranges::lower_bound(vertices, triangle.vertices[k]) -
-                                vertices.begin());
-  }
-  mesh.vertices_mm = places_of(vertices, slices.vertices_mm);
-  mesh.vertices = number_entities(std::move(vertices), slices.vertices);
-  mesh.edges = number_entities(std::move(edges), slices.edges);
-  mesh.vertex_slice_mm = std::move(slices.vertices_mm);
-  return mesh;
+  part.mesh.vertices = places_of(vertices, slices.vertices_mm);
+  part.vertex_numbers = number_entities(std::move(vertices), slices.vertices);
+  part.edge_numbers = number_entities(std::move(edges), slices.edges);
+  part.vertex_slice_mm = std::move(slices.vertices_mm);
+  return part;
 }
 
 }  // namespace airybench

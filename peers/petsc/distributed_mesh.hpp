@@ -10,6 +10,7 @@
 //             meet them
 #pragma once
 
+#include "mesh/mesh.hpp"
 #include "peers/petsc/npz_slices.hpp"
 #include "peers/petsc/parallel.hpp"
 
@@ -39,11 +40,9 @@ struct Numbering {
 };
 
 struct MeshPart {
-  std::vector<std::array<int, 3>> triangles;  // local vertices, in the order of their input numbers
-  std::vector<std::array<int, 3>> edges_of_triangle;  // local
-  std::vector<int> body;
-  std::vector<Eigen::Vector2d> vertices_mm;
-  Numbering vertices, edges;        // vertices in the order of their input numbers
+  Mesh mesh;  // vertices and triangles in the order of their input numbers; without boundary
+  MeshEdges edges;
+  Numbering vertex_numbers, edge_numbers;
   Eigen::MatrixXd vertex_slice_mm;  // of the vertices of the file
 };
 MeshPart distribute(MeshSlices slices);

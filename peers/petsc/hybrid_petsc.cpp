@@ -80,7 +80,7 @@ void write(const std::filesystem::path& file, std::string_view text, std::string
 // motion; mm.
 Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows,
                                       const Eigen::VectorXd& u) {
-  const Numbering& edges = part.mesh.edges;
+  const Numbering& edges = part.edges;
   const Eigen::Matrix4Xd moments =
       edge_moments(part.problem, part.system.unknown, part.system.displacement, rows.to_local(u));
   std::vector<Eigen::Vector4d> own;
@@ -88,8 +88,9 @@ Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows
   for (int edge = 0; edge < edges.count(); ++edge) {
     if (!edges.is_owned(edge)) continue;
     const auto [low, high] = part.problem.edges.vertices[edge];
-    own.emplace_back(moments.col(edge) + part.problem.motion.moments(part.mesh.vertices_mm[low],
-                                                                     part.mesh.vertices_mm[high]));
+    own.emplace_back(moments.col(edge) +
+                     part.problem.motion.moments(part.problem.mesh.vertices[low],
+                                                 part.problem.mesh.vertices[high]));
     place.push_back(edges.input[edge]);
   }
   Eigen::Matrix4Xd all(4, rank_here() == 0 ? edges.all : 0);

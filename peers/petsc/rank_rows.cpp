@@ -25,7 +25,7 @@ PC preconditioner_of(KSP ksp) {
 
 // An affine displacement's moments are its values at an edge's third points.
 std::vector<FramedPoint> points_of_slots(const BodyPart& part) {
-  const Numbering& edges = part.mesh.edges;
+  const Numbering& edges = part.edges;
   const Problem& problem = part.problem;
   const std::vector<int> row_of_edge = rows_in_frame(problem);
   std::vector<FramedPoint> points(static_cast<std::size_t>(2 * edges.owned));
@@ -36,7 +36,9 @@ std::vector<FramedPoint> points_of_slots(const BodyPart& part) {
         row == no_frame ? problem.edges.vertices[edge] : problem.mesh.boundary[row].vertices;
     for (int end = 0; end < 2; ++end) {
       FramedPoint& point = points[2 * (edges.global[edge] - edges.begin) + end];
-      point.x = (2 * part.mesh.vertices_mm[ends[end]] + part.mesh.vertices_mm[ends[1 - end]]) / 3;
+      point.x =
+          (2 * part.problem.mesh.vertices[ends[end]] + part.problem.mesh.vertices[ends[1 - end]]) /
+          3;
       if (row == no_frame) continue;
       const EdgeFrame frame = problem.frame_of_moment(row, end);
       point.frame << frame.normal, frame.tangent;
@@ -103,14 +105,13 @@ void RankRows::assemble_system() {
 
 void RankRows::create_matrix() {
   std::vector<Pair> pairs;
-  for (const auto& [a, b, c] : part_.mesh.edges_of_triangle)
+  for (const auto& [a, b, c] : part_.problem.edges.of_triangle)
     pairs.insert(pairs.end(), {{a, b}, {b, c}, {c, a}});
   check(PetscOptionsGetInt(nullptr, nullptr, "-stiffness_block_size", &block_size_, nullptr));
   if (block_size_ != 4 && block_size_ != 2 && block_size_ != 1)
     throw std::runtime_error("-stiffness_block_size " + std::to_string(block_size_) +
                              " (allowed: 1, 2, 4)");
-  A_ = square_matrix(part_.mesh.edges, 4, pairs, MATBAIJ, static_cast<int>(block_size_),
-                     "stiffness_");
+  A_ = square_matrix(part_.edges, 4, pairs, MATBAIJ, static_cast<int>(block_size_), "stiffness_");
   if (block_size_ == 2) set_rigid_modes(A_, points_of_slots(part_));
 }
 
@@ -118,18 +119,18 @@ void RankRows::add_element(int triangle, const ElementMatrices::Matrix& K_e) {
   const PetscInt per_edge = 4 / block_size_;
   std::array<PetscInt, 12> blocks;
   PetscInt count = 0;
-  for (const int edge : part_.mesh.edges_of_triangle[triangle])
+  for (const int edge : part_.problem.edges.of_triangle[triangle])
     for (PetscInt k = 0; k < per_edge; ++k)
-      blocks[count++] = per_edge * part_.mesh.edges.global[edge] + k;
+      blocks[count++] = per_edge * part_.edges.global[edge] + k;
   check(MatSetValuesBlocked(A_, count, blocks.data(), count, blocks.data(), K_e.data(),
                             ADD_VALUES));  // symmetric: rows or columns first
 }
 
 void RankRows::find_contact_triangles() {
-  std::vector<int> first_point(part_.mesh.edges.input.size(), -1);
+  std::vector<int> first_point(part_.edges.input.size(), -1);
   for (const ContactEdge& of : part_.contact_edges) first_point[of.edge] = of.first_point;
-  for (int t = 0; t < static_cast<int>(part_.mesh.triangles.size()); ++t) {
-    const auto& [a, b, c] = part_.mesh.edges_of_triangle[t];
+  for (int t = 0; t < static_cast<int>(part_.problem.mesh.triangles.size()); ++t) {
+    const auto& [a, b, c] = part_.problem.edges.of_triangle[t];
     const std::array<int, 3> points = {first_point[a], first_point[b], first_point[c]};
     if (std::ranges::max(points) >= 0)
       contact_triangles_.push_back(
@@ -276,9 +277,9 @@ void RankRows::put_laws_into_A() {
       of.A.row(i).setZero();
       of.A(i, i) = of.K(i, i);
     }
-    const std::array<int, 3>& edges = part_.mesh.edges_of_triangle[of.triangle];
+    const std::array<int, 3>& edges = part_.problem.edges.of_triangle[of.triangle];
     const auto slots = [&](int k) {
-      const PetscInt first = 4 * part_.mesh.edges.global[edges[k]];
+      const PetscInt first = 4 * part_.edges.global[edges[k]];
       return std::array{first, first + 1, first + 2, first + 3};
     };
     for (int k = 0; k < 3; ++k)
@@ -298,7 +299,7 @@ void RankRows::multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const {
   const Eigen::VectorXd local = to_local(x);
   Eigen::VectorXd rest = Eigen::VectorXd::Zero(local.size());
   for (const ContactTriangle& of : contact_triangles_) {
-    const std::array<int, 3>& edges = part_.mesh.edges_of_triangle[of.triangle];
+    const std::array<int, 3>& edges = part_.problem.edges.of_triangle[of.triangle];
     ElementVector own;
     for (int k = 0; k < 3; ++k) own.segment<4>(4 * k) = local.segment<4>(4 * edges[k]);
     const ElementVector force = (of.K - of.A) * own;
@@ -328,14 +329,14 @@ Eigen::VectorXd RankRows::of_contact(const Eigen::VectorXd& x) const {
 }
 
 Eigen::VectorXd RankRows::to_local(const Eigen::VectorXd& x) const {
-  Eigen::VectorXd local(4 * part_.mesh.edges.count());
-  to_values(part_.mesh.edges.to_owned, FourNumbers().type, x.data(), local.data());
+  Eigen::VectorXd local(4 * part_.edges.count());
+  to_values(part_.edges.to_owned, FourNumbers().type, x.data(), local.data());
   return local;
 }
 
 Eigen::VectorXd RankRows::from_local(const Eigen::VectorXd& local) const {
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(4 * part_.mesh.edges.owned);
-  to_rows(part_.mesh.edges.to_owned, FourNumbers().type, local.data(), x.data(), MPI_SUM);
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(4 * part_.edges.owned);
+  to_rows(part_.edges.to_owned, FourNumbers().type, local.data(), x.data(), MPI_SUM);
   return x;
 }
 

@@ -77,7 +77,7 @@ class RankRows : public ContactRows {
   void reduce(Eigen::VectorXd& r) const;
   double norm(const Eigen::VectorXd& r) const;  // √(r·M⁻¹r)
   PetscInt own_slot(int edge) const {           // of an edge of this rank, its first one
-    return 4 * (part_.mesh.edges.global[edge] - part_.mesh.edges.begin);
+    return 4 * (part_.edges.global[edge] - part_.edges.begin);
   }
 
   const BodyPart& part_;
