@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <unordered_map>
 
 #include "assembly/rough_compliance.hpp"
 #include "support/errors.hpp"
@@ -16,41 +15,36 @@ using namespace parallel;
 struct BoundaryArrays {
   Eigen::MatrixXi edges, roles, rollers;
   Eigen::MatrixXd u0_mm, traction_MPa, gap_mm, normals, moment_normals, friction;
-  explicit BoundaryArrays(NpzSlices& file)
-      : edges(file.integers("boundary")),
-        roles(file.integers("boundary_roles")),
-        rollers(file.integers("rollers")),
-        u0_mm(file.numbers("u0_mm")),
-        traction_MPa(file.numbers("traction_MPa")),
-        gap_mm(file.numbers("gap_mm")),
-        normals(file.numbers("contact_normals")),
-        moment_normals(file.numbers("contact_moment_normals")),
-        friction(file.numbers("friction")) {}
-};
-
-// Of a point on an edge: 0 at its start, 1 at its end.
-struct AlongEdge {
-  Eigen::Vector2d start, edge;
-  double operator()(const Eigen::Vector2d& x) const {
-    return (x - start).dot(edge) / edge.squaredNorm();
+  explicit BoundaryArrays(const NpzSlices& file)
+      : edges(file.read<int>("boundary")),
+        roles(file.read<int>("boundary_roles")),
+        rollers(file.read<int>("rollers")),
+        u0_mm(file.read<double>("u0_mm")),
+        traction_MPa(file.read<double>("traction_MPa")),
+        gap_mm(file.read<double>("gap_mm")),
+        normals(file.read<double>("contact_normals")),
+        moment_normals(file.read<double>("contact_moment_normals")),
+        friction(file.read<double>("friction")) {
+    for (const int role : roles.reshaped())
+      if (role < 0 || role > 2)
+        throw FileError("problem.npz: boundary_roles: " + std::to_string(role) +
+                        " (allowed: 0, 1, 2)");
   }
 };
 
-// The quadratic with these values at 0, 1/2 and 1; at these three places they themselves.
-template <typename Value>
-Value quadratic(double s, const Value& start, const Value& middle, const Value& end) {
-  return Value(start * ((1 - s) * (1 - 2 * s)) + middle * (4 * s * (1 - s)) +
-               end * (s * (2 * s - 1)));
-}
-
-// Loads on the rows of a boundary; arrays and places are shared by all functions.
+// What is given at nodes of boundary edges, 0 at the start, 1 in the middle, 2 at the end: loads
+// are asked for there only.
 struct GivenData {
   std::shared_ptr<const BoundaryArrays> arrays;
-  std::vector<int> row;  // of the boundary at hand → row of the arrays
-  std::vector<AlongEdge> along;
+  std::vector<int> row;                                            // → row of the arrays
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> along;  // start, edge
 
-  double place(const Eigen::Vector2d& x, int of) const {
-    return std::round(2 * along[of](x)) / 2;  // asked for at the nodes only
+  int node(const Eigen::Vector2d& x, int of) const {
+    const auto& [start, edge] = along[of];
+    return static_cast<int>(std::lround(2 * (x - start).dot(edge) / edge.squaredNorm()));
+  }
+  Eigen::Vector2d pair(const Eigen::MatrixXd& array, int of, int k) const {
+    return array.row(row[of]).segment<2>(2 * k);
   }
 };
 
@@ -60,96 +54,59 @@ Loads loads_of(const std::shared_ptr<const GivenData>& given, const Eigen::Vecto
   const BoundaryArrays& arrays = *given->arrays;
   if (!arrays.u0_mm.isZero(0))
     loads.displacement_mm = [given](const Eigen::Vector2d& x, int of) {
-      const Eigen::RowVectorXd u = given->arrays->u0_mm.row(given->row[of]);
-      return Eigen::Vector2d(quadratic<Eigen::RowVector2d>(given->place(x, of), u.segment<2>(0),
-                                                           u.segment<2>(2), u.segment<2>(4)));
+      return given->pair(given->arrays->u0_mm, of, given->node(x, of));
     };
   if (!arrays.traction_MPa.isZero(0))
     loads.traction_MPa = [given](const Eigen::Vector2d& x, const Eigen::Vector2d&, int of) {
-      const Eigen::RowVectorXd f = given->arrays->traction_MPa.row(given->row[of]);
-      return Eigen::Vector2d(given->place(x, of) < 0.5 ? f.segment<2>(0) : f.segment<2>(2));
+      return given->pair(given->arrays->traction_MPa, of, given->node(x, of) / 2);
     };
   if (!arrays.gap_mm.isZero(0))
     loads.gap_mm = [given](const Eigen::Vector2d& x, int of) {
-      const Eigen::RowVectorXd gap = given->arrays->gap_mm.row(given->row[of]);
-      return quadratic<double>(given->place(x, of), gap(0), gap(1), gap(2));
+      return given->arrays->gap_mm(given->row[of], given->node(x, of));
     };
   for (const int row : given->row) loads.rollers.push_back(arrays.rollers(row) != 0);
   return loads;
 }
 
 // What the boundary says, for these of its rows, on a mesh that has their vertices.
-Problem with_boundary(Mesh mesh, std::vector<Eigen::Matrix3d> compliance,
+Problem with_boundary(Mesh mesh, MeshEdges edges, std::vector<Eigen::Matrix3d> compliance,
                       const std::shared_ptr<const BoundaryArrays>& arrays, std::vector<int> rows,
                       const Eigen::Vector2d& body_force) {
   Problem problem;
   auto given = std::make_shared<GivenData>();
   given->arrays = arrays;
+  given->row = std::move(rows);
   const bool friction = !arrays->friction.isZero(0);
-  for (std::size_t of = 0; of < rows.size(); ++of) {
-    const int row = rows[of];
+  for (int of = 0; of < static_cast<int>(given->row.size()); ++of) {
     const auto [a, b] = mesh.boundary[of].vertices;
-    given->along.push_back({mesh.vertices[a], mesh.vertices[b] - mesh.vertices[a]});
-    if (friction) problem.friction.push_back(arrays->friction(row));
-    ContactNormals normals;
-    for (int k = 0; k < 3; ++k) normals.at_node[k] = arrays->normals.row(row).segment<2>(2 * k);
-    for (int k = 0; k < 2; ++k)
-      normals.at_moment[k] = arrays->moment_normals.row(row).segment<2>(2 * k);
-    problem.contact_normals.push_back(normals);
+    given->along.emplace_back(mesh.vertices[a], mesh.vertices[b] - mesh.vertices[a]);
+    if (friction) problem.friction.push_back(arrays->friction(given->row[of]));
+    ContactNormals& normals = problem.contact_normals.emplace_back();
+    for (int k = 0; k < 3; ++k) normals.at_node[k] = given->pair(arrays->normals, of, k);
+    for (int k = 0; k < 2; ++k) normals.at_moment[k] = given->pair(arrays->moment_normals, of, k);
   }
   // Whether there is friction at all is asked of the whole boundary.
   if (friction && problem.friction.empty()) problem.friction.push_back(0);
-  given->row = std::move(rows);
   problem.loads = loads_of(given, body_force);
   problem.mesh = std::move(mesh);
+  problem.edges = std::move(edges);
   problem.compliance = std::move(compliance);
   return problem;
 }
 
-BoundaryRole role_at(const BoundaryArrays& arrays, Eigen::Index row) {
-  const int role = arrays.roles(row);
-  if (role < 0 || role > 2)
-    throw FileError("problem.npz: boundary_roles: " + std::to_string(role) + " (allowed: 0, 1, 2)");
-  return static_cast<BoundaryRole>(role);
-}
+using Ends = std::array<int, 2>;  // low and high vertex
 
-using Ends = std::array<int, 2>;  // low and high vertex of the file
+Ends low_first(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Row of the boundary that every edge of the part is, if any.
-std::map<Ends, int> rows_by_ends(const BoundaryArrays& arrays) {
-  std::map<Ends, int> rows;
-  for (int row = 0; row < static_cast<int>(arrays.edges.rows()); ++row) {
-    const auto [low, high] = std::minmax(arrays.edges(row, 0), arrays.edges(row, 1));
-    rows[{low, high}] = row;
+// Local numbers of these vertices of the file, −1 where the part has none.
+std::vector<int> local_vertices(const std::vector<int>& vertices, const Numbering& numbers) {
+  std::vector<int> local;
+  for (const int vertex : vertices) {
+    const auto at = std::ranges::lower_bound(numbers.input, vertex);
+    const bool is_there = at != numbers.input.end() && *at == vertex;
+    local.push_back(is_there ? static_cast<int>(at - numbers.input.begin()) : -1);
   }
-  return rows;
-}
-
-void number_local_edges(const MeshPart& mesh, MeshEdges& edges) {
-  edges.of_triangle = mesh.edges_of_triangle;
-  edges.vertices.resize(mesh.edges.input.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      edges.vertices[mesh.edges_of_triangle[t][k]] = {low, high};
-    }
-}
-
-// The boundary's vertices, from whoever has them.
-std::vector<Eigen::Vector2d> places_of(const std::vector<int>& vertices, const MeshPart& mesh) {
-  Eigen::VectorXd places = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(vertices.size()));
-  for (std::size_t k = 0; k < vertices.size(); ++k) {
-    const auto at = std::ranges::lower_bound(mesh.vertices.input, vertices[k]);
-    if (at == mesh.vertices.input.end() || *at != vertices[k]) continue;
-    const auto local = static_cast<int>(at - mesh.vertices.input.begin());
-    if (mesh.vertices.is_owned(local))
-      places.segment<2>(2 * static_cast<Eigen::Index>(k)) = mesh.vertices_mm[local];
-  }
-  places = sum(places);
-  std::vector<Eigen::Vector2d> result(vertices.size());
-  for (std::size_t k = 0; k < vertices.size(); ++k)
-    result[k] = places.segment<2>(2 * static_cast<Eigen::Index>(k));
-  return result;
+  return local;
 }
 
 void take_out_rigid_motion(Problem& boundary, Problem& part) {
@@ -166,77 +123,104 @@ void take_out_rigid_motion(Problem& boundary, Problem& part) {
   }
 }
 
-// From the part that has the point's edge.
-Eigen::VectorXd compliance_of(const BodyPart& part) {
-  const Eigen::VectorXd own = compliance_at_boundary(part.problem);
-  Eigen::VectorXd of_row =
-      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(part.boundary.mesh.boundary.size()));
+std::vector<ContactEdge> contact_edges(const BodyPart& part) {
+  std::map<int, int> first_point;
+  for (int p = 0; p < part.contact.count; p += 2) first_point[part.contact.boundary[p]] = p;
+  std::vector<ContactEdge> edges;
   for (std::size_t row = 0; row < part.row_of_part.size(); ++row)
-    of_row(part.row_of_part[row]) = own(static_cast<Eigen::Index>(row));
-  return rough_compliance(sum(of_row), part.contact);
+    if (const auto at = first_point.find(part.row_of_part[row]); at != first_point.end())
+      edges.push_back({part.problem.edges.of_boundary[row], at->second});
+  return edges;
+}
+
+// Every slot its own unknown, but for those that are prescribed.
+HybridizedSystem system_of_slots(const Problem& problem) {
+  HybridizedSystem system;
+  number_unknowns(problem, {}, system.unknown);
+  int slot = 0;
+  for (std::array<int, 4>& of_edge : system.unknown)
+    for (int& unknown : of_edge) {
+      if (unknown != prescribed_unknown) unknown = slot;
+      ++slot;
+    }
+  system.displacement = prescribed_displacements(problem);
+  system.b = Eigen::VectorXd::Zero(slot);
+  return system;
 }
 
 }  // namespace
 
-BodyPart make_body_part(MeshPart mesh, NpzSlices& file) {
+Eigen::MatrixXd of_whole_boundary(const BodyPart& part, const Eigen::MatrixXd& of_part) {
+  Eigen::MatrixXd of_rows = Eigen::MatrixXd::Zero(
+      of_part.rows(), static_cast<Eigen::Index>(part.boundary.mesh.boundary.size()));
+  for (std::size_t row = 0; row < part.row_of_part.size(); ++row)
+    of_rows.col(part.row_of_part[row]) = of_part.col(static_cast<Eigen::Index>(row));
+  return sum(of_rows.reshaped()).reshaped(of_rows.rows(), of_rows.cols());
+}
+
+BodyPart make_body_part(MeshPart own, const NpzSlices& file) {
   BodyPart part;
   std::shared_ptr<const BoundaryArrays> arrays;
   std::vector<Eigen::Matrix3d> compliance;
   Eigen::Vector2d body_force;
-  Mesh whole, local;
-  std::vector<int> all_rows, vertices;
+  Mesh whole;
+  MeshEdges whole_edges;
+  std::vector<int> all_rows, vertices;  // of the boundary
   each_by_itself([&] {
     arrays = std::make_shared<BoundaryArrays>(file);
-    const Eigen::MatrixXd C = file.numbers("compliance_per_MPa");
-    for (Eigen::Index body = 0; body < C.rows(); ++body) {
-      compliance.emplace_back(C.row(body).reshaped(3, 3));
+    body_force = file.read<double>("body_force_N_per_mm3");
+    const Eigen::MatrixXd materials = file.read<double>("compliance_per_MPa");
+    for (Eigen::Index body = 0; body < materials.rows(); ++body) {
+      compliance.emplace_back(materials.row(body).reshaped(3, 3));
       whole.body_names.push_back(std::to_string(body));
     }
-    body_force = file.numbers("body_force_N_per_mm3");
     vertices.assign(arrays->edges.data(), arrays->edges.data() + arrays->edges.size());
     std::ranges::sort(vertices);
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-    for (Eigen::Index row = 0; row < arrays->edges.rows(); ++row) {
-      Ends ends;
-      for (int k = 0; k < 2; ++k)
+    const std::vector<int> local_of_vertex = local_vertices(vertices, own.vertex_numbers);
+    part.boundary_vertex.assign(own.mesh.vertices.size(), -1);
+    for (std::size_t v = 0; v < vertices.size(); ++v)
+      if (local_of_vertex[v] >= 0) part.boundary_vertex[local_of_vertex[v]] = static_cast<int>(v);
+
+    std::map<Ends, int> edge_of;  // edges between vertices of the boundary
+    for (int edge = 0; edge < own.edges.count(); ++edge)
+      if (const auto [a, b] = own.edges.vertices[edge];
+          part.boundary_vertex[a] >= 0 && part.boundary_vertex[b] >= 0)
+        edge_of[{a, b}] = edge;
+    for (int row = 0; row < static_cast<int>(arrays->edges.rows()); ++row) {
+      const auto role = static_cast<BoundaryRole>(arrays->roles(row));
+      Ends ends, local;
+      for (int k = 0; k < 2; ++k) {
         ends[k] = static_cast<int>(std::ranges::lower_bound(vertices, arrays->edges(row, k)) -
                                    vertices.begin());
-      whole.boundary.push_back({ends, role_at(*arrays, row)});
-      all_rows.push_back(static_cast<int>(row));
-    }
-    local.body_names = whole.body_names;
-    local.triangle_body = mesh.body;
-    local.triangles = mesh.triangles;
-    local.vertices = mesh.vertices_mm;
-    MeshEdges& edges = part.problem.edges;
-    number_local_edges(mesh, edges);
-    const std::map<Ends, int> row_of = rows_by_ends(*arrays);
-    for (int edge = 0; edge < edges.count(); ++edge) {
-      const auto [a, b] = edges.vertices[edge];
-      const auto found = row_of.find({mesh.vertices.input[a], mesh.vertices.input[b]});
-      if (found == row_of.end()) continue;
-      const int row = found->second;
-      const bool low_first = arrays->edges(row, 0) < arrays->edges(row, 1);
-      local.boundary.push_back({low_first ? Ends{a, b} : Ends{b, a}, role_at(*arrays, row)});
-      edges.of_boundary.push_back(edge);
+        local[k] = local_of_vertex[ends[k]];
+      }
+      whole.boundary.push_back({ends, role});
+      whole_edges.vertices.push_back(low_first(ends[0], ends[1]));
+      whole_edges.of_boundary.push_back(row);
+      all_rows.push_back(row);
+      const auto found = edge_of.find(low_first(local[0], local[1]));
+      if (found == edge_of.end()) continue;
+      own.mesh.boundary.push_back({local, role});
+      own.edges.of_boundary.push_back(found->second);
       part.row_of_part.push_back(row);
     }
-    part.boundary_vertex.assign(mesh.vertices.input.size(), -1);
-    for (std::size_t v = 0; v < mesh.vertices.input.size(); ++v)
-      if (const auto at = std::ranges::lower_bound(vertices, mesh.vertices.input[v]);
-          at != vertices.end() && *at == mesh.vertices.input[v])
-        part.boundary_vertex[v] = static_cast<int>(at - vertices.begin());
+    own.mesh.body_names = whole.body_names;
   });
-  whole.vertices = places_of(vertices, mesh);
-  MeshEdges edges = std::move(part.problem.edges);
-  part.problem = with_boundary(std::move(local), compliance, arrays, part.row_of_part, body_force);
-  part.problem.edges = std::move(edges);
-  part.boundary =
-      with_boundary(std::move(whole), std::move(compliance), arrays, all_rows, body_force);
+  whole.vertices = places_of({vertices.begin(), vertices.end()}, own.vertex_slice_mm);
+  part.problem = with_boundary(std::move(own.mesh), std::move(own.edges), compliance, arrays,
+                               part.row_of_part, body_force);
+  part.boundary = with_boundary(std::move(whole), std::move(whole_edges), std::move(compliance),
+                                arrays, std::move(all_rows), body_force);
   take_out_rigid_motion(part.boundary, part.problem);
-  part.mesh = std::move(mesh);
+  part.vertices = std::move(own.vertex_numbers);
+  part.edges = std::move(own.edge_numbers);
   part.contact = contact_points(part.boundary);
-  part.compliance = compliance_of(part);
+  part.contact_edges = contact_edges(part);
+  part.compliance = rough_compliance(
+      of_whole_boundary(part, compliance_at_boundary(part.problem).transpose()).transpose(),
+      part.contact);
+  part.system = system_of_slots(part.problem);
   return part;
 }
 

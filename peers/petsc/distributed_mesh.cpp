@@ -40,9 +40,9 @@ std::vector<Meeting> meetings_of(std::vector<Side> sides, std::vector<int>& to,
 }
 
 // Rank of every own triangle.
-std::vector<PetscInt> parts_of(const MeshSlices& slices) {
+std::vector<int> parts_of(const MeshSlices& slices) {
   const auto own = static_cast<PetscInt>(slices.own.size());
-  std::vector<PetscInt> part(static_cast<std::size_t>(own), 0);
+  std::vector<int> part(slices.own.size(), 0);
   if (rank_count() == 1) return part;
   PetscInt *start = nullptr, *neighbour = nullptr;  // the matrix frees them
   check(PetscMalloc1(own + 1, &start));
@@ -72,148 +72,75 @@ std::vector<PetscInt> parts_of(const MeshSlices& slices) {
   return part;
 }
 
-struct Claim {
-  int entity, rank;
-};
-struct Numbered {
-  int entity;
-  PetscInt number;
-};
-
-// Of entities in the order in which their owner is to number them.
-Numbering number_entities(std::vector<int> input, PetscInt total) {
+// Of entities in the order in which their owner is to number them; all: in the file.
+Numbering number_entities(std::vector<PetscInt> input, PetscInt all) {
   Numbering result;
-  const int here = rank_here();
-  std::vector<Claim> claims;
-  std::vector<int> to;
-  for (const int entity : input) {
-    claims.push_back({entity, here});
-    to.push_back(slice_owner(total, entity));
-  }
-  const std::vector<Claim> asked = exchanged(claims, to);
-  const PetscInt begin = slice_begin(total, here), end = slice_begin(total, here + 1);
-  std::vector<int> owner(static_cast<std::size_t>(end - begin), -1), times(owner.size(), 0);
-  for (const Claim& claim : asked) {
-    int& of = owner[claim.entity - begin];
-    if (of < 0 || claim.rank < of) of = claim.rank;
-    ++times[claim.entity - begin];
-  }
-  std::vector<Claim> reply;
-  std::vector<int> back;
-  for (const Claim& claim : asked) {
-    const auto at = static_cast<std::size_t>(claim.entity - begin);
-    reply.push_back({claim.entity, times[at] > 1 ? -1 - owner[at] : owner[at]});
-    back.push_back(claim.rank);
-  }
-  // Replies come in the order of the claims of each slice's rank.
-  const std::vector<Claim> known = exchanged(reply, back);
-  std::unordered_map<int, int> owner_of;
-  std::vector<int> order(input.size());
-  owner_of.reserve(known.size());
-  for (const Claim& claim : known) owner_of[claim.entity] = claim.rank;
-  std::vector<Numbered> own;
-  to.clear();
-  result.global.assign(input.size(), -1);
-  result.shared.assign(input.size(), false);
-  for (std::size_t k = 0; k < input.size(); ++k) {
-    const int code = owner_of[input[k]], rank = code < 0 ? -1 - code : code;
-    result.shared[k] = code < 0;
-    if (rank == here) result.global[k] = result.owned++;
-  }
+  result.all = all;
+  const PetscInt own_slice = slice_begin(all, rank_here() + 1) - slice_begin(all, rank_here());
+  const OwnedSf to_slices = rows_of(own_slice, input);
+  std::vector<int> owner(input.size(), rank_here()),
+      of_slice(static_cast<std::size_t>(own_slice), rank_count());
+  to_rows(to_slices, MPI_INT, owner.data(), of_slice.data(), MPI_MIN);
+  to_values(to_slices, MPI_INT, of_slice.data(), owner.data());
+  result.owned = static_cast<PetscInt>(std::ranges::count(owner, rank_here()));
   MPI_Exscan(&result.owned, &result.begin, 1, MPIU_INT, MPI_SUM, PETSC_COMM_WORLD);
-  if (here == 0) result.begin = 0;
-  for (std::size_t k = 0; k < input.size(); ++k) {
-    if (result.global[k] < 0) continue;
-    result.global[k] += result.begin;
-    if (!result.shared[k]) continue;
-    own.push_back({input[k], result.global[k]});
-    to.push_back(slice_owner(total, input[k]));
-  }
-  std::vector<PetscInt> number(owner.size(), -1);
-  for (const Numbered& n : exchanged(own, to)) number[n.entity - begin] = n.number;
-  std::vector<Numbered> answers;
-  back.clear();
-  for (const Claim& claim : asked) {
-    const auto at = static_cast<std::size_t>(claim.entity - begin);
-    if (times[at] < 2 || owner[at] == claim.rank) continue;
-    answers.push_back({claim.entity, number[at]});
-    back.push_back(claim.rank);
-  }
-  std::unordered_map<int, PetscInt> of_others;
-  for (const Numbered& n : exchanged(answers, back)) of_others[n.entity] = n.number;
-  for (std::size_t k = 0; k < input.size(); ++k)
-    if (result.global[k] < 0) result.global[k] = of_others.at(input[k]);
+  if (rank_here() == 0) result.begin = 0;
+  PetscInt next = result.begin;
+  for (const int rank : owner) result.global.push_back(rank == rank_here() ? next++ : -1);
+  std::vector<PetscInt> number(of_slice.size(), -1);
+  to_rows(to_slices, MPIU_INT, result.global.data(), number.data(), MPI_MAX);
+  to_values(to_slices, MPIU_INT, number.data(), result.global.data());
+  result.to_owned = rows_of(result.owned, result.global);
   result.input = std::move(input);
   return result;
 }
 
-struct Place {
-  int vertex;
-  double x, y;
-};
-// Coordinates of vertices from the ranks that have their slices.
-std::vector<Eigen::Vector2d> places_of(const std::vector<int>& vertices, const MeshSlices& slices) {
-  std::vector<Claim> asking;
-  std::vector<int> to;
-  for (const int vertex : vertices) {
-    asking.push_back({vertex, rank_here()});
-    to.push_back(slice_owner(slices.vertices, vertex));
-  }
-  const PetscInt begin = slice_begin(slices.vertices, rank_here());
-  std::vector<Place> answers;
-  std::vector<int> back;
-  for (const Claim& asked : exchanged(asking, to)) {
-    const auto row = slices.vertices_mm.row(asked.entity - begin);
-    answers.push_back({asked.entity, row(0), row(1)});
-    back.push_back(asked.rank);
-  }
-  std::vector<Eigen::Vector2d> places(vertices.size());
-  for (const Place& place : exchanged(answers, back))  // vertices are sorted
-    places[std::ranges::lower_bound(vertices, place.vertex) - vertices.begin()] = {place.x,
-                                                                                   place.y};
-  return places;
-}
-
-struct Travelling {
-  int number, body;
-  std::array<int, 3> vertices, edges;
-};
-
 }  // namespace
 
-MeshSlices read_slices(NpzSlices& file) {
+std::vector<Eigen::Vector2d> places_of(const std::vector<PetscInt>& vertices,
+                                       const Eigen::MatrixXd& slice_mm) {
+  const OwnedSf to_slices = rows_of(static_cast<PetscInt>(slice_mm.rows()), vertices);
+  Eigen::MatrixX2d places(vertices.size(), 2);
+  for (const int k : {0, 1})
+    to_values(to_slices, MPI_DOUBLE, slice_mm.col(k).data(), places.col(k).data());
+  return {places.rowwise().begin(), places.rowwise().end()};
+}
+
+MeshSlices read_slices(const NpzSlices& file) {
   MeshSlices slices;
-  slices.triangles = static_cast<PetscInt>(file.rows("triangles"));
-  slices.edges = static_cast<PetscInt>(file.rows("edges"));
-  slices.vertices = static_cast<PetscInt>(file.rows("vertices_mm"));
   std::vector<Side> sides;
   std::vector<int> to;
   each_by_itself([&] {
-    const int here = rank_here();
-    const auto rows_of = [&](const char* name, PetscInt total) {
-      return file.integers(name, slice_begin(total, here), slice_begin(total, here + 1));
+    const auto total = [&](const char* name) { return static_cast<PetscInt>(file.rows(name)); };
+    const auto first_row = [&](PetscInt rows) {
+      return static_cast<int>(slice_begin(rows, rank_here()));
     };
-    const Eigen::MatrixXi triangles = rows_of("triangles", slices.triangles),
-                          edges = rows_of("edges", slices.edges),
-                          body = rows_of("triangle_body", slices.triangles);
-    slices.vertices_mm = file.numbers("vertices_mm", slice_begin(slices.vertices, here),
-                                      slice_begin(slices.vertices, here + 1));
+    const auto slice_of = [&](const char* name, PetscInt rows) {
+      return file.read<int>(name, first_row(rows), slice_begin(rows, rank_here() + 1));
+    };
+    const PetscInt vertices = slices.vertices = total("vertices_mm");
+    slices.triangles = total("triangles");
+    slices.edges = total("edges");
+    slices.vertices_mm = file.read<double>("vertices_mm", first_row(vertices),
+                                           slice_begin(vertices, rank_here() + 1));
+    const Eigen::MatrixXi triangles = slice_of("triangles", slices.triangles),
+                          edges = slice_of("edges", slices.edges),
+                          body = slice_of("triangle_body", slices.triangles);
+    const int first = first_row(slices.triangles), first_edge = first_row(slices.edges);
     const auto send = [&](int a, int b, int triangle, int side_or_edge) {
       for (const int vertex : {a, b})
-        if (vertex < 0 || vertex >= slices.vertices)
+        if (vertex < 0 || vertex >= vertices)
           throw FileError("problem.npz: vertex " + std::to_string(vertex) + " (allowed: 0 to " +
-                          std::to_string(slices.vertices - 1) + ")");
+                          std::to_string(vertices - 1) + ")");
       sides.push_back({std::min(a, b), std::max(a, b), triangle, side_or_edge});
-      to.push_back(slice_owner(slices.vertices, std::min(a, b)));
+      to.push_back(slice_owner(vertices, std::min(a, b)));
     };
-    const auto first = static_cast<int>(slice_begin(slices.triangles, here));
     for (int t = 0; t < static_cast<int>(triangles.rows()); ++t) {
       const std::array<int, 3> v = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};
-      slices.own.push_back({first + t, v, {-1, -1, -1}, {-1, -1, -1}});
-      slices.body.push_back(body(t));
-      for (int k = 0; k < 3; ++k) send(v[k], v[(k + 1) % 3], first + t, k);
+      const int number = first + t;
+      slices.own.push_back({number, body(t), v, {-1, -1, -1}, {-1, -1, -1}});
+      for (int k = 0; k < 3; ++k) send(v[k], v[(k + 1) % 3], number, k);
     }
-    const auto first_edge = static_cast<int>(slice_begin(slices.edges, here));
     for (int e = 0; e < static_cast<int>(edges.rows()); ++e)
       send(edges(e, 0), edges(e, 1), -1, first_edge + e);
   });
@@ -221,9 +148,8 @@ MeshSlices read_slices(NpzSlices& file) {
   to.clear();
   std::vector<Meeting> meetings;
   each_by_itself([&] { meetings = meetings_of(std::move(sides), to, slices.triangles); });
-  const PetscInt begin = slice_begin(slices.triangles, rank_here());
   for (const Meeting& met : exchanged(meetings, to)) {
-    SlicedTriangle& triangle = slices.own[met.triangle - begin];
+    SlicedTriangle& triangle = slices.own[met.triangle - slices.own.front().number];
     triangle.edges[met.side] = met.edge;
     triangle.neighbours[met.side] = met.neighbour;
   }
@@ -231,47 +157,42 @@ MeshSlices read_slices(NpzSlices& file) {
 }
 
 MeshPart distribute(MeshSlices slices) {
-  const std::vector<PetscInt> part = parts_of(slices);
-  std::vector<Travelling> travelling;
-  for (std::size_t t = 0; t < slices.own.size(); ++t) {
-    const SlicedTriangle& of = slices.own[t];
-    travelling.push_back({of.number, slices.body[t], of.vertices, of.edges});
-  }
-  slices.own = {};
-  travelling = exchanged(travelling, std::vector<int>(part.begin(), part.end()));
-  std::ranges::sort(travelling, {}, &Travelling::number);
-
-  MeshPart mesh;
-  mesh.edge_count = slices.edges;
-  mesh.vertex_count = slices.vertices;
-  std::vector<int> vertices, edges;
+  const std::vector<SlicedTriangle> triangles = [&] {
+    std::vector<SlicedTriangle> own = exchanged(slices.own, parts_of(slices));
+    std::ranges::sort(own, {}, &SlicedTriangle::number);
+    slices.own = {};
+    return own;
+  }();
+  MeshPart part;
+  std::vector<PetscInt> vertices, edges;
+  for (const SlicedTriangle& triangle : triangles)
+    vertices.insert(vertices.end(), triangle.vertices.begin(), triangle.vertices.end());
+  std::ranges::sort(vertices);
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   std::unordered_map<int, int> local_edge;
-  local_edge.reserve(2 * travelling.size());
-  for (const Travelling& triangle : travelling) {
-    std::array<int, 3> own;
+  local_edge.reserve(2 * triangles.size());
+  for (const SlicedTriangle& triangle : triangles) {
+    part.mesh.triangle_body.push_back(triangle.body);
+    std::array<int, 3>& corner = part.mesh.triangles.emplace_back();
+    for (int k = 0; k < 3; ++k)
+      corner[k] = static_cast<int>(std::ranges::lower_bound(vertices, triangle.vertices[k]) -
+                                   vertices.begin());
+    std::array<int, 3>& side = part.edges.of_triangle.emplace_back();
     for (int k = 0; k < 3; ++k) {
       const auto [at, is_new] =
           local_edge.try_emplace(triangle.edges[k], static_cast<int>(edges.size()));
-      if (is_new) edges.push_back(triangle.edges[k]);
-      own[k] = at->second;
+      side[k] = at->second;
+      if (!is_new) continue;
+      edges.push_back(triangle.edges[k]);
+      const auto [low, high] = std::minmax(corner[k], corner[(k + 1) % 3]);
+      part.edges.vertices.push_back({low, high});
     }
-    mesh.edges_of_triangle.push_back(own);
-    mesh.body.push_back(triangle.body);
-    vertices.insert(vertices.end(), triangle.vertices.begin(), triangle.vertices.end());
   }
-  std::ranges::sort(vertices);
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (const Travelling& triangle : travelling) {
-    std::array<int, 3> own;
-    for (int k = 0; k < 3; ++k)
-      own[k] = static_cast<int>(std::ranges::lower_bound(vertices, triangle.vertices[k]) -
-                                vertices.begin());
-    mesh.triangles.push_back(own);
-  }
-  mesh.vertices_mm = places_of(vertices, slices);
-  mesh.vertices = number_entities(std::move(vertices), slices.vertices);
-  mesh.edges = number_entities(std::move(edges), slices.edges);
-  return mesh;
+  part.mesh.vertices = places_of(vertices, slices.vertices_mm);
+  part.vertex_numbers = number_entities(std::move(vertices), slices.vertices);
+  part.edge_numbers = number_entities(std::move(edges), slices.edges);
+  part.vertex_slice_mm = std::move(slices.vertices_mm);
+  return part;
 }
 
 }  // namespace airybench

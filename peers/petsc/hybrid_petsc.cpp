@@ -1,46 +1,65 @@
 // hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of
 // an exported body (--format=npz) by hybridized equilibrium elements over the ranks of mpirun.
-#include <sys/resource.h>
+#include <fmt/format.h>
 
 #include <charconv>
-#include <chrono>
 #include <cstring>
+#include <fstream>
 #include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
 
-#include "assembly/load_scale.hpp"
-#include "peers/petsc/answer_files.hpp"
+#include "peers/petsc/rank_rows.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/two_level/rows_check.hpp"
 
 namespace airybench {
 namespace {
 
 using namespace parallel;
 
-double clock_s() {
-  MPI_Barrier(PETSC_COMM_WORLD);
-  return MPI_Wtime();
-}
+// Seconds of every stage, by its name in answer.json.
+struct Stages {
+  double start = clock_s(), last = start;
+  std::map<std::string, double> spent;
 
-// Stages by their names in answer.json.
-class Stages {
- public:
-  void end(const std::string& name) {
-    const double now = clock_s();
-    spent_[name] += now - last_;
-    last_ = now;
+  static double clock_s() {
+    MPI_Barrier(PETSC_COMM_WORLD);
+    return MPI_Wtime();
   }
-  double total() const { return last_ - start_; }
-  const std::map<std::string, double>& spent() const { return spent_; }
-
- private:
-  double start_ = clock_s(), last_ = start_;
-  std::map<std::string, double> spent_;
+  void end(const std::string& name) {
+    spent[name] = -last;
+    spent[name] += last = clock_s();
+  }
 };
 
 // The whole body's, by which an error counts where there is no stress.
-double energy_scale(const BodyPart& part) {
-  const double own = load_scale(part.problem).energy_norm;
-  return std::sqrt(sum(own * own));
+LoadScale scale_of(const BodyPart& part) {
+  const LoadScale own = load_scale(part.problem);
+  return {std::sqrt(sum(own.energy_norm * own.energy_norm)), largest(own.force_N)};
+}
+
+// The largest relative error that the answer's stresses and F_C have; adds its iterations.
+double estimate_error(const BodyPart& part, RankRows& rows, const LoadScale& scale,
+                      RowsResult& answer) {
+  UnbalancedForces unbalanced;
+  double stress_energy = 0;
+  {
+    const Eigen::VectorXd u = rows.to_local(answer.u);
+    HybridizedAnswer recovered;
+    each_by_itself([&] { recovered = recover_stresses(part.problem, part.system, u); });
+    const UnbalancedForces& own = recovered.unbalanced;
+    unbalanced = {rows.from_local(own.r), largest(own.largest), rows.from_local(own.defect),
+                  sum(own.defect_energy)};
+    stress_energy = sum(stress_norm_squared(part.problem, recovered.stress));
+  }
+  rows.visit_contact([&](int row, PetscInt slot) { unbalanced.r(slot) += answer.F_C(row); });
+  const double largest_r = largest(unbalanced.r.lpNorm<Eigen::Infinity>());
+  const Eigen::VectorXd u_C = rows.of_contact(answer.u);
+  return rows_error(rows, std::move(unbalanced),
+                    {answer.laws, answer.F_C, u_C, rows.compliance_from_below(),
+                     std::sqrt(stress_energy), largest_r, scale},
+                    answer.iterations);
 }
 
 double tolerance_in(const char* text) {
@@ -51,8 +70,83 @@ double tolerance_in(const char* text) {
   return std::max(tolerance, 1e-13);
 }
 
+void write(const std::filesystem::path& file, std::string_view text, std::string_view more = {}) {
+  std::ofstream out(file, std::ios::binary);
+  out << text << more;
+  if (!out.flush()) throw FileError(file.string() + ": cannot be written");
+}
+
+// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; with the rigid
+// motion; mm.
+Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows,
+                                      const Eigen::VectorXd& u) {
+  const Numbering& edges = part.edges;
+  const Eigen::Matrix4Xd moments =
+      edge_moments(part.problem, part.system.unknown, part.system.displacement, rows.to_local(u));
+  std::vector<Eigen::Vector4d> own;
+  std::vector<PetscInt> place;
+  for (int edge = 0; edge < edges.count(); ++edge) {
+    if (!edges.is_owned(edge)) continue;
+    const auto [low, high] = part.problem.edges.vertices[edge];
+    own.emplace_back(moments.col(edge) +
+                     part.problem.motion.moments(part.problem.mesh.vertices[low],
+                                                 part.problem.mesh.vertices[high]));
+    place.push_back(edges.input[edge]);
+  }
+  Eigen::Matrix4Xd all(4, rank_here() == 0 ? edges.all : 0);
+  to_rows(rows_of(static_cast<PetscInt>(all.cols()), place), FourNumbers().type, own.data(),
+          all.data(), MPI_REPLACE);
+  return all;
+}
+
+// What bench reads: edge_displacements_mm.npy, F_C.mtx, log.txt, and answer.json at last.
+// Collective; rank 0 writes.
+void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u,
+                  const RowsResult& answer, double estimate, const CoarseSpace* coarse,
+                  const Stages& stages) {
+  const PetscInt coarse_unknowns = coarse == nullptr ? 0 : coarse->unknowns();
+  PetscViewer log = nullptr;
+  check(PetscViewerASCIIOpen(PETSC_COMM_WORLD, (folder / "log.txt").c_str(), &log));
+  check(PetscLogView(log));
+  check(PetscViewerDestroy(&log));
+  if (rank_here() != 0) return;
+  // NumPy's format 1.0: the header of 118 = 0x76 bytes ends at byte 128.
+  const std::string shape =
+      fmt::format("{{'descr': '<f8', 'fortran_order': False, 'shape': ({}, 4), }}", u.cols());
+  write(folder / "edge_displacements_mm.npy",
+        std::string("\x93NUMPY\x01\x00\x76\x00", 10) + fmt::format("{:<117}\n", shape),
+        {reinterpret_cast<const char*>(u.data()),
+         static_cast<std::size_t>(u.size()) * sizeof(double)});
+  if (answer.F_C.size() > 0)
+    write(folder / "F_C.mtx", fmt::format("%%MatrixMarket matrix array real general\n{} 1\n{}\n",
+                                          answer.F_C.size(), fmt::join(answer.F_C, "\n")));
+  nlohmann::ordered_json json = {
+      {"status", answer.converged ? "ok" : "not_converged"},
+      {"time_s", stages.last - stages.start},
+      {"stages", stages.spent},
+      {"linear_iterations", answer.iterations},
+      {"contact_iterations", answer.steps},
+      {"message", ""},
+      {"parameters",
+       fmt::format("ranks={}, coarse={}, {} unknowns, at most {} iterations at once", rank_count(),
+                   coarse == nullptr                      ? "none"
+                   : coarse->kind() == CoarseKind::linear ? "linear"
+                                                          : "per-edge",
+                   coarse_unknowns, answer.most_in_a_step)}};
+  if (answer.converged)
+    json["error_estimate"] = estimate;
+  else
+    json["message"] = fmt::format(
+        "active sets: natural map residual {:.3g}, linear error {:.3g} after {} active sets and "
+        "{} linear iterations",
+        answer.natural_map_residual, answer.linear_error, answer.steps, answer.iterations);
+  write(folder / "answer.json", json.dump(1) + "\n");
+}
+
 void solve(const char* input, const char* output, const char* tolerance_text) {
-  const double tolerance = tolerance_in(tolerance_text);
+  RunControl control;
+  control.tolerance = tolerance_in(tolerance_text);
+  control.target_error = 1e-9;  // no tolerance below a thousandth of this can be reached
   std::unique_ptr<NpzSlices> file;
   each_by_itself(
       [&] { file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz"); });
@@ -63,34 +157,21 @@ void solve(const char* input, const char* output, const char* tolerance_text) {
   stages.end("order");
 
   std::unique_ptr<CoarseSpace> coarse;
-  if (LinearSolver::has_two_levels())
-    coarse = std::make_unique<CoarseSpace>(part, coarse_kind_for(part));
-  EdgeSystem system(part, [&](int t, const ElementStiffness& K_e) {
-    if (coarse) coarse->add(t, K_e);
-  });
-  if (coarse) coarse->end_assembly();
-  const double scale = energy_scale(part);
+  if (option("-pc_type") == PCMG) coarse = std::make_unique<CoarseSpace>(part);
+  RankRows rows(part, coarse.get());
+  const LoadScale scale = scale_of(part);
   stages.end("precondition");
 
-  LinearSolver solver(system);
-  solver.set_coarse(coarse.get());
-  ContactAnswer answer = solve_contact(system, solver, scale, tolerance);
+  RowsResult answer = solve_contact_on_rows(rows, scale.energy_norm, control);
   answer.F_C = project_on_coulomb(part.contact, answer.F_C);
   stages.end("contact");
-  double estimate = std::numeric_limits<double>::infinity();
-  if (answer.converged) estimate = estimate_error(system, solver, scale, answer);
+  double estimate = 0;
+  if (answer.converged) estimate = estimate_error(part, rows, scale, answer);
   stages.end("check");
-  const EdgeDisplacements u = gather_displacements(system, answer.u);
+  const Eigen::Matrix4Xd u = gather_displacements(part, rows, answer.u);
   stages.end("recover");
 
-  Said said;
-  said.converged = answer.converged;
-  said.estimate = estimate;
-  said.stages = stages.spent();
-  said.time_s = stages.total();
-  said.coarse = !coarse ? "none" : coarse->kind() == CoarseKind::linear ? "linear" : "per-edge";
-  said.coarse_unknowns = coarse ? coarse->unknowns() : 0;
-  write_answer(output, u, answer, said);
+  write_answer(output, u, answer, estimate, coarse.get(), stages);
 }
 
 }  // namespace

@@ -2,21 +2,19 @@
 #pragma once
 
 #include <petscksp.h>
+#include <petscsf.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <iostream>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace airybench::parallel {
-
-// An option that has no such value.
-struct OptionError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 // What PETSc said first of what went wrong on this rank.
 inline std::string& said_by_petsc() {
@@ -61,7 +59,24 @@ class Owned {
 using OwnedMat = Owned<Mat, MatDestroy>;
 using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedKsp = Owned<KSP, KSPDestroy>;
-using OwnedScatter = Owned<VecScatter, VecScatterDestroy>;
+using OwnedSf = Owned<PetscSF, PetscSFDestroy>;
+
+// Of PETSc's database; none: it is not given.
+inline std::optional<std::string> option(const std::string& name) {
+  std::array<char, 256> value{};
+  PetscBool given = PETSC_FALSE;
+  check(PetscOptionsGetString(nullptr, nullptr, name.c_str(), value.data(), value.size(), &given));
+  if (given == PETSC_FALSE) return std::nullopt;
+  return value.data();
+}
+
+// A vector of PETSc whose numbers are this one's.
+inline OwnedVec as_vec(const Eigen::VectorXd& values) {
+  OwnedVec vec;
+  check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, static_cast<PetscInt>(values.size()),
+                              PETSC_DETERMINE, values.data(), vec.put()));
+  return vec;
+}
 
 inline int rank_here() {
   int rank = 0;
@@ -104,6 +119,42 @@ std::vector<Record> exchanged(const std::vector<Record>& records, const std::vec
                 in_at.data(), type, PETSC_COMM_WORLD);
   MPI_Type_free(&type);
   return result;
+}
+
+inline void assemble(Mat matrix) {
+  check(MatAssemblyBegin(matrix, MAT_FINAL_ASSEMBLY));
+  check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
+}
+
+// Which row of an array over the ranks every local value belongs to; `own` rows of it are here.
+inline OwnedSf rows_of(PetscInt own, const std::vector<PetscInt>& row_of_value) {
+  OwnedSf forest;
+  PetscLayout layout = nullptr;
+  check(PetscLayoutCreateFromSizes(PETSC_COMM_WORLD, own, PETSC_DETERMINE, 1, &layout));
+  check(PetscSFCreate(PETSC_COMM_WORLD, forest.put()));
+  check(PetscSFSetGraphLayout(forest, layout, static_cast<PetscInt>(row_of_value.size()), nullptr,
+                              PETSC_COPY_VALUES, row_of_value.data()));
+  check(PetscLayoutDestroy(&layout));
+  return forest;
+}
+// Of the slots of an edge.
+struct FourNumbers {
+  MPI_Datatype type;
+  FourNumbers() {
+    MPI_Type_contiguous(4, MPI_DOUBLE, &type);
+    MPI_Type_commit(&type);
+  }
+  ~FourNumbers() { MPI_Type_free(&type); }
+};
+
+// From its row to every value, and what values make of their row.
+inline void to_values(PetscSF forest, MPI_Datatype type, const void* rows, void* values) {
+  check(PetscSFBcastBegin(forest, type, rows, values, MPI_REPLACE));
+  check(PetscSFBcastEnd(forest, type, rows, values, MPI_REPLACE));
+}
+inline void to_rows(PetscSF forest, MPI_Datatype type, const void* values, void* rows, MPI_Op op) {
+  check(PetscSFReduceBegin(forest, type, values, rows, op));
+  check(PetscSFReduceEnd(forest, type, values, rows, op));
 }
 
 inline Eigen::VectorXd sum(Eigen::VectorXd values) {

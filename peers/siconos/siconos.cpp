@@ -24,26 +24,21 @@
 #include <vector>
 
 template <typename Value>
-std::vector<Value> read(hid_t file, const std::string& name, hid_t type) {
+std::vector<Value> read(hid_t file, const std::string& name) {
   const hid_t set = H5Dopen2(file, ("/fclib_local/" + name).c_str(), H5P_DEFAULT);
   const hid_t space = H5Dget_space(set);
+  const hid_t type = std::is_integral_v<Value> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
   std::vector<Value> values(H5Sget_simple_extent_npoints(space));
   if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0) std::exit(1);
   H5Sclose(space);
   H5Dclose(set);
   return values;
 }
-std::vector<int> integers(hid_t file, const std::string& name) {
-  return read<int>(file, name, H5T_NATIVE_INT);
-}
-std::vector<double> numbers(hid_t file, const std::string& name) {
-  return read<double>(file, name, H5T_NATIVE_DOUBLE);
-}
 
 // From compressed rows to the full columns that CPG and Lemke ask for.
 std::vector<double> dense(hid_t file, int size) {
-  const auto p = integers(file, "W/p"), column = integers(file, "W/i");
-  const auto x = numbers(file, "W/x");
+  const auto p = read<int>(file, "W/p"), column = read<int>(file, "W/i");
+  const auto x = read<double>(file, "W/x");
   std::vector<double> W(std::size_t(size) * size);
   for (int row = 0; row < size; ++row)
     for (int k = p[row]; k < p[row + 1]; ++k) W[std::size_t(column[k]) * size + row] += x[k];
@@ -60,7 +55,7 @@ int main(int count, char** words) {
   const std::string method = words[1], input = words[2], output = words[3];
 
   const hid_t file = H5Fopen((input + "/problem.hdf5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-  auto q = numbers(file, "vectors/q"), mu = numbers(file, "vectors/mu");
+  auto q = read<double>(file, "vectors/q"), mu = read<double>(file, "vectors/mu");
   const int size = static_cast<int>(q.size());
   auto values = dense(file, size);
   H5Fclose(file);

@@ -10,6 +10,7 @@
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/two_level/rows_check.hpp"
+#include "solvers/two_level/slot_rows.hpp"
 
 namespace airybench {
 namespace {
@@ -78,12 +79,27 @@ void make_two_levels(const DualSystem& airy, const RunControl& control, KrylovBo
   body.two_levels = std::make_unique<TwoLevelPreconditioner>(body.matrix, std::move(coarse));
 }
 
-void count_storage(const KrylovBody& body, const SlotSystem& slots, const RowsResult& rows,
+void count_storage(const KrylovBody& body, const SlotRows& slots, const RowsResult& rows,
                    Solution& solution) {
   solution.storage[MemoryOwner::system_matrix] = body.system.bytes() + body.matrix.bytes();
   solution.storage[MemoryOwner::preconditioner] =
       std::max(body.two_levels->bytes(), body.coarse_matrix_bytes);
   solution.storage[MemoryOwner::iteration] = slots.bytes() + rows.bytes;
+}
+
+void check_answer(const Problem& problem, const KrylovBody& body,
+                  const UnbalancedForces& unbalanced, const std::vector<PointLaw>& laws,
+                  const RunControl& control, SlotRows& slots, Solution& solution) {
+  const EdgeUnknowns& unknown = body.system.unknown;
+  const double estimate =
+      rows_error(slots,
+                 {to_slots(body.matrix, unknown, unbalanced.r), unbalanced.largest,
+                  to_slots(body.matrix, unknown, unbalanced.defect), unbalanced.defect_energy},
+                 {laws, solution.F_C, solution.contact_displacement, body.compliance,
+                  std::sqrt(stress_norm_squared(problem, solution.stress)),
+                  unbalanced.r.lpNorm<Eigen::Infinity>(), load_scale(problem)},
+                 *solution.linear_iterations);
+  judge_by_own_estimate(estimate, control, solution);
 }
 
 // What comes after the two levels.
@@ -95,11 +111,11 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   note_parameters(M.coarse(), solution);
   M.times() = {};
   const Stage stage = has_contact ? Stage::contact : Stage::recover;
-  SlotSystem slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return SlotSystem(problem, airy.contact, body.system, body.matrix);
+  SlotRows slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
+    return SlotRows(problem, airy.contact, body.system, body.matrix, M, control);
   });
   RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return solve_contact_on_rows(slots, M, load_scale(problem).energy_norm, control);
+    return solve_contact_on_rows(slots, load_scale(problem).energy_norm, control);
   });
   note_rows(rows, control, solution);
   if (has_contact) {
@@ -107,6 +123,7 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
     solution.newton_steps = rows.steps;
   }
   count_storage(body, slots, rows, solution);
+  slots.drop_space();
   HybridizedAnswer answer;
   run_stage(solution.times, Stage::recover, MemoryOwner::answer, [&] {
     solution.F_C = project_on_coulomb(airy.contact, rows.F_C);
@@ -122,8 +139,7 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   });
   if (rows.converged)  // else the check's own solves would not end either
     run_stage(solution.times, Stage::check, MemoryOwner::check, [&] {
-      check_rows_answer(problem, slots, body.system.unknown, answer.unbalanced, rows.laws,
-                        body.compliance, M, control, solution);
+      check_answer(problem, body, answer.unbalanced, rows.laws, control, slots, solution);
     });
   solution.iteration_times = M.times();
 }

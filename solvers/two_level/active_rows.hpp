@@ -6,59 +6,50 @@
 //   slip    u_n = ḡ_n, (K u − b)_t = −τ μ (K u − b)_n      the normal one is held
 //
 // where F = (K u − b) at contact slots. Held slots leave the system; a slip row takes the normal
-// reaction along, which makes it nonsymmetric: GMRES, preconditioned by preconditioner.hpp with the
-// same slots held. Steps are inexact: a tenth of the natural map while the laws change.
+// reaction along, which makes it nonsymmetric. Steps are inexact: a tenth of the natural map while
+// the laws change.
 //
-// The laws begin with those of the coarse displacements; point_laws.hpp chooses the next. What
-// comes out counts by its natural map and residual only.
+// point_laws.hpp chooses the next laws. What comes out counts by its natural map and residual only.
 #pragma once
 
-#include "solvers/contact/contact_result.hpp"
 #include "solvers/contact/point_laws.hpp"
 #include "solvers/krylov/gmres.hpp"
-#include "solvers/two_level/preconditioner.hpp"
 
 namespace airybench {
 
-// The system in slots (edge_matrix.hpp).
-struct SlotSystem {
-  const EdgeMatrix& K;
-  Eigen::VectorXd b;                        // N, without contact forces; −K ū0 is in it
-  Eigen::VectorXd prescribed_u, K_times_u;  // ū0, mm; K ū0
-  std::vector<Eigen::Index> prescribed;
-  const ContactPoints& contact;
-  std::vector<Eigen::Index> slot;  // of every contact point's normal; the tangential one follows
-  Eigen::VectorXd compliance;      // rough, of every row of F_C
-
-  SlotSystem(const Problem& problem, const ContactPoints& contact, const HybridizedSystem& system,
-             const EdgeMatrix& K);
-  Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const;  // in the rows of F_C
-  void drop_loads() { b = prescribed_u = K_times_u = Eigen::VectorXd(); }
-  std::size_t bytes() const {
-    return static_cast<std::size_t>(b.size() + prescribed_u.size() + K_times_u.size() +
-                                    compliance.size()) *
-           sizeof(double);
-  }
-};
-
-// The linear system under given laws.
-class LinearisedContact {
+// The system that active sets act on, four slots per edge, and what solves it: slot_rows.hpp. Where
+// processes share a body, a vector has the slots of one of them, and dot() and of_contact() are
+// those of all.
+class ContactRows {
  public:
-  LinearisedContact(const SlotSystem& system, TwoLevelPreconditioner& M) : s_(system), M_(M) {}
-  void set(const std::vector<PointLaw>& laws);
-  // r at free slots, slip rows with their normal reaction, zero at held ones.
-  void reduce(Eigen::VectorXd& r) const;
-  // x with  (reduced K) x ≈ reduced r.
-  GmresResult solve(Eigen::VectorXd r, const GmresOptions& options, const Deadline& deadline,
-                    Eigen::VectorXd& x);
-  std::size_t bytes() const { return space_.bytes(); }
+  // compliance: rough, of every row of F_C. condition: √cond(M⁻¹K), about.
+  ContactRows(const ContactPoints& points, Eigen::VectorXd rough_compliance, double root_condition)
+      : contact(points), compliance(std::move(rough_compliance)), condition(root_condition) {}
+  virtual ~ContactRows() = default;
 
- private:
-  const SlotSystem& s_;
-  TwoLevelPreconditioner& M_;
-  std::vector<PointLaw> laws_;
-  std::vector<Eigen::Index> held_;
-  KrylovSpace space_;
+  const ContactPoints& contact;
+  Eigen::VectorXd compliance;
+  double condition;
+  double next_target = 0;  // of a target for the linear error under laws that have settled
+
+  virtual Eigen::Index slots() const = 0;
+  // Those to begin with; counts the iterations that they cost.
+  virtual std::vector<PointLaw> first_laws(int& sweeps) = 0;
+  // Holds what these laws hold.
+  virtual void set(const std::vector<PointLaw>& laws) = 0;
+  // Moves held contact slots to where they are held.
+  virtual void move_to_gap(Eigen::VectorXd& u) const = 0;
+  // The forces b − K u that u leaves; returns (u + ū0)ᵀ K (u + ū0).
+  virtual double measure(const Eigen::VectorXd& u, Eigen::VectorXd& unbalanced) = 0;
+  // x with (reduced K) x ≈ reduced r: at free slots, slip rows with their normal reaction.
+  virtual GmresResult solve(Eigen::VectorXd r, const GmresOptions& options, Eigen::VectorXd& x) = 0;
+  // condition · √(r·M⁻¹r) of the r that a solve has left: of what is wrong with x, in the energy
+  // norm, at most. measured: of this r, if a recurrence is not to be trusted.
+  virtual double error_left(const GmresResult& solve, const Eigen::VectorXd& r, bool measured) = 0;
+  virtual Eigen::VectorXd of_contact(const Eigen::VectorXd& x) const = 0;  // in the rows of F_C
+  virtual void multiply(const Eigen::VectorXd& x, Eigen::VectorXd& y) const = 0;  // y = K x
+  virtual double dot(const Eigen::VectorXd& x, const Eigen::VectorXd& y) const = 0;
+  virtual double norm_from_below(const Eigen::VectorXd& F_C) = 0;  // √(F·M⁻¹F) ≤ ‖F‖_D
 };
 
 struct RowsResult {
@@ -68,14 +59,14 @@ struct RowsResult {
   bool converged = false;
   double natural_map_residual = 0;  // relative
   double linear_error = 0;          // of u under its laws, relative in the energy norm, estimated
-  int sweeps = 0, steps = 0;        // on the coarse contact problem; active sets
-  std::int64_t iterations = 0;      // of GMRES
-  std::size_t bytes = 0;            // of the iteration's vectors
-  std::vector<double> history;      // linear_error
+  int sweeps = 0, steps = 0;        // for the first laws; active sets
+  std::int64_t iterations = 0;      // linear ones
+  std::int64_t most_in_a_step = 0;
+  std::size_t bytes = 0;        // of the iteration's vectors
+  std::vector<double> history;  // linear_error
 };
 
 // control.tolerance: linear_error ≤ tolerance. scale: energy norm of the loads, where u has none.
-RowsResult solve_contact_on_rows(const SlotSystem& system, TwoLevelPreconditioner& M, double scale,
-                                 const RunControl& control);
+RowsResult solve_contact_on_rows(ContactRows& rows, double scale, const RunControl& control);
 
 }  // namespace airybench

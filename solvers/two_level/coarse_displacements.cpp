@@ -8,14 +8,7 @@
 namespace airybench {
 namespace {
 
-constexpr int no_row = -1;
-using Matrix2 = Eigen::Matrix2d;
-
-// Slot end k of an edge from its own node and from the other one.
-constexpr std::array<std::array<double, 2>, 2> weights_of(CoarseKind kind) {
-  if (kind == CoarseKind::per_edge) return {{{1, 0}, {1, 0}}};
-  return {{{2. / 3, 1. / 3}, {1. / 3, 2. / 3}}};
-}
+constexpr int none = CoarseNodes::none;
 
 // Of L Lᵀ.
 Eigen::MatrixXd lower_of_product(const Eigen::MatrixXd& L) {
@@ -29,83 +22,16 @@ Eigen::MatrixXd lower_of_product(const Eigen::MatrixXd& L) {
 
 }  // namespace
 
-CoarseKind coarse_kind_for(const Problem& problem) {
-  constexpr double nearly = 0.03;  // 1 − 2ν in plane strain: ν = 0.485
-  for (const Eigen::Matrix3d& C : problem.compliance) {
-    const double volume = C(0, 0) + C(1, 1) + 2 * C(0, 1), shear = C(0, 0) + C(1, 1) - 2 * C(0, 1);
-    if (volume < nearly * shear) return CoarseKind::per_edge;
-  }
-  return CoarseKind::linear;
-}
-
 CoarseDisplacements::CoarseDisplacements(const Problem& problem, const ContactPoints& contact,
                                          const EdgeMatrix& K, CoarseKind kind)
-    : kind_(kind) {
-  const auto edges = static_cast<std::size_t>(problem.edges.count());
-  block_nodes_.resize(edges);
-  for (std::size_t edge = 0; edge < edges; ++edge)
-    block_nodes_[K.block_of_edge[edge]] = kind == CoarseKind::linear
-                                              ? problem.edges.vertices[edge]
-                                              : std::array{K.block_of_edge[edge], no_node};
-  const auto nodes = kind == CoarseKind::linear ? problem.mesh.vertices.size() : edges;
-  frame_of_node_.assign(nodes, no_row);
-  unknown_.assign(nodes, {0, 0});
-  find_boundary_blocks(problem, K);
-  choose_frames(problem);
+    : nodes_(problem, kind, K.block_of_edge) {
+  unknown_.assign(static_cast<std::size_t>(nodes_.count()), {0, 0});
   number_nodes(problem);
-  for (BoundaryBlock& of : boundary_) fill_prolongation(of);
   for (int p = 0; p < contact.count; ++p) {
     const int block = K.block_of_edge[problem.edges.of_boundary[contact.boundary[p]]];
-    const auto& of = boundary_[boundary_of_block_[block]].nodes;
+    const std::array<int, 2>& of = nodes_.nodes_of(block);
     node_of_point_.push_back(kind == CoarseKind::linear ? of[p % 2] : of[0]);
   }
-}
-
-// One for every row of Mesh::boundary but those of Γ_F.
-void CoarseDisplacements::find_boundary_blocks(const Problem& problem, const EdgeMatrix& K) {
-  boundary_of_block_.assign(block_nodes_.size(), no_row);
-  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    if (problem.mesh.boundary[row].role == BoundaryRole::force) continue;
-    BoundaryBlock of;
-    of.block = K.block_of_edge[problem.edges.of_boundary[row]];
-    const EdgeCondition condition = problem.condition(row);
-    of.nodes = block_nodes_[of.block];
-    if (condition.in_frame && kind_ == CoarseKind::linear)
-      of.nodes = problem.mesh.boundary[row].vertices;
-    for (int end = 0; end < 2; ++end) {
-      const EdgeFrame frame = problem.frame_of_moment(row, end);
-      of.direction[2 * end] = condition.in_frame ? frame.normal : Eigen::Vector2d::UnitX();
-      of.direction[2 * end + 1] = condition.in_frame ? frame.tangent : Eigen::Vector2d::UnitY();
-      for (int k = 0; k < 2; ++k)
-        of.held[2 * end + k] = condition.component[k] == Known::displacement;
-    }
-    boundary_of_block_[of.block] = static_cast<int>(boundary_.size());
-    boundary_.push_back(of);
-  }
-}
-
-void CoarseDisplacements::choose_frames(const Problem& problem) {
-  for (int row = 0, of = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    if (problem.mesh.boundary[row].role == BoundaryRole::force) continue;
-    const BoundaryBlock& block = boundary_[of++];
-    if (!problem.condition(row).in_frame) continue;
-    for (const int node : block.nodes) {
-      if (node == no_node || frame_of_node_[node] != no_row) continue;
-      frame_of_node_[node] = static_cast<int>(frame_.size());
-      frame_.emplace_back() << block.direction[0], block.direction[1];
-    }
-  }
-}
-
-template <typename Visit>
-void CoarseDisplacements::visit_components(int node, const Eigen::Vector2d& direction,
-                                           Visit visit) const {
-  constexpr double part = 0.3;  // neighbours on a round wall differ by less
-  const int frame = frame_of_node_[node];
-  const Eigen::Vector2d own =
-      frame == no_row ? direction : Eigen::Vector2d(frame_[frame].transpose() * direction);
-  for (int k = 0; k < 2; ++k)
-    if (std::abs(own(k)) > part) visit(k);
 }
 
 void CoarseDisplacements::number_nodes(const Problem& problem) {
@@ -113,16 +39,13 @@ void CoarseDisplacements::number_nodes(const Problem& problem) {
   int of = 0;
   for (const BoundaryEdge& edge : problem.mesh.boundary) {
     if (edge.role == BoundaryRole::force) continue;
-    const BoundaryBlock& block = boundary_[of++];
-    for (const int node : block.nodes) {
-      if (node == no_node) continue;
-      if (edge.role == BoundaryRole::contact)
-        for (int& number : unknown_[node])
-          if (number != held) number = last;
-      for (int i = 0; i < 4; ++i)
-        if (block.held[i])
-          visit_components(node, block.direction[i], [&](int k) { unknown_[node][k] = held; });
-    }
+    const CoarseNodes::BoundaryBlock& block = nodes_.boundary[of++];
+    if (edge.role == BoundaryRole::contact)
+      for (const int node : block.nodes)
+        if (node != none)
+          for (int& number : unknown_[node])
+            if (number != held) number = last;
+    nodes_.visit_held(block, block.held, [&](int node, int k) { unknown_[node][k] = held; });
   }
   for (const int which : {0, last}) {
     first_trailing_ = unknowns_;
@@ -132,45 +55,6 @@ void CoarseDisplacements::number_nodes(const Problem& problem) {
   }
 }
 
-void CoarseDisplacements::fill_prolongation(BoundaryBlock& of) const {
-  const auto weights = weights_of(kind_);
-  for (int i = 0; i < 4; ++i)
-    for (int n = 0; n < 2; ++n) {
-      if (of.nodes[n] == no_node) continue;
-      const int frame = frame_of_node_[of.nodes[n]];
-      const Eigen::Vector2d own =
-          frame == no_row ? of.direction[i]
-                          : Eigen::Vector2d(frame_[frame].transpose() * of.direction[i]);
-      of.P.block<1, 2>(i, 2 * n) = weights[i / 2][n] * own.transpose();
-    }
-}
-
-// Of an element: its slots from the components of three nodes.
-Eigen::Matrix<double, 12, 6> CoarseDisplacements::prolongation(
-    const Problem& problem, const EdgeMatrix& K, const HybridizedSystem& system, int t,
-    const std::array<int, 3>& nodes) const {
-  const auto weights = weights_of(kind_);
-  Eigen::Matrix<double, 12, 6> P = Eigen::Matrix<double, 12, 6>::Zero();
-  for (int e = 0; e < 3; ++e) {
-    const int edge = problem.edges.of_triangle[t][e], block = K.block_of_edge[edge];
-    const int of = boundary_of_block_[block];
-    const auto& ends = of == no_row ? block_nodes_[block] : boundary_[of].nodes;
-    for (int n = 0; n < 2; ++n) {
-      if (ends[n] == no_node) continue;
-      const auto column = 2 * (std::find(nodes.begin(), nodes.end(), ends[n]) - nodes.begin());
-      const int frame = frame_of_node_[ends[n]];
-      for (int end = 0; end < 2; ++end)
-        P.block<2, 2>(4 * e + 2 * end, column) =
-            of != no_row ? Matrix2(boundary_[of].P.block<2, 2>(2 * end, 2 * n))
-                         : Matrix2(weights[end][n] *
-                                   (frame == no_row ? Matrix2::Identity() : frame_[frame]));
-    }
-    for (int i = 0; i < 4; ++i)
-      if (system.unknown[edge][i] == prescribed_unknown) P.row(4 * e + i).setZero();
-  }
-  return P;
-}
-
 ElementMatrices CoarseDisplacements::galerkin(const Problem& problem, const EdgeMatrix& K,
                                               const HybridizedSystem& system) const {
   ElementMatrices coarse;
@@ -178,14 +62,15 @@ ElementMatrices CoarseDisplacements::galerkin(const Problem& problem, const Edge
   coarse.reserve(static_cast<std::size_t>(system.K.count()));
   for (int t = 0; t < system.K.count(); ++t) {
     std::array<int, 3> nodes = problem.mesh.triangles[t];
-    if (kind_ == CoarseKind::per_edge)
+    if (kind() == CoarseKind::per_edge)
       for (int e = 0; e < 3; ++e) nodes[e] = K.block_of_edge[problem.edges.of_triangle[t][e]];
     ElementMatrices::Unknowns unknown;
     unknown.fill(-1);
     for (int n = 0; n < 3; ++n)
       for (int k = 0; k < 2; ++k) unknown[2 * n + k] = unknown_[nodes[n]][k];
     if (std::ranges::max(unknown) < 0) continue;
-    const Eigen::Matrix<double, 12, 6> P = prolongation(problem, K, system, t, nodes);
+    const Eigen::Matrix<double, 12, 6> P =
+        nodes_.prolongation(problem, system.unknown, K.block_of_edge, t, nodes);
     Eigen::Matrix<double, 12, 6> KP;
     for (int j = 0; j < 6; ++j) KP.col(j) = system.K.product(t, P.col(j));
     ElementMatrices::Matrix of_element = ElementMatrices::Matrix::Zero();
@@ -213,18 +98,13 @@ void CoarseDisplacements::factorise(const ElementMatrices& coarse, const Deadlin
 
 void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
   std::vector<bool> free(static_cast<std::size_t>(S_.rows()), true);
-  for (BoundaryBlock& of : boundary_) {
+  for (CoarseNodes::BoundaryBlock& of : nodes_.boundary) {
     const auto found = held.find(of.block);
     of.held = found == held.end() ? std::array<bool, 4>{} : found->second;
-    for (int i = 0; i < 4; ++i) {
-      if (!of.held[i]) continue;
-      for (const int node : of.nodes)
-        if (node != no_node)
-          visit_components(node, of.direction[i], [&](int k) {
-            const int trailing = unknown_[node][k] - first_trailing_;
-            if (trailing >= 0) free[trailing] = false;
-          });
-    }
+    nodes_.visit_held(of, of.held, [&](int node, int k) {
+      const int trailing = unknown_[node][k] - first_trailing_;
+      if (trailing >= 0) free[trailing] = false;
+    });
   }
   std::vector<int> now;
   for (int i = 0; i < static_cast<int>(free.size()); ++i)
@@ -240,25 +120,26 @@ void CoarseDisplacements::hold(const std::map<int, std::array<bool, 4>>& held) {
 }
 
 Eigen::VectorXd CoarseDisplacements::restricted(const Eigen::VectorXd& r) const {
-  const auto weights = weights_of(kind_);
+  const auto weights = nodes_.weights();
   Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(unknown_.size()));
-  for (std::size_t block = 0; block < block_nodes_.size(); ++block) {
-    if (boundary_of_block_[block] != no_row) continue;
+  for (std::size_t block = 0; block < nodes_.of_block.size(); ++block) {
+    if (nodes_.boundary_of_block[block] != none) continue;
     const auto at = 4 * static_cast<Eigen::Index>(block);
     for (int n = 0; n < 2; ++n)
-      if (const int node = block_nodes_[block][n]; node != no_node)
+      if (const int node = nodes_.of_block[block][n]; node != none)
         force.col(node) += weights[0][n] * r.segment<2>(at) + weights[1][n] * r.segment<2>(at + 2);
   }
   for (std::size_t node = 0; node < unknown_.size(); ++node)
-    if (frame_of_node_[node] != no_row)
+    if (nodes_.frame_of_node[node] != none)
       force.col(static_cast<Eigen::Index>(node)) =
-          (frame_[frame_of_node_[node]].transpose() * force.col(static_cast<Eigen::Index>(node)))
+          (nodes_.frame[nodes_.frame_of_node[node]].transpose() *
+           force.col(static_cast<Eigen::Index>(node)))
               .eval();
-  for (const BoundaryBlock& of : boundary_)
+  for (const CoarseNodes::BoundaryBlock& of : nodes_.boundary)
     for (int i = 0; i < 4; ++i) {
       if (of.held[i]) continue;
       for (int n = 0; n < 2; ++n)
-        if (of.nodes[n] != no_node)
+        if (of.nodes[n] != none)
           force.col(of.nodes[n]) += r(4 * static_cast<Eigen::Index>(of.block) + i) *
                                     of.P.block<1, 2>(i, 2 * n).transpose();
     }
@@ -271,29 +152,30 @@ Eigen::VectorXd CoarseDisplacements::restricted(const Eigen::VectorXd& r) const 
 }
 
 void CoarseDisplacements::add_prolonged(const Eigen::VectorXd& v, Eigen::VectorXd& x) const {
-  const auto weights = weights_of(kind_);
+  const auto weights = nodes_.weights();
   Eigen::Matrix2Xd at_node = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(unknown_.size()));
   for (std::size_t node = 0; node < unknown_.size(); ++node)
     for (int k = 0; k < 2; ++k)
       if (unknown_[node][k] >= 0)
         at_node(k, static_cast<Eigen::Index>(node)) = v(unknown_[node][k]);
-  for (const BoundaryBlock& of : boundary_)
+  for (const CoarseNodes::BoundaryBlock& of : nodes_.boundary)
     for (int i = 0; i < 4; ++i) {
       if (of.held[i]) continue;
       for (int n = 0; n < 2; ++n)
-        if (of.nodes[n] != no_node)
+        if (of.nodes[n] != none)
           x(4 * static_cast<Eigen::Index>(of.block) + i) +=
               of.P.block<1, 2>(i, 2 * n).dot(at_node.col(of.nodes[n]));
     }
   for (std::size_t node = 0; node < unknown_.size(); ++node)
-    if (frame_of_node_[node] != no_row)
+    if (nodes_.frame_of_node[node] != none)
       at_node.col(static_cast<Eigen::Index>(node)) =
-          (frame_[frame_of_node_[node]] * at_node.col(static_cast<Eigen::Index>(node))).eval();
-  for (std::size_t block = 0; block < block_nodes_.size(); ++block) {
-    if (boundary_of_block_[block] != no_row) continue;
+          (nodes_.frame[nodes_.frame_of_node[node]] * at_node.col(static_cast<Eigen::Index>(node)))
+              .eval();
+  for (std::size_t block = 0; block < nodes_.of_block.size(); ++block) {
+    if (nodes_.boundary_of_block[block] != none) continue;
     const auto at = 4 * static_cast<Eigen::Index>(block);
     for (int n = 0; n < 2; ++n)
-      if (const int node = block_nodes_[block][n]; node != no_node) {
+      if (const int node = nodes_.of_block[block][n]; node != none) {
         x.segment<2>(at) += weights[0][n] * at_node.col(node);
         x.segment<2>(at + 2) += weights[1][n] * at_node.col(node);
       }
@@ -367,8 +249,8 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
 std::size_t CoarseDisplacements::bytes() const {
   return static_cast<std::size_t>(S_.size() + on_free_factor_.size()) * sizeof(double) +
          unknown_.size() * (sizeof(NodeUnknowns) + sizeof(int)) +
-         block_nodes_.size() * (sizeof(block_nodes_[0]) + sizeof(int)) +
-         boundary_.size() * sizeof(BoundaryBlock);
+         nodes_.of_block.size() * (sizeof(nodes_.of_block[0]) + sizeof(int)) +
+         nodes_.boundary.size() * sizeof(CoarseNodes::BoundaryBlock);
 }
 
 }  // namespace airybench

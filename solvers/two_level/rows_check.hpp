@@ -14,16 +14,22 @@
 // with a half more on what is solved for.
 #pragma once
 
-#include "solvers/condensation/hybridized.hpp"
+#include "assembly/load_scale.hpp"
+#include "solvers/condensation/stiffness_check.hpp"
 #include "solvers/two_level/active_rows.hpp"
 
 namespace airybench {
 
-// Sets the solution's estimate from its F_C, stress and contact displacements. compliance: the
-// diagonal of D from below.
-void check_rows_answer(const Problem& problem, const SlotSystem& slots, const EdgeUnknowns& unknown,
-                       const UnbalancedForces& unbalanced, const std::vector<PointLaw>& laws,
-                       const Eigen::VectorXd& compliance, TwoLevelPreconditioner& M,
-                       const RunControl& control, Solution& solution);
+// Of all processes that share the body, but for the vectors in slots.
+struct RowsAnswer {
+  const std::vector<PointLaw>& laws;
+  const Eigen::VectorXd &F_C, &u_C;
+  const Eigen::VectorXd& compliance;  // the diagonal of D from below
+  double stress_norm = 0, largest_r = 0;
+  LoadScale scale;
+};
+// unbalanced: in slots. Adds the linear iterations.
+double rows_error(ContactRows& rows, UnbalancedForces unbalanced, const RowsAnswer& answer,
+                  std::int64_t& iterations);
 
 }  // namespace airybench

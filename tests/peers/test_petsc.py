@@ -15,13 +15,11 @@ from pathlib import Path
 import numpy as np
 
 PROJECT = Path(__file__).resolve().parents[2]
+sys.path.append(str(PROJECT / "tests/support"))
+from exporting import BENCH, ExportingTest, difference  # noqa: E402
+
 PEER = PROJECT / "peers" / "petsc"
 PROGRAM = PROJECT / "build" / "peers" / "hybrid_petsc"
-BENCH = os.environ["AIRYBENCH_BENCH"]
-
-
-def read_forces(folder: Path) -> np.ndarray:
-    return np.loadtxt(folder / "F_C.mtx", skiprows=2)
 
 
 def ranks_of(folder: Path) -> list[int]:
@@ -37,53 +35,31 @@ def ranks_of(folder: Path) -> list[int]:
     return found
 
 
-class PetscTest(unittest.TestCase):
+class PetscTest(ExportingTest):
     def setUp(self) -> None:
         if not PROGRAM.exists():
             self.skipTest(f"{PROGRAM} (./run peers)")
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
+        super().setUp()
 
-    def run_bench(self, definition: dict, mesh: str, *words: str, peer: dict | None = None) -> list[dict]:
-        """Records of HYBRID and of the peer."""
-        declaration = json.loads((PEER / "hybrid-petsc.json").read_text(encoding="utf-8")) | (peer or {})
-        declaration["command"] = [str((PEER / word).resolve()) if word.startswith(("./", "../")) or word.endswith(".options")
-                                  else word for word in declaration["command"]]
-        declaration["version"] = [str(PROGRAM), "--version"]
-        (self.folder / "peer.json").write_text(json.dumps(declaration), encoding="utf-8")
-        scene, out = self.folder / "scene.json", Path(tempfile.mkdtemp(dir=self.folder))
-        scene.write_text(json.dumps(definition), encoding="utf-8")
-        command = [BENCH, f"--mesh={mesh}", f"--scene={scene}", "--method=HYBRID,EXTERNAL:*", "--repetitions=1",
-                   f"--external={self.folder / 'peer.json'}", f"--out={out}", *words]
+    def start_bench(self, definition: dict, mesh: str, *words: str) -> None:
+        self.out = Path(tempfile.mkdtemp(dir=self.folder))
+        command = [BENCH, f"--mesh={mesh}", f"--scene={self.scene(definition)}", "--method=HYBRID,EXTERNAL:*", "--threads=2",
+                   "--repetitions=1", f"--external={PEER / 'hybrid-petsc.json'}", f"--out={self.out}", *words]
         self.bench = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                                       env=os.environ | {"TMPDIR": str(self.folder)})
         self.addCleanup(self.bench.kill)
-        self.out = out
-        return self.records() if peer is None else []
 
-    def records(self) -> list[dict]:
+    def record(self) -> dict:
+        """The peer's, when bench has ended."""
         self.bench.wait()
         lines = (self.out / "records.jsonl").read_text(encoding="utf-8").splitlines()
-        return sorted((json.loads(line) for line in lines), key=lambda r: r["method"] != "HYBRID")
+        (record,) = (r for r in map(json.loads, lines) if r["method"] != "HYBRID")
+        return record
 
-    def export(self, definition: dict, mesh: str = "Mesh3") -> Path:
-        """The files that the peer is handed."""
-        kept = self.folder / f"input{len(list(self.folder.iterdir()))}"
-        copier = self.folder / "copier.json"
-        copier.write_text(json.dumps({
-            "name": "copier", "reads": "body", "format": "npz", "returns": "edge_displacements",
-            "command": ["cp", "-r", "{input}", str(kept)]}), encoding="utf-8")
-        scene = self.folder / "scene.json"
-        scene.write_text(json.dumps(definition), encoding="utf-8")
-        subprocess.run([BENCH, f"--mesh={mesh}", f"--scene={scene}", "--method=EXTERNAL:*", "--repetitions=1",
-                        f"--external={copier}", f"--out={self.folder / 'copies'}"], check=False, capture_output=True)
-        return kept
-
-    def solve(self, problem: Path, ranks: int, options: str = "two-level-gamg", tolerance: str = "1e-11") -> tuple[Path, dict]:
+    def solve(self, problem: Path, ranks: int, tolerance: str = "1e-11") -> tuple[Path, dict]:
         out = Path(tempfile.mkdtemp(dir=self.folder))
         ran = subprocess.run([PEER / "over_ranks.sh", str(ranks), out, PROGRAM, problem, out, tolerance,
-                              "-options_file", PEER / f"{options}.options"],
+                              "-options_file", PEER / "two-level-gamg.options"],
                              capture_output=True, text=True, check=False)
         self.assertEqual(0, ran.returncode, ran.stderr)
         return out, json.loads((out / "answer.json").read_text(encoding="utf-8"))
@@ -91,15 +67,16 @@ class PetscTest(unittest.TestCase):
     def test_one_two_and_four_ranks_answer_the_same(self) -> None:
         for definition in ({}, {"friction": 0}, {"friction": 0.8, "body_force_N_per_mm3": [0.1, 0]}):
             with self.subTest(definition):
-                problem = self.export(definition)
+                problem = self.export("npz", definition, "Mesh3")
                 answers = []
                 for ranks in (1, 2, 4):
                     folder, said = self.solve(problem, ranks)
                     self.assertEqual("ok", said["status"])
-                    answers.append((np.load(folder / "edge_displacements_mm.npy"), read_forces(folder)))
-                for u, F in answers[1:]:
-                    self.assertLess(np.linalg.norm(u - answers[0][0]), 1e-9 * np.linalg.norm(u))
-                    self.assertLess(np.linalg.norm(F - answers[0][1]), 1e-9 * np.linalg.norm(F))
+                    answers.append((np.load(folder / "edge_displacements_mm.npy"),
+                                    np.loadtxt(folder / "F_C.mtx", skiprows=2)))
+                for answer in answers[1:]:
+                    for found, expected in zip(answer, answers[0]):
+                        self.assertLess(difference(found, expected), 1e-9)
 
     def test_it_agrees_with_hybrid(self) -> None:
         scenes = ({}, {"friction": 0}, {"friction": 1.0, "displacement_mm": [0.015, 0.02]},
@@ -109,7 +86,8 @@ class PetscTest(unittest.TestCase):
         for mesh in ("Mesh0", "Mesh3"):
             for definition in scenes:
                 with self.subTest(mesh=mesh, scene=definition):
-                    _, petsc = self.run_bench(definition, mesh, "--threads=2")
+                    self.start_bench(definition, mesh)
+                    petsc = self.record()
                     self.assertEqual("ok", petsc["status"], petsc["status_reason"])
                     self.assertLess(petsc["error_stress"], 1e-6)
                     logs = [log.read_text(encoding="utf-8") for log in (self.out / "programs").iterdir()]
@@ -119,36 +97,37 @@ class PetscTest(unittest.TestCase):
     def test_iterations_near_incompressibility(self) -> None:
         for poisson in (0.3, 0.49, 0.4999):
             with self.subTest(poisson):  # a linear system: without contact
-                problem = self.export({"poisson": poisson, "friction": 0, "mesh": {"keep_contact_edges": 0},
-                                       "boundary": {"force": {"pressure_MPa": 3}}})
+                problem = self.export("npz", {"poisson": poisson, "friction": 0, "mesh": {"keep_contact_edges": 0},
+                                              "boundary": {"force": {"pressure_MPa": 3}}}, "Mesh3")
                 _, said = self.solve(problem, 2, tolerance="1e-10")
                 self.assertEqual("ok", said["status"])
                 most = int(said["parameters"].split("at most ")[1].split()[0])
                 self.assertLess(most, 65)
 
     def test_a_killed_rank_is_a_record(self) -> None:
-        self.run_bench({}, "Mesh3+refine2", "--threads=2", peer={})
+        self.start_bench({}, "Mesh3+refine2")
         self.bench_is_at_work()
         os.kill(ranks_of(self.folder)[-1], signal.SIGKILL)
-        (record,) = [r for r in self.records() if r["method"] != "HYBRID"]
+        record = self.record()
         self.assertEqual("crashed", record["status"])
         self.assertIn("hybrid-petsc ended with exit code 137", record["status_reason"])
         self.nothing_is_left()
 
     def test_when_the_bench_is_killed_so_are_the_ranks(self) -> None:
-        self.run_bench({}, "Mesh3+refine2", "--threads=2", peer={})
+        self.start_bench({}, "Mesh3+refine2")
         self.bench_is_at_work()
         self.bench.kill()
         self.bench.wait()
         self.nothing_is_left()
 
     def test_the_memory_of_all_ranks_has_a_limit(self) -> None:
-        _, petsc = self.run_bench({}, "Mesh3", "--threads=2", "--memory-limit=50")
+        self.start_bench({}, "Mesh3", "--memory-limit=50")
+        petsc = self.record()
         self.assertEqual("out_of_memory", petsc["status"], petsc["status_reason"])
         self.nothing_is_left()
 
     def test_wrong_input_is_one_line(self) -> None:
-        problem = self.export({}, "Mesh0")
+        problem = self.export("npz", {})
         for words, line in (([problem, problem, "two"], "hybrid-petsc: TOLERANCE: two (allowed: a number in (0, 1))"),
                             (["/none", problem, "1e-9"], "hybrid-petsc: /none/problem.npz: cannot be read")):
             ran = subprocess.run([PROGRAM, *words], capture_output=True, text=True, check=False)
