@@ -4,16 +4,12 @@ Of a method's cases on a mesh, whatever its knob (tolerance, iterations; a direc
     e(t) = min { max(error_stress, error_force) : time_s <= t }.
 The best point is known only afterwards, from the verifier; a user would have to find it.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
-from figure_table import csv_of
-from figure_words import short
-from record_keys import POSITIVE, Row
-from selection import by_mesh, grouped, of_scene
-from study_parts import order, seconds
+from records import POSITIVE, Row
+from selection import by_mesh, grouped, of_scene, order
+from words import csv_of, seconds, short
 
 STUDIES = ("error", "")  # ordinary cases in the folder are points too
 DECADES = 6  # at most, of budgets that nobody has named

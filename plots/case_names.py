@@ -1,6 +1,4 @@
 """What a case is called wherever it is shown or filed, as bench/records/case_name.hpp has it."""
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from urllib.parse import unquote

@@ -1,7 +1,5 @@
 """What the programs share: wrong input ends them with one line and exit status 2, and files are
 written whole."""
-from __future__ import annotations
-
 import argparse
 import os
 import sys

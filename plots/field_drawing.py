@@ -2,8 +2,6 @@
 
 A body lies as it is, x to the right and y up; a face has its outward normal down.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -16,8 +14,8 @@ from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
 from fields import Fields, chains, largest_shear
-from figure_files import SMALLEST_PT
-from figure_words import width_of
+from drawing import SMALLEST_PT
+from words import width_of
 
 COLORMAP = "viridis"
 # Okabe and Ito's colours; shape and lightness say the same in grey.
@@ -44,12 +42,12 @@ class Scales:
     shear: Normalize     # MPa
     pressure_MPa: float  # end of the axis
 
-    @staticmethod
-    def of(solutions: list[Fields]) -> Scales:
-        """Of the largest, and not of what singular corners have."""
-        shear = max(map(highest_shear, solutions))
-        pressure = max(map(highest_pressure, solutions))
-        return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
+
+def scales_of(solutions: list[Fields]) -> Scales:
+    """Of the largest, and not of what singular corners have."""
+    shear = max(map(highest_shear, solutions))
+    pressure = max(map(highest_pressure, solutions))
+    return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
 
 
 def areas(s: Fields) -> np.ndarray:

@@ -1,6 +1,4 @@
 """Lays out one solution: the body, and below or beside it its contact faces, enlarged. In inches."""
-from __future__ import annotations
-
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,7 +12,7 @@ from matplotlib.patches import Patch
 
 import field_drawing as drawing
 from fields import Fields
-from figure_words import plain
+from words import columns_of, csv_of, plain
 from unrolled import BY_LENGTH, unrolled
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
@@ -47,6 +45,13 @@ def view_of(s: Fields) -> View:
     low, high = s.boundary.min(axis=(0, 1)), s.boundary.max(axis=(0, 1))
     margin = MARGIN * (high - low)[1]
     return View(*zip(low - margin, high + margin))
+
+
+def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
+    axes.tick_params(length=2)
+    axes.set_ylabel(y, labelpad=2)
+    axes.set_xlabel(x, labelpad=1)
+    axes.spines[:].set_visible(False)
 
 
 def body_height(s: Fields, width: float) -> float:
@@ -119,10 +124,6 @@ def layout_of(s: Fields, width: float) -> Layout:
                   below + rows * step if rows else TITLE + height + LABELS)
 
 
-def height_of(s: Fields, width: float) -> float:
-    return layout_of(s, width).height
-
-
 def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                scales: drawing.Scales) -> None:
     """left, top: of the panel, from the figure's lower left corner."""
@@ -135,11 +136,8 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
     view, layout = view_of(s), layout_of(s, width)
     body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.across,
                     ylim=view.upward)
-    body.tick_params(length=2)
-    body.set_ylabel("y in mm", labelpad=2)
-    body.set_xlabel("x in mm", labelpad=1)
+    label_body(body)
     body.tick_params(axis="x", pad=1)
-    body.spines[:].set_visible(False)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
                 (top - TITLE + 0.07) / size[1],
@@ -210,3 +208,19 @@ def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
     bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
                           cax=figure.add_axes([0.62, 0.36 / height, 0.35, 0.12 / height]))
     bar.set_label(r"$\tau_{max}$ in MPa; brightest: or more", labelpad=1)
+
+
+def contact_points(solutions: list[Fields]) -> str:
+    """A line per contact point, by face in the pictures' order; along: the pictures' axis of the
+    face."""
+    lines = []
+    for s in solutions:
+        for k, face in enumerate(faces_of(s)):
+            for edge, along in zip(face, unrolled(s.edges[face]).along):
+                lines += [(s, letter_of(k), *point) for point in
+                          zip(s.edges[edge], map(float, along), s.traction[edge], s.state[edge])]
+    return csv_of(lines, *columns_of(lambda line: line[0], "mesh", "n_phi"),
+                  ("face", lambda line: line[1]), ("x_mm", lambda line: float(line[2][0])),
+                  ("y_mm", lambda line: float(line[2][1])), ("along_mm", lambda line: line[3]),
+                  ("pressure_MPa", lambda line: 0.0 - line[4][0]),
+                  ("friction_MPa", lambda line: float(line[4][1])), ("state", lambda line: line[5]))

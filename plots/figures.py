@@ -3,7 +3,7 @@
 
     figures.py RESULTS_DIR [--out DIR] [--only GLOB,...]
 
-The figures are those that the modules *_figure.py beside this program plan: each has a function
+The figures are those that the modules figure/*.py plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
 table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
@@ -14,8 +14,6 @@ Where there is room for one scene it is `default`, if that is there. A line on s
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
 line says which, and nothing is written.
 """
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from fnmatch import fnmatchcase
@@ -27,18 +25,17 @@ import matplotlib
 
 import budgets
 import command
-from figure_files import Drawing
-from figure_parts import STYLE
-from figure_words import merged
+from drawing import STYLE, Drawing
 from measured import paragraph
 from paper_sizes import table1
-from record_keys import Row
-from records import RecordsError, read_run, rows_of
+from records import RecordsError, Row, read_run, rows_of
+from words import merged
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
-    modules = sorted(path.stem for path in Path(__file__).parent.glob("*_figure.py"))
-    return [drawing for name in modules for drawing in import_module(name).drawings(rows)]
+    modules = sorted(path.stem for path in Path(__file__).parent.glob("figure/*.py"))
+    return [drawing for name in modules
+            for drawing in import_module(f"figure.{name}").drawings(rows)]
 
 
 def why_undrawn(row: Row, drawn: list[Row]) -> str:

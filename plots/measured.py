@@ -3,25 +3,18 @@
 Every sentence is made from what the records say themselves, and is true of records of several
 machines, programs and settings: what is not the same of all is listed with the number of its cases.
 """
-from __future__ import annotations
-
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
 
 import numpy as np
 
-from figure_words import span, targets
 from profiles import solved
-from record_keys import NOT_NEGATIVE, Row
-from study_parts import percent
+from records import NOT_NEGATIVE, Row
+from words import counted, percent, span, targets
 
 UNKNOWN = "unknown"  # bench writes it for what the machine does not tell
 FEWEST_FOR_INTERVAL = 6
-
-
-def counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def listed(values: Iterable[str]) -> str:

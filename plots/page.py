@@ -9,8 +9,6 @@ RESULTS  folder of one run: its records.jsonl is listed instead of the last nigh
 
 The page fetches nothing. Exit 2: wrong input; one line says which, and nothing is written.
 """
-from __future__ import annotations
-
 import argparse
 import base64
 import hashlib

@@ -1,14 +1,11 @@
 """What the page shows, from the nights of a history: series, marks, the last run, its context."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pandas as pd
 
 from case_names import case_name
 from night_history import Night, moment
-from record_keys import FIELDS
-from records import with_derived
+from records import FIELDS, with_derived
 
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
 QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}

@@ -6,14 +6,12 @@ Methods s = 1..S on cases p = 1..P with costs c_ps, infinite where s does not so
 ρ depends on all methods compared: with more than two, the order of those that are not the best can
 change when one is left out (Gould & Scott, ACM Trans. Math. Softw. 43, 2016, 15). d does not.
 """
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from record_keys import Row
+from records import Row
 from selection import compared, grouped
 
 ROOM = 12  # methods

@@ -23,8 +23,6 @@ beside the numbers, such as "less than": the phrase has no {} for it.
 
 Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->.
 """
-from __future__ import annotations
-
 import argparse
 import re
 import sys
@@ -37,8 +35,7 @@ from pathlib import Path
 from case_names import case_name
 from command import replace_all
 from quoted_values import QuoteError, Runs, chosen, value_of
-from record_keys import Row
-from records import RecordsError, rows_of
+from records import RecordsError, Row, rows_of
 
 PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")

@@ -1,6 +1,4 @@
 """What the committed records give for an expression of docs/numbers.txt (quoted_numbers.py)."""
-from __future__ import annotations
-
 import re
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fnmatch import fnmatchcase
@@ -8,8 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from record_keys import KEYS
-from records import read
+from records import KEYS, read
 
 UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "MiB": 2**20,
          "GiB": 2**30}

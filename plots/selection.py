@@ -1,11 +1,11 @@
 """Which cases belong in a figure, by the columns of their records."""
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Hashable, Iterable
 from typing import TypeVar
 
-from record_keys import Row
+import numpy as np
+
+from records import Row
 
 Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
 GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
@@ -98,3 +98,42 @@ def front(rows: list[Row], cost: Callable[[Row], float | None], error: Callable[
         if not found or error(row) < (1 - gain) * error(found[-1]):
             found.append(row)
     return found
+
+
+def sharing_axes(rows: list[Row]) -> list[list[Row]]:
+    """Bodies whose sizes do not overlap share axes over n_phi: the rows of each axes."""
+    shared: list[list[Row]] = []
+    for own in by_body(rows).values():
+        low, high = min(row.n_phi for row in own), max(row.n_phi for row in own)
+        group = next((group for group in shared if all(
+            max(row.n_phi for row in other) < low or min(row.n_phi for row in other) > high
+            for other in by_body(group).values())), None)
+        if group is None:
+            shared.append(own)
+        else:
+            group += own
+    return shared
+
+
+def order(row: Row) -> tuple[int, str]:
+    """Sorts by family, then by method."""
+    return row.look.rank, row.method
+
+
+def by_method(rows: list[Row], x: str) -> dict[str, list[Row]]:
+    """In the order of families, each by the value of this key."""
+    return grouped(sorted(rows, key=lambda row: (order(row), getattr(row, x))),
+                   lambda row: row.method)
+
+
+def value_of(row: Row, key: str) -> float | None:
+    """As figures show it: peak_heap_bytes in MiB."""
+    value = getattr(row, key)
+    return value / 2**20 if value and key == "peak_heap_bytes" else value
+
+
+def exponent(n_phi: list[int], values: list[float], least: int = 3) -> float | None:
+    """p of the power law value ~ n_phi^p by least squares of logarithms; needs `least` points."""
+    if len(values) < least or len(set(n_phi)) < 2:
+        return None
+    return float(np.polyfit(np.log(n_phi), np.log(values), 1)[0])

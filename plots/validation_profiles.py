@@ -4,8 +4,6 @@
     validation_profiles.py [--out FILE]     default: docs/images/validation.png
     validation_profiles.py --table          prints the tables of docs/validation.md
 """
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
@@ -15,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_files import COLOURS, DPI, PAGE_WIDTH, write_small_png
+from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"

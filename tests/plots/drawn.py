@@ -1,6 +1,4 @@
 """What is in a figure."""
-from __future__ import annotations
-
 from contextlib import AbstractContextManager
 from unittest import mock
 

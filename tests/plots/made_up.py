@@ -2,17 +2,17 @@
 both studies, with the shapes that the figures have to cope with."""
 import csv
 import json
-import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
+import running  # finds plots
 
-import record_keys  # noqa: E402
-from paper_sizes import SIZES, Sizes  # noqa: E402
+import records
+from catalogue import SIZES, Sizes
 
-COLUMNS = [key for key in record_keys.KEYS if not key.startswith("memory_")]
+COLUMNS = [key for key in records.KEYS if not key.startswith("memory_")]
 SEVEN = {"SDTIC3": "SYMMLQ:DTIC3", "3STEPCG3": "3STEPCG:DTIC3", "SDTIC6": "SYMMLQ:DTIC6",
          "3STEPCG6": "3STEPCG:DTIC6", "SSKY": "SYMMLQ:SKY", "3STEPD": "3STEPD", "ALM": "ALM"}
 IN_PAPER = (*SEVEN, "BLIND")
@@ -168,3 +168,17 @@ def write_lines(path: Path, records: list[dict[str, object]]) -> None:
     """records.jsonl."""
     lines = "".join(json.dumps(record) + "\n" for record in records)
     path.write_text(lines, encoding="utf-8")
+
+
+def read(rows: list[dict[str, object]], columns: list[str] = COLUMNS) -> list[records.Row]:
+    """As figures get them from a results.csv of these."""
+    with tempfile.TemporaryDirectory() as folder:
+        write(Path(folder) / "results.csv", rows, columns)
+        return records.rows_of(records.read_run(Path(folder)))
+
+
+def read_lines(lines: list[dict[str, object]]) -> list[records.Row]:
+    """As figures get them from a records.jsonl of these."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_lines(Path(folder) / "records.jsonl", lines)
+        return records.rows_of(records.read_run(Path(folder)))

@@ -1,18 +1,15 @@
 """The numbers in README.md and docs/ against the records.  /usr/bin/python3 -m unittest FILE"""
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import quoted_numbers  # noqa: E402
-import quoted_values  # noqa: E402
-from running import run  # noqa: E402
+import quoted_numbers
+import quoted_values
+from running import run
 
 PROJECT = Path(__file__).resolve().parents[2]
 TEXT = """# A README
@@ -177,7 +174,3 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assert_refused(head + "  other: count of */*\n", "results.csv", "cannot be read")
         self.readme.write_text(TEXT.replace("table run:", "table"), encoding="utf-8")
         self.assert_refused(QUOTES, "README.md: 1 comments begin a table, 0 of them can be read")
-
-
-if __name__ == "__main__":
-    unittest.main()

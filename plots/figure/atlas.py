@@ -1,6 +1,4 @@
 """The stability atlas: scenes x methods, a cell per case, coloured and lettered by its outcome."""
-from __future__ import annotations
-
 import math
 import re
 from collections import Counter
@@ -14,38 +12,14 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-import study_parts as parts
-from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing
-from figure_table import csv_of
-from figure_words import plain, width_of
-from record_keys import OUTCOMES, Row
-from selection import by_mesh
+from drawing import MARGIN, PAGE_WIDTH, SMALLEST_PT, Drawing, axes_at, file_name, sheet
+from outcomes import MARKS, SIZE, Key
+from records import Row
+from selection import by_mesh, by_method, order
+from words import csv_of, plain, width_of
 
-# Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
-MARKS = {
-    "ok": ("", "#EAF3FA", "#123A5A"),
-    "other_solution": ("2", "#CFE8D5", "#12402A"),
-    "inaccurate": ("i", "#F5D76E", "black"),
-    "unstressed": ("0", "#FFFFFF", "0.4"),
-    "not_converged": ("n", "#E8A33D", "black"),
-    "breakdown": ("b", "#B07A4A", "white"),
-    "unverified": ("?", "#FFFFFF", "black"),
-    "wrong_success": ("W!", "#D00060", "white"),
-    "timeout": ("t", "#A9A9B8", "black"),
-    "out_of_memory": ("m", "#6B6B80", "white"),
-    "crashed": ("X", "#000000", "white"),
-    "machine_fault": ("f", "#DADADA", "black"),
-    "skipped": ("–", "#FFFFFF", "0.4"),
-}
-WORDS = {"other_solution": "another solution than the reference's",
-         "unstressed": "no stress, so no relative error",
-         "unverified": "said ok, and no reference can tell",
-         "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
-         "machine_fault": "no process or no file to be had"}
 CELL, NARROWEST, ROW, TITLE, BETWEEN = 0.32, 0.112, 0.16, 0.42, 0.25  # inches
 WITH_DIGITS = 0.2  # inches: a cell in which an ok case's digits have room
-LETTER = 0.078  # inches: of a name's letter, about
-SIZE = 7.5
 NUMBER = re.compile(r"\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 DEEPEST = "#7FB6DE"  # of an ok case with 15 digits; with 6 it has the fill above
 
@@ -75,13 +49,13 @@ def scenes_of(rows: list[Row]) -> list[tuple[str, str]]:
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for mesh, own in by_mesh([row for row in rows if row.study == "stability"]).items():
-        yield Drawing(parts.file_name("stability", mesh), own, draw, table_of)
+        yield Drawing(file_name("stability", mesh), own, draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
     """digits: of the largest error of an ok case."""
-    order = {scene: k for k, scene in enumerate(scenes_of(rows))}
-    rows = sorted(rows, key=lambda row: (order[row.scene_group, row.scene], parts.order(row)))
+    place = {scene: k for k, scene in enumerate(scenes_of(rows))}
+    rows = sorted(rows, key=lambda row: (place[row.scene_group, row.scene], order(row)))
     return csv_of(rows, "mesh", "scene_group", "scene", "method", "outcome",
                   ("digits", lambda row: digits(row) if row.outcome == "ok" else None),
                   "error_stress", "error_force")
@@ -103,10 +77,10 @@ class Grid:
 
 def grids_of(rows: list[Row], left: float) -> list[Grid]:
     """Side by side while cells are not too narrow, below each other else."""
-    methods = list(dict.fromkeys(row.method for row in sorted(rows, key=parts.order)))
+    methods = list(by_method(rows, "n_phi"))
     lines = [line for group, own in groupby(scenes_of(rows), key=lambda scene: scene[0])
              for line in ((group, ""), *own)]
-    room = PAGE_WIDTH - left - parts.MARGIN
+    room = PAGE_WIDTH - left - MARGIN
     count = math.ceil(len(methods) * NARROWEST / room)
     most = math.ceil(len(methods) / count)
     cell = min(CELL, room / most)
@@ -126,23 +100,21 @@ def draw(rows: list[Row]) -> Figure | str:
     block = above + grids[0].height + below
     methods = sum(len(grid.methods) for grid in grids)
     deep = grids[0].cell < WITH_DIGITS
-    key = Key(rows, PAGE_WIDTH, ("", "ok, deeper: more digits") if deep else
+    key = Key(rows, ("", "ok, deeper: more digits") if deep else
               ("12", "ok, with the digits of its largest error"))
     body = TITLE + len(grids) * (block + BETWEEN) + key.height
-    figure = parts.sheet(PAGE_WIDTH, body, f"Stability on {rows[0].mesh}: {methods} methods in "
-                         f"{len(scenes)} scenes", [
+    figure = sheet(
+        body, f"Stability on {rows[0].mesh}: {methods} methods in {len(scenes)} scenes",
         "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
         "most the target; " + ("the deeper its blue, the smaller its errors of stresses and contact "
                                "forces, from 1e-6 to 1e-15. " if deep else
                                "its number n says that the errors of stresses and contact forces are "
                                "at most 1e-n; +: no such error is known. ") +
-        "Empty: not in the study. Below: how many of a method's cases are ok."])
-    size = figure.get_size_inches()
+        "Empty: not in the study. Below: how many of a method's cases are ok.")
     for k, grid in enumerate(grids):
         top = TITLE + k * (block + BETWEEN) + above
-        axes = figure.add_axes([left / size[0], 1 - (top + grid.height) / size[1],
-                                grid.cell * len(grid.methods) / size[0], grid.height / size[1]],
-                               xlim=(0, len(grid.methods)), ylim=(len(grid.lines), 0))
+        axes = axes_at(figure, left, top, grid.cell * len(grid.methods), grid.height,
+                       xlim=(0, len(grid.methods)), ylim=(len(grid.lines), 0))
         own = [row for row in rows if row.method in grid.methods]
         draw_cells(axes, own, grid)
         draw_names(axes, own, grid)
@@ -191,40 +163,3 @@ def draw_names(axes: Axes, rows: list[Row], grid: Grid) -> None:
             axes.axvline(k, color="0.25", linewidth=0.8, zorder=2.5)
     axes.annotate("ok", (0, 0), xycoords="axes fraction", xytext=(-3, -4), ha="right", va="top",
                   textcoords="offset points", fontsize=SIZE, color="0.3")
-
-
-class Key:
-    """The outcomes, with counts, in lines as wide as the page. of_ok: in its field, and beside it."""
-
-    LINE = 0.25  # inches
-
-    def __init__(self, rows: list[Row], width: float, of_ok: tuple[str, str]) -> None:
-        count = Counter(row.outcome for row in rows)
-        self.width, self.of_ok = width, of_ok
-        self.places: list[tuple[str, str, float, int]] = []  # outcome, words, x, line
-        x, line = parts.MARGIN, 0
-        for outcome in OUTCOMES:
-            if not count[outcome] and outcome != "wrong_success":
-                continue
-            words = of_ok[1] if outcome == "ok" else WORDS.get(outcome, outcome.replace("_", " "))
-            words += f": {count[outcome]}"
-            needed = 0.36 + 0.066 * len(words) + 0.22
-            if x + needed > width:
-                x, line = parts.MARGIN, line + 1
-            self.places.append((outcome, words, x, line))
-            x += needed
-        self.height = 0.12 + self.LINE * (line + 1)
-
-    def draw(self, figure: Figure, top: float) -> None:
-        width, height = self.width, figure.get_size_inches()[1]
-        for outcome, words, x, line in self.places:
-            letter, fill, ink = MARKS[outcome]
-            y = top + self.LINE * line
-            figure.add_artist(Rectangle((x / width, 1 - (y + 0.19) / height), 0.28 / width,
-                                        0.19 / height, facecolor=fill, edgecolor="0.5",
-                                        linewidth=0.5))
-            figure.text((x + 0.14) / width, 1 - (y + 0.1) / height, letter or self.of_ok[0],
-                        color=ink, ha="center", va="center", fontsize=SIZE,
-                        weight="bold" if letter else "normal")
-            figure.text((x + 0.36) / width, 1 - (y + 0.1) / height, words, va="center", fontsize=8,
-                        weight="bold" if outcome == "wrong_success" else "normal")

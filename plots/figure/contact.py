@@ -1,18 +1,14 @@
 """Solvers of the condensed contact problem: their time and iterations over its size."""
-from __future__ import annotations
-
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import study_parts as parts
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_limits, log_log
-from figure_table import CASE, csv_of
-from figure_words import plain
-from record_keys import CONTACT_SOLVERS, Row
+from drawing import (PAGE_WIDTH, Drawing, axes_at, file_name, log_limits, log_log, sheet,
+                     side_by_side, text_at)
+from records import CONTACT_SOLVERS, Row
 from selection import grouped
+from words import CASE, csv_of, plain, threads
 
 LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 0.72, 0.62, 0.12, 2.3, 0.45, 0.3  # inches
 LOOKS = dict(zip(CONTACT_SOLVERS, (("#000000", "o"), ("#D55E00", "s"), ("#0072B2", "^"),
@@ -22,9 +18,9 @@ AT_EDGE = 0.95  # of an axes' height: where a solver that found nothing is marke
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "contact" and row.contact_solver]
-    for method, own in grouped(study, lambda row: row.method).items():
-        name = "contact" if len({row.method for row in study}) == 1 else \
-            parts.file_name("contact", method)
+    methods = grouped(study, lambda row: row.method)
+    for method, own in methods.items():
+        name = "contact" if len(methods) == 1 else file_name("contact", method)
         yield Drawing(name, own, draw, table_of)
 
 
@@ -53,37 +49,34 @@ def draw(rows: list[Row]) -> Figure | str:
         return "no case of the contact study has a time"
     scenes = grouped(rows, lambda row: row.scene)
     failed = [row for row in rows if not row.completed]
-    figure = parts.sheet(PAGE_WIDTH, TOP + 2 * HEIGHT + GAP + BOTTOM + KEY,
-                         "Four solvers of the condensed contact problem", [
-        f"{rows[0].method}, {parts.threads(rows)}. One column is a scene, one point a mesh: all "
+    figure = sheet(
+        TOP + 2 * HEIGHT + GAP + BOTTOM + KEY, "Four solvers of the condensed contact problem",
+        f"{rows[0].method}, {threads(rows)}. One column is a scene, one point a mesh: all "
         "solvers get the same D and G there. Above: the median time of the stage; below: "
         "Gauss–Seidel sweeps, plain (gauss-seidel), accelerated (anderson) or before active sets "
         "(newton, whose steps are added), or iterations of ADMM. " +
         (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
-         "the iterations or the time allowed." if failed else "All cases were solved.")])
+         "the iterations or the time allowed." if failed else "All cases were solved."))
     xlim = log_limits([row.n_c for row in rows if row.n_c], 1.3)
     for k, (of, words) in enumerate(QUANTITIES):
         ylim = log_limits([value for row in rows if (value := of(row))], 1.6)
-        panels = parts.side_by_side(figure, ["" if k else scene for scene in scenes], LEFT,
-                                    TOP + k * (HEIGHT + GAP), HEIGHT, GAP)
+        panels = side_by_side(figure, ["" if k else scene for scene in scenes], LEFT,
+                              TOP + k * (HEIGHT + GAP), HEIGHT, GAP)
         for axes, own in zip(panels, scenes.values()):
-            log_log(axes, xlim=xlim, ylim=ylim)
+            log_log(axes, xlim=xlim, ylim=ylim, xlabel="contact forces $n_C$, 1" if k else "")
+            axes.tick_params(labelbottom=k == 1)
             draw_solvers(axes, own, of)
-            if k:
-                axes.set_xlabel("contact forces $n_C$, 1")
-            else:
-                axes.tick_params(labelbottom=False)
         panels[0].set_ylabel(words)
     for k, (solver, (colour, marker)) in enumerate(LOOKS.items()):
-        figure.text((LEFT + 0.2 + 1.5 * k) / PAGE_WIDTH, 1 - 0.36 / figure.get_size_inches()[1],
-                    plain(solver), color=colour, va="center", fontsize=9)
+        text_at(figure, LEFT + 0.2 + 1.5 * k, 0.36, plain(solver), color=colour, va="center",
+                fontsize=9)
         axes = axes_at(figure, LEFT + 1.5 * k, 0.31, 0.12, 0.1)
         axes.plot(0, 0, marker=marker, color=colour, markersize=5, clip_on=False)
         axes.set_axis_off()
     return figure
 
 
-def draw_solvers(axes: Axes, rows: list[Row], of: object) -> None:
+def draw_solvers(axes: Axes, rows: list[Row], of: Callable[[Row], float | None]) -> None:
     for solver, own in grouped(rows, lambda row: row.contact_solver).items():
         colour, marker = LOOKS[solver]
         known = sorted((row.n_c, of(row)) for row in own if of(row) and row.n_c)

@@ -3,32 +3,25 @@
 Fill colour: error_force. Crossed: status inaccurate. Open: no answer, time extrapolated; with an
 arrow: only a bound, or no estimate at all. Sizes in inches, type in points.
 """
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from itertools import pairwise
 
 from matplotlib import colormaps, ticker
 from matplotlib.axes import Axes
-from matplotlib.axis import Axis
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from figure_words import heap_caption, plain, short, time_caption, wrapped
-from record_keys import STOPS, Row
+from drawing import HEADROOM, LINE, TYPE
+from records import STOPS, Row
 from selection import of_scene
+from words import cases_by_reason, heap_caption, plain, short, time_caption, wrapped
 
 WIDTH = 6.3  # inches: 16 cm
-TYPE, SMALL, MATH = 8, 7, 10  # points; indices and exponents are set at 0.7 MATH
-STYLE = {"font.size": TYPE, "axes.linewidth": 0.6, "axes.labelsize": TYPE, "axes.titlesize": TYPE,
-         "xtick.labelsize": TYPE, "ytick.labelsize": TYPE, "legend.fontsize": TYPE,
-         "grid.color": "0.88", "grid.linewidth": 0.4, "axes.axisbelow": True,
-         "xtick.major.size": 2.5, "ytick.major.size": 2.5, "xtick.minor.size": 1.5,
-         "ytick.minor.size": 1.5, "svg.hashsalt": "airybench"}
+SMALL = 7
+MARGIN = 0.08
 COLORMAP = "viridis"
 EDGE, UNKNOWN = "#222222", "#B8B8B8"
 MARKER = 6.5
@@ -37,10 +30,7 @@ CROSS = dict(marker="x", markersize=1.5 * MARKER, markeredgecolor="#D00060", mar
 SHAFT = [(0, 0.35), (0, 1), (-0.2, 0.7), (0, 1), (0.2, 0.7)]  # upward from the symbol
 ARROW = dict(marker=SHAFT, markersize=28, markerfacecolor="none", markeredgecolor=EDGE,
              markeredgewidth=1, linestyle="none")
-HEADROOM = 0.1  # of an axes' height, for arrows without a value
 EDGE_AT = 1 - 0.75 * HEADROOM
-LINE = 0.155  # between lines of a caption
-MARGIN = 0.08
 
 
 @dataclass(frozen=True)
@@ -67,6 +57,19 @@ class Quantity:
 
 TIME = Quantity("time", "time of one solve, s", time_caption)
 HEAP = Quantity("memory", "peak heap, MiB", heap_caption)
+
+
+def notes_of(cases: Iterable[tuple[str, Row]], quantity: Quantity) -> list[str]:
+    """The cases that a figure has no point for, and those without a value."""
+    titles: dict[str, dict[str, list[str]]] = {"no point": {}, "no estimate": {}}
+    for case, row in cases:
+        value, mark = quantity.of(row)
+        if mark == "none":
+            happened = "heap not counted" if row.completed else row.status_words()
+            titles["no point"].setdefault(happened, []).append(case)
+        elif value is None:
+            titles["no estimate"].setdefault(row.status_words(), []).append(case)
+    return [f"{title}: {cases_by_reason(group)}" for title, group in titles.items() if group]
 
 
 class ErrorScale:
@@ -159,7 +162,7 @@ class Footer:
 
     def __init__(self, rows: list[Row], quantity: Quantity, texts: list[str],
                  scale: ErrorScale) -> None:
-        self.lines = [line for text in texts for line in wrapped(text, WIDTH - 2 * MARGIN, TYPE)]
+        self.lines = wrapped(texts, WIDTH - 2 * MARGIN, TYPE)
         self.key = key_of(rows, quantity)
         self.scale = scale
         self.key_height = max(0.44, LINE * len(self.key) + 0.06)
@@ -176,51 +179,3 @@ class Footer:
             figure.legend(handles, words, loc="lower left", frameon=False, borderpad=0,
                           labelspacing=0.25, handlelength=1.5, handletextpad=0.4,
                           bbox_to_anchor=(MARGIN / WIDTH, (bottom + 0.05) / height))
-
-
-def axes_at(figure: Figure, left: float, top: float, width: float, height: float,
-            **properties: object) -> Axes:
-    """top: inches below the figure's upper edge."""
-    size = figure.get_size_inches()
-    return figure.add_axes([left / size[0], 1 - (top + height) / size[1], width / size[0],
-                            height / size[1]], **properties)
-
-
-def log_axis(axis: Axis) -> None:
-    """Of an axis with its limits set: as many labels a decade as there is room for."""
-    low, high = axis.get_view_interval()
-    choices = [(1,), (1, 3), (1, 2, 5), (1, 1.5, 2, 3, 5, 7)][:4 if high / low < 10 else
-                                                              3 if high / low < 200 else 1]
-    size = axis.axes.get_position().size * axis.figure.get_size_inches()
-    letters = max(len(tick_label(10.0**round(math.log10(end)))) for end in (low, high))
-    along, room = (size[0], 0.05 + 0.07 * letters) if axis.axis_name == "x" else (size[1], 0.15)
-    decade = along / math.log10(high / low)  # inches, as room
-    labelled = next((choice for choice in reversed(choices)
-                     if math.log10(min(b / a for a, b in pairwise((*choice, 10)))) * decade > room),
-                    choices[0])
-    axis.set_major_formatter(ticker.FuncFormatter(lambda v, _: tick_label(v)))
-    axis.set_major_locator(ticker.LogLocator(10.0**math.ceil(room / decade) if decade < room else 10,
-                                             subs=labelled, numticks=99))
-    axis.set_minor_locator(ticker.LogLocator(subs=range(2, 10), numticks=99))
-    axis.set_minor_formatter(ticker.NullFormatter())
-
-
-def tick_label(value: float) -> str:
-    return f"{value:g}" if 1e-3 <= value < 1e5 else short(value)
-
-
-def log_log(axes: Axes, **properties: object) -> None:
-    """With its limits among the properties."""
-    axes.set(xscale="log", yscale="log", **properties)
-    log_axis(axes.xaxis)
-    log_axis(axes.yaxis)
-    axes.spines[["right"]].set_visible(False)
-
-
-def log_limits(values: list[float | None], pad: float = 1.5) -> tuple[float, float]:
-    """At least a decade; with headroom where there is a case without a value."""
-    known = [value for value in values if value is not None] or [1]
-    low, high = min(known) / pad, max(known) * pad
-    wider = math.sqrt(max(10 * low / high, 1))
-    low, high = low / wider, high * wider
-    return low, high if None not in values else high * (high / low) ** (HEADROOM / (1 - HEADROOM))

@@ -1,6 +1,4 @@
 """Performance and data profiles: the share of cases that a method solves within so much of the best."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,18 +7,15 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import profiles
-import study_parts as parts
-from all_methods_figure import DASHED, draw_names
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_axis
-from figure_table import csv_of
-from figure_words import width_of
-from looks import DASHES
+from catalogue import DASHES
+from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
+from labels import DASHED, LEFT, draw_names
 from profiles import Cases
-from record_keys import Row
+from records import Row
 from selection import grouped
+from words import counted, csv_of, threads, width_of
 
-LEFT, TOP, PANEL, BETWEEN, BOTTOM = 0.72, 0.45, 2.3, 0.55, 0.5  # inches
+TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
 SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
         "load-steps": "_load_steps"}  # study -> end of the file's name
@@ -36,17 +31,15 @@ class Profile:
     values: np.ndarray    # (P, S): factors of the best, or seconds
     resampled: np.ndarray | None  # (RESAMPLES, P, S)
 
-    def of(self, s: int) -> tuple[np.ndarray, np.ndarray]:
-        """(P,), and all the values that the method has in (RESAMPLES, P)."""
-        every = self.values if self.resampled is None else self.resampled
-        return self.values[:, s], every[..., s]
+    def every(self, s: int) -> np.ndarray:
+        """All the values that the method has, in (RESAMPLES, P)."""
+        return (self.values if self.resampled is None else self.resampled)[..., s]
 
     def shares(self, s: int, at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         """Solved there, and both ends of the interval."""
-        own, every = self.of(s)
-        share = profiles.fractions(own, at)
+        share = profiles.fractions(self.values[:, s], at)
         return (share, share, share) if self.resampled is None else \
-            (share, *profiles.band(every, at))
+            (share, *profiles.band(self.every(s), at))
 
 
 def jumps(values: np.ndarray) -> np.ndarray:
@@ -100,41 +93,37 @@ def draw(rows: list[Row]) -> Figure | str:
     if not np.isfinite(cases.costs(lambda row: row.time_s)).any():
         return f"none of its {len(cases.cases)} cases is solved"
     shown = profiles_of(cases)
-    figure = parts.sheet(PAGE_WIDTH, TOP + len(shown) * (PANEL + BETWEEN),
-                         f"Profiles: {len(cases.methods)} methods on {len(cases.cases)} cases",
-                         caption(cases, shown))
-    names = max(width_of(method, parts.TYPE) / 72 for method in cases.methods)
+    figure = sheet(TOP + len(shown) * (PANEL + BETWEEN),
+                   f"Profiles: {len(cases.methods)} methods on {len(cases.cases)} cases",
+                   *caption(cases, shown))
+    names = max(width_of(method, TYPE) / 72 for method in cases.methods)
     for k, profile in enumerate(shown):
-        axes = axes_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 0.4 - DASHED - names,
-                       PANEL)
-        draw_panel(axes, profile, cases)
+        draw_panel(panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN),
+                            PAGE_WIDTH - LEFT - 0.4 - DASHED - names, PANEL), profile, cases)
     return figure
 
 
-def caption(cases: Cases, shown: list[Profile]) -> list[str]:
+def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
     rows = list(cases.rows.values())
     scenes, meshes = (len({getattr(row, name) for row in rows}) for name in ("scene", "mesh"))
-    words = [f"Cases: {meshes} mesh{'es' * (meshes > 1)}, {scenes} scene{'s' * (scenes > 1)}; "
-             f"{parts.threads(rows)}. Solved: status ok and verified; whatever else became of a case, "
-             "skipped too, it is not. "
-             "Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
-             "solves within a factor of the best method's cost; at 1: how often it is the best. "
-             "Lowest: data profile (Moré & Wild 2009), the share solved within a time."]
-    words.append("A performance profile depends on the methods compared: with more than two, the order "
-                 "of those behind the best can change when one is left out (Gould & Scott 2016)"
-                 + {None: ".", True: "; here it does at factor 2 without the one that leads there.",
-                    False: "; at factor 2 it does not here without the one that leads there."}[
-                        profiles.order_depends_on_best(shown[0].values)])
+    yield (f"Cases: {meshes} mesh{'es' * (meshes > 1)}, {counted(scenes, 'scene')}; {threads(rows)}. "
+           "Solved: status ok and verified; whatever else became of a case, skipped too, it is not. "
+           "Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
+           "solves within a factor of the best method's cost; at 1: how often it is the best. "
+           "Lowest: data profile (Moré & Wild 2009), the share solved within a time.")
+    yield ("A performance profile depends on the methods compared: with more than two, the order "
+           "of those behind the best can change when one is left out (Gould & Scott 2016)"
+           + {None: ".", True: "; here it does at factor 2 without the one that leads there.",
+              False: "; at factor 2 it does not here without the one that leads there."}[
+                  profiles.order_depends_on_best(shown[0].values)])
     if shown[0].resampled is not None:
-        words.append(f"Bands: {100 * profiles.CONFIDENCE:.0f} % of {profiles.RESAMPLES} bootstrap "
-                     "resamples of each case's repetitions; of the choice of cases they say nothing.")
+        yield (f"Bands: {100 * profiles.CONFIDENCE:.0f} % of {profiles.RESAMPLES} bootstrap "
+               "resamples of each case's repetitions; of the choice of cases they say nothing.")
     if cases.absent:
-        words.append("Left out, with records of too few of the cases: "
-                     f"{', '.join(cases.absent)}.")
+        yield f"Left out, with records of too few of the cases: {', '.join(cases.absent)}."
     if cases.dropped:
-        words.append(f"Left out, since some method has no record of them: {cases.dropped} of "
-                     f"{cases.dropped + len(cases.cases)} cases.")
-    return words
+        yield (f"Left out, since some method has no record of them: {cases.dropped} of "
+               f"{cases.dropped + len(cases.cases)} cases.")
 
 
 def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
@@ -144,15 +133,13 @@ def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
     axes.set(xscale="log", xlim=(low, high), ylim=(0, 1.04), xlabel=profile.axis,
              ylabel="share of cases solved, 1")
     log_axis(axes.xaxis)
-    axes.grid(which="major")
-    axes.spines[["top", "right"]].set_visible(False)
     looks = {method: cases.rows[cases.cases[0], method].look for method in cases.methods}
     families = grouped(cases.methods, lambda method: looks[method].colour)
     dashes = {method: ("-", *DASHES)[k % (len(DASHES) + 1)]
               for own in families.values() for k, method in enumerate(own)}
     ends = {}
     for s, method in enumerate(cases.methods):
-        at = np.r_[low, jumps(profile.of(s)[1]), high]
+        at = np.r_[low, jumps(profile.every(s)), high]
         share, under, over = profile.shares(s, at)
         axes.step(at, share, where="post", linewidth=1.4, zorder=3, linestyle=dashes[method],
                   color=looks[method].colour)
@@ -160,12 +147,8 @@ def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
             axes.fill_between(at, under, over, step="post", alpha=0.15, linewidth=0,
                               color=looks[method].colour)
         ends[method] = high, share[-1]
-    draw_names(axes, in_order(ends, profile),
-               {method: look.colour for method, look in looks.items()}, dict.fromkeys(ends), dashes)
-
-
-def in_order(ends: dict[str, tuple[float, float]],
-             profile: Profile) -> dict[str, tuple[float, float]]:
-    """Of those that end alike the one that was there first is above."""
+    # Of those that end alike the one that was there first is above.
     last = dict(zip(ends, np.where(np.isfinite(profile.values), profile.values, 0).max(axis=0)))
-    return {method: ends[method] for method in sorted(ends, key=last.get, reverse=True)}
+    ends = {method: ends[method] for method in sorted(ends, key=last.get, reverse=True)}
+    draw_names(axes, ends, {method: look.colour for method, look in looks.items()},
+               dict.fromkeys(ends), dashes)

@@ -1,13 +1,13 @@
-"""Names beside what they name, where they hide least. Sizes in points."""
-from __future__ import annotations
-
+"""Names next to what they name: where they hide least, or in a column. Sizes in points."""
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patheffects import withStroke
 
-from figure_words import plain, width_of
+from drawing import MATH, PAGE_WIDTH, TYPE
+from words import plain, width_of
 
 DISTANCES = (5, 11, 18, 27, 38, 52, 70, 95, 125)
 DIRECTIONS = 16
@@ -15,6 +15,8 @@ LEADER = 8  # beyond this distance a line leads to the label
 LEADER_NAME = "_leader"  # of that line, in no legend
 HALO = withStroke(linewidth=2, foreground="white", alpha=0.85)
 SPACING = 3  # between samples of a curve
+NAMES_APART = 13  # in a column
+LEFT, DASHED = 0.72, 0.36  # inches: of the axes that a column belongs to; a piece of line
 
 
 @dataclass
@@ -26,6 +28,7 @@ class Labels:
     obstacles: list[np.ndarray] = field(default_factory=list)  # (n, 2) each
     boxes: list[np.ndarray] = field(default_factory=list)      # left, bottom, right, top
     leaders: list[np.ndarray] = field(default_factory=list)    # (2, 2) each: ends
+    lines: list[tuple] = field(default_factory=list)           # still without their names
 
     def points(self, x: object, y: object) -> np.ndarray:
         """(n, 2)."""
@@ -40,6 +43,22 @@ class Labels:
             count = min(int(np.hypot(*(b - a)) / SPACING), 400)
             pieces.append(a + np.linspace(0, 1, count + 2)[1:-1, None] * (b - a))
         self.obstacles.append(np.vstack(pieces))
+
+    def line(self, words: str, x: list[float], y: list[float], color: object, formula: bool = False,
+             **style: object) -> None:
+        """Draws a curve; `name_lines` names it, at its end rather than at its beginning."""
+        self.axes.plot(x, y, color=color, **style)
+        self.name_later(words, x, y, color, formula)
+
+    def name_later(self, words: str, x: list[float], y: list[float], color: object,
+                   formula: bool = False) -> None:
+        self.avoid(x, y)
+        self.lines.append((words, x[::-1], y[::-1], formula, color))
+
+    def name_lines(self, **text: object) -> None:
+        """When all of them are there, so that no name hides one."""
+        for words, x, y, formula, color in self.lines:
+            self.add(words, x, y, formula=formula, color=color, **text)
 
     def reserve(self, words: str, right: float, y: float, size: float) -> None:
         """The place of words that end at (right, y) and stand upon it."""
@@ -94,7 +113,6 @@ class Labels:
                     best = (costs.min(), anchor, centres[costs.argmin()])
         return best[1], best[2]
 
-
     def met(self, anchor: np.ndarray, centres: np.ndarray, half: np.ndarray) -> np.ndarray:
         """(m,): the cost of the leaders, and of the labels, that a leader to a box there would cross."""
         ends = border(anchor, centres, half)
@@ -122,3 +140,69 @@ def crossing(a: np.ndarray, b: np.ndarray, c: np.ndarray, d: np.ndarray) -> np.n
 def count_near(points: np.ndarray, centres: np.ndarray, reach: np.ndarray) -> np.ndarray:
     """(m,): how many points (n, 2) are less than reach away, in x and in y, from centres (m, 2)."""
     return (np.abs(points - centres[:, None]) < reach).all(2).sum(1)
+
+
+def spread(wanted: list[float], spacing: float, low: float, high: float) -> list[float]:
+    """Ascending positions at least `spacing` apart, closest to the ascending `wanted` ones."""
+    blocks: list[list[float]] = []  # [sum, count] of positions less the spacing below them
+    for k, position in enumerate(wanted):
+        blocks.append([position - k * spacing, 1])
+        while len(blocks) > 1 and blocks[-2][0] / blocks[-2][1] > blocks[-1][0] / blocks[-1][1]:
+            total, n = blocks.pop()
+            blocks[-1] = [blocks[-1][0] + total, blocks[-1][1] + n]
+    highest = high - (len(wanted) - 1) * spacing
+    base = [min(max(total / n, low), highest) for total, n in blocks for _ in range(n)]
+    return [position + k * spacing for k, position in enumerate(base)]
+
+
+def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
+           apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
+    """Method, its last point and the height of its name, of the axes' size; from below."""
+    to_axes = axes.transData + axes.transAxes.inverted()
+    at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
+          for method, end in ends.items()}
+    order = sorted(at, key=lambda method: at[method][1])
+    height_pt = 72 * axes.get_position().height * axes.figure.get_size_inches()[1]
+    places = spread([at[method][1] for method in order], apart_pt / height_pt, 0.01, 0.99)
+    return zip(order, map(at.get, order), places)
+
+
+def draw_leader(axes: Axes, at: tuple[float, float], right: float, y: float,
+                **style: object) -> None:
+    """From a line's end, of the axes' size, to its name: level up to the axes' edge, so that
+    leaders in the order of `beside` do not cross."""
+    axes.plot([at[0], max(at[0], 1), right], [at[1], at[1], y], transform=axes.transAxes,
+              clip_on=False, linewidth=0.4, zorder=1, label=LEADER_NAME, **style)
+
+
+def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[str, str],
+               powers: dict[str, float | None], dashes: dict[str, object] | None = None) -> None:
+    """Name and exponent beside the last points, in their order; with dashes also a piece of line.
+    Of axes at LEFT on a page."""
+    inch = 1 / (axes.get_position().width * PAGE_WIDTH)
+    for method, at, y in beside(axes, ends, NAMES_APART):
+        style = dict(transform=axes.transAxes, va="center", color=colours[method])
+        draw_leader(axes, at, 1 + 0.22 * inch, y, color=colours[method], alpha=0.6)
+        name_at = 1 + 0.26 * inch
+        if dashes:
+            axes.plot([name_at, name_at + DASHED * inch], [y, y], transform=axes.transAxes,
+                      clip_on=False, color=colours[method], linestyle=dashes[method], linewidth=1.4)
+            name_at += (DASHED + 0.06) * inch
+        axes.text(name_at, y, plain(method), fontsize=TYPE, **style)
+        if powers[method] is not None:
+            axes.text((PAGE_WIDTH - LEFT - 0.05) * inch, y, f"$n^{{{powers[method]:.2f}}}$",
+                      ha="right", fontsize=MATH, **style)
+
+
+def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: float) -> None:
+    """Names on the upper edge, apart."""
+    names = sorted(sizes, key=sizes.get)
+    at = [axes.transAxes.inverted().transform(axes.transData.transform((sizes[name], 1)))[0]
+          for name in names]
+    width, height = 72 * axes.get_position().size * axes.figure.get_size_inches()  # points
+    for name, x, place in zip(names, at, spread(at, 1.64 * size_pt / width, 0, 1.05)):
+        axes.plot([x, x, place], [1, 1 + 2.5 / height, 1 + 6 / height], transform=axes.transAxes,
+                  clip_on=False, color="0.3", linewidth=0.6)
+        axes.text(place, 1 + 8 / height, plain(name), transform=axes.transAxes,
+                  rotation=rotation, ha="left", va="bottom", rotation_mode="anchor",
+                  fontsize=size_pt)

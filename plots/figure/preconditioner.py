@@ -1,6 +1,4 @@
 """Fig. 3: time and memory of the preconditioners, for the families that have them side by side."""
-from __future__ import annotations
-
 import math
 import re
 from collections.abc import Iterator
@@ -8,13 +6,12 @@ from collections.abc import Iterator
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import figure_parts as parts
-from figure_files import Drawing
-from figure_parts import HEAP, TIME, ErrorScale, Footer, axes_at, draw_point
-from figure_table import CASE, EXTRAPOLATED, csv_of
-from figure_words import Notes, plain, short
-from record_keys import Row
+from drawing import TYPE, Drawing, axes_at, log_axis, log_limits, text_at
+from marks import (HEAP, MARGIN, SMALL, TIME, WIDTH, ErrorScale, Footer, Quantity, by_stop,
+                   draw_point, notes_of)
+from records import Row
 from selection import by_body, by_mesh, grouped
+from words import CASE, EXTRAPOLATED, csv_of, plain, short
 
 HEADS = {"SSOR": r"SSOR $\omega$"}
 MARKERS = "osD^v<>pPX*hd"
@@ -29,7 +26,7 @@ Columns = dict[str, dict[Slot, Row]]  # family -> slot -> row
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for suffix, own, scale in parts.by_stop(rows):
+    for suffix, own, scale in by_stop(rows):
         shown = [row for of_body in by_body(own).values()
                  for column in columns_of(chosen(of_body)).values() for row in column.values()]
         yield Drawing(f"figure3{suffix}", shown, draw, table_of, vector=True,
@@ -82,26 +79,19 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
     if not rows:
         return "no preconditioners beyond those of figures 4 and 5"
     meshes = grouped(rows, lambda row: row.mesh)
-    notes = {TIME: Notes(), HEAP: Notes()}
-    for row in rows:
-        case = row.general_name + (f" on {row.mesh}" if len(meshes) > 1 else "")
-        for quantity in (TIME, HEAP):
-            value, mark = quantity.of(row)
-            notes[quantity].add(row, case, mark, value)
-            if mark == "none":
-                break  # said once
+    cases = [(row.general_name + (f" on {row.mesh}" if len(meshes) > 1 else ""), row)
+             for row in rows]
+    timed = [case for case in cases if TIME.of(case[1])[1] != "none"]  # the others are named once
     sizes = [f"{mesh}, {own[0].n_phi}" for mesh, own in meshes.items()]
     texts = [f"{'; '.join(sizes)} degrees of freedom. {TIME.caption(rows, run)}"
              " Below: highest heap during one solve, its blocks and result included.",
-             *notes[TIME].lines()]
-    texts += [line.replace("no point", "no point below") for line in notes[HEAP].lines()]
+             *notes_of(cases, TIME)]
+    texts += [line.replace("no point", "no point below") for line in notes_of(timed, HEAP)]
     footer = Footer(rows, TIME, texts, scale)
-    figure = Figure(figsize=(parts.WIDTH, BLOCK * len(meshes) + footer.height))
+    figure = Figure(figsize=(WIDTH, BLOCK * len(meshes) + footer.height))
     for k, (mesh, own) in enumerate(meshes.items()):
         if len(meshes) > 1:
-            figure.text(parts.MARGIN / parts.WIDTH,
-                        1 - (k * BLOCK + TOP - 0.06) / figure.get_size_inches()[1], plain(mesh),
-                        va="bottom", weight="bold")
+            text_at(figure, MARGIN, k * BLOCK + TOP - 0.06, plain(mesh), va="bottom", weight="bold")
         draw_block(figure, k * BLOCK + TOP, own, scale)
     footer.draw(figure)
     return figure
@@ -110,7 +100,7 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
 def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -> None:
     """Of a mesh: a column per family, time above memory."""
     columns, places = columns_of(rows), places_of(rows)
-    width = (parts.WIDTH - LEFT - RIGHT - GAP * (len(columns) - 1)) / len(columns)
+    width = (WIDTH - LEFT - RIGHT - GAP * (len(columns) - 1)) / len(columns)
     limits = dict(xlim=(-0.7, max(places.values()) + 0.7))
     for k, (family, column) in enumerate(columns.items()):
         left = LEFT + k * (width + GAP)
@@ -118,11 +108,11 @@ def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -
                         ylim=limits_of(rows, TIME))
         lower = axes_at(figure, left, top + ERRORS + TIME_HEIGHT + BETWEEN, width, HEAP_HEIGHT,
                         **limits, ylim=limits_of(rows, HEAP))
-        parts.log_axis(upper.yaxis)
+        log_axis(upper.yaxis)
         if k == 0:
             upper.annotate("error", (0, 1), xycoords="axes fraction", xytext=(-4, 6), ha="right",
-                           textcoords="offset points", fontsize=parts.SMALL)
-        upper.set_title(plain(family), pad=72 * ERRORS + 3, fontsize=parts.TYPE + 1)
+                           textcoords="offset points", fontsize=SMALL)
+        upper.set_title(plain(family), pad=72 * ERRORS + 3, fontsize=TYPE + 1)
         for axes, quantity in ((upper, TIME), (lower, HEAP)):
             axes.grid(axis="y")
             axes.spines[["top", "right"]].set_visible(False)
@@ -134,15 +124,15 @@ def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -
         name_slots(upper, lower, places, column, width / (max(places.values()) + 1.4))
 
 
-def limits_of(rows: list[Row], quantity: parts.Quantity) -> tuple[float, float]:
+def limits_of(rows: list[Row], quantity: Quantity) -> tuple[float, float]:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
     if quantity is TIME:
-        return parts.log_limits(values, 1.6)
+        return log_limits(values, 1.6)
     return 0, 1.12 * max(values, default=1)
 
 
 def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
-                quantity: parts.Quantity, scale: ErrorScale) -> None:
+                quantity: Quantity, scale: ErrorScale) -> None:
     """Points, those of a group joined; memory on stems."""
     groups = list(dict.fromkeys(group for group, _ in places))
     for group in groups:
@@ -175,13 +165,13 @@ def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict
                         [label_of(slot) for slot in named] if axes is lower else [])
         axes.set_xticks([places[slot] for slot in places if slot not in named], minor=True)
     for slot, tick in zip(named, lower.get_xticklabels()):
-        tick.set(rotation=90 if slot[0] in upright else 0, fontsize=parts.SMALL)
+        tick.set(rotation=90 if slot[0] in upright else 0, fontsize=SMALL)
     for slot in named:
         row = column.get(slot)
         known = row and row.completed and row.error_force is not None
         upper.annotate(short(row.error_force) if known else "–", (places[slot], 1),
                        xycoords=upper.get_xaxis_transform(), xytext=(0, 4), ha="center",
-                       textcoords="offset points", rotation=90, fontsize=parts.SMALL, va="bottom")
+                       textcoords="offset points", rotation=90, fontsize=SMALL, va="bottom")
     for group, slots in groups.items():
         at = [places[slot] for slot in slots]
         if slots[0][1] is not None:

@@ -1,6 +1,4 @@
 """Figs 4 and 5: time and memory of the compared methods over the meshes' sizes n_phi."""
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 from dataclasses import replace
@@ -10,16 +8,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import figure_parts as parts
-from bodies import sharing_axes
-from direct_labels import LEADER_NAME
-from figure_files import Drawing
-from figure_parts import EDGE_AT, HEAP, TIME, ErrorScale, Footer, Quantity, axes_at, draw_point
-from figure_table import CASE, EXTRAPOLATED, csv_of
-from figure_words import Notes, plain, width_of
-from looks import plain_looks
-from record_keys import Row
-from selection import by_body, compared, grouped
+from catalogue import plain_looks
+from drawing import MATH, TYPE, Drawing, axes_at, log_limits, log_log
+from labels import beside, draw_leader, mark_meshes
+from marks import (EDGE_AT, HEAP, TIME, WIDTH, ErrorScale, Footer, Quantity, by_stop, draw_point,
+                   marker_style, notes_of)
+from records import Row
+from selection import by_body, compared, exponent, grouped, sharing_axes
+from words import CASE, EXTRAPOLATED, csv_of, plain, width_of
 
 LEFT, BESIDE, TOP, HEIGHT, BOTTOM = 0.62, 1.04, 0.36, 3.9, 0.42  # BESIDE: and a name
 NAMES = 0.66  # place for them at least
@@ -32,7 +28,7 @@ PlainLooks = dict[str, tuple[str, object]]  # method -> marker, dashes
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    for suffix, own, scale in parts.by_stop(rows):
+    for suffix, own, scale in by_stop(rows):
         shown = compared(sized([row for row in own if not row.in_displacements]), ROOM)
         for name, quantity in (("figure4", TIME), ("figure5", HEAP)):
             yield Drawing(name + suffix, shown, draw, partial(table_of, quantity=quantity),
@@ -55,26 +51,6 @@ def sized(rows: list[Row]) -> list[Row]:
             if row.mesh in sizes]
 
 
-def exponent(n_phi: list[int], values: list[float], least: int = 3) -> float | None:
-    """p of the power law value ~ n_phi^p by least squares of logarithms; needs `least` points."""
-    if len(values) < least or len(set(n_phi)) < 2:
-        return None
-    return float(np.polyfit(np.log(n_phi), np.log(values), 1)[0])
-
-
-def spread(wanted: list[float], spacing: float, low: float, high: float) -> list[float]:
-    """Ascending positions at least `spacing` apart, closest to the ascending `wanted` ones."""
-    blocks: list[list[float]] = []  # [sum, count] of positions less the spacing below them
-    for k, position in enumerate(wanted):
-        blocks.append([position - k * spacing, 1])
-        while len(blocks) > 1 and blocks[-2][0] / blocks[-2][1] > blocks[-1][0] / blocks[-1][1]:
-            total, n = blocks.pop()
-            blocks[-1] = [blocks[-1][0] + total, blocks[-1][1] + n]
-    highest = high - (len(wanted) - 1) * spacing
-    base = [min(max(total / n, low), highest) for total, n in blocks for _ in range(n)]
-    return [position + k * spacing for k, position in enumerate(base)]
-
-
 def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
     """Method, by its name in the figure, -> its rows by body, then by size."""
     names = {}
@@ -95,22 +71,18 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
     lines = lines_of(rows)
     looks = plain_looks({name: (line[0].family, line[0].preconditioner)
                          for name, line in lines.items()})
-    notes = Notes()
-    for name, line in lines.items():
-        for row in line:
-            value, mark = quantity.of(row)
-            notes.add(row, f"{name} on {row.mesh}", mark, value)
+    cases = ((f"{name} on {row.mesh}", row) for name, line in lines.items() for row in line)
     texts = [quantity.caption(rows, run) + " n^p: power law fitted over a method's "
              "completed cases, three or more. Points that would cover each other stand side by "
-             "side.", *notes.lines()]
+             "side.", *notes_of(cases, quantity)]
     footer = Footer(rows, quantity, texts, scale)
     shared = sharing_axes(rows)
     top = TOP + names_pt(rows) / 72
     block = top + HEIGHT + BOTTOM
-    figure = Figure(figsize=(parts.WIDTH, len(shared) * block + footer.height))
-    names = max(NAMES, *(width_of(name, parts.TYPE) / 72 for name in lines))
+    figure = Figure(figsize=(WIDTH, len(shared) * block + footer.height))
+    names = max(NAMES, *(width_of(name, TYPE) / 72 for name in lines))
     for k, own in enumerate(shared):
-        axes = axes_at(figure, LEFT, k * block + top, parts.WIDTH - LEFT - BESIDE - names, HEIGHT)
+        axes = axes_at(figure, LEFT, k * block + top, WIDTH - LEFT - BESIDE - names, HEIGHT)
         bodies = {row.body for row in own}
         kept = {name: [row for row in line if row.body in bodies] for name, line in lines.items()}
         draw_block(axes, {name: line for name, line in kept.items() if line}, looks, quantity,
@@ -124,7 +96,7 @@ def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quant
     """Of bodies whose sizes do not overlap."""
     rows = [row for line in lines.values() for row in line]
     set_scales(axes, rows, quantity)
-    mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, parts.TYPE)
+    mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, TYPE)
     name_bodies(axes, rows, 8 + names_pt(rows))
     places = side_by_side(axes, rows, quantity)
     ends = {name: draw_line(axes, line, looks[name], quantity, scale, places)
@@ -140,36 +112,22 @@ def fit(line: list[Row], quantity: Quantity) -> float | None:
 
 def names_pt(rows: list[Row]) -> float:
     """Height of the meshes' names, at 45 degrees."""
-    return 0.71 * max(width_of(row.mesh, parts.TYPE) for row in rows) + parts.TYPE
+    return 0.71 * max(width_of(row.mesh, TYPE) for row in rows) + TYPE
 
 
 def width_in(axes: Axes) -> float:
     """Inches."""
-    return axes.get_position().width * parts.WIDTH
+    return axes.get_position().width * WIDTH
 
 
 def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
     values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
-    parts.log_log(axes, xlim=parts.log_limits([row.n_phi for row in rows], 1.25),
-                  ylim=parts.log_limits(values))
+    log_log(axes, xlim=log_limits([row.n_phi for row in rows], 1.25),
+                  ylim=log_limits(values))
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
-    axes.set_xlabel(r"$n_\varphi$", fontsize=parts.MATH, labelpad=2)
+    axes.set_xlabel(r"$n_\varphi$", fontsize=MATH, labelpad=2)
     axes.grid(axis="y")
-
-
-def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: float) -> None:
-    """Names on the upper edge, apart."""
-    names = sorted(sizes, key=sizes.get)
-    at = [axes.transAxes.inverted().transform(axes.transData.transform((sizes[name], 1)))[0]
-          for name in names]
-    width, height = 72 * axes.get_position().size * axes.figure.get_size_inches()  # points
-    for name, x, place in zip(names, at, spread(at, 1.64 * size_pt / width, 0, 1.05)):
-        axes.plot([x, x, place], [1, 1 + 2.5 / height, 1 + 6 / height], transform=axes.transAxes,
-                  clip_on=False, color="0.3", linewidth=0.6)
-        axes.text(place, 1 + 8 / height, plain(name), transform=axes.transAxes,
-                  rotation=rotation, ha="left", va="bottom", rotation_mode="anchor",
-                  fontsize=size_pt)
 
 
 def name_bodies(axes: Axes, rows: list[Row], above_pt: float) -> None:
@@ -228,31 +186,11 @@ def draw_line(axes: Axes, line: list[Row], look: tuple[str, object], quantity: Q
     return last
 
 
-def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
-           apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
-    """Method, its last point and the height of its name, of the axes' size; from below."""
-    to_axes = axes.transData + axes.transAxes.inverted()
-    at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
-          for method, end in ends.items()}
-    order = sorted(at, key=lambda method: at[method][1])
-    height_pt = 72 * axes.get_position().height * axes.figure.get_size_inches()[1]
-    places = spread([at[method][1] for method in order], apart_pt / height_pt, 0.01, 0.99)
-    return zip(order, map(at.get, order), places)
-
-
-def draw_leader(axes: Axes, at: tuple[float, float], right: float, y: float,
-                **style: object) -> None:
-    """From a line's end, of the axes' size, to its name: level up to the axes' edge, so that
-    leaders in the order of `beside` do not cross."""
-    axes.plot([at[0], max(at[0], 1), right], [at[1], at[1], y], transform=axes.transAxes,
-              clip_on=False, linewidth=0.4, zorder=1, label=LEADER_NAME, **style)
-
-
 def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
                 fits: dict[str, float | None], looks: PlainLooks) -> None:
     """Name and exponent beside the last points, in their order."""
     inch = 1 / width_in(axes)
-    exponents = (parts.WIDTH - LEFT - 0.49) * inch
+    exponents = (WIDTH - LEFT - 0.49) * inch
     for method, at, y in beside(axes, ends, LABEL_PT):
         marker, dashes = looks[method]
         style = dict(transform=axes.transAxes, clip_on=False)
@@ -260,8 +198,8 @@ def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
             draw_leader(axes, at, 1 + 0.12 * inch, y, color="0.6")
         axes.plot([1 + 0.14 * inch, 1 + 0.46 * inch], [y, y], **style, color=LINE_COLOR,
                   linestyle=dashes, linewidth=0.8)
-        axes.plot(1 + 0.3 * inch, y, **style, **parts.marker_style(marker, "white"))
+        axes.plot(1 + 0.3 * inch, y, **style, **marker_style(marker, "white"))
         axes.text(1 + 0.52 * inch, y, plain(method), va="center", **style)
         if fits[method] is not None:
             axes.text(exponents, y, rf"$n^{{{fits[method]:.2f}}}$", va="center",
-                      fontsize=parts.MATH, **style)
+                      fontsize=MATH, **style)

@@ -11,15 +11,13 @@ The work of a direct method grows faster than its unknowns, whatever the threads
 G_p is what growth costs one thread, E_p(m_p) what is lost to threads.
 A time of one sample has no interval, and gives none of these.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
 import numpy as np
 
 from profiles import CONFIDENCE, RESAMPLES, SEED, solved
-from record_keys import Row
+from records import Row
 from selection import grouped
 
 NEAR = 1.3

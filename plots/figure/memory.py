@@ -1,18 +1,13 @@
 """Whose the heap of a solve is at its peak, method by method, beside what the methods count."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import study_parts as parts
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at
-from figure_table import CASE, csv_of
-from figure_words import plain, width_of
-from record_keys import OWNERS, Row
+from drawing import PAGE_WIDTH, TYPE, Drawing, panel_at, sheet
+from records import OWNERS, Row
 from selection import by_body, by_mesh, compared, grouped, of_scene
+from words import CASE, columns_of, csv_of, mebibytes, plain, threads, width_of
 
 LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
 BETWEEN = 0.75  # the axes of two meshes
@@ -50,19 +45,16 @@ def chosen(rows: list[Row]) -> list[Row]:
 def table_of(rows: list[Row]) -> str:
     """A line per bar and owner."""
     pieces = [(row, owner, own) for row in rows for owner, own in row.memory_by_owner.items()]
-    return csv_of(pieces, *((name, lambda piece, name=name: getattr(piece[0], name))
-                            for name in CASE), ("owner", lambda piece: piece[1]),
+    return csv_of(pieces, *columns_of(lambda piece: piece[0], *CASE),
+                  ("owner", lambda piece: piece[1]),
                   *((name, lambda piece, name=name: piece[2].get(name))
                     for name in ("peak_bytes", "counted_bytes")))
 
 
-def peaks_of(row: Row) -> dict[str, int]:
-    """Bytes by owner, at the overall peak."""
-    return {owner: own["peak_bytes"] for owner, own in row.memory_by_owner.items()}
-
-
-def peak_of(row: Row) -> int:
-    return sum(peaks_of(row).values())
+def peak_of(row: Row, *owners: str) -> int:
+    """Bytes of these owners, of all without any, at the overall peak."""
+    return sum(row.memory_by_owner[owner]["peak_bytes"] for owner in owners or row.memory_by_owner
+               if owner in row.memory_by_owner)
 
 
 def counted(row: Row) -> int:
@@ -74,32 +66,31 @@ def draw(rows: list[Row]) -> Figure | str:
     """rows: bars in their order, a mesh of each body. The figure, or why there is none."""
     if not rows:
         return "no mesh has two methods whose heap was split"
-    used = [owner for owner in OWNERS if any(peaks_of(row).get(owner, 0) > 0 for row in rows)]
+    used = [owner for owner in OWNERS if any(peak_of(row, owner) > 0 for row in rows)]
     meshes = grouped(rows, lambda row: row.mesh)
     sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
     differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
               if row.memory_counts_differ]
     body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
-    figure = parts.sheet(PAGE_WIDTH, TOP + body + BOTTOM,
-                         "Where the memory goes", [
-        f"{'; '.join(sizes)}, scene {rows[0].scene}, {parts.threads(rows)}. "
+    figure = sheet(
+        TOP + body + BOTTOM, "Where the memory goes",
+        f"{'; '.join(sizes)}, scene {rows[0].scene}, {threads(rows)}. "
         "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
         "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
         "count, entries times size, and the blocks. A bar that ends beyond it is workspace; one "
         "that ends before it never holds everything at once.",
         f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
-        else ""])
-    height = figure.get_size_inches()[1]
-    left = max(LEFT, max(width_of(row.method, parts.TYPE) for row in rows) / 72 + 0.2)
+        else "")
+    left = max(LEFT, max(width_of(row.method, TYPE) for row in rows) / 72 + 0.2)
     top = TOP
     for mesh, own in meshes.items():
-        axes = axes_at(figure, left, top, PAGE_WIDTH - left - RIGHT, BAR * len(own))
+        axes = panel_at(figure, left, top, PAGE_WIDTH - left - RIGHT, BAR * len(own))
         draw_bars(axes, own, used)
         if len(meshes) > 1:
             axes.set_title(plain(mesh), loc="left", pad=2, weight="bold")
         top += BAR * len(own) + BETWEEN
     figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
-                  bbox_to_anchor=(left / PAGE_WIDTH - 0.01, 1 - 0.26 / height),
+                  bbox_to_anchor=(left / PAGE_WIDTH - 0.01, 1 - 0.26 / figure.get_size_inches()[1]),
                   borderpad=0, columnspacing=1.4, handlelength=1.2, labelspacing=0.3)
     return figure
 
@@ -110,7 +101,7 @@ def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
     start = [0.0] * len(rows)
     for owner in used:
         colour, words = LOOKS[owner]
-        widths = [max(peaks_of(row).get(owner, 0), 0) / MIB for row in rows]
+        widths = [max(peak_of(row, owner), 0) / MIB for row in rows]
         axes.barh(places, widths, left=start, height=0.72, color=colour, label=words,
                   edgecolor="white", linewidth=0.4)
         start = [left + width for left, width in zip(start, widths)]
@@ -120,9 +111,8 @@ def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
     axes.set_yticks(places, [plain(row.method) for row in rows])
     axes.invert_yaxis()
     axes.tick_params(axis="y", length=0)
-    axes.grid(axis="x")
-    axes.spines[["top", "right"]].set_visible(False)
+    axes.grid(False, axis="y")
     for place, row, count in zip(places, rows, counts):
-        axes.annotate(f"{parts.mebibytes(peak_of(row))}, counted {parts.mebibytes(count * MIB)}",
+        axes.annotate(f"{mebibytes(peak_of(row))}, counted {mebibytes(count * MIB)}",
                       (1.01, place), va="center", xycoords=axes.get_yaxis_transform(), fontsize=7,
                       annotation_clip=False)

@@ -1,20 +1,15 @@
 """What the paper's stop of ALM does to the answer, for given parameters r and rho."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import study_parts as parts
-from direct_labels import Labels
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_limits, log_log
-from figure_table import CASE, csv_of
-from figure_words import short
-from record_keys import Row
+from drawing import Drawing, log_limits, log_log, panel_at, sheet
+from labels import Labels
+from records import Row
 from selection import given, grouped, is_paper_stop, of_scene
+from words import CASE, csv_of, percent, short
 
 LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 0.72, 0.4, 3.38, 0.72, 3.8, 0.5  # inches
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
@@ -71,59 +66,43 @@ def draw(rows: list[Row]) -> Figure | str:
     stops = [stop for curve in curves.values() for stop in curve]
     families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
     target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
-    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM,
-                         f"The paper's stop: errors from {parts.percent(min(errors_of(stops)))} to "
-                         f"{parts.percent(max(errors_of(stops)))}", [
+    low, high = (percent(end(stop.row.error_force for stop in stops)) for end in (min, max))
+    figure = sheet(
+        TOP + HEIGHT + BOTTOM, f"The paper's stop: errors from {low} to {high}",
         f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
         "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
         f"which the stop does not see; dashed: the target error {short(target)} of the other "
-        "figures. Right: the iterations it took."])
-    left = axes_at(figure, LEFT, TOP, PANEL, HEIGHT)
+        "figures. Right: the iterations it took.")
+    left = panel_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
     left.set_ylabel("relative error of the contact forces, 1")
-    right = axes_at(figure, LEFT + PANEL + GAP, TOP, PANEL, HEIGHT)
+    right = panel_at(figure, LEFT + PANEL + GAP, TOP, PANEL, HEIGHT)
     draw_panel(right, curves, "uzawa_iterations", [])
     right.set_ylabel("Uzawa iterations, 1")
     return figure
 
 
-def errors_of(stops: list[Stop]) -> list[float]:
-    return [stop.row.error_force for stop in stops]
-
-
 def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
                included: list[float]) -> None:
-    stops = [stop for curve in curves.values() for stop in curve if getattr(stop.row, column)]
-    values = [getattr(stop.row, column) for stop in stops]
+    """Curves of one point are grey, those of one r under one name."""
+    known = {words: [(stop.r, getattr(stop.row, column), stop.row.mesh) for stop in curve
+                     if getattr(stop.row, column)] for words, curve in curves.items()}
+    points = [point for curve in known.values() for point in curve]
     log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
-            xlim=log_limits([stop.r for stop in stops], 1.5),
-            ylim=log_limits([*values, *included], 1.8))
-    axes.grid(which="major")
-    axes.spines[["top", "right"]].set_visible(False)
-    labels, lines = Labels(axes), {}
-    single = [stop for curve in curves.values() if len(curve) == 1 for stop in curve]
-    longer = {words: curve for words, curve in curves.items() if len(curve) > 1}
-    for k, (words, curve) in enumerate(longer.items()):
-        known = [stop for stop in curve if getattr(stop.row, column)]
-        if not known:
-            continue
-        line = [stop.r for stop in known], [getattr(stop.row, column) for stop in known]
-        axes.plot(*line, color=SHADES[k % len(SHADES)], marker=MARKERS[k % len(MARKERS)],
-                  markersize=5, linewidth=1.1, linestyle="-" if k < len(SHADES) else "--")
-        labels.avoid(*line)
-        lines[words] = line, SHADES[k % len(SHADES)]
-    draw_single(axes, labels, [stop for stop in single if getattr(stop.row, column)], column)
-    for words, ((r, y), colour) in lines.items():
-        labels.add(words, r[::-1], y[::-1], color=colour, fontsize=8)
-
-
-def draw_single(axes: Axes, labels: Labels, stops: list[Stop], column: str) -> None:
-    """Curves of one point: grey, those of one r under one name."""
-    for r, own in grouped(stops, lambda stop: stop.r).items():
-        y = [getattr(stop.row, column) for stop in own]
-        axes.plot([r] * len(y), y, color="0.55", marker="x", markersize=4.5, linestyle="none")
-        labels.avoid([r] * len(y), y)
-        meshes = list(dict.fromkeys(stop.row.mesh for stop in own))
-        labels.add("..".join(dict.fromkeys([meshes[0], meshes[-1]])), [r] * len(y), y,
-                   color="0.4", fontsize=8)
+            xlim=log_limits([r for r, *_ in points], 1.5),
+            ylim=log_limits([*(y for _, y, _ in points), *included], 1.8))
+    labels = Labels(axes)
+    for k, words in enumerate(words for words, curve in curves.items() if len(curve) > 1):
+        if known[words]:
+            r, y, _ = zip(*known[words])
+            labels.line(words, r, y, SHADES[k % len(SHADES)], marker=MARKERS[k % len(MARKERS)],
+                        markersize=5, linewidth=1.1, linestyle="-" if k < len(SHADES) else "--")
+    single = [point for words, curve in curves.items() if len(curve) == 1
+              for point in known[words]]
+    for own in grouped(single, lambda point: point[0]).values():
+        r, y, meshes = zip(*own)
+        axes.plot(r, y, color="0.55", marker="x", markersize=4.5, linestyle="none")
+        labels.avoid(r, y)
+        labels.add("..".join(dict.fromkeys([meshes[0], meshes[-1]])), r, y, color="0.4", fontsize=8)
+    labels.name_lines(fontsize=8)

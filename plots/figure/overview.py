@@ -1,20 +1,14 @@
 """Total error against time: a method of the paper at both stops, ours, and ours on adapted meshes."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import study_parts as parts
-from direct_labels import Labels
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import log_limits, log_log
-from figure_table import CASE, csv_of
-from figure_words import short
-from record_keys import Row
-from selection import by_body, grouped, kind_of, of_scene
+from drawing import Drawing, log_limits, log_log, sheet, side_by_side
+from labels import Labels
+from records import Row
+from selection import by_body, grouped, kind_of, of_scene, order
+from words import CASE, csv_of, short, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.72, 0.6, 0.45, 3.7, 0.15  # inches
 BODIES = 2  # that there is room for
@@ -27,13 +21,8 @@ class Curve:
 
     words: str
     rows: list[Row]
-    colour: str
     dashes: object
     filled: bool
-
-    @property
-    def points(self) -> tuple[list[float], list[float]]:
-        return [row.time_s for row in self.rows], [row.error_total for row in self.rows]
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -54,16 +43,15 @@ def curves_of(rows: list[Row]) -> list[Curve]:
     """The paper's stop is of iterative methods only."""
     curves = []
     rows = sorted((row for row in rows if row.stop == "target" or row.iterative),
-                  key=lambda row: (parts.order(row), row.n_phi))
+                  key=lambda row: (order(row), row.n_phi))
     for (method, stop, kind), own in grouped(
             rows, lambda row: (row.method, row.stop, kind_of(row))).items():
         target = max(row.target_error or 0 for row in own)
         words = f"{method}, the paper’s stop" if stop == "paper" else \
             f"{method} to {short(target)}" if own[0].iterative else method
         adapted = kind == "adapted"
-        curves.append(Curve(words + ", adapted meshes" * adapted, own, own[0].look.colour,
-                            (0, (1, 1)) if stop == "paper" else "-" if adapted else (0, (5, 2)),
-                            adapted))
+        curves.append(Curve(words + ", adapted meshes" * adapted, own, (0, (1, 1))
+                            if stop == "paper" else "-" if adapted else (0, (5, 2)), adapted))
     return curves
 
 
@@ -75,34 +63,32 @@ def loop_of(rows: list[Row]) -> list[tuple[float, float]]:
 
 def draw(rows: list[Row]) -> Figure:
     bodies = by_body(rows)
-    figure = parts.sheet(PAGE_WIDTH, TOP + HEIGHT + BOTTOM, "Which mesh and method for which error", [
-        f"Scene {rows[0].scene}, {parts.threads(rows)}. Total error of the stresses, mesh and method "
+    figure = sheet(
+        TOP + HEIGHT + BOTTOM, "Which mesh and method for which error",
+        f"Scene {rows[0].scene}, {threads(rows)}. Total error of the stresses, mesh and method "
         "together, over the time of one solve; a point per mesh. Dotted: the paper’s own stop; dashed: "
         "the method’s own error is below its target, what remains is the mesh’s; solid, filled: meshes "
-        f"adapted to the error. Thin: the {LOOP}, all levels and error estimates."])
-    every = [curve for own in bodies.values() for curve in curves_of(own)]
-    errors = log_limits([error for curve in every for error in curve.points[1]], 1.4)
-    row = parts.side_by_side(figure, bodies, LEFT, TOP, HEIGHT, GAP)
-    for k, (axes, own) in enumerate(zip(row, bodies.values())):
-        times = [row.time_s for row in own] + [time for time, _ in loop_of(own)]
+        f"adapted to the error. Thin: the {LOOP}, all levels and error estimates.")
+    curves = {body: curves_of(own) for body, own in bodies.items()}
+    errors = log_limits([row.error_total for own in curves.values() for curve in own
+                         for row in curve.rows], 1.4)
+    panels = side_by_side(figure, bodies, LEFT, TOP, HEIGHT, GAP)
+    for axes, (body, own) in zip(panels, bodies.items()):
+        loop = loop_of(own)
+        times = [row.time_s for row in own] + [time for time, _ in loop]
         log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel="time of one solve, s",
-                ylabel="" if k else "total error of the stresses, 1")
-        draw_curves(axes, curves_of(own), loop_of(own))
+                ylabel="total error of the stresses, 1" if axes is panels[0] else "")
+        labels = Labels(axes)
+        for curve in curves[body]:
+            look = curve.rows[0].look
+            labels.line(curve.words, [row.time_s for row in curve.rows],
+                        [row.error_total for row in curve.rows], look.colour,
+                        linestyle=curve.dashes, linewidth=1.4, marker=look.marker, markersize=5,
+                        markerfacecolor=look.colour if curve.filled else "white")
+        if loop:
+            axes.plot(*zip(*loop), color="0.45", linewidth=0.8)
+            labels.avoid(*zip(*loop))
+        labels.name_lines(weight="bold")
+        if loop:
+            labels.add(LOOP, *zip(*loop[::-1]), color="0.35")
     return figure
-
-
-def draw_curves(axes: Axes, curves: list[Curve], loop: list[tuple[float, float]]) -> None:
-    labels = Labels(axes)
-    for curve in curves:
-        axes.plot(*curve.points, color=curve.colour, linestyle=curve.dashes, linewidth=1.4,
-                  marker=curve.rows[0].look.marker, markersize=5,
-                  markerfacecolor=curve.colour if curve.filled else "white")
-        labels.avoid(*curve.points)
-    if loop:
-        axes.plot(*zip(*loop), color="0.45", linewidth=0.8)
-        labels.avoid(*zip(*loop))
-    for curve in curves:
-        labels.add(curve.words, *(values[::-1] for values in curve.points), color=curve.colour,
-                   weight="bold")
-    if loop:
-        labels.add(LOOP, *map(list, zip(*loop[::-1])), color="0.35")

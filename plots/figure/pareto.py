@@ -1,6 +1,4 @@
 """Total error, of the discretisation and of the method together, against time and memory."""
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 
@@ -8,15 +6,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 import selection
-import study_parts as parts
-from direct_labels import Labels
-from figure_files import PAGE_WIDTH, Drawing
-from figure_parts import axes_at, log_limits, log_log
-from figure_table import CASE, KNOB, csv_of
-from figure_words import plain, width_of
-from record_keys import Row
-from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene
-from work_precision_figure import AXES, value_of
+from drawing import PAGE_WIDTH, STOP, Drawing, log_limits, log_log, sheet, side_by_side, text_at
+from figure.work_precision import AXES
+from labels import Labels
+from records import Row
+from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene, value_of
+from words import (CASE, KNOB, csv_of, mebibytes, percent, plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
 TABLE_LINE = 0.17  # inches: a line of the table
@@ -27,6 +22,7 @@ STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
 TABLE = ("error at most", "cheapest method", "mesh", "time", "peak heap",
          "displacements: mesh", "time", "peak heap")
+NAME = dict(weight="bold", fontsize=8.5)
 FLOOR_WORDS = 11  # points, between words of two floors
 # Kinds of meshes: colour and width of their fronts.
 KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
@@ -98,19 +94,21 @@ def with_knob(row: Row) -> str:
 def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
     """Cells of TABLE for each level, the largest error first."""
     stress = [row for row in rows if not row.in_displacements]
+    others = [row for row in rows if row.in_displacements]
     several = len(displacements_of(rows)) > 1
     lines = []
     for level in reversed(levels([row.error_total for row in rows])):
-        cells = [parts.percent(level)]
-        for best, named in ((cheapest(stress, level), True),
-                            (cheapest([row for row in rows if row.in_displacements], level),
-                             False)):
-            own = [with_knob(best) if best else "–"] if named else []
-            which = f"{best.method}, " if best and several and not named else ""
-            cells += own + ([which + best.mesh, parts.seconds(best.time_s),
-                             parts.mebibytes(best.peak_heap_bytes)] if best else ["–"] * 3)
-        lines.append(tuple(cells))
+        best, other = cheapest(stress, level), cheapest(others, level)
+        which = f"{other.method}, " if other and several else ""
+        lines.append((percent(level), with_knob(best) if best else "–", *costs(best),
+                      *costs(other, which)))
     return lines
+
+
+def costs(row: Row | None, which: str = "") -> list[str]:
+    """Mesh, time, heap."""
+    return [which + row.mesh, seconds(row.time_s), mebibytes(row.peak_heap_bytes)] if row \
+        else ["–"] * 3
 
 
 def draw(rows: list[Row]) -> Figure | str:
@@ -124,26 +122,21 @@ def draw(rows: list[Row]) -> Figure | str:
     columns = [column for column in AXES if any(value_of(row, column) for row in known)]
     heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 2)
                for body, table in tables.items()}
-    figure = parts.sheet(PAGE_WIDTH, sum(heights.values()),
-                         "What a total error costs: method and mesh together",
-                         [caption(rows, known, kinds)])
-    panel = (PAGE_WIDTH - LEFT - 0.1 - (len(columns) - 1) * GAP) / len(columns)
+    figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
+                   caption(rows, known, kinds))
     above = 0.0
     for body, of_body in bodies.items():
         errors = [row.error_total for row in of_body]
-        figure.text(LEFT / PAGE_WIDTH, 1 - (above + TOP - 0.18) / figure.get_size_inches()[1],
-                    plain(body), fontsize=10, weight="bold")
-        for j, column in enumerate(columns):
-            axes = axes_at(figure, LEFT + j * (panel + GAP), above + TOP, panel, HEIGHT)
+        text_at(figure, LEFT, above + TOP - 0.18, plain(body), va="baseline", fontsize=10,
+                weight="bold")
+        panels = side_by_side(figure, [""] * len(columns), LEFT, above + TOP, HEIGHT, GAP)
+        for axes, column in zip(panels, columns):
             own = [row for row in of_body if value_of(row, column)]
             log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.1),
                     xlim=log_limits([value_of(row, column) for row in own], 1.6))
-            axes.spines[["top", "right"]].set_visible(False)
-            if j == 0:
-                axes.set_ylabel("total relative error of the stresses, 1")
-            else:
-                axes.tick_params(labelleft=False)
+            axes.grid(False)
             draw_panel(axes, own, column, kinds)
+        panels[0].set_ylabel("total relative error of the stresses, 1")
         draw_table(figure, above + TOP + HEIGHT + BOTTOM, displacements_of(of_body), tables[body])
         above += heights[body]
     return figure
@@ -163,10 +156,10 @@ def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
     highest = highest_of(rows)
     beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
-    cut = f" {beyond} solves with errors above {parts.percent(highest)} are not drawn." \
+    cut = f" {beyond} solves with errors above {percent(highest)} are not drawn." \
         if beyond else ""
     return (
-        f"Scene {known[0].scene}, {parts.threads(known)}. Total error: relative constitutive "
+        f"Scene {known[0].scene}, {threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
         "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
         "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
@@ -184,92 +177,82 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
     fronts = {kind: front([row for row in stress if kind_of(row) == kind], column)
               for kind in kinds}
     for kind, best in fronts.items():
-        draw_front(axes, labels, best, column, kind if len(kinds) > 1 else "")
-    for method in displacements_of(rows):
-        for kind in kinds:
-            own = [row for row in rows if row.method == method and kind_of(row) == kind]
-            if own:
-                draw_displacements(axes, labels, sorted(own, key=lambda row: row.n_phi), column,
-                                   kind if len(kinds) > 1 else "")
+        if best:
+            draw_front(axes, labels, line_of(best, column), best, kind)
+    displacements = grouped(
+        sorted((row for row in rows if row.in_displacements), key=lambda row: row.n_phi),
+        lambda row: (displacements_of(rows).index(row.method), kinds.index(kind_of(row))))
+    for (_, k), own in sorted(displacements.items()):
+        line, look = line_of(own, column), own[0].look
+        axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
+                  zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
+        labels.avoid(*line)
+        labels.add(f"{own[0].method}, {kinds[k]}" if len(kinds) > 1 else
+                   f"{own[0].method} displacements", *line, color=look.colour, **NAME)
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
     for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
         meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
-        labels.add(f"{method}, {joined(meshes)}", [value_of(row, column) for row in own[::-1]],
-                   [row.error_total for row in own[::-1]], weight="bold",
+        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column), weight="bold",
                    color=own[0].look.colour)
+
+
+def line_of(rows: list[Row], column: str) -> tuple[list[float], list[float]]:
+    return [value_of(row, column) for row in rows], [row.error_total for row in rows]
 
 
 def joined(meshes: list[str]) -> str:
     return meshes[0] if len(meshes) == 1 else f"{meshes[0]}..{meshes[-1]}"
 
 
-def draw_front(axes: Axes, labels: Labels, best: list[Row], column: str, name: str) -> None:
-    if not best:
-        return
-    colour, width = KINDS[name or "as they are"]
-    line = [value_of(row, column) for row in best], [row.error_total for row in best]
+def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]], best: list[Row],
+               kind: str) -> None:
+    colour, width = KINDS[kind]
     axes.step(*line, where="post", color=colour, linewidth=width, alpha=0.85, zorder=4)
     labels.avoid(*line)
-    for row in best:
-        axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
-                  marker=row.look.marker, markersize=8, markeredgecolor="white",
-                  markeredgewidth=0.7, zorder=6)
-    if name and name != "as they are":
+    for cost, row in zip(line[0], best):
+        axes.plot(cost, row.error_total, color=row.look.colour, marker=row.look.marker,
+                  markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
+    if kind != "as they are":
         methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
-        labels.add(f"{name}: {methods}", line[0][::-1], line[1][::-1], color=colour,
-                   weight="bold", fontsize=8.5)
+        labels.add(f"{kind}: {methods}", line[0][::-1], line[1][::-1], color=colour, **NAME)
 
 
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
     """The meshes' discretisation errors; those that are too near to each other share their words."""
+    right = axes.get_xlim()[1]
     floors = {row.mesh: row.error_discretisation for row in rows if row.error_discretisation}
     groups: list[list[str]] = []
     for mesh in sorted(floors, key=floors.get, reverse=True):
         axes.axhline(floors[mesh], color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
-        high = labels.points(axes.get_xlim()[1], floors[groups[-1][0]])[0, 1] if groups else math.inf
-        if high - labels.points(axes.get_xlim()[1], floors[mesh])[0, 1] < FLOOR_WORDS:
+        high = labels.points(right, floors[groups[-1][0]])[0, 1] if groups else math.inf
+        if high - labels.points(right, floors[mesh])[0, 1] < FLOOR_WORDS:
             groups[-1].append(mesh)
         else:
             groups.append([mesh])
     for group in groups:
         ends = [group[0], group[-1]] if len(group) > 1 else group
-        words = f"{joined(ends)}: {' to '.join(parts.percent(floors[mesh]) for mesh in ends)}"
-        at = floors[group[0]]
-        axes.annotate(plain(words), (1, at), xytext=(-2, 1.5), ha="right",
+        words = f"{joined(ends)}: {' to '.join(percent(floors[mesh]) for mesh in ends)}"
+        axes.annotate(plain(words), (1, floors[group[0]]), xytext=(-2, 1.5), ha="right",
                       xycoords=axes.get_yaxis_transform(), textcoords="offset points",
                       fontsize=7.5, color="0.35", zorder=9,
                       bbox=dict(facecolor="white", edgecolor="none", alpha=0.75, pad=0.3))
-        labels.reserve(words, axes.get_xlim()[1], at, 7.5)
-
-
-def draw_displacements(axes: Axes, labels: Labels, rows: list[Row], column: str,
-                       kind: str) -> None:
-    colour, marker, *_ = rows[0].look
-    line = [value_of(row, column) for row in rows], [row.error_total for row in rows]
-    axes.plot(*line, color=colour, marker=marker, markersize=8, linewidth=1.5, zorder=5,
-              linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
-    labels.avoid(*line)
-    words = f"{rows[0].method}, {kind}" if kind else f"{rows[0].method} displacements"
-    labels.add(words, *line, color=colour, weight="bold",
-               fontsize=8.5)
+        labels.reserve(words, right, floors[group[0]], 7.5)
 
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
     """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
     stops = [row for row in rows if is_paper_stop(row) and not given(row)]
     for method, own in grouped(stops, lambda row: row.method).items():
-        x, y = [value_of(row, column) for row in own], [row.error_total for row in own]
+        x, y = line_of(own, column)
         for at in zip(x, y):
-            axes.plot(*at, markerfacecolor=own[0].look.colour, **parts.STOP | {"markersize": 12})
+            axes.plot(*at, markerfacecolor=own[0].look.colour, **STOP | {"markersize": 12})
             labels.avoid(*at)
-        labels.add(f"{method} with the paper's stop", x, y, color=own[0].look.colour,
-                   weight="bold", fontsize=8.5)
+        labels.add(f"{method} with the paper's stop", x, y, color=own[0].look.colour, **NAME)
 
 
 def draw_table(figure: Figure, top: float, displacements: list[str],
                lines: list[tuple[str, ...]]) -> None:
     """Columns as wide as their widest cell, spread over the page."""
-    height = figure.get_size_inches()[1]
     who = displacements[0] if len(displacements) == 1 else "displacements"
     heads = [f"{who}: mesh" if head.startswith("displ") else head
              for head in TABLE][:None if displacements else 5]
@@ -279,6 +262,6 @@ def draw_table(figure: Figure, top: float, displacements: list[str],
     for k, line in enumerate(table):
         left = LEFT
         for cell, width in zip(line, widths):
-            figure.text(left / PAGE_WIDTH, 1 - (top + k * TABLE_LINE) / height, plain(cell),
-                        va="top", fontsize=8, weight="bold" if k == 0 else "normal")
+            text_at(figure, left, top + k * TABLE_LINE, plain(cell), fontsize=8,
+                    weight="bold" if k == 0 else "normal")
             left += width + min(gap, 0.35)
