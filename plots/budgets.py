@@ -18,8 +18,6 @@ COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_
 
 @dataclass(frozen=True)
 class Best:
-    """Of a method on a mesh within a time."""
-
     budget_s: float
     cases: list[Row]  # of the method, all: at least one
 
@@ -30,7 +28,6 @@ class Best:
 
 
 def is_point(row: Row) -> bool:
-    """Verified and timed."""
     return bool(row.time_s) and None not in (row.error_stress, row.error_force)
 
 
@@ -56,7 +53,6 @@ def budgets_of(cases: list[Row]) -> list[float]:
 
 
 def best_of(cases: list[Row]) -> list[Best]:
-    """By mesh, method, budget."""
     return [Best(budget, own) for of_mesh in by_mesh(cases).values()
             for own in grouped(sorted(of_mesh, key=order), lambda row: row.method).values()
             for budget in budgets_of(cases)]

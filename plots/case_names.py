@@ -20,7 +20,6 @@ def case_name(case: Mapping) -> str:
 
 
 def words_of_file(stem: str) -> str:
-    """'Mesh0+adapt1, default, SYMMLQ:DTIC3' of the stem of a case's files."""
     return ", ".join(unquote(part.replace("+", ":")) for part in stem.split("--"))
 
 

@@ -8,8 +8,6 @@ import pandas as pd
 
 
 class Sizes(NamedTuple):
-    """Of a mesh of the paper's Tab. 1."""
-
     teeth: int
     n_phi: int
     n_f: int
@@ -103,7 +101,6 @@ def catalogue_mesh(mesh: str) -> str | None:
 
 
 def looks_of(families: list[str]) -> dict[str, Look]:
-    """In the order of their first appearance."""
     looks = {family: Look(*look)._replace(rank=k)
              for k, (family, look) in enumerate(FAMILIES.items())}
     for k, family in enumerate(family for family in families if family not in FAMILIES):

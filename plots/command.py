@@ -6,6 +6,7 @@ import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 from records import RecordsError
@@ -50,6 +51,10 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
             os.replace(beside[place.parent] / name, place)
         for parent in beside:
             synchronise(parent)
+
+
+def text_writer(text: str) -> Callable[[Path], object]:
+    return partial(Path.write_text, data=text, encoding="utf-8")
 
 
 def place_of(path: Path) -> Path:

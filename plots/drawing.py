@@ -15,6 +15,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
 
+from command import text_writer
 from records import Row
 from words import plain, short, wrapped
 
@@ -37,8 +38,6 @@ VECTOR_DPI, DPI, COLOURS = 200, 120, 128
 
 @dataclass(frozen=True)
 class Drawing:
-    """A figure of a run, as the `drawings` of its module plans it."""
-
     name: str                          # of its files
     rows: list[Row]                    # that it shows, or names
     draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
@@ -52,7 +51,7 @@ class Drawing:
 
     def writer(self, figure: Figure, suffix: str) -> Callable[[Path], object]:
         if suffix == ".csv":
-            return partial(Path.write_text, data=self.table(self.rows), encoding="utf-8")
+            return text_writer(self.table(self.rows))
         return partial(write, figure) if self.vector else \
             partial(write_small_png, figure, DPI, colours=COLOURS)
 
@@ -105,7 +104,6 @@ def text_at(figure: Figure, left: float, top: float, words: str, **style: object
 
 def axes_at(figure: Figure, left: float, top: float, width: float, height: float,
             **properties: object) -> Axes:
-    """top: inches below the figure's upper edge."""
     size = figure.get_size_inches()
     return figure.add_axes([left / size[0], 1 - (top + height) / size[1], width / size[0],
                             height / size[1]], **properties)

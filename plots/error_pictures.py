@@ -30,7 +30,6 @@ Level = tuple[Fields, np.ndarray, float | None]  # fields, shares (T,) of e², t
 
 
 def share_of_worst(share: np.ndarray) -> float:
-    """Of the tenth of the triangles that has most."""
     worst = np.sort(share)[::-1][:max(1, round(TENTH * len(share)))]
     return float(worst.sum() / share.sum())
 
@@ -101,7 +100,6 @@ def levels_in(names: list[str]) -> list[str]:
 
 
 def draw_levels(levels: list[Level]) -> Figure:
-    """Side by side: mesh and stress, and below where the error is."""
     scales = scales_of([levels[-1][0]])  # of the finest
     view = view_of(levels[0][0])
     panel = (PAGE_WIDTH - LEVEL_LEFT - len(levels) * GAP) / len(levels)

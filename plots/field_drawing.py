@@ -37,8 +37,6 @@ TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for 
 
 @dataclass(frozen=True)
 class Scales:
-    """Common to the panels of a picture."""
-
     shear: Normalize     # MPa
     pressure_MPa: float  # end of the axis
 
@@ -123,7 +121,6 @@ def draw_boundary(axes: Axes, s: Fields) -> None:
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
-    """The whole body; the axes keep their limits."""
     draw_stress(axes, s, np.full(len(s.corners), True), scales)
     draw_boundary(axes, s)
 
@@ -156,7 +153,6 @@ def halves(s: Fields) -> np.ndarray:
 
 
 def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
-    """Neighbours that are in the same state, along a face."""
     return [(state, list(run)) for state, run in
             groupby(range(states.size), states.ravel().__getitem__)]
 

@@ -37,7 +37,6 @@ class View:
 
     @property
     def height(self) -> float:
-        """Over its width."""
         return (self.upward[1] - self.upward[0]) / (self.across[1] - self.across[0])
 
 
@@ -59,7 +58,6 @@ def body_height(s: Fields, width: float) -> float:
 
 
 def width_of(s: Fields, body: float) -> float:
-    """Of a panel whose body is so high."""
     return body / body_height(s, 1 + LEFT + RIGHT) + LEFT + RIGHT
 
 
@@ -77,8 +75,6 @@ class Place:
 
 @dataclass(frozen=True)
 class Layout:
-    """Of a panel."""
-
     body_width: float  # of the body's axes, which begin at LEFT and TITLE
     body_height: float
     faces: list[Place]
@@ -193,7 +189,6 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
 
 
 def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
-    """Along the figure's lower edge."""
     handles = [Line2D([], [], **style, label=role if role == "contact" else f"{role} prescribed")
                for role, style in drawing.ROLE.items()]
     handles[0].set_path_effects([drawing.TICKED])

@@ -69,10 +69,8 @@ def write(figure: Figure, path: Path) -> None:
 
 
 def save(out: Path, name: str, table: str, **writers: Callable[[Path], object]) -> None:
-    """A picture by its suffixes, and its numbers beside it."""
     files = {f"{name}.{suffix}": write for suffix, write in writers.items()}
-    command.replace_all(out, files | {
-        f"{name}.csv": partial(Path.write_text, data=table, encoding="utf-8")})
+    command.replace_all(out, files | {f"{name}.csv": command.text_writer(table)})
     print(*(out / file for file in files), sep="\n")
 
 

@@ -31,7 +31,6 @@ class Labels:
     lines: list[tuple] = field(default_factory=list)           # still without their names
 
     def points(self, x: object, y: object) -> np.ndarray:
-        """(n, 2)."""
         data = np.column_stack([np.atleast_1d(x), np.atleast_1d(y)]).astype(float)
         return self.axes.transData.transform(data) * 72 / self.axes.figure.dpi
 
@@ -157,7 +156,6 @@ def spread(wanted: list[float], spacing: float, low: float, high: float) -> list
 
 def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
            apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
-    """Method, its last point and the height of its name, of the axes' size; from below."""
     to_axes = axes.transData + axes.transAxes.inverted()
     at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
           for method, end in ends.items()}
@@ -195,7 +193,6 @@ def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[s
 
 
 def mark_meshes(axes: Axes, sizes: dict[str, int], rotation: float, size_pt: float) -> None:
-    """Names on the upper edge, apart."""
     names = sorted(sizes, key=sizes.get)
     at = [axes.transAxes.inverted().transform(axes.transData.transform((sizes[name], 1)))[0]
           for name in names]

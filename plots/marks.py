@@ -35,8 +35,6 @@ EDGE_AT = 1 - 0.75 * HEADROOM
 
 @dataclass(frozen=True)
 class Quantity:
-    """What a figure shows."""
-
     name: str
     axis: str
     caption: Callable[[list[Row], list[Row]], str]  # of its rows and all rows of their stop
@@ -134,7 +132,6 @@ def marker_style(marker: str, fill: object) -> dict[str, object]:
 
 
 def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple, str]]:
-    """Handles and words for the marks that these rows have."""
     rows = list(rows)
     marks = {mark for row in rows for _, mark in [quantity.of(row)]}
     done = [row for row in rows if quantity.of(row)[1] == "done"]
@@ -158,8 +155,6 @@ def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple
 
 
 class Footer:
-    """Key and colours, then caption and footnotes, along the figure's lower edge."""
-
     def __init__(self, rows: list[Row], quantity: Quantity, texts: list[str],
                  scale: ErrorScale) -> None:
         self.lines = wrapped(texts, WIDTH - 2 * MARGIN, TYPE)

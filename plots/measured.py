@@ -86,7 +86,6 @@ def machines_and_programs(rows: list[Row]) -> Iterator[str]:
 
 
 def search(rows: list[Row]) -> Iterator[str]:
-    """For parameters and tolerances."""
     for budget in sorted({row.tuning_budget_s for row in rows if row.tuning_budget_s}):
         own = [row for row in rows if row.tuning_budget_s == budget]
         of = "all cases" if len(own) == len(rows) else counted(len(own), "case")
@@ -215,6 +214,5 @@ PARTS: tuple[Callable[[list[Row]], Iterator[str]], ...] = (
 
 
 def paragraph(rows: list[Row]) -> str:
-    """Markdown."""
     return ("# How this was measured\n\n" + " ".join(chain.from_iterable(part(rows) for part in PARTS))
             + "\n")

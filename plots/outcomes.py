@@ -32,8 +32,6 @@ WORDS = {"other_solution": "another solution than the reference's",
 
 
 class Key:
-    """The outcomes, with counts, in lines as wide as the page. of_ok: in its field, and beside it."""
-
     LINE = 0.25  # inches
 
     def __init__(self, rows: list[Row], of_ok: tuple[str, str]) -> None:

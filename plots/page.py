@@ -37,8 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def make(args: argparse.Namespace) -> None:
     text = page(args.history, args.results)
-    command.replace_all(args.out.parent, {
-        args.out.name: lambda path: path.write_text(text, encoding="utf-8")})
+    command.replace_all(args.out.parent, {args.out.name: command.text_writer(text)})
     print(args.out)
 
 

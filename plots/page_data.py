@@ -53,7 +53,6 @@ def head_of(key: str) -> str:
 
 
 def named(cases: pd.DataFrame) -> pd.DataFrame:
-    """With the name of each case, and what follows from the others."""
     cases = with_derived(cases)
     return cases.assign(name=[case_name(case) for case in cases.to_dict("records")])
 

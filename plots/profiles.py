@@ -24,8 +24,6 @@ Case = tuple[str, str, str, float | None]  # mesh, scene, stop, target error
 
 @dataclass(frozen=True)
 class Cases:
-    """A record of every method for every case."""
-
     methods: list[str]
     cases: list[Case]
     rows: dict[tuple[Case, str], Row]

@@ -29,11 +29,10 @@ import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from decimal import Decimal
-from functools import partial
 from pathlib import Path
 
 from case_names import case_name
-from command import replace_all
+from command import replace_all, text_writer
 from quoted_values import QuoteError, Runs, chosen, value_of
 from records import RecordsError, Row, rows_of
 
@@ -244,8 +243,7 @@ def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
         for difference in reversed(of_file):
             if not difference.words:
                 text = text[:difference.start] + difference.replacement + text[difference.end:]
-        replace_all(path.parent, {path.name: partial(Path.write_text, data=text,
-                                                     encoding="utf-8")})
+        replace_all(path.parent, {path.name: text_writer(text)})
 
 
 def main() -> None:

@@ -53,7 +53,6 @@ def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
 
 
 def value_of(expression: str, runs: Runs) -> tuple[float, str]:
-    """What the records give, and how it is rounded."""
     if expression not in runs.values:
         runs.values[expression] = found_value(expression, runs)
     return runs.values[expression]

@@ -34,8 +34,6 @@ class RecordsError(Exception):
 
 @dataclass(frozen=True)
 class Kind:
-    """Of a key's values."""
-
     allowed: str                            # in words
     accepts: Callable[[object], bool]       # of a value that is there
     of_text: Callable[[str], object] = str  # the value of a cell; the cell itself: it is none
@@ -245,7 +243,6 @@ def with_derived(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]]:
-    """Rows as texts, and the header."""
     lines = cells_of(path)
     header = lines[0] if lines else []
     for name in KEYS:
@@ -271,7 +268,6 @@ def cells_of(path: Path) -> list[list[str]]:
 
 
 def read_lines(path: Path) -> list[object]:
-    """A JSON value per line."""
     text = text_of(path)
     lines = text.removesuffix("\n").split("\n") if text else []  # U+2028 ends none
     return [json_of(words, f"{path}:{line}") for line, words in enumerate(lines, 1)]

@@ -12,7 +12,6 @@ GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented L
 
 
 def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
-    """In the order in which the keys come."""
     groups: dict[Key, list[Item]] = {}
     for item in items:
         groups.setdefault(key(item), []).append(item)
@@ -20,7 +19,6 @@ def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list
 
 
 def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
-    """By size."""
     return grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
 
 
@@ -66,7 +64,6 @@ def compared(rows: list[Row], room: int) -> list[Row]:
 
 
 def once(rows: list[Row], by_alias: bool) -> list[Row]:
-    """Each method for each mesh, scene and stop."""
     chosen: dict[tuple[str, ...], Row] = {}
     for row in rows:
         case = (row.general_name, row.mesh, row.scene, row.stop)
@@ -116,7 +113,6 @@ def sharing_axes(rows: list[Row]) -> list[list[Row]]:
 
 
 def order(row: Row) -> tuple[int, str]:
-    """Sorts by family, then by method."""
     return row.look.rank, row.method
 
 

@@ -25,8 +25,6 @@ NEAR = 1.3
 
 @dataclass(frozen=True)
 class Point:
-    """A method on a mesh with so many threads."""
-
     row: Row
     speed_up: float | None = None       # None: one sample, not solved, or no such case on one thread
     speed_up_low: float | None = None   # 95 % bootstrap interval of the repetitions

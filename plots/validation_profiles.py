@@ -42,7 +42,6 @@ def number(table: pd.DataFrame, case: str, quantity: str, refined: int | None = 
 
 
 def hertz(force: float) -> tuple[float, float]:
-    """Half width and largest pressure."""
     a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
     return a, 2 * force / (np.pi * a)
 

@@ -88,7 +88,6 @@ def plain(text: str) -> str:
 
 @cache
 def width_of(words: str, size_pt: float, weight: str = "normal") -> float:
-    """In points."""
     font = FontProperties(size=size_pt, weight=weight)
     return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
 

@@ -30,7 +30,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def words_of(row: Row) -> tuple[str, str]:
-    """The two lines of a cell."""
     if not row.completed or not row.time_s:
         status, _, done = row.status_words().partition(", ")
         return status, done
@@ -48,7 +47,6 @@ def head_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure:
-    """rows: of an adapted study's scene."""
     meshes = list(by_mesh(rows).values())
     methods = list(by_method(rows, "n_phi"))
     left = 0.25 + LETTER * max(map(len, methods))

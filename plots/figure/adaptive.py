@@ -35,7 +35,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def best_of(rows: list[Row]) -> list[Row]:
-    """The case with the smallest total error of every mesh, by size."""
     meshes = grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
     return [min(own, key=lambda row: row.error_total) for own in meshes.values()]
 

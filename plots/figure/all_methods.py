@@ -27,7 +27,6 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """Of the methods that have a line, and the exponents of their lines."""
     lines = [line for own in sharing_axes(rows) for line in lines_of(own).values()]
     powers = {(row.line, column): power(line, column)
               for line in lines for row in line for column in PANELS}
@@ -50,7 +49,6 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of an ordinary run's scene and stop. The figure, or why there is none."""
     blocks = [lines for own in sharing_axes(rows) if (lines := lines_of(own))]
     if not blocks:
         return "no method has two sizes"

@@ -33,7 +33,6 @@ def digits(row: Row) -> str:
 
 
 def shade(number: str) -> str:
-    """Fill of an ok case by its digits."""
     depth = (min(max(int(number), 6), 15) - 6) / 9 if number.isdigit() else 0
     light, deep = (np.array(to_rgb(colour)) for colour in (MARKS["ok"][1], DEEPEST))
     return to_hex(light + depth * (deep - light))
@@ -53,7 +52,6 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """digits: of the largest error of an ok case."""
     place = {scene: k for k, scene in enumerate(scenes_of(rows))}
     rows = sorted(rows, key=lambda row: (place[row.scene_group, row.scene], order(row)))
     return csv_of(rows, "mesh", "scene_group", "scene", "method", "outcome",
@@ -88,7 +86,6 @@ def grids_of(rows: list[Row], left: float) -> list[Grid]:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of a stability study's mesh. The figure, or why there is none."""
     if not rows:
         return "no rows"
     scenes = scenes_of(rows)

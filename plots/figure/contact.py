@@ -25,7 +25,6 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def iterations(row: Row) -> float | None:
-    """Sweeps and steps together, where it solved the problem."""
     if not row.completed or row.contact_iterations is None:
         return None
     return row.contact_iterations + (row.newton_steps or 0)
@@ -44,7 +43,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of one method. The figure, or why there is none."""
     if not any(seconds(row) and row.n_c for row in rows):
         return "no case of the contact study has a time"
     scenes = grouped(rows, lambda row: row.scene)

@@ -24,8 +24,6 @@ H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
 
 @dataclass(frozen=True)
 class Point:
-    """Of a mesh."""
-
     mesh: str
     n_phi: int
     error: float  # relative
@@ -95,7 +93,6 @@ def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Point]]]:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of an error study. The figure, or why there is none."""
     scene = scene_of(rows)
     bodies = points_of(rows, scene)
     if sum(map(len, bodies.values())) < 2:

@@ -57,7 +57,6 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
 
 
 def power(line: list[Row], panel: Panel) -> float | None:
-    """Over n_phi, from ASYMPTOTIC on."""
     late = [row for row in line if row.n_phi >= ASYMPTOTIC and panel.of(row)]
     return exponent([row.n_phi for row in late], [panel.of(row) for row in late], least=2) \
         if panel.grows else None
@@ -74,7 +73,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """The figure, or why there is none."""
     lines = {method: line for method, line in lines_of(rows).items() if len(line) > 1}
     if not lines:
         return "no method has two sizes"

@@ -27,7 +27,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """The figure, or why there is none."""
     timed = [row for row in rows if row.completed and row.time_s]
     if not timed:
         return "no case of the study of load steps has a time"

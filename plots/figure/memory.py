@@ -43,7 +43,6 @@ def chosen(rows: list[Row]) -> list[Row]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """A line per bar and owner."""
     pieces = [(row, owner, own) for row in rows for owner, own in row.memory_by_owner.items()]
     return csv_of(pieces, *columns_of(lambda piece: piece[0], *CASE),
                   ("owner", lambda piece: piece[1]),
@@ -58,12 +57,10 @@ def peak_of(row: Row, *owners: str) -> int:
 
 
 def counted(row: Row) -> int:
-    """Bytes of the owners that have a count of their own."""
     return sum(own.get("counted_bytes") or 0 for own in row.memory_by_owner.values())
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: bars in their order, a mesh of each body. The figure, or why there is none."""
     if not rows:
         return "no mesh has two methods whose heap was split"
     used = [owner for owner in OWNERS if any(peak_of(row, owner) > 0 for row in rows)]

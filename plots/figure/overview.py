@@ -17,8 +17,6 @@ LOOP = "whole adaptive loop"
 
 @dataclass(frozen=True)
 class Curve:
-    """Of a body's meshes, by size."""
-
     words: str
     rows: list[Row]
     dashes: object
@@ -56,7 +54,6 @@ def curves_of(rows: list[Row]) -> list[Curve]:
 
 
 def loop_of(rows: list[Row]) -> list[tuple[float, float]]:
-    """Time of the loop up to each level, and the level's total error."""
     levels = {row.n_phi: (row.adapt_time_s, row.error_total) for row in rows if row.adapt_time_s}
     return [levels[size] for size in sorted(levels)]
 

@@ -76,12 +76,10 @@ def levels(errors: list[float]) -> list[float]:
 
 
 def displacements_of(rows: list[Row]) -> list[str]:
-    """Methods."""
     return list(dict.fromkeys(row.method for row in rows if row.in_displacements))
 
 
 def cheapest(rows: list[Row], level: float) -> Row | None:
-    """In time."""
     reach = [row for row in rows if row.error_total <= level]
     return min(reach, key=lambda row: row.time_s, default=None)
 
@@ -92,7 +90,6 @@ def with_knob(row: Row) -> str:
 
 
 def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
-    """Cells of TABLE for each level, the largest error first."""
     stress = [row for row in rows if not row.in_displacements]
     others = [row for row in rows if row.in_displacements]
     several = len(displacements_of(rows)) > 1
@@ -106,13 +103,11 @@ def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
 
 
 def costs(row: Row | None, which: str = "") -> list[str]:
-    """Mesh, time, heap."""
     return [which + row.mesh, seconds(row.time_s), mebibytes(row.peak_heap_bytes)] if row \
         else ["–"] * 3
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of an error study's scene. The figure, or why there is none."""
     known = known_of(rows)
     if not known:
         return "no row has time_s and an error_total up to 1"
@@ -252,7 +247,6 @@ def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None
 
 def draw_table(figure: Figure, top: float, displacements: list[str],
                lines: list[tuple[str, ...]]) -> None:
-    """Columns as wide as their widest cell, spread over the page."""
     who = displacements[0] if len(displacements) == 1 else "displacements"
     heads = [f"{who}: mesh" if head.startswith("displ") else head
              for head in TABLE][:None if displacements else 5]

@@ -74,8 +74,6 @@ def places_of(rows: list[Row]) -> dict[Slot, float]:
 
 
 def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
-    """The figure, or why there is none. rows: a mesh of each body. run: all of the scene and the
-    stop."""
     if not rows:
         return "no preconditioners beyond those of figures 4 and 5"
     meshes = grouped(rows, lambda row: row.mesh)

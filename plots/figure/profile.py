@@ -23,8 +23,6 @@ SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
 
 @dataclass(frozen=True)
 class Profile:
-    """Of all methods."""
-
     kind: str             # performance or data
     quantity: str         # of Row
     axis: str
@@ -36,7 +34,6 @@ class Profile:
         return (self.values if self.resampled is None else self.resampled)[..., s]
 
     def shares(self, s: int, at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Solved there, and both ends of the interval."""
         share = profiles.fractions(self.values[:, s], at)
         return (share, share, share) if self.resampled is None else \
             (share, *profiles.band(self.every(s), at))
@@ -85,7 +82,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of one study and stop. The figure, or why there is none."""
     cases = profiles.cases_of(rows)
     if len(cases.methods) < METHODS or len(cases.cases) < profiles.FEWEST:
         return (f"{len(cases.methods)} methods on {len(cases.cases)} cases that all of them have; "

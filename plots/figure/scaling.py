@@ -33,7 +33,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """The figure, or why there is none."""
     points = [point for point in points_of(rows) if point.speed_up]
     if len({point.row.threads for point in points}) < 2:
         return ("no method is solved, and timed more than once, on one thread and on more: one "

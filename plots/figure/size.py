@@ -63,7 +63,6 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
 
 
 def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale) -> Figure | str:
-    """The figure, or why there is none. rows: of the compared methods; run: of all."""
     if not rows:
         return "no methods to compare"
     if all(quantity.of(row)[1] == "none" for row in rows):
@@ -93,7 +92,6 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
 
 def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quantity: Quantity,
                scale: ErrorScale) -> None:
-    """Of bodies whose sizes do not overlap."""
     rows = [row for line in lines.values() for row in line]
     set_scales(axes, rows, quantity)
     mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, TYPE)
@@ -116,7 +114,6 @@ def names_pt(rows: list[Row]) -> float:
 
 
 def width_in(axes: Axes) -> float:
-    """Inches."""
     return axes.get_position().width * WIDTH
 
 
@@ -188,7 +185,6 @@ def draw_line(axes: Axes, line: list[Row], look: tuple[str, object], quantity: Q
 
 def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
                 fits: dict[str, float | None], looks: PlainLooks) -> None:
-    """Name and exponent beside the last points, in their order."""
     inch = 1 / width_in(axes)
     exponents = (WIDTH - LEFT - 0.49) * inch
     for method, at, y in beside(axes, ends, LABEL_PT):

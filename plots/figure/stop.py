@@ -18,8 +18,6 @@ MARKERS = "o^sDvP<X"
 
 @dataclass(frozen=True)
 class Stop:
-    """A case that ended by the paper's stop."""
-
     row: Row
     r: float
     ratio: float  # rho / r
@@ -59,7 +57,6 @@ def curves_of(rows: list[Row]) -> dict[str, list[Stop]]:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of one scene. The figure, or why there is none."""
     curves = curves_of(rows)
     if not any(len(curve) > 1 for curve in curves.values()):
         return "no two methods NAME:r=..,rho=.. with stop=paper and error_force"

@@ -47,7 +47,6 @@ def families_of(curves: dict[tuple[str, str], list[Row]]) -> dict[str, list[Row]
 
 
 def envelope(rows: list[Row], column: str) -> list[Row]:
-    """What the best of them reaches."""
     return front(rows, lambda row: value_of(row, column), lambda row: row.error_force)
 
 
@@ -81,7 +80,6 @@ def caption(rows: list[Row], known: list[Row], floor: float, target: float) -> I
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    """rows: of an error study's mesh and scene. The figure, or why there is none."""
     known = known_of(rows)
     if not known:
         return "no row has time_s and error_force"
