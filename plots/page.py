@@ -22,7 +22,7 @@ from page_data import page_data
 from records import RecordsError, lines_file, read
 
 PARTS = Path(__file__).resolve().parent / "page"
-SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
+SCRIPTS = ("format.js", "chart.js", "table.js", "page.js")
 
 
 def main() -> None:
