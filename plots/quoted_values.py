@@ -1,7 +1,9 @@
 """What the committed records give for an expression of docs/numbers.txt (quoted_numbers.py)."""
 import re
+from dataclasses import dataclass
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fnmatch import fnmatchcase
+from functools import cache
 from pathlib import Path
 
 import pandas as pd
@@ -22,18 +24,15 @@ class QuoteError(Exception):
     """A quotation or an expression with which nothing can be done: place and reason."""
 
 
+@dataclass(eq=False)
 class Runs:
-    """The committed runs, each read once, and what was asked of them."""
+    """The committed runs, each read once."""
 
-    def __init__(self, results: Path) -> None:
-        self.results = results
-        self.tables: dict[str, pd.DataFrame] = {}
-        self.values: dict[str, tuple[float, str]] = {}  # of an expression
+    results: Path
 
+    @cache
     def of(self, folder: str) -> pd.DataFrame:
-        if folder not in self.tables:
-            self.tables[folder] = read(self.results / folder / "results.csv")
-        return self.tables[folder]
+        return read(self.results / folder / "results.csv")
 
 
 def chosen(cases: pd.DataFrame, **wanted: str) -> pd.DataFrame:
@@ -52,13 +51,9 @@ def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
     return cases[keys].astype(float).eval(quantity, engine="python")
 
 
+@cache
 def value_of(expression: str, runs: Runs) -> tuple[float, str]:
-    if expression not in runs.values:
-        runs.values[expression] = found_value(expression, runs)
-    return runs.values[expression]
-
-
-def found_value(expression: str, runs: Runs) -> tuple[float, str]:
+    """What the records give, and how it is rounded."""
     match = EXPRESSION.fullmatch(expression)
     if not match:
         raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "
