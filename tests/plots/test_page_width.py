@@ -82,14 +82,8 @@ class PageTest(unittest.TestCase):
 
     def test_words_are_on_the_sheet_and_apart(self) -> None:
         for name, figure in self.figures.items():
-            painted, renderer = self.painted[name]
-            boxes = [(words, words.get_window_extent(renderer)) for words in painted
-                     if words.get_rotation() in (0, 90)]
-            for words, box in boxes:
-                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
-                                and box.y1 <= figure.bbox.y1, f"{name}: {words}")
-            for (words, box), (other, other_box) in combinations(boxes, 2):
-                self.assertFalse(box.padded(-1).overlaps(other_box), f"{name}: {words} {other}")
+            with self.subTest(name):
+                drawn.assert_readable(self, figure, *self.painted[name])
 
     def test_leaders_do_not_cross(self) -> None:
         seen = 0
