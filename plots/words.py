@@ -67,8 +67,8 @@ def mebibytes(value: float | None) -> str:
     return f"{mib:.2g}\u00a0MiB" if mib < 99.5 else f"{mib:.0f}\u00a0MiB"
 
 
-def counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
+def counted(count: int, noun: str, nouns: str = "") -> str:
+    return f"{count} {noun if count == 1 else nouns or f'{noun}s'}"
 
 
 def span(values: Iterable[int]) -> str:
