@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from records import POSITIVE, Row
 from selection import by_mesh, grouped, of_scene, order
-from words import csv_of, seconds, short
+from words import columns_of, csv_of, seconds, short
 
 STUDIES = ("error", "")  # ordinary cases in the folder are points too
 DECADES = 6  # at most, of budgets that nobody has named
@@ -60,11 +60,9 @@ def best_of(cases: list[Row]) -> list[Best]:
 
 def csv_table(cases: list[Row]) -> str:
     return csv_of(best_of(cases),
-                  *((name, lambda best, name=name: getattr(best.cases[0], name))
-                    for name in ("mesh", "n_phi", "scene", "method")),
+                  *columns_of(lambda best: best.cases[0], "mesh", "n_phi", "scene", "method"),
                   "budget_s", ("error", lambda best: best.row and error_of(best.row)),
-                  *((name, lambda best, name=name: best.row and getattr(best.row, name))
-                    for name in COLUMNS))
+                  *columns_of(lambda best: best.row, *COLUMNS))
 
 
 def setting(row: Row) -> str:

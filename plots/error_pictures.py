@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from case_names import words_of_file
 from drawing import PAGE_WIDTH, axes_at, text_at
 from field_drawing import COLORMAP, areas, draw_body, draw_boundary, scales_of
-from field_panel import body_height, label_body, view_of, width_of
+from field_panel import body_height, label_body, slenderness, view_of, width_of
 from fields import Fields
 from words import csv_of, plain, width_of as words_width
 
@@ -58,9 +58,9 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     width = max(width, NARROWEST)
     figure = Figure(figsize=(width, TOP + height + BOTTOM))
     view = view_of(s)
-    across = height / view.height
+    across = height / slenderness(s)
     axes = axes_at(figure, (width + LEFT - RIGHT) / 2 - across / 2, TOP, across, height,
-                   xlim=view.across, ylim=view.upward)
+                   xlim=view.intervalx, ylim=view.intervaly)
     high = 10.0 ** math.ceil(math.log10(share.max()))
     low = max(share[share > 0].min(), high / 10**DECADES)
     norm = LogNorm(10.0 ** math.floor(math.log10(low)), high, clip=True)
@@ -103,7 +103,7 @@ def draw_levels(levels: list[Level]) -> Figure:
     scales = scales_of([levels[-1][0]])  # of the finest
     view = view_of(levels[0][0])
     panel = (PAGE_WIDTH - LEVEL_LEFT - len(levels) * GAP) / len(levels)
-    height = panel * view.height
+    height = panel * slenderness(levels[0][0])
     if height > LEVEL_HIGHEST:
         panel, height = panel * LEVEL_HIGHEST / height, LEVEL_HIGHEST
     figure = Figure(figsize=(PAGE_WIDTH, TITLE + 2 * (height + WORDS) + BARS))
@@ -115,8 +115,8 @@ def draw_levels(levels: list[Level]) -> Figure:
     for k, (s, share, error) in enumerate(levels):
         upper, lower = (
             axes_at(figure, LEVEL_LEFT + k * step + (step - GAP - panel) / 2,
-                    TITLE + row * (height + WORDS), panel, height, xlim=view.across,
-                    ylim=view.upward) for row in (0, 1))
+                    TITLE + row * (height + WORDS), panel, height, xlim=view.intervalx,
+                    ylim=view.intervaly) for row in (0, 1))
         draw_body(upper, s, scales)
         words = f"{len(s.corners)} triangles"
         upper.set_title(words if error is None else f"{words}, {100 * error:.2g} %", pad=4)

@@ -9,6 +9,7 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
 from fields import Fields
@@ -28,22 +29,15 @@ LOW_TRACTION = 0.5  # of such a face
 AddAxes = Callable[..., Axes]  # left, top, width, height; limits
 
 
-@dataclass(frozen=True)
-class View:
-    """Limits of a body's axes, mm: left, right and bottom, top."""
-
-    across: tuple[float, float]
-    upward: tuple[float, float]
-
-    @property
-    def height(self) -> float:
-        return (self.upward[1] - self.upward[0]) / (self.across[1] - self.across[0])
-
-
-def view_of(s: Fields) -> View:
+def view_of(s: Fields) -> Bbox:
+    """Limits of a body's axes, mm."""
     low, high = s.boundary.min(axis=(0, 1)), s.boundary.max(axis=(0, 1))
     margin = MARGIN * (high - low)[1]
-    return View(*zip(low - margin, high + margin))
+    return Bbox([low - margin, high + margin])
+
+
+def slenderness(s: Fields) -> float:
+    return view_of(s).height / view_of(s).width
 
 
 def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
@@ -54,7 +48,7 @@ def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
 
 
 def body_height(s: Fields, width: float) -> float:
-    return (width - LEFT - RIGHT) * view_of(s).height
+    return (width - LEFT - RIGHT) * slenderness(s)
 
 
 def width_of(s: Fields, body: float) -> float:
@@ -90,7 +84,7 @@ def faces_of(s: Fields) -> list[np.ndarray]:
 
 
 def is_tall(s: Fields) -> bool:
-    return view_of(s).height > TALL and len(s.edges) > 0
+    return slenderness(s) > TALL and len(s.edges) > 0
 
 
 def strip_of(width: float) -> float:
@@ -100,7 +94,7 @@ def strip_of(width: float) -> float:
 def layout_of(s: Fields, width: float) -> Layout:
     count = len(s.faces())
     if is_tall(s):
-        body = HIGHEST / view_of(s).height
+        body = HIGHEST / slenderness(s)
         left = LEFT + body + GAP + LEFT
         across = min(width - left - RIGHT, 4.5)
         step = strip_of(across) + LOW_TRACTION + LABELS
@@ -130,8 +124,8 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                                **limits)
 
     view, layout = view_of(s), layout_of(s, width)
-    body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.across,
-                    ylim=view.upward)
+    body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.intervalx,
+                    ylim=view.intervaly)
     label_body(body)
     body.tick_params(axis="x", pad=1)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
