@@ -185,6 +185,6 @@ def draw_traction(axes: Axes, s: Fields) -> None:
     axes.plot(s.edges[..., 1].T, traction[:, :, 1].T, **FRICTION)
     highest = traction[:, :, 0].max()
     if highest > max(axes.get_ylim()):
-        axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xycoords="axes fraction", xytext=(0, 3),
-                      textcoords="offset points", ha="center", fontsize=SMALLEST_PT,
+        axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xytext=(0, 3),
+                      xycoords="axes fraction", textcoords="offset points", ha="center", fontsize=SMALLEST_PT,
                       path_effects=[withStroke(linewidth=2, foreground="white")])

@@ -13,8 +13,8 @@ from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
 from fields import Fields
-from words import columns_of, csv_of, plain
 from unrolled import BY_LENGTH, unrolled
+from words import columns_of, csv_of, plain
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
 SCALE = 0.3  # of a body, below it

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from drawing import (PAGE_WIDTH, Drawing, axes_at, file_name, log_limits, log_log, sheet,
-                     side_by_side, text_at)
+from drawing import (Drawing, axes_at, file_name, log_limits, log_log, sheet, side_by_side,
+                     text_at)
 from records import CONTACT_SOLVERS, Row
 from selection import grouped
 from words import CASE, csv_of, plain, threads

@@ -103,8 +103,8 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
     rows = list(cases.rows.values())
     scenes, meshes = (len({getattr(row, name) for row in rows}) for name in ("scene", "mesh"))
     yield (f"Cases: {counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}; "
-           f"{threads(rows)}. Solved: status ok and verified; whatever else became of a case, skipped too, it is not. "
-           "Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
+           f"{threads(rows)}. Solved: status ok and verified; whatever else became of a case, "
+           "skipped too, it is not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
            "solves within a factor of the best method's cost; at 1: how often it is the best. "
            "Lowest: data profile (Moré & Wild 2009), the share solved within a time.")
     yield ("A performance profile depends on the methods compared: with more than two, the order "

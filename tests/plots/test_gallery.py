@@ -54,6 +54,17 @@ def write_solution(folder: Path, name: str, contact: bool = True,
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
+def solution(table: str = "") -> fields.Fields:
+    """The square, read from its files, with a results.csv where one is given."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = Path(folder)
+        (results / "fields").mkdir()
+        write_solution(results / "fields", NAMES[0])
+        if table:
+            (results / "results.csv").write_text(table)
+        return fields.read_fields(results, NAMES[0], fields.recorded(results))
+
+
 class GalleryTest(FolderTest):
     program = gallery
 
@@ -231,10 +242,7 @@ class ErrorMapTest(unittest.TestCase):
         self.assertAlmostEqual(error_pictures.share_of_worst(np.array([3.0, 1.0])), 0.75)
 
     def test_every_triangle_has_its_colour(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "fields").mkdir()
-            write_solution(Path(folder) / "fields", NAMES[0])
-            s = fields.read_fields(Path(folder), NAMES[0], {})
+        s = solution()
         drawn = error_pictures.draw_map(s, np.array([1e-9, 0.9])).axes[0].collections[0]
         self.assertEqual(len(drawn.get_paths()), 2)
         np.testing.assert_allclose(drawn.get_array(), [1e-5, 0.9])  # five decades, no more
@@ -242,13 +250,7 @@ class ErrorMapTest(unittest.TestCase):
 
 class FieldsTest(unittest.TestCase):
     def test_read_back(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            results = Path(folder)
-            (results / "fields").mkdir()
-            write_solution(results / "fields", NAMES[0])
-            (results / "results.csv").write_text(
-                "mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
-            s = fields.read_fields(results, NAMES[0], fields.recorded(results))
+        s = solution("mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
         self.assertEqual((s.corners.shape, s.mesh, s.n_phi), ((2, 3, 3, 2), "Mesh0", 761))
         np.testing.assert_array_equal(s.triangles[1], [CORNERS[0], CORNERS[2], CORNERS[3]])
         np.testing.assert_allclose(s.traction, [[[-30, -6], [0, 0]]])  # F = (L/2) t, L = 2
@@ -263,10 +265,7 @@ class FieldsTest(unittest.TestCase):
         self.assertEqual([c.tolist() for c in fields.chains(ring)], [[0, 1, 2]])
 
     def test_a_face_around_a_hole_begins_where_its_y_is_least(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "fields").mkdir()
-            write_solution(Path(folder) / "fields", NAMES[0])
-            s = fields.read_fields(Path(folder), NAMES[0], {})
+        s = solution()
         self.assertEqual([face.tolist() for face in s.faces()], [[0]])
         hole = np.array([(1, 1), (1, 2), (2, 2), (2, 0.5)], float)
         ring = np.stack([hole, np.roll(hole, -1, axis=0)], 1)[[2, 0, 3, 1]]

@@ -1,6 +1,5 @@
 """The figures that are grids of cells, of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import unittest
 from collections import Counter
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg

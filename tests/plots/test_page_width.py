@@ -13,7 +13,7 @@ import made_up  # finds plots
 
 import drawn
 import figures
-from drawing import PAGE_WIDTH, SMALLEST_PT, STYLE, Drawing, axes_at, log_log
+from drawing import PAGE_WIDTH, STYLE, Drawing, axes_at, log_log
 from labels import LEADER_NAME, Labels, crossing
 from words import csv_of
 

@@ -1,6 +1,5 @@
 """Figures of results/, drawn from their records: the same bytes.  /usr/bin/python3 -m unittest FILE"""
 import shutil
-import unittest
 
 import matplotlib
 
