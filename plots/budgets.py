@@ -12,7 +12,7 @@ from selection import by_mesh, grouped, of_scene, order
 from words import columns_of, csv_of, seconds, short
 
 STUDIES = ("error", "")  # ordinary cases in the folder are points too
-DECADES = 6  # at most, of budgets that nobody has named
+DECADES = 6  # at most, of budgets where a run has none
 COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_stress", "error_force")
 
 

@@ -41,7 +41,7 @@ class Drawing:
     name: str                          # of its files
     rows: list[Row]                    # that it shows, or names
     draw: Callable[..., Figure | str]  # of rows and options: the figure, or why there is none
-    table: Callable[[list[Row]], str]  # of rows: the numbers drawn, a CSV beside the figure
+    table: Callable[[list[Row]], str]  # of rows: the numbers drawn, a CSV next to the figure
     vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
 
@@ -80,12 +80,8 @@ def file_name(stem: str, mesh: str) -> str:
     return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
 
 
-def sheet(body: float, title: str, *texts: str) -> Figure:
-    """A figure as wide as the page, made higher by the lines of its caption below."""
-    return sheet_of_width(PAGE_WIDTH, body, title, *texts)
-
-
-def sheet_of_width(width: float, body: float, title: str, *texts: str) -> Figure:
+def sheet(body: float, title: str, *texts: str, width: float = PAGE_WIDTH) -> Figure:
+    """A figure, made higher by the lines of its caption below."""
     lines = wrapped(texts, width - 2 * MARGIN, TYPE)
     height = body + LINE * len(lines) + MARGIN
     figure = Figure(figsize=(width, height))

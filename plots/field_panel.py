@@ -1,4 +1,4 @@
-"""Lays out one solution: the body, and below or beside it its contact faces, enlarged. In inches."""
+"""Lays out one solution: the body, and below or next to it its contact faces, enlarged. In inches."""
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ MARKERS = 0.2  # below a face, for its contact points
 MARKER_PT = 4.5  # at most
 MARGIN = 0.04  # around a body, of its extent in y
 BEHIND, BESIDE = 0.1, 0.03  # the body behind a face and the space at its ends, of its length
-TALL, HIGHEST = 1.4, 5.6  # height over width of a body with its faces beside it; its height
+TALL, HIGHEST = 1.4, 5.6  # height over width of a body with its faces next to it; its height
 LOW_TRACTION = 0.5  # of such a face
 
 AddAxes = Callable[..., Axes]  # left, top, width, height; limits

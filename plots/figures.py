@@ -5,7 +5,7 @@
 
 The figures are those that the modules figure/*.py plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
-table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
+table1.md, the paper's Tab. 1 next to the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
 the records were measured, in words for a paper. --only draws these of the figures and tables, by
 name or glob, and says nothing of the others.

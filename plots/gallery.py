@@ -31,7 +31,7 @@ STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsa
          "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
 WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
-BODY = 5.0  # highest body in a picture of its own
+BODY = 5.0  # highest body in its own picture
 HEADING = (
     r"Largest shear stress in the plane, "
     r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "

@@ -154,7 +154,7 @@ def spread(wanted: list[float], spacing: float, low: float, high: float) -> list
     return [position + k * spacing for k, position in enumerate(base)]
 
 
-def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
+def name_places(axes: Axes, ends: dict[str, tuple[float, float] | None],
            apart_pt: float) -> Iterator[tuple[str, tuple[float, float], float]]:
     to_axes = axes.transData + axes.transAxes.inverted()
     at = {method: tuple(to_axes.transform(end)) if end else (1, 1.0)
@@ -168,17 +168,17 @@ def beside(axes: Axes, ends: dict[str, tuple[float, float] | None],
 def draw_leader(axes: Axes, at: tuple[float, float], right: float, y: float,
                 **style: object) -> None:
     """From a line's end, of the axes' size, to its name: level up to the axes' edge, so that
-    leaders in the order of `beside` do not cross."""
+    leaders in the order of `name_places` do not cross."""
     axes.plot([at[0], max(at[0], 1), right], [at[1], at[1], y], transform=axes.transAxes,
               clip_on=False, linewidth=0.4, zorder=1, label=LEADER_NAME, **style)
 
 
 def draw_names(axes: Axes, ends: dict[str, tuple[float, float]], colours: dict[str, str],
                powers: dict[str, float | None], dashes: dict[str, object] | None = None) -> None:
-    """Name and exponent beside the last points, in their order; with dashes also a piece of line.
+    """Name and exponent next to the last points, in their order; with dashes also a piece of line.
     Of axes at LEFT on a page."""
     inch = 1 / (axes.get_position().width * PAGE_WIDTH)
-    for method, at, y in beside(axes, ends, NAMES_APART):
+    for method, at, y in name_places(axes, ends, NAMES_APART):
         style = dict(transform=axes.transAxes, va="center", color=colours[method])
         draw_leader(axes, at, 1 + 0.22 * inch, y, color=colours[method], alpha=0.6)
         name_at = 1 + 0.26 * inch

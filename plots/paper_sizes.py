@@ -1,4 +1,4 @@
-"""The paper's Tab. 1 beside the records' sizes."""
+"""The paper's Tab. 1 next to the records' sizes."""
 from catalogue import SIZES
 from records import Row
 from selection import of_scene

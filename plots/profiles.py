@@ -36,7 +36,7 @@ class Cases:
                           for method in self.methods] for case in self.cases], float)
 
     def resampled(self) -> np.ndarray:
-        """(RESAMPLES, P, S) medians of samples_s, drawn anew with replacement; where there are no two
+        """(RESAMPLES, P, S) medians of samples_s, drawn with replacement; where there are no two
         of them, time_s."""
         random = np.random.default_rng(SEED)
         times = np.tile(self.costs(lambda row: row.time_s), (RESAMPLES, 1, 1))

@@ -19,7 +19,7 @@ are given. Several cases need `least` or `greatest`. `at most` rounds up, `at le
 to nearest, to as many significant digits as are written.
 
 A line `EXPRESSION is NUMBER`, `is below NUMBER` or `is above NUMBER` is a condition for words
-beside the numbers, such as "less than": the phrase has no {} for it.
+next to the numbers, such as "less than": the phrase has no {} for it.
 
 Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->.
 """
@@ -246,7 +246,7 @@ def main() -> None:
     what.add_argument("--check", action="store_true",
                       help="list the numbers that the records do not give; exit status 1 if any")
     what.add_argument("--write", action="store_true",
-                      help="rewrite them; exit status 1 if words beside them no longer hold")
+                      help="rewrite them; exit status 1 if words next to them no longer hold")
     parser.add_argument("--project", type=Path, default=PROJECT, help="default: this one")
     arguments = parser.parse_args()
     try:

@@ -134,7 +134,7 @@ NEEDED = ("mesh", "scene", "method", "general_name", "family", "preconditioner",
           "threads", "repetitions", "time_s", "tuning_s", "peak_heap_bytes", "done_fraction",
           "extrapolated_time_s", "error_force")
 IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
-OF_STUDY = {  # what the rows of a study need beside
+OF_STUDY = {  # what the rows of a study also need
     "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
               "error_total"),
     "contact": ("outcome", "contact_solver"),

@@ -39,16 +39,17 @@ def scene_of(rows: list[Row]) -> str:
 
 
 def of_scene(rows: list[Row]) -> list[Row]:
-    return [row for row in rows if row.scene == scene_of(rows)] if rows else []
+    scene = scene_of(rows) if rows else ""
+    return [row for row in rows if row.scene == scene]
 
 
 def tier(row: Row) -> int:
-    """The paper's method; one with a name of its own; a variant of another; a preconditioner's."""
+    """The paper's method; one with its own name; a variant of another; a preconditioner's."""
     return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2
 
 
 def compared(rows: list[Row], room: int) -> list[Row]:
-    """Of the paper's methods and those with names of their own; of variants, and then of
+    """Of the paper's methods and those with their own names; of variants, and then of
     preconditioners, if the methods are then at most `room`. A method under two names, an alias
     and the general one, is there once for each mesh, scene and stop: by its alias."""
     tiers: dict[str, int] = {}
@@ -60,16 +61,12 @@ def compared(rows: list[Row], room: int) -> list[Row]:
         if level > 1 and len(shown | more) > room:
             break
         shown |= more
-    return once([row for row in rows if row.general_name in shown], by_alias=True)
-
-
-def once(rows: list[Row], by_alias: bool) -> list[Row]:
-    chosen: dict[tuple[str, ...], Row] = {}
+    once: dict[tuple[str, ...], Row] = {}
     for row in rows:
         case = (row.general_name, row.mesh, row.scene, row.stop)
-        if case not in chosen or (row.method != row.general_name) == by_alias:
-            chosen[case] = row
-    return list(chosen.values())
+        if row.general_name in shown and (case not in once or row.method != row.general_name):
+            once[case] = row
+    return list(once.values())
 
 
 def given(row: Row) -> tuple[float, float] | None:

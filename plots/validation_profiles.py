@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Draws our answers beside those from outside, from tests/data/validation/profiles.csv.
+"""Draws our answers next to those from outside, from tests/data/validation/profiles.csv.
 
     validation_profiles.py [--out FILE]     default: docs/images/validation.png
     validation_profiles.py --table          prints the tables of docs/validation.md

@@ -1,10 +1,10 @@
-"""Total error against unknowns and time: adapted meshes beside the meshes as they are."""
+"""Total error against unknowns and time: adapted meshes next to the meshes as they are."""
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from drawing import Drawing, log_limits, log_log, panel_at, sheet_of_width
+from drawing import Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from marks import WIDTH
 from records import Row
@@ -41,14 +41,14 @@ def best_of(rows: list[Row]) -> list[Row]:
 
 def draw(rows: list[Row]) -> Figure:
     bodies = by_body([row for row in rows if row.error_total <= HIGHEST])
-    figure = sheet_of_width(
-        WIDTH, TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
+    figure = sheet(
+        TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
         f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
         "they are (open, dashed), refined everywhere (open, dotted) and adapted (filled, solid). Below: "
         "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
         "estimates of the error. "
         "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
-        f"one's unknowns on. {threads(rows)}.")
+        f"one's unknowns on. {threads(rows)}.", width=WIDTH)
     every = [row for own in bodies.values() for row in own]
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
     width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)

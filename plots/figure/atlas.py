@@ -3,7 +3,6 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
@@ -59,49 +58,29 @@ def table_of(rows: list[Row]) -> str:
                   "error_stress", "error_force")
 
 
-@dataclass(frozen=True)
-class Grid:
-    """Where cells are: scenes go down, under a line with their group's name; methods, as many as
-    there is room for, go to the right."""
-
-    lines: list[tuple[str, str]]  # group and scene; a group's own line has no scene
-    methods: list[str]
-    cell: float                   # width, inches
-
-    @property
-    def height(self) -> float:
-        return ROW * len(self.lines)
-
-
-def grids_of(rows: list[Row], left: float) -> list[Grid]:
-    """Side by side while cells are not too narrow, below each other else."""
-    methods = list(by_method(rows, "n_phi"))
-    lines = [line for group, own in groupby(scenes_of(rows), key=lambda scene: scene[0])
-             for line in ((group, ""), *own)]
-    room = PAGE_WIDTH - left - MARGIN
-    count = math.ceil(len(methods) * NARROWEST / room)
-    most = math.ceil(len(methods) / count)
-    cell = min(CELL, room / most)
-    return [Grid(lines, methods[k:k + most], cell) for k in range(0, len(methods), most)]
-
-
-def draw(rows: list[Row]) -> Figure | str:
-    if not rows:
-        return "no rows"
+def draw(rows: list[Row]) -> Figure:
+    """Scenes go down, under a line with their group's name; methods go to the right, and on below
+    where cells would be too narrow."""
     scenes = scenes_of(rows)
     left = 0.2 + max([width_of(scene, SIZE) for _, scene in scenes]
                      + [width_of(group, 8, "bold") for group, _ in scenes]) / 72
-    grids = grids_of(rows, left)
+    lines = [line for group, own in groupby(scenes, key=lambda scene: scene[0])
+             for line in ((group, ""), *own)]
+    methods = list(by_method(rows, "n_phi"))
+    room = PAGE_WIDTH - left - MARGIN
+    most = math.ceil(len(methods) / math.ceil(len(methods) * NARROWEST / room))
+    cell = min(CELL, room / most)
+    grids = [methods[k:k + most] for k in range(0, len(methods), most)]
+    height = ROW * len(lines)
     above = 0.1 + max(width_of(row.method, SIZE) for row in rows) / 72
     below = 0.5  # counts
-    block = above + grids[0].height + below
-    methods = sum(len(grid.methods) for grid in grids)
-    deep = grids[0].cell < WITH_DIGITS
+    block = above + height + below
+    deep = cell < WITH_DIGITS
     key = Key(rows, ("", "ok, deeper: more digits") if deep else
               ("12", "ok, with the digits of its largest error"))
     body = TITLE + len(grids) * (block + BETWEEN) + key.height
     figure = sheet(
-        body, f"Stability on {rows[0].mesh}: {methods} methods in {len(scenes)} scenes",
+        body, f"Stability on {rows[0].mesh}: {len(methods)} methods in {len(scenes)} scenes",
         "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
         "most the target; " + ("the deeper its blue, the smaller its errors of stresses and contact "
                                "forces, from 1e-6 to 1e-15. " if deep else
@@ -109,22 +88,22 @@ def draw(rows: list[Row]) -> Figure | str:
                                "at most 1e-n; +: no such error is known. ") +
         "Empty: not in the study. Below: how many of a method's cases are ok.")
     for k, grid in enumerate(grids):
-        top = TITLE + k * (block + BETWEEN) + above
-        axes = axes_at(figure, left, top, grid.cell * len(grid.methods), grid.height,
-                       xlim=(0, len(grid.methods)), ylim=(len(grid.lines), 0))
-        own = [row for row in rows if row.method in grid.methods]
-        draw_cells(axes, own, grid)
-        draw_names(axes, own, grid)
+        axes = axes_at(figure, left, TITLE + k * (block + BETWEEN) + above, cell * len(grid), height,
+                       xlim=(0, len(grid)), ylim=(len(lines), 0))
+        own = [row for row in rows if row.method in grid]
+        draw_cells(axes, own, lines, grid, cell >= WITH_DIGITS)
+        draw_names(axes, own, lines, grid)
     key.draw(figure, body - key.height + 0.1)
     return figure
 
 
-def draw_cells(axes: Axes, rows: list[Row], grid: Grid) -> None:
+def draw_cells(axes: Axes, rows: list[Row], lines: list[tuple[str, str]], methods: list[str],
+               with_digits: bool) -> None:
     for row in rows:
         letter, fill, ink = MARKS[row.outcome]
         if row.outcome == "ok":
-            letter, fill = digits(row) if grid.cell >= WITH_DIGITS else "", shade(digits(row))
-        x, y = grid.methods.index(row.method), grid.lines.index((row.scene_group, row.scene))
+            letter, fill = digits(row) if with_digits else "", shade(digits(row))
+        x, y = methods.index(row.method), lines.index((row.scene_group, row.scene))
         wrong = row.outcome == "wrong_success"
         # Not add_patch: it measures each for the limits, which are set.
         axes.add_artist(Rectangle((x, y), 1, 1, facecolor=fill, zorder=2 + wrong, clip_on=False,
@@ -135,15 +114,16 @@ def draw_cells(axes: Axes, rows: list[Row], grid: Grid) -> None:
                       fontsize=SMALLEST_PT, weight="normal" if row.outcome == "ok" else "bold")
 
 
-def draw_names(axes: Axes, rows: list[Row], grid: Grid) -> None:
-    scenes = [(k, scene) for k, (_, scene) in enumerate(grid.lines) if scene]
+def draw_names(axes: Axes, rows: list[Row], lines: list[tuple[str, str]],
+               methods: list[str]) -> None:
+    scenes = [(k, scene) for k, (_, scene) in enumerate(lines) if scene]
     axes.set_yticks([k + 0.5 for k, _ in scenes], [plain(scene) for _, scene in scenes],
                     fontsize=SIZE)
-    axes.set_xticks([k + 0.5 for k in range(len(grid.methods))], map(plain, grid.methods),
+    axes.set_xticks([k + 0.5 for k in range(len(methods))], map(plain, methods),
                     rotation=90, fontsize=SIZE)
     axes.tick_params(length=0, pad=3, labeltop=True, labelbottom=False)
     axes.spines[:].set_visible(False)
-    for k, (group, scene) in enumerate(grid.lines):
+    for k, (group, scene) in enumerate(lines):
         if not scene:
             axes.annotate(plain(group), (0, k + 0.6), xycoords=axes.get_yaxis_transform(),
                           xytext=(-3, 0), textcoords="offset points", ha="right", va="center",
@@ -152,11 +132,11 @@ def draw_names(axes: Axes, rows: list[Row], grid: Grid) -> None:
     families = {row.method: row.family for row in rows}
     count = Counter(row.method for row in rows)
     ok = Counter(row.method for row in rows if row.outcome == "ok")
-    for k, method in enumerate(grid.methods):
+    for k, method in enumerate(methods):
         axes.annotate(f"{ok[method]}/{count[method]}", (k + 0.53, 0), xytext=(0, -4),
                       xycoords=axes.get_xaxis_transform(), textcoords="offset points",
                       ha="center", va="top", rotation=90, fontsize=SMALLEST_PT, color="0.3")
-        if k and families[method] != families[grid.methods[k - 1]]:
+        if k and families[method] != families[methods[k - 1]]:
             axes.axvline(k, color="0.25", linewidth=0.8, zorder=2.5)
     axes.annotate("ok", (0, 0), xycoords="axes fraction", xytext=(-3, -4), ha="right", va="top",
                   textcoords="offset points", fontsize=SIZE, color="0.3")

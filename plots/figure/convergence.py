@@ -109,11 +109,11 @@ def draw(rows: list[Row]) -> Figure | str:
            "no friction." if bounded else ""))
     marks = dict(zip(dict.fromkeys([*bodies, *bounded]), cycle(MARKS)))  # colour and marker
     draw_errors(panel_at(figure, LEFT, TOP, PAGE_WIDTH - LEFT - 0.15, HEIGHT), bodies, marks)
-    beside = min(len(bounded), SIDE_BY_SIDE)
+    columns = min(len(bounded), SIDE_BY_SIDE)
     for k, (body, points) in enumerate(bounded.items()):
-        width = (PAGE_WIDTH - 0.15 - GAP * beside) / beside
-        axes = axes_at(figure, GAP + k % beside * (GAP + width), TOP + HEIGHT + BOTTOM + TITLE
-                       + below * (k // beside), width, BELOW)
+        width = (PAGE_WIDTH - 0.15 - GAP * columns) / columns
+        axes = axes_at(figure, GAP + k % columns * (GAP + width), TOP + HEIGHT + BOTTOM + TITLE
+                       + below * (k // columns), width, BELOW)
         draw_bounds(axes, body, points, marks[body][0])
     return figure
 

@@ -1,4 +1,4 @@
-"""Whose the heap of a solve is at its peak, method by method, beside what the methods count."""
+"""Whose the heap of a solve is at its peak, method by method, next to what the methods count."""
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes

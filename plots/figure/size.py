@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from catalogue import plain_looks
 from drawing import MATH, TYPE, Drawing, axes_at, log_limits, log_log
-from labels import beside, draw_leader, mark_meshes
+from labels import draw_leader, mark_meshes, name_places
 from marks import (EDGE_AT, HEAP, TIME, WIDTH, ErrorScale, Footer, Quantity, by_stop, draw_point,
                    marker_style, notes_of)
 from records import Row
@@ -187,7 +187,7 @@ def draw_labels(axes: Axes, ends: dict[str, tuple[float, float] | None],
                 fits: dict[str, float | None], looks: PlainLooks) -> None:
     inch = 1 / width_in(axes)
     exponents = (WIDTH - LEFT - 0.49) * inch
-    for method, at, y in beside(axes, ends, LABEL_PT):
+    for method, at, y in name_places(axes, ends, LABEL_PT):
         marker, dashes = looks[method]
         style = dict(transform=axes.transAxes, clip_on=False)
         if ends[method]:

@@ -61,7 +61,7 @@ def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
 
 
 def split(mesh: str, method: str, **owners: tuple[float, float | None]) -> dict[str, object]:
-    """A line of records.jsonl; owners: MiB at the peak and counted, beside 2 of the blocks."""
+    """A line of records.jsonl; owners: MiB at the peak and counted, next to 2 of the blocks."""
     by_owner = {owner: {"peak_bytes": int(peak * 2**20), "held_bytes": int(peak * 2**20),
                         "counted_bytes": None if counted is None else int(counted * 2**20)}
                 for owner, (peak, counted) in ({"blocks": (2, 2)} | owners).items()}
@@ -76,7 +76,7 @@ def record(row: dict[str, object]) -> dict[str, object]:
 
 
 def discretisation(mesh: str) -> float:
-    """Relative; first order in h from 20 %, the rack starting anew."""
+    """Relative; first order in h from 20 %, the rack from 20 % again."""
     size = of_mesh(mesh)["n_phi"]
     first = {"Mesh": "Mesh4" if size > 8000 else "Mesh0"}.get(mesh[:-1], mesh[:-1] + "1")
     return 0.2 * (size / of_mesh(first)["n_phi"]) ** -0.45

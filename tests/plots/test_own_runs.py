@@ -25,7 +25,7 @@ HEAP = 50
 
 
 def ordinary_run() -> list[dict[str, object]]:
-    """Both bodies beside each other, and the preconditioners on the largest mesh of each."""
+    """Both bodies next to each other, and the preconditioners on the largest mesh of each."""
     rows = []
     for mesh in made_up.OWN:
         for k, method in enumerate(METHODS):

@@ -1,4 +1,4 @@
-"""Figures at the width of a page, and the numbers beside them.  /usr/bin/python3 -m unittest FILE"""
+"""Figures at the width of a page, and the numbers next to them.  /usr/bin/python3 -m unittest FILE"""
 import csv
 import unittest
 from itertools import combinations, pairwise
