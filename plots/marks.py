@@ -52,6 +52,14 @@ class Quantity:
         sure = row.extrapolated_time_s and row.done_fraction
         return row.extrapolated_time_s, "open" if sure else "bound"
 
+    def marked(self, rows: Iterable[Row]) -> list[tuple[Row, float | None, str]]:
+        """With value and mark, those that have one."""
+        return [(row, value, mark) for row in rows for value, mark in [self.of(row)]
+                if mark != "none"]
+
+    def done(self, rows: Iterable[Row]) -> list[tuple[Row, float]]:
+        return [(row, value) for row, value, mark in self.marked(rows) if mark == "done"]
+
 
 TIME = Quantity("time", "time of one solve, s", time_caption)
 HEAP = Quantity("memory", "peak heap, MiB", heap_caption)
@@ -131,10 +139,9 @@ def marker_style(marker: str, fill: object) -> dict[str, object]:
                 markeredgewidth=0.6, linestyle="none")
 
 
-def key_of(rows: Iterable[Row], quantity: Quantity) -> list[tuple[Line2D | tuple, str]]:
-    rows = list(rows)
-    marks = {mark for row in rows for _, mark in [quantity.of(row)]}
-    done = [row for row in rows if quantity.of(row)[1] == "done"]
+def key_of(rows: list[Row], quantity: Quantity) -> list[tuple[Line2D | tuple, str]]:
+    marks = {mark for _, _, mark in quantity.marked(rows)}
+    done = [row for row, _ in quantity.done(rows)]
 
     def sample(marker: str = "o", fill: object = "white") -> Line2D:
         return Line2D([], [], **marker_style(marker, fill))

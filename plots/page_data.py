@@ -27,8 +27,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
     run = cases[cases.night == len(nights) - 1] if records is None else named(records)
     bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
     return {
-        "nights": [{"date": night.date, "revision": night.revision, "failed": night.failed}
-                   for night in nights],
+        "nights": [{"date": night.date, "revision": night.revision} for night in nights],
         "noise": {key: [night.noise.get(key) for night in nights] for key in ("median_s", "mad_s")},
         "bodies": bodies,
         "cases": sorted(series(cases, len(nights)), key=lambda case: (

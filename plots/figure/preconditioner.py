@@ -79,7 +79,7 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
     meshes = grouped(rows, lambda row: row.mesh)
     cases = [(row.general_name + (f" on {row.mesh}" if len(meshes) > 1 else ""), row)
              for row in rows]
-    timed = [case for case in cases if TIME.of(case[1])[1] != "none"]  # the others are named once
+    timed = [(case, row) for case, row in cases if TIME.marked([row])]  # the others are named once
     sizes = [f"{mesh}, {own[0].n_phi}" for mesh, own in meshes.items()]
     texts = [f"{'; '.join(sizes)} degrees of freedom. {TIME.caption(rows, run)}"
              " Below: highest heap during one solve, its blocks and result included.",
@@ -123,7 +123,7 @@ def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -
 
 
 def limits_of(rows: list[Row], quantity: Quantity) -> tuple[float, float]:
-    values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
+    values = [value for _, value, _ in quantity.marked(rows)]
     if quantity is TIME:
         return log_limits(values, 1.6)
     return 0, 1.12 * max(values, default=1)
@@ -134,19 +134,17 @@ def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
     """Points, those of a group joined; memory on stems."""
     groups = list(dict.fromkeys(group for group, _ in places))
     for group in groups:
-        line = [(places[slot], quantity.of(column[slot])[0])
-                for slot in places if slot[0] == group and slot in column
-                and quantity.of(column[slot])[1] == "done"]
-        if quantity is TIME:
-            axes.plot(*zip(*line), color="0.55", linewidth=0.7, zorder=2) if line else None
+        own = [column[slot] for slot in places if slot[0] == group and slot in column]
+        line = [(places[slot_of(row)], value) for row, value in quantity.done(own)]
+        if line and quantity is TIME:
+            axes.plot(*zip(*line), color="0.55", linewidth=0.7, zorder=2)
         elif line:
-            axes.vlines([x for x, _ in line], 0, [y for _, y in line], color="0.55",
-                        linewidth=0.7, zorder=2)
-    for slot, row in column.items():
-        value, mark = quantity.of(row)
-        if mark != "none":
-            marker = MARKERS[groups.index(slot[0]) % len(MARKERS)]
-            draw_point(axes, places[slot], value, row, mark, scale, marker)
+            x, y = zip(*line)
+            axes.vlines(x, 0, y, color="0.55", linewidth=0.7, zorder=2)
+    for row, value, mark in quantity.marked(column.values()):
+        group, _ = slot = slot_of(row)
+        draw_point(axes, places[slot], value, row, mark, scale,
+                   MARKERS[groups.index(group) % len(MARKERS)])
 
 
 def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict[Slot, Row],

@@ -65,7 +65,7 @@ def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
 def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale) -> Figure | str:
     if not rows:
         return "no methods to compare"
-    if all(quantity.of(row)[1] == "none" for row in rows):
+    if not quantity.marked(rows):
         return f"none of its {len(rows)} cases has a {quantity.name}"
     lines = lines_of(rows)
     looks = plain_looks({name: (line[0].family, line[0].preconditioner)
@@ -103,9 +103,8 @@ def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quant
 
 
 def fit(line: list[Row], quantity: Quantity) -> float | None:
-    done = [(row.n_phi, value) for row in line for value, mark in [quantity.of(row)]
-            if mark == "done"]
-    return exponent([n for n, _ in done], [value for _, value in done])
+    done = quantity.done(line)
+    return exponent([row.n_phi for row, _ in done], [value for _, value in done])
 
 
 def names_pt(rows: list[Row]) -> float:
@@ -118,9 +117,8 @@ def width_in(axes: Axes) -> float:
 
 
 def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
-    values = [value for row in rows for value, mark in [quantity.of(row)] if mark != "none"]
     log_log(axes, xlim=log_limits([row.n_phi for row in rows], 1.25),
-                  ylim=log_limits(values))
+            ylim=log_limits(value for _, value, _ in quantity.marked(rows)))
     axes.set_ylabel(quantity.axis)
     axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
     axes.set_xlabel(r"$n_\varphi$", fontsize=MATH, labelpad=2)
@@ -149,10 +147,7 @@ def side_by_side(axes: Axes, rows: list[Row], quantity: Quantity) -> dict[int, f
     to_pt = axes.transData + axes.transAxes.inverted()
     taken: list[np.ndarray] = []
     places = {}
-    for row in rows:
-        value, mark = quantity.of(row)
-        if mark == "none":
-            continue
+    for row, value, _ in quantity.marked(rows):
         x, y = to_pt.transform((row.n_phi, value or 1))
         point = np.array([x, EDGE_AT if value is None else y]) * size_pt
         tried = (point + [shift * BESIDE_PT, 0] for k in range(99) for shift in (k, -k))
