@@ -214,12 +214,11 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
     table.insert(0, "line", lines)
     for study, names in OF_STUDY.items():
         for k in table.index[table.study == study]:
-            missing = [name for name in names if header and name not in header]
-            if missing:
-                raise RecordsError(f"{path}:1: no column {missing[0]}; the {study} study of line "
-                                   f"{table.line[k]} needs it")
-            for name in NEVER_EMPTY:
-                if name in names and not table[name][k]:
+            for name in names:
+                if header and name not in header:
+                    raise RecordsError(f"{path}:1: no column {name}; the {study} study of line "
+                                       f"{table.line[k]} needs it")
+                if name in NEVER_EMPTY and not table[name][k]:
                     raise RecordsError(f"{place(k)}: {name} is '', expected a value in the study "
                                        f"'{study}'")
     for name in OF_COMPLETED:
