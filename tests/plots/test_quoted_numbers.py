@@ -8,7 +8,6 @@ from pathlib import Path
 import made_up  # finds plots
 
 import quoted_numbers
-import quoted_values
 from running import run
 
 PROJECT = Path(__file__).resolve().parents[2]
@@ -142,7 +141,7 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertIn("HYBRID takes 1.1 of\n", self.readme.read_text(encoding="utf-8"))
 
     def test_numbers_keep_their_form(self) -> None:
-        even, up = quoted_values.ROUNDING[None], quoted_values.ROUNDING["at most"]
+        even, up = quoted_numbers.ROUNDING[None], quoted_numbers.ROUNDING["at most"]
         for value, rounding, like, shown in (
                 (0.0905, even, "0.08", "0.09"), (0.2007, even, "0.31", "0.20"),
                 (9.96, even, "3", "10"), (12.3, even, "4", "12"), (2604.0, even, "2603", "2604"),
