@@ -42,8 +42,7 @@ def is_date(value: object) -> bool:
 
 
 def instance(kind: type, allowed: str) -> Kind:
-    return Kind(allowed, lambda value: isinstance(value, kind), empty=None,
-                may_be_empty=False)
+    return Kind(allowed, lambda value: isinstance(value, kind), empty=None, may_be_empty=False)
 
 
 DATE = Kind("a date in ISO 8601", is_date, may_be_empty=False)
@@ -69,16 +68,13 @@ def read_night(file: Path) -> Night:
         raise RecordsError(f"{file}: not a night; expected an object with format {FORMAT}")
     night = {"noise": {}, "verdicts": [], "times_judged": True} | night
 
-    def of_night(k: int) -> str:
-        return str(file)
+    def of(items: str = "") -> Callable[[int], str]:
+        return lambda k: f"{file}: {items}[{k}]" if items else str(file)
 
-    def of(items: str) -> Callable[[int], str]:
-        return lambda k: f"{file}: {items}[{k}]"
-
-    checked([night], NIGHT, NIGHT, of_night)
+    checked([night], NIGHT, NIGHT, of())
     context, noise = night["context"], night["noise"]
-    checked([context], dict.fromkeys(context, TEXT), context, of_night)
-    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of_night)
+    checked([context], dict.fromkeys(context, TEXT), context, of())
+    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of())
     verdicts = checked(night["verdicts"], VERDICT, VERDICT, of("verdicts"))
     cases = checked(night["cases"], KEYS, OF_A_CASE, of("cases"))
     return Night(night["date"], context, noise, cases, verdicts.to_dict("records"),

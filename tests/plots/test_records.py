@@ -30,7 +30,6 @@ class ReaderTest(FolderTest):
         made_up.write(self.csv, [case("Mesh0", "3STEPD"), row | {column: cell}])
         self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
 
-
     def test_both_files_give_the_same(self) -> None:
         rows = [case("Mesh0", "SDTIC3", done_fraction=0.25, knob_value=1e-12), case("Mesh1", "P2"),
                 made_up.error_study(["Mesh3"])[40]]
