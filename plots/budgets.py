@@ -4,26 +4,20 @@ Of a method's cases on a mesh, whatever its knob (tolerance, iterations; a direc
     e(t) = min { max(error_stress, error_force) : time_s <= t }.
 The best point is known only afterwards, from the verifier; a user would have to find it.
 """
-from __future__ import annotations
-
 import math
 from dataclasses import dataclass
 
-from figure_table import csv_of
-from figure_words import short
-from record_keys import POSITIVE, Row
-from selection import by_mesh, grouped, of_scene
-from study_parts import order, seconds
+from records import POSITIVE, Row
+from selection import by_mesh, grouped, of_scene, order
+from words import columns_of, csv_of, seconds, short
 
 STUDIES = ("error", "")  # ordinary cases in the folder are points too
-DECADES = 6  # at most, of budgets that nobody has named
+DECADES = 6  # at most, of budgets where a run has none
 COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_stress", "error_force")
 
 
 @dataclass(frozen=True)
 class Best:
-    """Of a method on a mesh within a time."""
-
     budget_s: float
     cases: list[Row]  # of the method, all: at least one
 
@@ -34,7 +28,6 @@ class Best:
 
 
 def is_point(row: Row) -> bool:
-    """Verified and timed."""
     return bool(row.time_s) and None not in (row.error_stress, row.error_force)
 
 
@@ -60,7 +53,6 @@ def budgets_of(cases: list[Row]) -> list[float]:
 
 
 def best_of(cases: list[Row]) -> list[Best]:
-    """By mesh, method, budget."""
     return [Best(budget, own) for of_mesh in by_mesh(cases).values()
             for own in grouped(sorted(of_mesh, key=order), lambda row: row.method).values()
             for budget in budgets_of(cases)]
@@ -68,11 +60,9 @@ def best_of(cases: list[Row]) -> list[Best]:
 
 def csv_table(cases: list[Row]) -> str:
     return csv_of(best_of(cases),
-                  *((name, lambda best, name=name: getattr(best.cases[0], name))
-                    for name in ("mesh", "n_phi", "scene", "method")),
+                  *columns_of(lambda best: best.cases[0], "mesh", "n_phi", "scene", "method"),
                   "budget_s", ("error", lambda best: best.row and error_of(best.row)),
-                  *((name, lambda best, name=name: best.row and getattr(best.row, name))
-                    for name in COLUMNS))
+                  *columns_of(lambda best: best.row, *COLUMNS))
 
 
 def setting(row: Row) -> str:

@@ -1,6 +1,4 @@
 """What a case is called wherever it is shown or filed, as bench/records/case_name.hpp has it."""
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from urllib.parse import unquote
@@ -22,7 +20,6 @@ def case_name(case: Mapping) -> str:
 
 
 def words_of_file(stem: str) -> str:
-    """'Mesh0+adapt1, default, SYMMLQ:DTIC3' of the stem of a case's files."""
     return ", ".join(unquote(part.replace("+", ":")) for part in stem.split("--"))
 
 

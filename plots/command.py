@@ -1,13 +1,12 @@
 """What the programs share: wrong input ends them with one line and exit status 2, and files are
 written whole."""
-from __future__ import annotations
-
 import argparse
 import os
 import sys
 import tempfile
 from collections.abc import Callable
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
 
 from records import RecordsError
@@ -38,20 +37,24 @@ def results_and_out(parser: argparse.ArgumentParser) -> None:
 
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
-    """All files or none: each is written beside its place, links followed; when all are on disk they
-    are moved. What is no regular file is not replaced."""
+    """All files or none: each is written next to its place, links followed; when all are on disk
+    they are moved. What is no regular file is not replaced."""
     places = {name: place_of(folder / name) for name in writers}
     with ExitStack() as temporaries:
-        beside = {parent: Path(temporaries.enter_context(
+        temporary = {parent: Path(temporaries.enter_context(
             tempfile.TemporaryDirectory(dir=parent, prefix=".new-")))
             for parent in {place.parent for place in places.values()}}
         for name, write in writers.items():
-            write(beside[places[name].parent] / name)
-            synchronise(beside[places[name].parent] / name)
+            write(temporary[places[name].parent] / name)
+            synchronise(temporary[places[name].parent] / name)
         for name, place in places.items():
-            os.replace(beside[place.parent] / name, place)
-        for parent in beside:
+            os.replace(temporary[place.parent] / name, place)
+        for parent in temporary:
             synchronise(parent)
+
+
+def text_writer(text: str) -> Callable[[Path], object]:
+    return partial(Path.write_text, data=text, encoding="utf-8")
 
 
 def place_of(path: Path) -> Path:

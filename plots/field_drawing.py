@@ -2,8 +2,6 @@
 
 A body lies as it is, x to the right and y up; a face has its outward normal down.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -16,8 +14,8 @@ from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
 from fields import Fields, chains, largest_shear
-from figure_files import SMALLEST_PT
-from figure_words import width_of
+from drawing import SMALLEST_PT
+from words import width_of
 
 COLORMAP = "viridis"
 # Okabe and Ito's colours; shape and lightness say the same in grey.
@@ -39,17 +37,15 @@ TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for 
 
 @dataclass(frozen=True)
 class Scales:
-    """Common to the panels of a picture."""
-
     shear: Normalize     # MPa
     pressure_MPa: float  # end of the axis
 
-    @staticmethod
-    def of(solutions: list[Fields]) -> Scales:
-        """Of the largest, and not of what singular corners have."""
-        shear = max(map(highest_shear, solutions))
-        pressure = max(map(highest_pressure, solutions))
-        return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
+
+def scales_of(solutions: list[Fields]) -> Scales:
+    """Of the largest, and not of what singular corners have."""
+    shear = max(map(highest_shear, solutions))
+    pressure = max(map(highest_pressure, solutions))
+    return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
 
 
 def areas(s: Fields) -> np.ndarray:
@@ -125,7 +121,6 @@ def draw_boundary(axes: Axes, s: Fields) -> None:
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
-    """The whole body; the axes keep their limits."""
     draw_stress(axes, s, np.full(len(s.corners), True), scales)
     draw_boundary(axes, s)
 
@@ -158,7 +153,6 @@ def halves(s: Fields) -> np.ndarray:
 
 
 def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
-    """Neighbours that are in the same state, along a face."""
     return [(state, list(run)) for state, run in
             groupby(range(states.size), states.ravel().__getitem__)]
 
@@ -191,6 +185,6 @@ def draw_traction(axes: Axes, s: Fields) -> None:
     axes.plot(s.edges[..., 1].T, traction[:, :, 1].T, **FRICTION)
     highest = traction[:, :, 0].max()
     if highest > max(axes.get_ylim()):
-        axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xycoords="axes fraction", xytext=(0, 3),
-                      textcoords="offset points", ha="center", fontsize=SMALLEST_PT,
+        axes.annotate(f"up to {float(f'{highest:.3g}'):g} MPa", (0.5, 0), xytext=(0, 3),
+                      xycoords="axes fraction", textcoords="offset points", ha="center", fontsize=SMALLEST_PT,
                       path_effects=[withStroke(linewidth=2, foreground="white")])

@@ -1,6 +1,4 @@
-"""Lays out one solution: the body, and below or beside it its contact faces, enlarged. In inches."""
-from __future__ import annotations
-
+"""Lays out one solution: the body, and below or next to it its contact faces, enlarged. In inches."""
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -11,11 +9,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
+from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
 from fields import Fields
-from figure_words import plain
 from unrolled import BY_LENGTH, unrolled
+from words import columns_of, csv_of, plain
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
 SCALE = 0.3  # of a body, below it
@@ -24,37 +23,35 @@ MARKERS = 0.2  # below a face, for its contact points
 MARKER_PT = 4.5  # at most
 MARGIN = 0.04  # around a body, of its extent in y
 BEHIND, BESIDE = 0.1, 0.03  # the body behind a face and the space at its ends, of its length
-TALL, HIGHEST = 1.4, 5.6  # height over width of a body with its faces beside it; its height
+TALL, HIGHEST = 1.4, 5.6  # height over width of a body with its faces next to it; its height
 LOW_TRACTION = 0.5  # of such a face
 
 AddAxes = Callable[..., Axes]  # left, top, width, height; limits
 
 
-@dataclass(frozen=True)
-class View:
-    """Limits of a body's axes, mm: left, right and bottom, top."""
-
-    across: tuple[float, float]
-    upward: tuple[float, float]
-
-    @property
-    def height(self) -> float:
-        """Over its width."""
-        return (self.upward[1] - self.upward[0]) / (self.across[1] - self.across[0])
-
-
-def view_of(s: Fields) -> View:
+def view_of(s: Fields) -> Bbox:
+    """Limits of a body's axes, mm."""
     low, high = s.boundary.min(axis=(0, 1)), s.boundary.max(axis=(0, 1))
     margin = MARGIN * (high - low)[1]
-    return View(*zip(low - margin, high + margin))
+    return Bbox([low - margin, high + margin])
+
+
+def slenderness(s: Fields) -> float:
+    return view_of(s).height / view_of(s).width
+
+
+def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
+    axes.tick_params(length=2)
+    axes.set_ylabel(y, labelpad=2)
+    axes.set_xlabel(x, labelpad=1)
+    axes.spines[:].set_visible(False)
 
 
 def body_height(s: Fields, width: float) -> float:
-    return (width - LEFT - RIGHT) * view_of(s).height
+    return (width - LEFT - RIGHT) * slenderness(s)
 
 
 def width_of(s: Fields, body: float) -> float:
-    """Of a panel whose body is so high."""
     return body / body_height(s, 1 + LEFT + RIGHT) + LEFT + RIGHT
 
 
@@ -72,8 +69,6 @@ class Place:
 
 @dataclass(frozen=True)
 class Layout:
-    """Of a panel."""
-
     body_width: float  # of the body's axes, which begin at LEFT and TITLE
     body_height: float
     faces: list[Place]
@@ -89,7 +84,7 @@ def faces_of(s: Fields) -> list[np.ndarray]:
 
 
 def is_tall(s: Fields) -> bool:
-    return view_of(s).height > TALL and len(s.edges) > 0
+    return slenderness(s) > TALL and len(s.edges) > 0
 
 
 def strip_of(width: float) -> float:
@@ -99,7 +94,7 @@ def strip_of(width: float) -> float:
 def layout_of(s: Fields, width: float) -> Layout:
     count = len(s.faces())
     if is_tall(s):
-        body = HIGHEST / view_of(s).height
+        body = HIGHEST / slenderness(s)
         left = LEFT + body + GAP + LEFT
         across = min(width - left - RIGHT, 4.5)
         step = strip_of(across) + LOW_TRACTION + LABELS
@@ -119,10 +114,6 @@ def layout_of(s: Fields, width: float) -> Layout:
                   below + rows * step if rows else TITLE + height + LABELS)
 
 
-def height_of(s: Fields, width: float) -> float:
-    return layout_of(s, width).height
-
-
 def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                scales: drawing.Scales) -> None:
     """left, top: of the panel, from the figure's lower left corner."""
@@ -133,13 +124,10 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                                **limits)
 
     view, layout = view_of(s), layout_of(s, width)
-    body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.across,
-                    ylim=view.upward)
-    body.tick_params(length=2)
-    body.set_ylabel("y in mm", labelpad=2)
-    body.set_xlabel("x in mm", labelpad=1)
+    body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.intervalx,
+                    ylim=view.intervaly)
+    label_body(body)
     body.tick_params(axis="x", pad=1)
-    body.spines[:].set_visible(False)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
                 (top - TITLE + 0.07) / size[1],
@@ -195,7 +183,6 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
 
 
 def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
-    """Along the figure's lower edge."""
     handles = [Line2D([], [], **style, label=role if role == "contact" else f"{role} prescribed")
                for role, style in drawing.ROLE.items()]
     handles[0].set_path_effects([drawing.TICKED])
@@ -210,3 +197,19 @@ def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
     bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
                           cax=figure.add_axes([0.62, 0.36 / height, 0.35, 0.12 / height]))
     bar.set_label(r"$\tau_{max}$ in MPa; brightest: or more", labelpad=1)
+
+
+def contact_points(solutions: list[Fields]) -> str:
+    """A line per contact point, by face in the pictures' order; along: the pictures' axis of the
+    face."""
+    lines = []
+    for s in solutions:
+        for k, face in enumerate(faces_of(s)):
+            for edge, along in zip(face, unrolled(s.edges[face]).along):
+                lines += [(s, letter_of(k), *point) for point in
+                          zip(s.edges[edge], map(float, along), s.traction[edge], s.state[edge])]
+    return csv_of(lines, *columns_of(lambda line: line[0], "mesh", "n_phi"),
+                  ("face", lambda line: line[1]), ("x_mm", lambda line: float(line[2][0])),
+                  ("y_mm", lambda line: float(line[2][1])), ("along_mm", lambda line: line[3]),
+                  ("pressure_MPa", lambda line: 0.0 - line[4][0]),
+                  ("friction_MPa", lambda line: float(line[4][1])), ("state", lambda line: line[5]))

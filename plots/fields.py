@@ -3,8 +3,6 @@
 Lengths in mm, stresses in MPa, forces in N (per mm of thickness).
 T triangles, B boundary edges, P = 2 x (contact edges) contact points.
 """
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -115,23 +113,6 @@ def recorded(results: Path) -> dict[str, dict]:
     return {file_of(case_name(case)): case for case in table.to_dict("records")}
 
 
-def cases_of(results: Path) -> dict[str, tuple[str, int]]:
-    """Name of a case's files -> mesh, n_phi."""
-    return {name: (case["mesh"], case["n_phi"]) for name, case in recorded(results).items()}
-
-
-def errors_of(results: Path) -> dict[str, float]:
-    """Name of a case's files -> its total error, where that is known."""
-    return {name: case["error_total"] for name, case in recorded(results).items()
-            if pd.notna(case.get("error_total"))}
-
-
-def error_names_in(results: Path) -> list[str]:
-    """Names of the solutions with an element map of the error, sorted."""
-    return sorted(path.name[: -len(".error.csv")]
-                  for path in (results / "fields").glob("*.error.csv"))
-
-
 def read_error_share(results: Path, s: Fields) -> np.ndarray:
     """(T,) share of each triangle in the squared discretisation error, all 0 where there is none;
     throws RecordsError."""
@@ -147,20 +128,20 @@ def read_error_share(results: Path, s: Fields) -> np.ndarray:
     return rows[:, 1]
 
 
-def names_in(results: Path) -> list[str]:
-    """Names of the solutions in results/fields, sorted."""
+def names_in(results: Path, part: str = "stress") -> list[str]:
+    """Names of the solutions in results/fields with this part, sorted."""
     folder = results / "fields"
     if not results.is_dir():
         raise RecordsError(f"{results}: no such folder; expected the --out of bench --fields")
-    names = sorted(path.name[: -len(".stress.csv")] for path in folder.glob("*.stress.csv"))
-    if not names:
+    names = sorted(path.name.removesuffix(f".{part}.csv") for path in folder.glob(f"*.{part}.csv"))
+    if not names and part == "stress":
         raise RecordsError(f"{folder}: no fields; expected NAME.stress.csv from bench --fields")
     return names
 
 
-def read_fields(results: Path, name: str, cases: dict[str, tuple[str, int]]) -> Fields:
+def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
     """One solution; throws RecordsError. The three files must describe the same body. Without a
-    case of that name the mesh is read from it."""
+    record of that name the mesh is read from it."""
     path = {part: results / "fields" / f"{name}.{part}.csv"
             for part in ("stress", "contact", "boundary")}
     rows, _ = read_table(path["stress"], STRESS)
@@ -183,8 +164,8 @@ def read_fields(results: Path, name: str, cases: dict[str, tuple[str, int]]) -> 
     if not np.array_equal(points[:, :2], contact.reshape(-1, 2)):
         raise RecordsError(f"{path['contact']}: {len(points)} points; expected start and end of "
                           f"each of the {len(contact)} contact edges of {path['boundary'].name}")
-    mesh, n_phi = cases.get(name, (name.partition("-")[0], None))
+    record = records.get(name, {"mesh": name.partition("-")[0], "n_phi": None})
     half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), mesh=mesh, n_phi=n_phi)
+                  state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"])

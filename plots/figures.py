@@ -3,9 +3,9 @@
 
     figures.py RESULTS_DIR [--out DIR] [--only GLOB,...]
 
-The figures are those that the modules *_figure.py beside this program plan: each has a function
+The figures are those that the modules figure/*.py plan: each has a function
 drawings(rows), which names them and says which rows they show (../results/README.md lists them).
-table1.md, the paper's Tab. 1 beside the run's sizes, comes with the meshes of the catalogue,
+table1.md, the paper's Tab. 1 next to the run's sizes, comes with the meshes of the catalogue,
 budget.csv and budget.md, the least error within a time, with an error study. measured.md says how
 the records were measured, in words for a paper. --only draws these of the figures and tables, by
 name or glob, and says nothing of the others.
@@ -14,12 +14,9 @@ Where there is room for one scene it is `default`, if that is there. A line on s
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
 line says which, and nothing is written.
 """
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from fnmatch import fnmatchcase
-from functools import partial
 from importlib import import_module
 from pathlib import Path
 
@@ -27,18 +24,18 @@ import matplotlib
 
 import budgets
 import command
-from figure_files import Drawing
-from figure_parts import STYLE
-from figure_words import merged
+from drawing import STYLE, Drawing
 from measured import paragraph
 from paper_sizes import table1
-from record_keys import Row
-from records import RecordsError, read_run, rows_of
+from records import RecordsError, Row, read_run, rows_of
+from selection import grouped
+from words import cases_by_reason
 
 
 def drawings_of(rows: list[Row]) -> list[Drawing]:
-    modules = sorted(path.stem for path in Path(__file__).parent.glob("*_figure.py"))
-    return [drawing for name in modules for drawing in import_module(name).drawings(rows)]
+    modules = sorted(path.stem for path in Path(__file__).parent.glob("figure/*.py"))
+    return [drawing for name in modules
+            for drawing in import_module(f"figure.{name}").drawings(rows)]
 
 
 def why_undrawn(row: Row, drawn: list[Row]) -> str:
@@ -51,17 +48,14 @@ def why_undrawn(row: Row, drawn: list[Row]) -> str:
 
 
 def listed(rows: list[Row], drawn: list[Row]) -> str:
-    """The rows that are in no figure, by reason."""
-    lines, reasons = {row.line for row in drawn}, {}
-    for row in rows:
-        if row.line not in lines:
-            cases = reasons.setdefault(why_undrawn(row, drawn), {})
-            cases[f"{row.method} on {row.mesh}"] = None
-    return "; ".join(f"{merged(list(cases))} ({reason})" for reason, cases in reasons.items())
+    lines = {row.line for row in drawn}
+    reasons = grouped((row for row in rows if row.line not in lines),
+                      lambda row: why_undrawn(row, drawn))
+    return cases_by_reason({why: list(dict.fromkeys(f"{row.method} on {row.mesh}" for row in own))
+                            for why, own in reasons.items()})
 
 
 def selected(only: str | None, names: list[str]) -> list[str]:
-    """Those of the names that --only selects: all without it."""
     if only is None:
         return names
     globs = only.split(",")
@@ -72,14 +66,21 @@ def selected(only: str | None, names: list[str]) -> list[str]:
     return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
 
 
+def documents_of(rows: list[Row]) -> dict[str, dict[str, str]]:
+    """Name -> suffix -> text."""
+    sizes = table1([row for row in rows if not row.study])
+    cases = budgets.cases_of(rows)
+    found = {"table1": {".md": sizes}} if sizes else {}
+    if cases:
+        found["budget"] = {".csv": budgets.csv_table(cases), ".md": budgets.markdown(cases)}
+    return found | {"measured": {".md": paragraph(rows)}}
+
+
 def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
     report, drawn = [], []
     writers: dict[str, Callable[[Path], object]] = {}
-    drawings = drawings_of(rows)
-    sizes = table1([row for row in rows if not row.study])
-    cases = budgets.cases_of(rows)
-    names = selected(only, [*(drawing.name for drawing in drawings), *(["table1"] if sizes else []),
-                            *(["budget"] if cases else [])])
+    drawings, documents = drawings_of(rows), documents_of(rows)
+    names = selected(only, [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
     for drawing in drawings:
         if drawing.name not in names:
             continue
@@ -95,16 +96,11 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
                     for suffix in drawing.suffixes}
         report.append(f"{out / drawing.name}{', '.join(drawing.suffixes)}: "
                       f"{len(drawing.rows)} cases")
-    if "table1" in names:
-        writers["table1.md"] = lambda path: path.write_text(sizes, encoding="utf-8")
-        report.append(f"{out / 'table1.md'}")
-    if "budget" in names:
-        for name, table in (("budget.csv", budgets.csv_table), ("budget.md", budgets.markdown)):
-            writers[name] = partial(Path.write_text, data=table(cases), encoding="utf-8")
-        report.append(f"{out / 'budget'}.csv, .md")
-    writers["measured.md"] = lambda path: path.write_text(paragraph(rows), encoding="utf-8")
-    if only is None:
-        report.append(f"{out / 'measured.md'}")
+    for name, texts in documents.items():
+        if name in names or only is None:
+            report.append(f"{out / name}{', '.join(texts)}")
+        if name in names or name == "measured":
+            writers |= {name + suffix: command.text_writer(text) for suffix, text in texts.items()}
     out.mkdir(parents=True, exist_ok=True)
     command.replace_all(out, writers)
     undrawn = listed(rows, drawn) if only is None else ""

@@ -9,8 +9,6 @@ element map of its discretisation error (NAME.error.csv); adapted_meshes.png whe
 an adaptive loop have one. Beside each picture NAME.csv has its numbers. Exit 2: wrong input; one
 line says which, and nothing is written.
 """
-from __future__ import annotations
-
 import argparse
 from collections.abc import Callable
 from functools import partial
@@ -19,24 +17,21 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-import adapted_meshes
 import command
-import error_map
-import field_tables
+import error_pictures as errors
 from case_names import words_of_file
-from field_drawing import Scales
-from field_panel import draw_legend, draw_panel, height_of, is_tall, width_of
-from fields import (Fields, cases_of, error_names_in, errors_of, names_in, read_error_share,
-                    read_fields)
-from figure_files import PAGE_WIDTH, write_small_png
-from figure_words import plain
+from drawing import PAGE_WIDTH, write_small_png
+from field_drawing import scales_of
+from field_panel import contact_points, draw_legend, draw_panel, is_tall, layout_of, width_of
+from fields import Fields, names_in, read_error_share, read_fields, recorded
+from words import plain
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
          "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
 WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
-BODY = 5.0  # highest body in a picture of its own
+BODY = 5.0  # highest body in its own picture
 HEADING = (
     r"Largest shear stress in the plane, "
     r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
@@ -47,11 +42,11 @@ HEADING = (
 
 def compose(rows: list[list[Fields]]) -> Figure:
     """A figure of rows of panels, as wide as they fit; a single body at most BODY high."""
-    scales = Scales.of([s for row in rows for s in row])
+    scales = scales_of([s for row in rows for s in row])
     widths = [WIDTH / len(row) for row in rows]
     if len(rows) == len(rows[0]) == 1:
         widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
-    heights = [max(height_of(s, width) for s in row) for row, width in zip(rows, widths)]
+    heights = [max(layout_of(s, width).height for s in row) for row, width in zip(rows, widths)]
     figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
     heading = HEADING + plain(words_of_file(rows[0][0].name).partition(", ")[2])
@@ -73,17 +68,15 @@ def write(figure: Figure, path: Path) -> None:
         write_small_png(figure, DPI, path)
 
 
-def save(out: Path, name: str, table: str, writers: dict[str, Callable[[Path], object]]) -> None:
-    """A picture by its suffixes, and its numbers beside it."""
-    writers = {name + suffix: write for suffix, write in writers.items()}
-    command.replace_all(out, writers | {
-        f"{name}.csv": partial(Path.write_text, data=table, encoding="utf-8")})
-    print(*(out / file for file in writers), sep="\n")
+def save(out: Path, name: str, table: str, **writers: Callable[[Path], object]) -> None:
+    files = {f"{name}.{suffix}": write for suffix, write in writers.items()}
+    command.replace_all(out, files | {f"{name}.csv": command.text_writer(table)})
+    print(*(out / file for file in files), sep="\n")
 
 
-def save_composed(out: Path, name: str, rows: list[list[Fields]], suffixes: tuple[str, ...]) -> None:
-    save(out, name, field_tables.contact_points([s for row in rows for s in row]),
-         dict.fromkeys(suffixes, partial(write, compose(rows))))
+def save_composed(out: Path, name: str, rows: list[list[Fields]], *suffixes: str) -> None:
+    save(out, name, contact_points([s for row in rows for s in row]),
+         **dict.fromkeys(suffixes, partial(write, compose(rows))))
 
 
 def choose(names: list[str]) -> list[str] | None:
@@ -104,31 +97,31 @@ def draw(args: argparse.Namespace) -> None:
     out = args.out or args.results / "figures"
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
-    names, cases = names_in(args.results), cases_of(args.results)
+    names, records = names_in(args.results), recorded(args.results)
     chosen = choose(names)
     wanted = names if args.each or not chosen else chosen
-    solutions = {name: read_fields(args.results, name, cases) for name in wanted}
-    mapped = {name: solutions.get(name) or read_fields(args.results, name, cases)
-              for name in error_names_in(args.results)}
+    solutions = {name: read_fields(args.results, name, records) for name in wanted}
+    mapped = {name: solutions.get(name) or read_fields(args.results, name, records)
+              for name in names_in(args.results, "error")}
     maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
     out.mkdir(parents=True, exist_ok=True)
     if chosen:
         *teeth, rack = (solutions[name] for name in chosen)
-        save_composed(out, "gallery", [teeth, [rack]], (".png", ".svg"))
+        save_composed(out, "gallery", [teeth, [rack]], "png", "svg")
     if args.each or not chosen:
         for name, s in solutions.items():
-            save_composed(out, f"fields_{name}", [[s]], (".png",))
-    levels = adapted_meshes.chosen(list(maps))
+            save_composed(out, f"fields_{name}", [[s]], "png")
+    levels = errors.levels_in(list(maps))
     if levels and all(maps[name][1].any() for name in levels):
-        shown = [(*maps[name], errors_of(args.results).get(name)) for name in levels]
-        save(out, "adapted_meshes", field_tables.adapted_levels(shown), {".png": partial(
-            write_small_png, adapted_meshes.draw(shown), adapted_meshes.DPI)})
+        shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in levels]
+        save(out, "adapted_meshes", errors.levels_table(shown),
+             png=partial(write_small_png, errors.draw_levels(shown), errors.LEVELS_DPI))
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
-        save(out, f"error_map_{name}", field_tables.error_shares(s, share), {".png": partial(
-            write_small_png, error_map.draw(s, share), error_map.DPI, colours=200)})
+        save(out, f"error_map_{name}", errors.map_table(s, share),
+             png=partial(write_small_png, errors.draw_map(s, share), errors.MAP_DPI, colours=200))
 
 
 def main() -> None:

@@ -3,25 +3,27 @@
 Every sentence is made from what the records say themselves, and is true of records of several
 machines, programs and settings: what is not the same of all is listed with the number of its cases.
 """
-from __future__ import annotations
-
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
 from itertools import chain
 
 import numpy as np
 
-from figure_words import span, targets
 from profiles import solved
-from record_keys import NOT_NEGATIVE, Row
-from study_parts import percent
+from records import NOT_NEGATIVE, Row
+from words import counted, percent, span, targets
 
 UNKNOWN = "unknown"  # bench writes it for what the machine does not tell
+UNTOLD = {"cpu": "an unknown processor", "cpus": "?", "kernel": "of unknown version",
+          "cpu_governor": "not known", "compiler": "an unknown compiler", "blas": "BLAS not known"}
+CHANGED = defaultdict(lambda: ", changes to it not known", yes=", with changes that are in no revision",
+                      no="")
+LIBRARIES = {"blas": "{}", "blas_core": "BLAS kernels {}", "cholmod": "CHOLMOD {}",
+             "mumps": "MUMPS {}", "eigen": "Eigen {}"}
+MACHINE = "{cpu}, {cpus} processors, Linux {kernel}, frequency governor {cpu_governor}"
+PROGRAM = ("airybench {airybench_version}, git revision {revision}{changed}, compiled by {compiler} "
+           "with `{compiler_flags}`")
 FEWEST_FOR_INTERVAL = 6
-
-
-def counted(count: int, noun: str) -> str:
-    return f"{count} {noun}{'' if count == 1 else 's'}"
 
 
 def listed(values: Iterable[str]) -> str:
@@ -31,46 +33,33 @@ def listed(values: Iterable[str]) -> str:
                      for value, count in found)
 
 
-def word(row: Row, key: str) -> str:
-    told = (row.context or {}).get(key, "").strip()
-    return "" if told == UNKNOWN else told
+class Context(dict):
+    """What a record tells of where and with what it was made."""
+
+    def __missing__(self, key: str) -> str:
+        return UNTOLD.get(key, "")
 
 
-def machine(row: Row) -> str:
-    if not row.context:
-        return "a machine that the record does not name"
-    governor = word(row, "cpu_governor")
-    return (f"{word(row, 'cpu') or 'an unknown processor'}, {word(row, 'cpus') or '?'} processors, "
-            f"Linux {word(row, 'kernel') or 'of unknown version'}, frequency governor "
-            f"{governor or 'not known'}")
+def context_of(row: Row) -> Context:
+    told = Context((key, value.strip()) for key, value in (row.context or {}).items()
+                   if value.strip() not in ("", UNKNOWN))
+    told["revision"] = told["git_revision"][:12] or "not known"
+    told["changed"] = CHANGED[told["git_dirty"]]
+    libraries = (words.format(told[key]) for key, words in LIBRARIES.items() if told[key])
+    told["libraries"] = ", ".join(libraries)
+    return told
 
 
-def program(row: Row) -> str:
-    if not row.context:
-        return "a program that the record does not name"
-    changed = {"yes": ", with changes that are in no revision", "no": ""}
-    return (f"airybench {word(row, 'airybench_version')}, git revision "
-            f"{word(row, 'git_revision')[:12] or 'not known'}"
-            f"{changed.get(word(row, 'git_dirty'), ', changes to it not known')}, compiled by "
-            f"{word(row, 'compiler') or 'an unknown compiler'} with "
-            f"`{word(row, 'compiler_flags')}`")
-
-
-def libraries(row: Row) -> str:
-    if not row.context:
-        return "libraries that the record does not name"
-    names = (("blas_core", "BLAS kernels {}"), ("cholmod", "CHOLMOD {}"), ("mumps", "MUMPS {}"),
-             ("eigen", "Eigen {}"))
-    return ", ".join([word(row, "blas") or "BLAS not known"]
-                     + [words.format(word(row, key)) for key, words in names if word(row, key)])
+def told_by(rows: list[Row], what: str, words: str) -> str:
+    return listed(words.format_map(context_of(row)) if row.context
+                  else f"{what} that the record does not name" for row in rows)
 
 
 def cases(rows: list[Row]) -> Iterator[str]:
-    sizes = (counted(len({value(row) for row in rows}), noun) for noun, value in (
-        ("method", lambda row: row.general_name), ("scene", lambda row: row.scene)))
-    meshes = len({row.mesh for row in rows})
-    yield (f"The records have {counted(len(rows), 'case')}: {next(sizes)}, {meshes} "
-           f"mesh{'' if meshes == 1 else 'es'}, {next(sizes)}.")
+    methods, meshes, scenes = (len({getattr(row, key) for row in rows})
+                               for key in ("general_name", "mesh", "scene"))
+    yield (f"The records have {counted(len(rows), 'case')}: {counted(methods, 'method')}, "
+           f"{counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}.")
     good = sum(map(solved, rows))
     others = Counter(row.outcome or row.status for row in rows if not solved(row))
     yield (f"{good} of them ended ok and verified" + ("; the others ended " + ", ".join(
@@ -79,21 +68,20 @@ def cases(rows: list[Row]) -> Iterator[str]:
 
 
 def machines_and_programs(rows: list[Row]) -> Iterator[str]:
-    days = sorted({word(row, "date")[:10] for row in rows} - {""})
+    days = sorted({context_of(row)["date"][:10] for row in rows} - {""})
     when = f", {' to '.join(dict.fromkeys((days[0], days[-1])))}" if days else ""
-    yield f"They were run on {listed(map(machine, rows))}{when}."
-    yield f"The program was {listed(map(program, rows))}."
-    revisions = {word(row, "git_revision") for row in rows} - {""}
+    yield f"They were run on {told_by(rows, 'a machine', MACHINE)}{when}."
+    yield f"The program was {told_by(rows, 'a program', PROGRAM)}."
+    revisions = {context_of(row)["git_revision"] for row in rows} - {""}
     if len(revisions) > 1:
         yield (f"The records are of {len(revisions)} revisions of the program: cases of different "
                "revisions should be compared with care.")
-    yield f"Libraries: {listed(map(libraries, rows))}."
+    yield f"Libraries: {told_by(rows, 'libraries', '{libraries}')}."
     yield ("BLAS, OpenMP and a method's own right-hand sides had "
            f"{listed(counted(row.threads, 'thread') for row in rows)}.")
 
 
 def search(rows: list[Row]) -> Iterator[str]:
-    """For parameters and tolerances."""
     for budget in sorted({row.tuning_budget_s for row in rows if row.tuning_budget_s}):
         own = [row for row in rows if row.tuning_budget_s == budget]
         of = "all cases" if len(own) == len(rows) else counted(len(own), "case")
@@ -125,7 +113,7 @@ def times(rows: list[Row]) -> Iterator[str]:
     yield from intervals(again)
     yield ("Each case ran in a process of its own; errors, memory and times were taken in separate "
            "runs of it" + (" (of long solves, and in studies of stability, in one)" if once else "") + ".")
-    turns = Counter(word(row, "interleaved") for row in again)
+    turns = Counter(context_of(row)["interleaved"] for row in again)
     if turns["yes"]:
         yield (f"The repetitions of {'all' if len(turns) == 1 else turns['yes']} cases came in random "
                "turn with those of the same scene's others.")
@@ -163,7 +151,7 @@ def noise(rows: list[Row]) -> Iterator[str]:
         yield (f"A case beside which that loop was slower or scattered by more than {percent(share)} was "
                f"measured again, up to three times: {again} of {len(own)} were, and "
                f"{sum(row.noisy for row in own)} never had a quiet attempt.")
-    told = (NOT_NEGATIVE.of_text(word(row, "load_1min_at_start")) for row in rows)
+    told = (NOT_NEGATIVE.of_text(context_of(row)["load_1min_at_start"]) for row in rows)
     loads = list(filter(NOT_NEGATIVE.accepts, told))
     if loads:
         yield ("The machine's load in the minute before a run began was "
@@ -222,6 +210,5 @@ PARTS: tuple[Callable[[list[Row]], Iterator[str]], ...] = (
 
 
 def paragraph(rows: list[Row]) -> str:
-    """Markdown."""
     return ("# How this was measured\n\n" + " ".join(chain.from_iterable(part(rows) for part in PARTS))
             + "\n")

@@ -1,6 +1,4 @@
 """Reads a history, a folder with nights/*.json as `bench track` writes them, and checks it."""
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 from datetime import datetime, timezone
@@ -8,8 +6,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from record_keys import FINITE, FLAG, KEYS, NAME, TEXT, Kind, is_text, words
-from records import RecordsError, checked, json_of, text_of
+from records import (FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError, checked, is_text, json_of,
+                     one_of, text_of)
 
 FORMAT = "airybench-night-1"
 OF_A_CASE = ("mesh", "scene", "method", "status")  # what the page does not do without
@@ -44,12 +42,12 @@ def is_date(value: object) -> bool:
 
 
 def instance(kind: type, allowed: str) -> Kind:
-    return Kind(allowed, lambda value: isinstance(value, kind), empty=None)
+    return Kind(allowed, lambda value: isinstance(value, kind), empty=None, may_be_empty=False)
 
 
-DATE = Kind("a date in ISO 8601", is_date)
-VERDICT = {"case": NAME, "lane": words(("counters", "errors", "times", "status")),
-           "quantity": NAME, "kind": words(("worse", "better", "changed")), "since": DATE,
+DATE = Kind("a date in ISO 8601", is_date, may_be_empty=False)
+VERDICT = {"case": NAME, "lane": one_of(("counters", "errors", "times", "status"), False),
+           "quantity": NAME, "kind": one_of(("worse", "better", "changed"), False), "since": DATE,
            "sentence": TEXT}
 NIGHT = {"date": DATE, "context": instance(dict, "an object of texts"),
          "noise": instance(dict, "an object"), "cases": instance(list, "a list"),
@@ -70,16 +68,13 @@ def read_night(file: Path) -> Night:
         raise RecordsError(f"{file}: not a night; expected an object with format {FORMAT}")
     night = {"noise": {}, "verdicts": [], "times_judged": True} | night
 
-    def of_night(k: int) -> str:
-        return str(file)
+    def of(items: str = "") -> Callable[[int], str]:
+        return lambda k: f"{file}: {items}[{k}]" if items else str(file)
 
-    def of(items: str) -> Callable[[int], str]:
-        return lambda k: f"{file}: {items}[{k}]"
-
-    checked([night], NIGHT, NIGHT, of_night)
+    checked([night], NIGHT, NIGHT, of())
     context, noise = night["context"], night["noise"]
-    checked([context], dict.fromkeys(context, TEXT), context, of_night)
-    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of_night)
+    checked([context], dict.fromkeys(context, TEXT), context, of())
+    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of())
     verdicts = checked(night["verdicts"], VERDICT, VERDICT, of("verdicts"))
     cases = checked(night["cases"], KEYS, OF_A_CASE, of("cases"))
     return Night(night["date"], context, noise, cases, verdicts.to_dict("records"),

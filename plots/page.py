@@ -9,8 +9,6 @@ RESULTS  folder of one run: its records.jsonl is listed instead of the last nigh
 
 The page fetches nothing. Exit 2: wrong input; one line says which, and nothing is written.
 """
-from __future__ import annotations
-
 import argparse
 import base64
 import hashlib
@@ -24,7 +22,7 @@ from page_data import page_data
 from records import RecordsError, lines_file, read
 
 PARTS = Path(__file__).resolve().parent / "page"
-SCRIPTS = ("format.js", "state.js", "chart.js", "panel.js", "table.js", "page.js")
+SCRIPTS = ("format.js", "chart.js", "table.js", "page.js")
 
 
 def main() -> None:
@@ -39,8 +37,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 
 def make(args: argparse.Namespace) -> None:
     text = page(args.history, args.results)
-    command.replace_all(args.out.parent, {
-        args.out.name: lambda path: path.write_text(text, encoding="utf-8")})
+    command.replace_all(args.out.parent, {args.out.name: command.text_writer(text)})
     print(args.out)
 
 

@@ -1,14 +1,11 @@
 """What the page shows, from the nights of a history: series, marks, the last run, its context."""
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pandas as pd
 
 from case_names import case_name
 from night_history import Night, moment
-from record_keys import FIELDS
-from records import with_derived
+from records import FIELDS, with_derived
 
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
 QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
@@ -30,8 +27,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
     run = cases[cases.night == len(nights) - 1] if records is None else named(records)
     bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
     return {
-        "nights": [{"date": night.date, "revision": night.revision, "failed": night.failed}
-                   for night in nights],
+        "nights": [{"date": night.date, "revision": night.revision} for night in nights],
         "noise": {key: [night.noise.get(key) for night in nights] for key in ("median_s", "mad_s")},
         "bodies": bodies,
         "cases": sorted(series(cases, len(nights)), key=lambda case: (
@@ -56,7 +52,6 @@ def head_of(key: str) -> str:
 
 
 def named(cases: pd.DataFrame) -> pd.DataFrame:
-    """With the name of each case, and what follows from the others."""
     cases = with_derived(cases)
     return cases.assign(name=[case_name(case) for case in cases.to_dict("records")])
 

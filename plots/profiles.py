@@ -6,14 +6,12 @@ Methods s = 1..S on cases p = 1..P with costs c_ps, infinite where s does not so
 ρ depends on all methods compared: with more than two, the order of those that are not the best can
 change when one is left out (Gould & Scott, ACM Trans. Math. Softw. 43, 2016, 15). d does not.
 """
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from record_keys import Row
+from records import Row
 from selection import compared, grouped
 
 ROOM = 12  # methods
@@ -26,8 +24,6 @@ Case = tuple[str, str, str, float | None]  # mesh, scene, stop, target error
 
 @dataclass(frozen=True)
 class Cases:
-    """A record of every method for every case."""
-
     methods: list[str]
     cases: list[Case]
     rows: dict[tuple[Case, str], Row]
@@ -40,7 +36,7 @@ class Cases:
                           for method in self.methods] for case in self.cases], float)
 
     def resampled(self) -> np.ndarray:
-        """(RESAMPLES, P, S) medians of samples_s, drawn anew with replacement; where there are no two
+        """(RESAMPLES, P, S) medians of samples_s, drawn with replacement; where there are no two
         of them, time_s."""
         random = np.random.default_rng(SEED)
         times = np.tile(self.costs(lambda row: row.time_s), (RESAMPLES, 1, 1))

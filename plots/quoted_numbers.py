@@ -19,26 +19,28 @@ are given. Several cases need `least` or `greatest`. `at most` rounds up, `at le
 to nearest, to as many significant digits as are written.
 
 A line `EXPRESSION is NUMBER`, `is below NUMBER` or `is above NUMBER` is a condition for words
-beside the numbers, such as "less than": the phrase has no {} for it.
+next to the numbers, such as "less than": the phrase has no {} for it.
 
 Tables stand between <!-- table FOLDER: MESHES / METHODS --> and <!-- end of table -->.
 """
-from __future__ import annotations
-
 import argparse
 import re
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from decimal import Decimal
-from functools import partial
+from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+from fnmatch import fnmatchcase
+from functools import cache
+from itertools import chain
 from pathlib import Path
 
+import pandas as pd
+
 from case_names import case_name
-from command import replace_all
-from quoted_values import QuoteError, Runs, chosen, value_of
-from record_keys import Row
-from records import RecordsError, rows_of
+from command import replace_all, text_writer
+from records import KEYS, RecordsError, Row, read, rows_of
+from selection import grouped
+from selection import value_of as value_of_row
 
 PROJECT = Path(__file__).resolve().parent.parent
 WORDS = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
@@ -46,6 +48,81 @@ NUMBER = r"\d{1,3}(?: \d{3})+|\d+(?:\.\d+)?(?:e[+-]?\d+)?|" + "|".join(rf"\b{w}\
 CONDITION = re.compile(r"(?P<expression>.+) is (?P<relation>below |above |)(?P<number>\S+)")
 TABLE = re.compile(r"(?P<head><!-- table (?P<folder>[\w/-]+): (?P<mesh>\S+) / (?P<method>\S+) -->\n)"
                    r"(?P<body>.*?)(?P<end><!-- end of table -->)", re.DOTALL)
+UNITS = {None: 1, "%": 0.01, "ms": 1e-3, "min": 60, "h": 3600, "days": 86400, "MiB": 2**20,
+         "GiB": 2**30}
+ROUNDING = {"at most": ROUND_CEILING, "at least": ROUND_FLOOR, None: ROUND_HALF_EVEN}
+EXPRESSION = re.compile(
+    r"(?P<folder>[\w/-]+): (?:(?P<bound>at most|at least) )?(?:(?P<which>least|greatest) )?"
+    r"(?P<quantity>[\w+*/().-]+) of (?P<mesh>[^\s/]+)/(?P<method>\S+?)"
+    r"(?: per (?:(?P<divisor>[\w+*/().-]+) of )?(?P<per>\S+?))?"
+    r"(?P<filters>(?:, \w+=\S*?)*)(?: in (?P<unit>\S+))?")
+
+
+class QuoteError(Exception):
+    """A quotation or an expression with which nothing can be done: place and reason."""
+
+
+@dataclass(eq=False)
+class Runs:
+    """The committed runs, each read once."""
+
+    results: Path
+
+    @cache
+    def of(self, folder: str) -> pd.DataFrame:
+        return read(self.results / folder / "results.csv")
+
+
+def chosen(cases: pd.DataFrame, **wanted: str) -> pd.DataFrame:
+    """Key = pattern, or patterns between |."""
+    for key, patterns in wanted.items():
+        def fits(value: object) -> bool:
+            text = "" if value is None else str(value)
+            return any(fnmatchcase(text, pattern) for pattern in patterns.split("|"))
+        cases = cases[cases[key].map(fits).astype(bool)]
+    return cases
+
+
+def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
+    """NaN where one of its keys is empty."""
+    keys = sorted(set(re.findall(r"[a-z]\w*", quantity)))
+    return cases[keys].astype(float).eval(quantity, engine="python")
+
+
+@cache
+def value_of(expression: str, runs: Runs) -> tuple[float, str]:
+    """What the records give, and how it is rounded."""
+    match = EXPRESSION.fullmatch(expression)
+    if not match:
+        raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "
+                         "[least|greatest] QUANTITY of MESH/METHOD [per [QUANTITY of] "
+                         "METHODS] [, KEY=VALUE] [in UNIT]")
+    if match["unit"] not in UNITS:
+        raise QuoteError(f"'{expression}': unit '{match['unit']}', expected one of "
+                         f"{', '.join(filter(None, UNITS))}")
+    filters = {"stop": "target", "knob": ""}
+    filters |= dict(pair.split("=", 1) for pair in match["filters"].split(", ")[1:])
+    run = runs.of(match["folder"])
+    names = re.findall(r"[a-z]\w*", f"{match['quantity']} {match['divisor'] or ''}")
+    for name in {*filters, *names} - {"count"}:
+        if name not in KEYS:
+            raise QuoteError(f"'{expression}': no column {name}")
+    cases = chosen(run, mesh=match["mesh"], method=match["method"], **filters)
+    if match["quantity"] == "count":
+        return float(len(cases)), ROUNDING[None]
+    cases = cases.assign(value=quantity_of(cases, match["quantity"]))
+    if match["per"]:
+        others = chosen(run, method=match["per"], **filters)
+        divisor = quantity_of(others, match["divisor"] or match["quantity"])
+        others = others.assign(divisor=divisor.where(divisor != 0))
+        cases = cases[["mesh", "scene", "value"]].merge(others[["mesh", "scene", "divisor"]])
+        cases["value"] /= cases.divisor
+    values = cases.value.dropna()
+    if values.empty or (match["which"] is None and len(values) > 1):
+        raise QuoteError(f"'{expression}': {len(values) or 'no'} values, expected "
+                         f"{'one' if match['which'] is None else 'some'}")
+    value = values.max() if match["which"] == "greatest" else values.min()
+    return float(value) / UNITS[match["unit"]], ROUNDING[match["bound"]]
 
 
 @dataclass(frozen=True)
@@ -60,14 +137,12 @@ class Quote:
 @dataclass(frozen=True)
 class Difference:
     file: str
-    start: int  # where what is written begins and ends in the file
-    end: int
     line: int
     written: str
     records: str
     source: str
-    replacement: str  # of what stands between start and end
-    words: bool = False  # the numbers are right, the words beside them are not: for an author
+    span: tuple[int, int]     # of the file
+    replacement: str | None   # None: the numbers are right, the words are not: for an author
 
     def sentence(self) -> str:
         return (f"{self.file}:{self.line}: '{self.written}', but the records give "
@@ -104,27 +179,23 @@ def shown(value: float, rounding: str, like: str) -> str:
     return f"{rounded:,f}".replace(",", " ") if " " in like else f"{rounded:f}"
 
 
-def quotes_in(path: Path) -> Iterator[Quote]:
-    file, quote = "", None
+def quotes_in(path: Path) -> list[Quote]:
+    file, quote, quotes = "", None, []
     for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
         place = f"{path}:{number}"
         if not line.strip() or line.startswith("#"):
             continue
-        if line.startswith(" "):
-            if quote is None:
-                raise QuoteError(f"{place}: what the records must give without a phrase above it")
+        if line.startswith("[") and line.endswith("]"):
+            file, quote = line[1:-1], None
+        elif not line.startswith(" "):
+            quote = Quote(place, file, line, [], [])
+            quotes.append(quote)
+        elif quote is None:
+            raise QuoteError(f"{place}: what the records must give without a phrase above it")
+        else:
             lines = quote.conditions if CONDITION.fullmatch(line) else quote.expressions
             lines.append(line.strip())
-            continue
-        if quote:
-            yield quote
-            quote = None
-        if line.startswith("[") and line.endswith("]"):
-            file = line[1:-1]
-        else:
-            quote = Quote(place, file, line, [], [])
-    if quote:
-        yield quote
+    return quotes
 
 
 def found(quote: Quote, text: str) -> re.Match:
@@ -141,10 +212,9 @@ def found(quote: Quote, text: str) -> re.Match:
     return places[0]
 
 
-def holds(condition: re.Match, value: float) -> bool:
-    number = float(condition["number"])
-    return {"below ": value < number, "above ": value > number, "": value == number}[
-        condition["relation"]]
+def holds(relation: str, value: float, number: float) -> bool:
+    return value < number if relation == "below " else value > number if relation == "above " \
+        else value == number
 
 
 def differences_of(quote: Quote, text: str, runs: Runs) -> Iterator[Difference]:
@@ -157,19 +227,19 @@ def differences_of(quote: Quote, text: str, runs: Runs) -> Iterator[Difference]:
             raise QuoteError(f"{quote.place}: {error}")
 
     def difference(group: int, right: str, source: str) -> Difference:
-        start, end = match.span(group)
-        return Difference(quote.file, start, end, text.count("\n", 0, start) + 1,
-                          " ".join(match[group].split()), right, source, right, words=group == 0)
+        return Difference(quote.file, text.count("\n", 0, match.start(group)) + 1,
+                          " ".join(match[group].split()), right, source, match.span(group),
+                          right if group else None)
 
     for group, expression in enumerate(quote.expressions, 1):
         right = shown(*value(expression), match[group])
         if match[group] != right:
             yield difference(group, right, expression)
     for line in quote.conditions:
-        condition = CONDITION.fullmatch(line)
-        number = value(condition["expression"])[0]
-        if not holds(condition, number):
-            yield difference(0, f"{number:.6g}", line)
+        expression, relation, number = CONDITION.fullmatch(line).groups()
+        right = value(expression)[0]
+        if not holds(relation, right, float(number)):
+            yield difference(0, f"{right:.6g}", line)
 
 
 def seconds(value: float) -> str:
@@ -179,19 +249,22 @@ def seconds(value: float) -> str:
     return f"{value:.3g} s"
 
 
-def table(rows: list[Row]) -> str:
-    """As `bench` prints it (support/text_table.cpp), a line of dots between meshes."""
+HEADS = ("case", "n_phi", "time", "±", "unchecked", "heap", "error stress", "error force", "status")
+
+
+def cells_of(row: Row) -> tuple[str, ...]:
     def number(value: float | None, show: str) -> str:
         return "-" if value is None else format(value, show)
-    cells = [["case", "n_phi", "time", "±", "unchecked", "heap", "error stress", "error force",
-              "status"]]
-    for row in rows:
-        heap = None if row.peak_heap_bytes is None else row.peak_heap_bytes / 2**20
-        cells.append([case_name(vars(row)), str(row.n_phi), seconds(row.time_s),
-                      "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
-                      seconds(row.time_s - (row.stage_check_s or 0)),
-                      number(heap, ".1f") + " MiB", number(row.error_stress, ".1e"),
-                      number(row.error_force, ".1e"), row.status])
+    return (case_name(vars(row)), str(row.n_phi), seconds(row.time_s),
+            "n=1" if row.repetitions == 1 else seconds(row.time_mad_s or 0),
+            seconds(row.time_s - (row.stage_check_s or 0)),
+            number(value_of_row(row, "peak_heap_bytes"), ".1f") + " MiB",
+            number(row.error_stress, ".1e"), number(row.error_force, ".1e"), row.status)
+
+
+def table(rows: list[Row]) -> str:
+    """As `bench` prints it (support/text_table.cpp), a line of dots between meshes."""
+    cells = [HEADS, *map(cells_of, rows)]
     widths = [max(map(len, column)) for column in zip(*cells)]
     lines = []
     for i, line in enumerate(cells):
@@ -219,25 +292,19 @@ def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
             # The first line that differs tells more than the whole table.
             i = next((i for i, pair in enumerate(zip(before, after)) if pair[0] != pair[1]),
                      min(len(before), len(after)))
-            start, end = match.span("body")
-            yield Difference(file, start, end, text.count("\n", 0, start) + 1 + i,
+            yield Difference(file, text.count("\n", 0, match.start("body")) + 1 + i,
                              "".join(before[i:i + 1]), "".join(after[i:i + 1]),
-                             match["head"].strip(), right)
+                             match["head"].strip(), match.span("body"), right)
 
 
 def differences(project: Path) -> dict[str, list[Difference]]:
     """By file, in the order of the text."""
     runs = Runs(project / "results")
-    by_file: dict[str, list[Difference]] = {}
-    quotes = list(quotes_in(project / "docs" / "numbers.txt"))
-    texts = {quote.file: (project / quote.file).read_text(encoding="utf-8") for quote in quotes}
-    for file, text in texts.items():
-        of_file = list(differing_tables(file, text, runs))
-        for quote in quotes:
-            if quote.file == file:
-                of_file += differences_of(quote, text, runs)
-        by_file[file] = sorted(of_file, key=lambda d: d.start)
-    return by_file
+    quotes = grouped(quotes_in(project / "docs" / "numbers.txt"), lambda quote: quote.file)
+    texts = {file: (project / file).read_text(encoding="utf-8") for file in quotes}
+    return {file: sorted(chain(differing_tables(file, text, runs), *(
+        differences_of(quote, text, runs) for quote in quotes[file])), key=lambda d: d.span)
+        for file, text in texts.items()}
 
 
 def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
@@ -245,10 +312,10 @@ def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
         path = project / file
         text = path.read_text(encoding="utf-8")
         for difference in reversed(of_file):
-            if not difference.words:
-                text = text[:difference.start] + difference.replacement + text[difference.end:]
-        replace_all(path.parent, {path.name: partial(Path.write_text, data=text,
-                                                     encoding="utf-8")})
+            if difference.replacement is not None:
+                start, end = difference.span
+                text = text[:start] + difference.replacement + text[end:]
+        replace_all(path.parent, {path.name: text_writer(text)})
 
 
 def main() -> None:
@@ -257,7 +324,7 @@ def main() -> None:
     what.add_argument("--check", action="store_true",
                       help="list the numbers that the records do not give; exit status 1 if any")
     what.add_argument("--write", action="store_true",
-                      help="rewrite them; exit status 1 if words beside them no longer hold")
+                      help="rewrite them; exit status 1 if words next to them no longer hold")
     parser.add_argument("--project", type=Path, default=PROJECT, help="default: this one")
     arguments = parser.parse_args()
     try:
@@ -267,11 +334,10 @@ def main() -> None:
     except (QuoteError, RecordsError, OSError) as error:
         print(f"quoted_numbers: {error}", file=sys.stderr)
         sys.exit(2)
-    for of_file in by_file.values():
-        for difference in of_file:
-            print(difference.sentence())
-    if any(difference.words or arguments.check
-           for of_file in by_file.values() for difference in of_file):
+    every = list(chain.from_iterable(by_file.values()))
+    for difference in every:
+        print(difference.sentence())
+    if any(difference.replacement is None or arguments.check for difference in every):
         sys.exit(1)
 
 

@@ -1,39 +1,169 @@
-"""The one reader of records: results.csv, records.jsonl, and what a history is made of.
+"""Records: their keys, and the one reader of results.csv and records.jsonl.
 
-What does not fit its key (record_keys.py) is refused in one line: file, line, key, value, and what
-is allowed.
+What does not fit its key is refused in one line: file, line, key, value, and what is allowed.
 """
-from __future__ import annotations
-
 import csv
 import gzip
 import io
 import json
+import sys
 import zlib
 from collections.abc import Callable, Collection
-from dataclasses import fields
+from dataclasses import dataclass, make_dataclass
 from pathlib import Path
 
 import pandas as pd
 
-from bodies import with_bodies
-from looks import with_looks
-from record_keys import COMPLETED, KEYS, NEEDED, Kind, Row
+from catalogue import Look, with_bodies, with_looks
 
-IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob",
-            "knob_value"]  # of a case
-OF_STUDY = {  # what the rows of a study need beside
+STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
+            "out_of_memory", "crashed", "machine_fault", "skipped")
+COMPLETED = STATUSES[:3]
+OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
+STOPS = ("target", "paper")
+CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
+STUDIES = ("error", "stability", "contact", "adapted", "load-steps", "scaling")
+# As in memory_by_owner, from what every method has to what few have.
+OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
+          "iteration", "answer", "check", "other")
+
+
+class RecordsError(Exception):
+    """Names file, line, key and value, and what is allowed."""
+
+
+@dataclass(frozen=True)
+class Kind:
+    allowed: str                            # in words
+    accepts: Callable[[object], bool]       # of a value that is there
+    of_text: Callable[[str], object] = str  # the value of a cell; the cell itself: it is none
+    empty: object = ""                      # stands for a value that is not there
+    may_be_empty: bool = True
+
+    @property
+    def words(self) -> str:
+        return self.allowed + ", or empty" * self.may_be_empty
+
+
+def is_number(value: object) -> bool:
+    """Finite, and not too large for a floating-point number."""
+    return (isinstance(value, (int, float)) and not isinstance(value, bool)
+            and abs(value) <= sys.float_info.max)
+
+
+def is_text(value: object) -> bool:
+    return isinstance(value, str)
+
+
+def is_split(value: object) -> bool:
+    """Owner -> peak_bytes, and counted_bytes or null."""
+    return isinstance(value, dict) and all(
+        owner in OWNERS and isinstance(own, dict) and isinstance(own.get("peak_bytes"), int)
+        and (own.get("counted_bytes") is None or isinstance(own["counted_bytes"], int))
+        for owner, own in value.items())
+
+
+def to_number(cell: str) -> float | str:
+    try:
+        return float(cell)
+    except ValueError:
+        return cell
+
+
+def number(allowed: str, accepts: Callable[[float], bool]) -> Kind:
+    return Kind(allowed, lambda value: is_number(value) and accepts(value), to_number, None)
+
+
+def one_of(allowed: tuple[str, ...], may_be_empty: bool = True) -> Kind:
+    return Kind("one of " + ", ".join(allowed), allowed.__contains__, may_be_empty=may_be_empty)
+
+
+TEXT = Kind("a text", is_text)
+NAME = Kind("a name", lambda value: is_text(value) and bool(value.strip()), may_be_empty=False)
+FLAG = Kind("true or false", lambda value: isinstance(value, bool),
+            lambda cell: {"true": True, "false": False}.get(cell, cell), False, False)
+COUNT = Kind("a whole number, 0 or more",
+             lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0,
+             lambda cell: int(cell) if cell.isascii() and cell.isdigit() else cell, None, False)
+POSITIVE = number("a number above 0", lambda x: x > 0)
+NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)
+FINITE = number("a number", lambda x: True)
+SHARE = number("a number from 0 to 1", lambda x: 0 <= x <= 1)
+TIMES = Kind("a list of numbers above 0", lambda value: isinstance(value, list) and all(
+    is_number(time) and time > 0 for time in value), empty=None)
+SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, empty=None)
+WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
+    map(is_text, value.values())), empty=None)
+
+# The fields of a record as bench lists them (bench/records/record_fields.def); what each is, is in
+# results/README.md.
+FIELDS: list[dict] = json.loads(
+    Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))
+# Those that are shown or quoted are numbers ...
+NUMBERS = [f["name"] for f in FIELDS if not isinstance(f["empty"], list)
+           and (f["label"] or (f["unit"] and (f["nightly"] or f["column"])))]
+# ... unless figures need to know more.
+KINDS = (
+    (NAME, "mesh scene method general_name family"),
+    (TEXT, "preconditioner program status_reason parameters scene_group knob"),
+    (FLAG, "iterative in_paper in_displacements precision_reached noisy tuning_cut "
+           "memory_counts_differ"),
+    (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level"),
+    (POSITIVE, "area_mm2 width_mm height_mm time_s noise_kernel_s busy_kernel_s peak_heap_bytes "
+               "peak_rss_bytes extrapolated_time_s target_error adapt_time_s"),
+    (NOT_NEGATIVE, "contact_length_mm time_mad_s time_once_s time_per_load_s assembly_s "
+                   "stage_contact_s stage_check_s noise_share tuning_s tuning_budget_s "
+                   "memory_count_ratio contact_iterations newton_steps linear_iterations "
+                   "uzawa_iterations error_stress error_force error_estimate reference_error "
+                   "error_discretisation error_total condition_estimate knob_value"),
+    (SHARE, "precision retry_noisy done_fraction"),
+    (TIMES, "samples_s noise_kernel_samples_s"),  # in records.jsonl only
+    (SPLIT, "memory_by_owner"),
+    (WORDS, "context"),
+    (one_of(STOPS, may_be_empty=False), "stop"),
+    (one_of(STATUSES, may_be_empty=False), "status"),
+    (one_of(CONTACT_SOLVERS), "contact_solver"),
+    (one_of(STUDIES), "study"),
+    (one_of(OUTCOMES), "outcome"),
+    (one_of(STATUSES), "claimed_status"))
+OF_NAME = {name: kind for kind, names in KINDS for name in names.split()}
+KEYS: dict[str, Kind] = OF_NAME | {name: FINITE for name in NUMBERS if name not in OF_NAME}
+# Figures do without none of these.
+NEEDED = ("mesh", "scene", "method", "general_name", "family", "preconditioner", "iterative",
+          "in_paper", "in_displacements", "stop", "status", "status_reason", "n_phi", "n_f", "n_c",
+          "threads", "repetitions", "time_s", "tuning_s", "peak_heap_bytes", "done_fraction",
+          "extrapolated_time_s", "error_force")
+IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
+OF_STUDY = {  # what the rows of a study also need
     "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
               "error_total"),
     "contact": ("outcome", "contact_solver"),
     "stability": ("outcome", "scene_group", "error_stress"),
 }
-NEVER_EMPTY = ("outcome", "scene_group")       # in a study that needs them
+NEVER_EMPTY = ("outcome", "scene_group")  # in a study that needs them
 OF_COMPLETED = ("time_s", "n_phi", "repetitions")
 
 
-class RecordsError(Exception):
-    """Names file, line, key and value, and what is allowed."""
+class Case:
+    @property
+    def completed(self) -> bool:
+        return self.status in COMPLETED
+
+    def status_words(self) -> str:
+        """'timeout, 12 % done'."""
+        text = self.status.replace("_", " ")
+        if self.done_fraction is None:
+            return text
+        percent = 100 * self.done_fraction
+        return f"{text}, {percent:.0f}\u00a0% done" if percent >= 1 else \
+            f"{text}, {percent:.1g}\u00a0% done"
+
+
+# One case. None, or no text: an empty cell, or a key that its record does not have. `line` of its
+# file, `body` that its mesh divides and `look` of its family are not of the record.
+Row = make_dataclass("Row", [("line", int, 0), *((name, object, kind.empty) for name, kind in
+                                                 KEYS.items()),
+                             ("body", str, ""), ("look", Look, Look())], bases=(Case,), frozen=True)
 
 
 def shown(value: object) -> str:
@@ -84,12 +214,11 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
     table.insert(0, "line", lines)
     for study, names in OF_STUDY.items():
         for k in table.index[table.study == study]:
-            missing = [name for name in names if header and name not in header]
-            if missing:
-                raise RecordsError(f"{path}:1: no column {missing[0]}; the {study} study of line "
-                                   f"{table.line[k]} needs it")
-            for name in NEVER_EMPTY:
-                if name in names and not table[name][k]:
+            for name in names:
+                if header and name not in header:
+                    raise RecordsError(f"{path}:1: no column {name}; the {study} study of line "
+                                       f"{table.line[k]} needs it")
+                if name in NEVER_EMPTY and not table[name][k]:
                     raise RecordsError(f"{place(k)}: {name} is '', expected a value in the study "
                                        f"'{study}'")
     for name in OF_COMPLETED:
@@ -113,7 +242,6 @@ def with_derived(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]]:
-    """Rows as texts, and the header."""
     lines = cells_of(path)
     header = lines[0] if lines else []
     for name in KEYS:
@@ -139,7 +267,6 @@ def cells_of(path: Path) -> list[list[str]]:
 
 
 def read_lines(path: Path) -> list[object]:
-    """A JSON value per line."""
     text = text_of(path)
     lines = text.removesuffix("\n").split("\n") if text else []  # U+2028 ends none
     return [json_of(words, f"{path}:{line}") for line, words in enumerate(lines, 1)]
@@ -173,8 +300,7 @@ def json_of(text: str, place: str) -> object:
 
 
 def rows_of(table: pd.DataFrame) -> list[Row]:
-    own = [field.name for field in fields(Row)]
-    return [Row(**values) for values in table[own].to_dict("records")]
+    return [Row(**values) for values in table.to_dict("records")]
 
 
 def lines_file(folder: Path) -> Path | None:

@@ -1,18 +1,17 @@
 """Which cases belong in a figure, by the columns of their records."""
-from __future__ import annotations
-
 import re
 from collections.abc import Callable, Hashable, Iterable
 from typing import TypeVar
 
-from record_keys import Row
+import numpy as np
+
+from records import Row
 
 Item, Key = TypeVar("Item"), TypeVar("Key", bound=Hashable)
 GIVEN = re.compile(r"\br=([^,:]+),rho=([^,:]+)")  # parameters of an augmented Lagrangian method
 
 
 def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list[Item]]:
-    """In the order in which the keys come."""
     groups: dict[Key, list[Item]] = {}
     for item in items:
         groups.setdefault(key(item), []).append(item)
@@ -20,7 +19,6 @@ def grouped(items: Iterable[Item], key: Callable[[Item], Key]) -> dict[Key, list
 
 
 def by_mesh(rows: list[Row]) -> dict[str, list[Row]]:
-    """By size."""
     return grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
 
 
@@ -41,16 +39,17 @@ def scene_of(rows: list[Row]) -> str:
 
 
 def of_scene(rows: list[Row]) -> list[Row]:
-    return [row for row in rows if row.scene == scene_of(rows)] if rows else []
+    scene = scene_of(rows) if rows else ""
+    return [row for row in rows if row.scene == scene]
 
 
 def tier(row: Row) -> int:
-    """The paper's method; one with a name of its own; a variant of another; a preconditioner's."""
+    """The paper's method; one with its own name; a variant of another; a preconditioner's."""
     return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2
 
 
 def compared(rows: list[Row], room: int) -> list[Row]:
-    """Of the paper's methods and those with names of their own; of variants, and then of
+    """Of the paper's methods and those with their own names; of variants, and then of
     preconditioners, if the methods are then at most `room`. A method under two names, an alias
     and the general one, is there once for each mesh, scene and stop: by its alias."""
     tiers: dict[str, int] = {}
@@ -62,17 +61,12 @@ def compared(rows: list[Row], room: int) -> list[Row]:
         if level > 1 and len(shown | more) > room:
             break
         shown |= more
-    return once([row for row in rows if row.general_name in shown], by_alias=True)
-
-
-def once(rows: list[Row], by_alias: bool) -> list[Row]:
-    """Each method for each mesh, scene and stop."""
-    chosen: dict[tuple[str, ...], Row] = {}
+    once: dict[tuple[str, ...], Row] = {}
     for row in rows:
         case = (row.general_name, row.mesh, row.scene, row.stop)
-        if case not in chosen or (row.method != row.general_name) == by_alias:
-            chosen[case] = row
-    return list(chosen.values())
+        if row.general_name in shown and (case not in once or row.method != row.general_name):
+            once[case] = row
+    return list(once.values())
 
 
 def given(row: Row) -> tuple[float, float] | None:
@@ -98,3 +92,41 @@ def front(rows: list[Row], cost: Callable[[Row], float | None], error: Callable[
         if not found or error(row) < (1 - gain) * error(found[-1]):
             found.append(row)
     return found
+
+
+def sharing_axes(rows: list[Row]) -> list[list[Row]]:
+    """Bodies whose sizes do not overlap share axes over n_phi: the rows of each axes."""
+    shared: list[list[Row]] = []
+    for own in by_body(rows).values():
+        low, high = min(row.n_phi for row in own), max(row.n_phi for row in own)
+        group = next((group for group in shared if all(
+            max(row.n_phi for row in other) < low or min(row.n_phi for row in other) > high
+            for other in by_body(group).values())), None)
+        if group is None:
+            shared.append(own)
+        else:
+            group += own
+    return shared
+
+
+def order(row: Row) -> tuple[int, str]:
+    return row.look.rank, row.method
+
+
+def by_method(rows: list[Row], x: str) -> dict[str, list[Row]]:
+    """In the order of families, each by the value of this key."""
+    return grouped(sorted(rows, key=lambda row: (order(row), getattr(row, x))),
+                   lambda row: row.method)
+
+
+def value_of(row: Row, key: str) -> float | None:
+    """As figures show it: peak_heap_bytes in MiB."""
+    value = getattr(row, key)
+    return value / 2**20 if value and key == "peak_heap_bytes" else value
+
+
+def exponent(n_phi: list[int], values: list[float], least: int = 3) -> float | None:
+    """p of the power law value ~ n_phi^p by least squares of logarithms; needs `least` points."""
+    if len(values) < least or len(set(n_phi)) < 2:
+        return None
+    return float(np.polyfit(np.log(n_phi), np.log(values), 1)[0])

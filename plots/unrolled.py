@@ -1,6 +1,4 @@
 """Contact faces laid out straight: positions by their distance from a face and their place along it."""
-from __future__ import annotations
-
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -1,11 +1,9 @@
 #!/usr/bin/python3
-"""Draws our answers beside those from outside, from tests/data/validation/profiles.csv.
+"""Draws our answers next to those from outside, from tests/data/validation/profiles.csv.
 
     validation_profiles.py [--out FILE]     default: docs/images/validation.png
     validation_profiles.py --table          prints the tables of docs/validation.md
 """
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
@@ -15,7 +13,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from figure_files import COLOURS, DPI, PAGE_WIDTH, write_small_png
+from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"
@@ -44,7 +42,6 @@ def number(table: pd.DataFrame, case: str, quantity: str, refined: int | None = 
 
 
 def hertz(force: float) -> tuple[float, float]:
-    """Half width and largest pressure."""
     a = np.sqrt(4 * force * RADIUS / (np.pi * MODULUS))
     return a, 2 * force / (np.pi * a)
 

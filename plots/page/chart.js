@@ -1,39 +1,35 @@
-// The drawing of one small chart: a quantity of a case over the nights.
+// One case in a box: its name, its last value, its chart over the nights, and what the pointer
+// tells. A chart is drawn from {key, series, nights, marks}; series: name, status, values, and low
+// and high where there is an interval, a list over the nights each.
 
-const BOX = {
-  width: 340,
-  height: 158,
-  left: 58,
-  right: 10,
-  top: 14,
-  bottom: 24
-};
+const BOX = {width: 340, height: 158, left: 58, right: 330, top: 14, bottom: 134};
 const FEW = 60;  // nights; with more of them points and ticks run into each other
+const REVISION_WIDTH = 52;
+// A triangle up, down, or a diamond: the kind of a change without its colour.
+const FLAGS = {
+  worse: "M-5 4L0 -5L5 4Z",
+  better: "M-5 -5L0 4L5 -5Z",
+  changed: "M-5 0L0 -5L5 0L0 5Z"
+};
+
+const fits = (key, value) => value !== null && (!isError(key) || value > 0);
 
 // Values to heights. Errors are on a logarithmic axis; other axes span a tenth of the values at
 // least, so that noise does not look like a change.
 function verticalAxis(key, values) {
-  const bottom = BOX.height - BOX.bottom, high = BOX.top;
-  const logarithmic = isError(key);
-  const drawable = values.filter((value) => value !== null && (!logarithmic || value > 0));
+  const logarithmic = isError(key), scale = logarithmic ? Math.log10 : (value) => value;
+  const drawable = values.filter((value) => fits(key, value)).map(scale);
   if (!drawable.length) return null;
-  const scale = logarithmic ? Math.log10 : (value) => value;
-  let [low, top] = [Math.min(...drawable.map(scale)), Math.max(...drawable.map(scale))];
+  let [low, top] = [Math.min(...drawable), Math.max(...drawable)];
   if (logarithmic) {
     [low, top] = [Math.floor(low - 0.05), Math.ceil(top + 0.05)];
   } else {
     const span = Math.max(top - low, 0.1 * Math.abs(top), Number.MIN_VALUE) || 1;
-    const middle = (low + top) / 2;
-    const floor = drawable.every((value) => value >= 0) ? 0 : -Infinity;
+    const floor = low >= 0 ? 0 : -Infinity, middle = (low + top) / 2;
     [low, top] = [Math.max(floor, middle - 0.62 * span), middle + 0.62 * span];
   }
-  const y = (value) => bottom - (bottom - high) * (scale(value) - low) / (top - low);
-  const inside = (value) => value !== null && (!logarithmic || value > 0);
-  return {
-    y: (value) => (inside(value) ? y(value) : bottom),
-    inside,
-    ticks: logarithmic ? decades(low, top) : roundTicks(low, top, unitOf(key))
-  };
+  const y = (value) => BOX.bottom - (BOX.bottom - BOX.top) * (scale(value) - low) / (top - low);
+  return {y, ticks: logarithmic ? decades(low, top) : roundTicks(low, top, unitOf(key))};
 }
 
 function decades(low, top) {
@@ -52,120 +48,170 @@ function roundTicks(low, top, unit) {
   return ticks;
 }
 
-const horizontal = (count) => (night) =>
-    (count < 2 ? (BOX.left + BOX.width - BOX.right) / 2 :
-                 BOX.left + 6 + (BOX.width - BOX.left - BOX.right - 12) * night / (count - 1));
-
-// The nights that are drawn without a break.
-function runs(values, inside) {
-  const pieces = [[]];
-  values.forEach((value, night) => {
-    if (inside(value))
-      pieces[pieces.length - 1].push(night);
-    else if (pieces[pieces.length - 1].length)
-      pieces.push([]);
-  });
-  return pieces.filter((piece) => piece.length);
-}
+const horizontal = (count) => (night) => count < 2 ?
+    (BOX.left + BOX.right) / 2 :
+    BOX.left + 6 + (BOX.right - BOX.left - 12) * night / (count - 1);
 
 const path = (corners) =>
     corners.map(([x, y], k) => `${k ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
 
-// A triangle up, down, or a diamond: the kind of a change without its colour.
-function flag(mark, x) {
-  const y = BOX.top - 6, shapes = {
-    worse: [[-5, 4], [0, -5], [5, 4]],
-    better: [[-5, -5], [0, 4], [5, -5]],
-    changed: [[-5, 0], [0, -5], [5, 0], [0, 5]]
-  };
-  return drawn("path", {
-    class: `flag ${mark.kind}`,
-    d: `${path(shapes[mark.kind].map(([dx, dy]) => [x + dx, y + dy]))}Z`
-  });
-}
+const vertical = (at, top, bottom, attributes) =>
+    drawn("line", {...attributes, x1: at, x2: at, y1: top, y2: bottom});
 
 // Revisions below: the first, the last, and where something changed, as far as there is room.
 function revisionLabels(nights, marks, x) {
-  const y = BOX.height - 7, last = nights.length - 1, wide = 52;
+  const last = nights.length - 1;
   const label = (night, anchor, kind) => drawn(
-      "text", {x: x(night), y, "text-anchor": anchor, class: kind},
+      "text", {x: x(night), y: BOX.height - 7, "text-anchor": anchor, class: kind},
       shortRevision(nights[night].revision));
   if (last === 0) return [label(0, "middle")];
-  const labels = [label(0, "start")], taken = [x(0) + wide];
-  const ordered = [...marks].sort((a, b) => a.night - b.night);
-  for (const mark of ordered) {
-    const at = x(mark.night);
-    if (at - wide / 2 < taken[taken.length - 1] || at + wide / 2 > x(last) - wide) continue;
+  const labels = [label(0, "start")];
+  let taken = x(0) + REVISION_WIDTH;
+  for (const mark of [...marks].sort((a, b) => a.night - b.night)) {
+    const left = x(mark.night) - REVISION_WIDTH / 2, right = left + REVISION_WIDTH;
+    if (left < taken || right > x(last) - REVISION_WIDTH) continue;
     labels.push(label(mark.night, "middle", mark.kind));
-    taken.push(at + wide / 2);
+    taken = right;
   }
   return [...labels, label(last, "end")];
 }
 
-function drawAxes(svg, key, axis, x, nights) {
-  const bottom = BOX.height - BOX.bottom, right = BOX.width - BOX.right;
-  for (const tick of axis ? axis.ticks : []) {
+function gridAndTicks(key, axis, x, nights) {
+  const lines = (axis ? axis.ticks : []).flatMap((tick) => {
     const y = axis.y(tick);
-    svg.append(
-        drawn("line", {class: "grid", x1: BOX.left, x2: right, y1: y, y2: y}),
-        drawn("text", {x: BOX.left - 6, y: y + 3.5, "text-anchor": "end"}, showShort(key, tick)));
-  }
-  if (nights.length > FEW) return;
-  nights.forEach((night, k) => {
-    if (k === 0 || night.revision !== nights[k - 1].revision)
-      svg.append(drawn("line", {class: "tick", x1: x(k), x2: x(k), y1: bottom, y2: bottom + 4}));
+    return [
+      drawn("line", {class: "grid", x1: BOX.left, x2: BOX.right, y1: y, y2: y}),
+      drawn("text", {x: BOX.left - 6, y: y + 3.5, "text-anchor": "end"}, showShort(key, tick))
+    ];
   });
+  const isNew = (night, k) => k === 0 || night.revision !== nights[k - 1].revision;
+  if (nights.length <= FEW)
+    nights.forEach((night, k) => {
+      if (isNew(night, k)) lines.push(vertical(x(k), BOX.bottom, BOX.bottom + 4, {class: "tick"}));
+    });
+  return lines;
 }
 
-// One stretch of nights without a gap: the band of the intervals, and the line.
-function drawCurve(svg, axis, x, nights, {values, low, high}) {
-  const bounded = nights.filter(
-      (k) => low && high && axis.inside(low[k]) && axis.inside(high[k]));
-  const upper = bounded.map((k) => [x(k), axis.y(high[k])]);
-  const lower = bounded.map((k) => [x(k), axis.y(low[k])]);
-  if (bounded.length > 1)
-    svg.append(drawn("path", {class: "band", d: `${path([...upper, ...lower.reverse()])}Z`}));
-  // "h0" makes a dot of a single night.
-  const line = path(nights.map((k) => [x(k), axis.y(values[k])])) + "h0";
-  svg.append(drawn("path", {class: "curve", d: line}));
-}
-
-function drawPoints(svg, axis, x, values) {
-  if (values.length > FEW) return;
-  const r = values.length > FEW / 2 ? 1.6 : 2.4;
+// The bands of the intervals and the lines, in stretches of nights without a gap, and the points.
+function curves(key, axis, x, {values, low, high}) {
+  const stretches = [[]], at = (k, list) => [x(k), axis.y(list[k])];
   values.forEach((value, k) => {
-    if (axis.inside(value))
-      svg.append(drawn("circle", {class: "point", cx: x(k), cy: axis.y(value), r}));
+    if (fits(key, value))
+      stretches[stretches.length - 1].push(k);
+    else if (stretches[stretches.length - 1].length)
+      stretches.push([]);
   });
+  const shapes = stretches.filter((nights) => nights.length).flatMap((nights) => {
+    const bounded = nights.filter((k) => low && high && fits(key, low[k]) && fits(key, high[k]));
+    const around = [
+      ...bounded.map((k) => at(k, high)), ...bounded.map((k) => at(k, low)).reverse()
+    ];
+    // "h0" makes a dot of a single night.
+    const line = drawn("path", {class: "curve", d: path(nights.map((k) => at(k, values))) + "h0"});
+    return bounded.length < 2 ? [line] :
+                                [drawn("path", {class: "band", d: `${path(around)}Z`}), line];
+  });
+  const r = values.length > FEW / 2 ? 1.6 : 2.4;
+  const points = values.length > FEW ? [] : stretches.flat().map(
+      (k) => drawn("circle", {class: "point", cx: x(k), cy: axis.y(values[k]), r}));
+  return [...shapes, ...points];
 }
 
-function drawMarks(svg, x, status, marks) {
-  const bottom = BOX.height - BOX.bottom;
-  status.forEach((word, k) => {
-    const cross = `M${x(k) - 3} ${bottom - 8}l6 6m0 -6l-6 6`;
-    if (word && word !== "ok" && word !== "skipped")
-      svg.append(drawn("path", {class: "failure", "data-night": k, d: cross}));
-  });
-  for (const mark of marks) {
+function failuresAndMarks(x, status, marks) {
+  const isFailure = (word) => word && word !== "ok" && word !== "skipped";
+  const failures = status.flatMap((word, k) => isFailure(word) ? [drawn("path", {
+    class: "failure",
+    "data-night": k,
+    d: `M${x(k) - 3} ${BOX.bottom - 8}l6 6m0 -6l-6 6`
+  })] : []);
+  return [...failures, ...marks.flatMap((mark) => {
     const at = x(mark.night);
-    const place = {"data-since": mark.since, "data-night": mark.night};
-    const line = {x1: at, x2: at, y1: BOX.top - 2, y2: bottom};
-    svg.append(drawn("line", {class: `mark ${mark.kind}`, ...place, ...line}), flag(mark, at));
-  }
+    return [
+      vertical(at, BOX.top - 2, BOX.bottom, {
+        class: `mark ${mark.kind}`,
+        "data-since": mark.since,
+        "data-night": mark.night
+      }),
+      drawn("path", {
+        class: `flag ${mark.kind}`,
+        d: FLAGS[mark.kind],
+        transform: `translate(${at} ${BOX.top - 6})`
+      })
+    ];
+  })];
 }
 
-// series: values, status, and low and high where there is an interval; a list over the nights each.
-function chart(key, series, nights, marks) {
-  const axis = verticalAxis(
-      key, [...series.values, ...(series.low || []), ...(series.high || [])]);
+// A line may break after : and , in a method's name.
+const breakable = (name) =>
+    name.split(/(?<=[:,])/).flatMap((piece, k) => (k ? [element("wbr"), piece] : [piece]));
+
+// data-* attributes say what the panel shows.
+function panel(title, where, key, series, nights, marks) {
+  const {values} = series, [last, before = null] = [...values].reverse();
+  const axis = verticalAxis(key, [...values, ...(series.low || []), ...(series.high || [])]);
   const x = horizontal(nights.length);
-  const svg = drawn("svg", {viewBox: `0 0 ${BOX.width} ${BOX.height}`, role: "img", tabindex: 0});
-  drawAxes(svg, key, axis, x, nights);
-  svg.append(...revisionLabels(nights, marks, x));
-  if (axis) {
-    for (const piece of runs(series.values, axis.inside)) drawCurve(svg, axis, x, piece, series);
-    drawPoints(svg, axis, x, series.values);
-  }
-  drawMarks(svg, x, series.status, marks);
-  return {svg, x, axis};
+  const label = `${title} ${where}: ${show(key, last)} in the last of ${nights.length} nights`;
+  const svg = drawn(
+      "svg",
+      {viewBox: `0 0 ${BOX.width} ${BOX.height}`, role: "img", tabindex: 0, "aria-label": label},
+      ...gridAndTicks(key, axis, x, nights), ...revisionLabels(nights, marks, x),
+      ...(axis ? curves(key, axis, x, series) : []), ...failuresAndMarks(x, series.status, marks));
+  followPointer(svg, nights.length, x, (k) => tipText(key, series, nights, marks, k),
+                (k) => axis && fits(key, values[k]) ?
+                    [drawn("circle", {class: "point", cx: x(k), cy: axis.y(values[k]), r: 4})] : []);
+  return element(
+      "article", {class: "panel", "data-case": series.name, "data-quantity": key},
+      element(
+          "header", {}, element("h3", {}, ...breakable(title)),
+          element("span", {class: "now"}, show(key, last)), element("span", {class: "where"}, where),
+          element(
+              "span", {class: "step", title: "against the night before"}, step(key, before, last))),
+      svg);
+}
+
+// Date and revision, value and interval, what is not ok, what changed: a line each.
+function tipText(key, {values, low, high, status}, nights, marks, k) {
+  const bounded = low && high && Number.isFinite(low[k]) && Number.isFinite(high[k]);
+  const interval = bounded ? `  (${show(key, low[k])} to ${show(key, high[k])})` : "";
+  return [
+    `${day(nights[k].date)}  ${shortRevision(nights[k].revision)}`, show(key, values[k]) + interval,
+    ...(status[k] && status[k] !== "ok" ? [status[k].replace(/_/g, " ")] : []),
+    ...marks.filter((mark) => mark.night === k)
+        .map((mark) => `${GLYPHS[mark.kind]} ${mark.sentence}`)
+  ].join("\n");
+}
+
+// A line and the value of the night nearest to the pointer; arrow keys step from night to night.
+function followPointer(svg, count, x, words, point) {
+  const tip = document.getElementById("tip");
+  let night = count - 1, shown = [];
+  const hide = () => {
+    shown.forEach((part) => part.remove());
+    tip.hidden = true;
+  };
+  const move = (k) => {
+    hide();
+    night = Math.max(0, Math.min(count - 1, k));
+    shown = [vertical(x(night), BOX.top, BOX.bottom, {class: "cursor"}), ...point(night)];
+    svg.append(...shown);
+    tip.textContent = words(night);
+    tip.hidden = false;
+    const box = svg.getBoundingClientRect(), at = box.left + box.width * x(night) / BOX.width;
+    tip.style.left = `${Math.max(4, Math.min(at + 10, innerWidth - tip.offsetWidth - 8))}px`;
+    tip.style.top = `${Math.max(4, box.top - tip.offsetHeight - 4)}px`;
+  };
+  svg.addEventListener("pointermove", (event) => {
+    const box = svg.getBoundingClientRect();
+    const at = (event.clientX - box.left) * BOX.width / box.width;
+    move(Math.round((at - x(0)) / (x(1) - x(0) || 1)));
+  });
+  svg.addEventListener("pointerleave", hide);
+  svg.addEventListener("blur", hide);
+  svg.addEventListener("keydown", (event) => {
+    const to = {ArrowLeft: night - 1, ArrowRight: night + 1, Home: 0, End: count - 1}[event.key];
+    if (event.key === "Escape") hide();
+    if (to === undefined) return;
+    event.preventDefault();
+    move(to);
+  });
 }

@@ -54,11 +54,8 @@ function step(key, before, after) {
 
 const day = (date) => date.slice(0, 10);
 const shortRevision = (revision) => revision.slice(0, 7);
-const GLYPHS = {
-  worse: "▲",
-  better: "▼",
-  changed: "◆"
-};
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+const GLYPHS = {worse: "▲", better: "▼", changed: "◆"};
 
 // An element with attributes and children; text stays text.
 function element(name, attributes = {}, ...children) {

@@ -1,10 +1,7 @@
 // The records of the last run: sorted by a column head, filtered by words.
 
-const isNumber = (rows, key) => rows.some((row) => typeof row[key] === "number");
-
 // Without a value always last, whichever way.
-function sorted(rows, sort) {
-  const key = sort.replace(/^-/, ""), sign = sort.startsWith("-") ? -1 : 1;
+function sorted(rows, key, sign) {
   if (!key) return rows;
   const names = new Intl.Collator("en", {numeric: true});
   return [...rows].sort((a, b) => {
@@ -15,11 +12,10 @@ function sorted(rows, sort) {
   });
 }
 
-function cell(row, column, numeric) {
-  const value = row[column.key];
-  if (column.key === "method") return element("th", {scope: "row"}, show(column.key, value));
-  if (column.key !== "status")
-    return element("td", {class: numeric && "number"}, show(column.key, value));
+function cell(row, {key, numeric}) {
+  const value = row[key];
+  if (key === "method") return element("th", {scope: "row"}, show(key, value));
+  if (key !== "status") return element("td", {class: numeric && "number"}, show(key, value));
   const reason = row.status_reason && value !== "ok" ?
       element("span", {class: "reason"}, row.status_reason) :
       null;
@@ -28,11 +24,13 @@ function cell(row, column, numeric) {
 }
 
 // sortBy: called with the new order when a head is used.
-function fillTable(data, state, sortBy) {
-  const {columns, rows} = data, matches = matcher(state.filter);
-  const shown = sorted(rows.filter((row) => matches(`${wordsOf(row)} ${row.status}`)), state.sort);
-  const key = state.sort.replace(/^-/, ""), descending = state.sort.startsWith("-");
-  const heads = columns.map((column) => {
+function fillTable({columns, rows}, sort, sortBy) {
+  const key = sort.replace(/^-/, ""), descending = sort.startsWith("-");
+  const shown =
+      sorted(rows.filter((row) => isShown(row, row.status)), key, descending ? -1 : 1);
+  const own = columns.map(
+      (column) => ({...column, numeric: rows.some((row) => typeof row[column.key] === "number")}));
+  const heads = own.map((column) => {
     const here = column.key === key;
     const arrow = here ? (descending ? " ↓" : " ↑") : "";
     const button = element("button", {type: "button"}, column.name, arrow);
@@ -42,16 +40,13 @@ function fillTable(data, state, sortBy) {
         "th", {
           scope: "col",
           "data-key": column.key,
-          class: isNumber(rows, column.key) && "number",
+          class: column.numeric && "number",
           "aria-sort": here && (descending ? "descending" : "ascending")
         },
         button);
   });
-  const numeric =
-      Object.fromEntries(columns.map((column) => [column.key, isNumber(rows, column.key)]));
-  const lines = shown.map(
-      (row) =>
-          element("tr", {}, ...columns.map((column) => cell(row, column, numeric[column.key]))));
+  const lines =
+      shown.map((row) => element("tr", {}, ...own.map((column) => cell(row, column))));
   const focused = document.activeElement && document.activeElement.closest("th[data-key]");
   const table = document.getElementById("table");
   table.replaceChildren(

@@ -1,6 +1,4 @@
 """Pages as headless Chromium has them when their scripts have run."""
-from __future__ import annotations
-
 import json
 import os
 import re

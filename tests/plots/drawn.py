@@ -1,13 +1,16 @@
 """What is in a figure."""
-from __future__ import annotations
-
 from contextlib import AbstractContextManager
-from unittest import mock
+from itertools import combinations
+from unittest import TestCase, mock
 
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
+
+import running  # finds plots
+
+from drawing import SMALLEST_PT
 
 
 def without_minor_ticks() -> AbstractContextManager:
@@ -36,3 +39,17 @@ def paint(figure: Figure) -> tuple[list[Text], object]:
     with mock.patch.object(Text, "draw", keep):
         canvas.draw()
     return painted, canvas.get_renderer()
+
+
+def assert_readable(test: TestCase, figure: Figure, painted: list[Text], renderer: object,
+                    overlap: float = 1) -> None:
+    """Words are large enough, on the sheet and apart, but for so many pixels; those at an angle are
+    passed over."""
+    boxes = [(words, words.get_window_extent(renderer)) for words in painted
+             if words.get_rotation() in (0, 90)]
+    for words, box in boxes:
+        test.assertGreaterEqual(words.get_fontsize(), SMALLEST_PT, words)
+        test.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
+                        and box.y1 <= figure.bbox.y1, words)
+    for (words, box), (other, other_box) in combinations(boxes, 2):
+        test.assertFalse(box.padded(-overlap).overlaps(other_box), f"{words} {other}")

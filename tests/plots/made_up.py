@@ -2,17 +2,17 @@
 both studies, with the shapes that the figures have to cope with."""
 import csv
 import json
-import sys
+import tempfile
 from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
+import running  # finds plots
 
-import record_keys  # noqa: E402
-from paper_sizes import SIZES, Sizes  # noqa: E402
+import records
+from catalogue import SIZES, Sizes
 
-COLUMNS = [key for key in record_keys.KEYS if not key.startswith("memory_")]
+COLUMNS = [key for key in records.KEYS if not key.startswith("memory_")]
 SEVEN = {"SDTIC3": "SYMMLQ:DTIC3", "3STEPCG3": "3STEPCG:DTIC3", "SDTIC6": "SYMMLQ:DTIC6",
          "3STEPCG6": "3STEPCG:DTIC6", "SSKY": "SYMMLQ:SKY", "3STEPD": "3STEPD", "ALM": "ALM"}
 IN_PAPER = (*SEVEN, "BLIND")
@@ -61,7 +61,7 @@ def case(mesh: str, method: str, **cells: object) -> dict[str, object]:
 
 
 def split(mesh: str, method: str, **owners: tuple[float, float | None]) -> dict[str, object]:
-    """A line of records.jsonl; owners: MiB at the peak and counted, beside 2 of the blocks."""
+    """A line of records.jsonl; owners: MiB at the peak and counted, next to 2 of the blocks."""
     by_owner = {owner: {"peak_bytes": int(peak * 2**20), "held_bytes": int(peak * 2**20),
                         "counted_bytes": None if counted is None else int(counted * 2**20)}
                 for owner, (peak, counted) in ({"blocks": (2, 2)} | owners).items()}
@@ -76,7 +76,7 @@ def record(row: dict[str, object]) -> dict[str, object]:
 
 
 def discretisation(mesh: str) -> float:
-    """Relative; first order in h from 20 %, the rack starting anew."""
+    """Relative; first order in h from 20 %, the rack from 20 % again."""
     size = of_mesh(mesh)["n_phi"]
     first = {"Mesh": "Mesh4" if size > 8000 else "Mesh0"}.get(mesh[:-1], mesh[:-1] + "1")
     return 0.2 * (size / of_mesh(first)["n_phi"]) ** -0.45
@@ -168,3 +168,17 @@ def write_lines(path: Path, records: list[dict[str, object]]) -> None:
     """records.jsonl."""
     lines = "".join(json.dumps(record) + "\n" for record in records)
     path.write_text(lines, encoding="utf-8")
+
+
+def read(rows: list[dict[str, object]], columns: list[str] = COLUMNS) -> list[records.Row]:
+    """As figures get them from a results.csv of these."""
+    with tempfile.TemporaryDirectory() as folder:
+        write(Path(folder) / "results.csv", rows, columns)
+        return records.rows_of(records.read_run(Path(folder)))
+
+
+def read_lines(lines: list[dict[str, object]]) -> list[records.Row]:
+    """As figures get them from a records.jsonl of these."""
+    with tempfile.TemporaryDirectory() as folder:
+        write_lines(Path(folder) / "records.jsonl", lines)
+        return records.rows_of(records.read_run(Path(folder)))

@@ -1,17 +1,11 @@
 """The least error within a time, of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import shutil
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import budgets  # noqa: E402
-import records  # noqa: E402
+import budgets
+import records
 
 # Seconds and errors of the points of a method's knob; the last of ALM is slower and worse.
 POINTS = {"ALM": ((0.02, 1e-2), (0.09, 1e-4), (0.4, 1e-7), (0.8, 1e-6)), "3STEPD": ((0.3, 1e-12),)}
@@ -26,10 +20,7 @@ def lines(context: dict | None = None) -> list[dict]:
 
 class BudgetsTest(unittest.TestCase):
     def cases(self, cases: list[dict]) -> list[records.Row]:
-        folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, folder)
-        made_up.write_lines(folder / "records.jsonl", cases)
-        return budgets.cases_of(records.rows_of(records.read_run(folder)))
+        return budgets.cases_of(made_up.read_lines(cases))
 
     def errors(self, cases: list[records.Row]) -> dict[tuple[str, float], str]:
         return {(line["method"], float(line["budget_s"])): line["error"]
@@ -66,7 +57,3 @@ class BudgetsTest(unittest.TestCase):
             ("3STEPD", 0.1): "", ("3STEPD", 1.0): "", ("ALM", 0.1): "0.0001", ("ALM", 1.0): "1e-06"})
         joined = self.cases(lines() + [made_up.record(made_up.case("Mesh0", "BLIND"))])
         self.assertEqual({row.method for row in joined}, {*POINTS, "BLIND"})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,27 +1,23 @@
 """How the pictures of the fields lie, and what they say of contact.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import sys
 import unittest
 from dataclasses import replace
 from itertools import combinations
-from pathlib import Path
 
 import matplotlib
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import drawn
+import running  # finds plots
 
-import drawn  # noqa: E402
-import error_map  # noqa: E402
-import field_drawing  # noqa: E402
-import field_panel  # noqa: E402
-import field_tables  # noqa: E402
-import gallery  # noqa: E402
-from case_names import case_name, file_of, words_of_file  # noqa: E402
-from fields import Fields  # noqa: E402
-from figure_files import PAGE_WIDTH, SMALLEST_PT  # noqa: E402
-from unrolled import unrolled  # noqa: E402
+import error_pictures
+import field_drawing
+import field_panel
+import gallery
+from case_names import case_name, file_of, words_of_file
+from fields import Fields
+from drawing import PAGE_WIDTH, SMALLEST_PT
+from unrolled import unrolled
 
 STATES = ("open", "slip", "stick", "slip")
 
@@ -57,7 +53,7 @@ class UprightTest(unittest.TestCase):
     def test_bodies_lie_as_they_were_drawn(self) -> None:
         for mesh in ("Mesh0", "Mesh4+adapt2", "bar"):
             s = bar(10, 8, 1, mesh=mesh)
-            for figure in (gallery.compose([[s]]), error_map.draw(s, np.array([0.3, 0.7]))):
+            for figure in (gallery.compose([[s]]), error_pictures.draw_map(s, np.array([0.3, 0.7]))):
                 body = figure.axes[0]
                 self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x in mm", "y in mm"))
                 for low, high in (body.get_xlim(), body.get_ylim()):
@@ -67,12 +63,11 @@ class UprightTest(unittest.TestCase):
                     np.testing.assert_allclose(line.get_xdata(), 11)
                 self.assertEqual(len(contact), 1)
                 size = body.get_position().size * figure.get_size_inches()
-                view = field_panel.view_of(s)
-                self.assertAlmostEqual(size[1] / size[0], view.height)
+                self.assertAlmostEqual(size[1] / size[0], field_panel.slenderness(s))
 
     def test_type_can_be_read_and_stays_on_the_sheet(self) -> None:
         for s in (bar(10, 8, 1), bar(10, 40, 4), bar(40, 5, 3, edges=40)):
-            for figure in (gallery.compose([[s]]), error_map.draw(s, np.array([0.3, 0.7]))):
+            for figure in (gallery.compose([[s]]), error_pictures.draw_map(s, np.array([0.3, 0.7]))):
                 self.assertLessEqual(figure.get_size_inches()[0], PAGE_WIDTH)
                 painted, renderer = drawn.paint(figure)
                 for words in painted:
@@ -218,7 +213,7 @@ class ScalesTest(unittest.TestCase):
 
 class TablesTest(unittest.TestCase):
     def test_contact_points(self) -> None:
-        table = list(csv.DictReader(field_tables.contact_points([bar(10, 60, 2)]).splitlines()))
+        table = list(csv.DictReader(field_panel.contact_points([bar(10, 60, 2)]).splitlines()))
         self.assertEqual(len(table), 2 * 4 * 2)
         self.assertEqual([line["face"] for line in table], ["A"] * 8 + ["B"] * 8)
         self.assertGreater(float(table[0]["y_mm"]), float(table[8]["y_mm"]))
@@ -234,7 +229,3 @@ class TablesTest(unittest.TestCase):
         for mesh, method in (("Mesh0+adapt1", "SYMMLQ:DTIC3"), ("a-b%c", "ALM:r=20,rho=20")):
             case = dict(mesh=mesh, scene="default", method=method)
             self.assertEqual(words_of_file(file_of(case_name(case))), f"{mesh}, default, {method}")
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """plots/gallery.py on a made-up square of two triangles.  /usr/bin/python3 -m unittest FILE"""
 import shutil
 import struct
-import sys
 import tempfile
 import unittest
 from dataclasses import replace
@@ -10,15 +9,12 @@ from unittest import mock
 
 import numpy as np
 
-PLOTS = Path(__file__).resolve().parents[2] / "plots"
-sys.path.insert(0, str(PLOTS))
+from running import FolderTest, run, run_command
 
-import adapted_meshes  # noqa: E402
-import error_map  # noqa: E402
-import field_drawing  # noqa: E402
-import fields  # noqa: E402
-import gallery  # noqa: E402
-from running import run, run_command  # noqa: E402
+import error_pictures
+import field_drawing
+import fields
+import gallery
 
 CORNERS = [(0, 0), (2, 0), (2, 2), (0, 2)]  # mm; contact on x = 2, displacement on x = 0
 LOW = [(0, 0), (0.125, 0), (0.125, 2), (0, 2)]  # of a lower body, for smaller pictures
@@ -58,7 +54,20 @@ def write_solution(folder: Path, name: str, contact: bool = True,
         (folder / f"{name}.{part}.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
-class GalleryTest(unittest.TestCase):
+def solution(table: str = "") -> fields.Fields:
+    """The square, read from its files, with a results.csv where one is given."""
+    with tempfile.TemporaryDirectory() as folder:
+        results = Path(folder)
+        (results / "fields").mkdir()
+        write_solution(results / "fields", NAMES[0])
+        if table:
+            (results / "results.csv").write_text(table)
+        return fields.read_fields(results, NAMES[0], fields.recorded(results))
+
+
+class GalleryTest(FolderTest):
+    program = gallery
+
     @classmethod
     def setUpClass(cls) -> None:
         """The four meshes, drawn by a process of its own, and again with --each and --out."""
@@ -72,8 +81,7 @@ class GalleryTest(unittest.TestCase):
         cls.each = run(gallery, cls.four, "--each", "--out", cls.out)
 
     def setUp(self) -> None:
-        self.results = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.results)
+        super().setUp()
         self.fields = self.results / "fields"
         self.fields.mkdir()
 
@@ -82,16 +90,6 @@ class GalleryTest(unittest.TestCase):
         self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
         self.assertEqual(struct.unpack(">I", data[16:20])[0], width)
         self.assertLess(len(data), most_bytes)
-
-    def assert_refused(self, *parts: str, arguments: tuple = (),
-                       as_command: bool = False) -> None:
-        """Exit 2, one line that has all the parts, and nothing written."""
-        for start in (run, run_command) if as_command else (run,):
-            status, out, err = start(gallery, self.results, *arguments)
-            self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
-            for part in parts:
-                self.assertIn(part, err)
-        self.assertFalse((self.results / "figures").exists())
 
     def edit(self, part: str, change) -> str:
         """Passes the lines of Mesh1's file through change; its path."""
@@ -119,10 +117,9 @@ class GalleryTest(unittest.TestCase):
     def test_without_the_four_meshes_each_solution_has_its_picture(self) -> None:
         write_solution(self.fields, NAMES[1], contact=False, corners=LOW)
         self.assertEqual(run(gallery, self.results)[0], 0)
-        figures = self.results / "figures"
-        self.assertEqual({p.name for p in figures.iterdir()},
+        self.assertEqual({p.name for p in self.figures.iterdir()},
                          {f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv")})
-        self.assert_png(figures / f"fields_{NAMES[1]}.png", 1328)
+        self.assert_png(self.figures / f"fields_{NAMES[1]}.png", 1328)
 
     def test_the_same_input_gives_the_same_picture(self) -> None:
         for name in ("gallery.png", "gallery.svg"):
@@ -134,7 +131,7 @@ class GalleryTest(unittest.TestCase):
         write_shares(self.fields, NAMES[1], [0.25, 0.75])
         with SMALL:
             self.assertEqual(run(gallery, self.results)[0], 0)
-        picture = self.results / "figures" / f"error_map_{NAMES[1]}.png"
+        picture = self.figures / f"error_map_{NAMES[1]}.png"
         self.assert_png(picture, 691, most_bytes=300_000)
         lines = picture.with_suffix(".csv").read_text(encoding="utf-8").splitlines()
         self.assertEqual(lines[0], "triangle,x_mm,y_mm,area_mm2,error_share")
@@ -155,14 +152,14 @@ class GalleryTest(unittest.TestCase):
             write_solution(self.fields, name)
             write_shares(self.fields, name, [0.25, 0.75])
         self.assertEqual([names[0], names[2], names[3]],
-                         adapted_meshes.chosen([*sorted(names), NAMES[0]]))
-        self.assertEqual([], adapted_meshes.chosen(names[:2]))
+                         error_pictures.levels_in([*sorted(names), NAMES[0]]))
+        self.assertEqual([], error_pictures.levels_in(names[:2]))
         with SMALL:
             status, out, err = run(gallery, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("adapted_meshes.png", out)
-        self.assert_png(self.results / "figures" / "adapted_meshes.png", 913)
-        lines = (self.results / "figures" / "adapted_meshes.csv").read_text().splitlines()
+        self.assert_png(self.figures / "adapted_meshes.png", 913)
+        lines = (self.figures / "adapted_meshes.csv").read_text().splitlines()
         self.assertEqual([line.split(",")[:3] for line in lines],
                          [["mesh", "n_phi", "triangles"], *([f"Mesh0%2Badapt{k}", "", "2"]
                                                             for k in (0, 10, 11))])
@@ -187,7 +184,8 @@ class GalleryTest(unittest.TestCase):
     def test_missing_file(self) -> None:
         path = self.edit("contact", lambda lines: lines)
         Path(path).unlink()
-        self.assert_refused(path, "No such file", as_command=True)
+        for start in (run, run_command):
+            self.assert_refused(path, "No such file", start=start)
 
     def test_truncated_row(self) -> None:
         path = self.edit("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]])
@@ -240,28 +238,19 @@ class GalleryTest(unittest.TestCase):
 class ErrorMapTest(unittest.TestCase):
     def test_share_of_the_worst_tenth(self) -> None:
         share = np.r_[np.full(90, 1.0), np.full(10, 9.0)]
-        self.assertAlmostEqual(error_map.share_of_worst(share), 0.5)
-        self.assertAlmostEqual(error_map.share_of_worst(np.array([3.0, 1.0])), 0.75)
+        self.assertAlmostEqual(error_pictures.share_of_worst(share), 0.5)
+        self.assertAlmostEqual(error_pictures.share_of_worst(np.array([3.0, 1.0])), 0.75)
 
     def test_every_triangle_has_its_colour(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "fields").mkdir()
-            write_solution(Path(folder) / "fields", NAMES[0])
-            s = fields.read_fields(Path(folder), NAMES[0], {})
-        drawn = error_map.draw(s, np.array([1e-9, 0.9])).axes[0].collections[0]
+        s = solution()
+        drawn = error_pictures.draw_map(s, np.array([1e-9, 0.9])).axes[0].collections[0]
         self.assertEqual(len(drawn.get_paths()), 2)
         np.testing.assert_allclose(drawn.get_array(), [1e-5, 0.9])  # five decades, no more
 
 
 class FieldsTest(unittest.TestCase):
     def test_read_back(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            results = Path(folder)
-            (results / "fields").mkdir()
-            write_solution(results / "fields", NAMES[0])
-            (results / "results.csv").write_text(
-                "mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
-            s = fields.read_fields(results, NAMES[0], fields.cases_of(results))
+        s = solution("mesh,scene,method,n_phi\nMesh0,other,3STEPD,1\nMesh0,default,3STEPD,761\n")
         self.assertEqual((s.corners.shape, s.mesh, s.n_phi), ((2, 3, 3, 2), "Mesh0", 761))
         np.testing.assert_array_equal(s.triangles[1], [CORNERS[0], CORNERS[2], CORNERS[3]])
         np.testing.assert_allclose(s.traction, [[[-30, -6], [0, 0]]])  # F = (L/2) t, L = 2
@@ -276,10 +265,7 @@ class FieldsTest(unittest.TestCase):
         self.assertEqual([c.tolist() for c in fields.chains(ring)], [[0, 1, 2]])
 
     def test_a_face_around_a_hole_begins_where_its_y_is_least(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            (Path(folder) / "fields").mkdir()
-            write_solution(Path(folder) / "fields", NAMES[0])
-            s = fields.read_fields(Path(folder), NAMES[0], {})
+        s = solution()
         self.assertEqual([face.tolist() for face in s.faces()], [[0]])
         hole = np.array([(1, 1), (1, 2), (2, 2), (2, 0.5)], float)
         ring = np.stack([hole, np.roll(hole, -1, axis=0)], 1)[[2, 0, 3, 1]]
@@ -301,7 +287,3 @@ class FieldsTest(unittest.TestCase):
             np.testing.assert_allclose(areas[:parts**2], 3 / parts**2)
             values = field_drawing.cut(corners @ [[2.0], [-1.0]], parts)
             np.testing.assert_allclose(values, pieces @ [[2.0], [-1.0]])
-
-
-if __name__ == "__main__":
-    unittest.main()

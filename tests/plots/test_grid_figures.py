@@ -1,20 +1,17 @@
 """The figures that are grids of cells, of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import sys
-import unittest
 from collections import Counter
-from pathlib import Path
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import adapted_methods_figure  # noqa: E402
-import atlas_figure  # noqa: E402
-import figures  # noqa: E402
-import test_study_figures as studies  # noqa: E402
+from figure import adapted_methods as adapted_methods_figure
+from figure import atlas as atlas_figure
+import figures
+import test_study_figures as studies
+from made_up import read
+from records import OUTCOMES
 
 
 class AdaptedMethodsTest(studies.StudiesTest):
@@ -25,7 +22,7 @@ class AdaptedMethodsTest(studies.StudiesTest):
 
     def test_a_cell_per_case_and_a_table_beside_it(self) -> None:
         lost = dict(status="timeout", outcome="timeout", time_s="", error_force="", error_stress="")
-        rows = self.read([*self.CASES[:3], self.CASES[3] | lost])
+        rows = read([*self.CASES[:3], self.CASES[3] | lost])
         plan = [d for d in figures.drawings_of(rows) if d.name == "adapted_methods"]
         self.assertEqual((".png", ".csv"), plan[0].suffixes)
         figure = plan[0].draw(plan[0].rows)
@@ -38,7 +35,7 @@ class AdaptedMethodsTest(studies.StudiesTest):
         self.assertEqual(1, sum("timeout" in line for line in lines))
 
     def test_many_meshes_go_on_below(self) -> None:
-        rows = self.read([case | dict(mesh=f"Mesh0+adapt{k}", n_phi=900 + k) for k in range(9)
+        rows = read([case | dict(mesh=f"Mesh0+adapt{k}", n_phi=900 + k) for k in range(9)
                           for case in self.CASES[:1]])
         figure = adapted_methods_figure.draw(rows)
         self.assertEqual([len(axes.patches) for axes in figure.axes], [5, 4])
@@ -46,7 +43,7 @@ class AdaptedMethodsTest(studies.StudiesTest):
 
 class AtlasTest(studies.StudiesTest):
     def test_a_cell_per_case(self) -> None:
-        rows = self.read(made_up.stability_study())
+        rows = read(made_up.stability_study())
         figure = atlas_figure.draw(rows)
         places = [patch.get_xy() for patch in figure.axes[0].patches]
         self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
@@ -60,36 +57,36 @@ class AtlasTest(studies.StudiesTest):
 
     def test_the_caption_is_below_all_outcomes(self) -> None:
         row = made_up.stability_study()[0]
-        rows = self.read([row | dict(outcome=outcome, scene=outcome)
-                          for outcome in atlas_figure.OUTCOMES])
+        rows = read([row | dict(outcome=outcome, scene=outcome)
+                          for outcome in OUTCOMES])
         figure = atlas_figure.draw(rows)
         renderer = FigureCanvasAgg(figure).get_renderer()
         boxes = {text.get_text(): text.get_window_extent(renderer) for text in figure.texts}
         caption = max(box.y1 for words, box in boxes.items() if words.startswith("A column"))
         named = [box for words, box in boxes.items() if words.endswith(": 1")]
-        self.assertEqual(len(named), len(atlas_figure.OUTCOMES))
+        self.assertEqual(len(named), len(OUTCOMES))
         self.assertLess(caption, min(box.y0 for box in named))
 
     def test_no_wrong_success_is_said_too(self) -> None:
         rows = [row for row in made_up.stability_study()[:99] if row["outcome"] != "wrong_success"]
-        self.assertIn("is not: 0", studies.words_of(atlas_figure.draw(self.read(rows))))
+        self.assertIn("is not: 0", studies.words_of(atlas_figure.draw(read(rows))))
 
     def test_digits(self) -> None:
         for stress, force, digits in ((1e-9, 2e-7, "6"), (0, 0, "16"), (1e-12, "", "12"),
                                       ("", "", "+"), (5, "", "0")):
             row = made_up.stability_study()[0] | dict(error_stress=stress, error_force=force)
-            self.assertEqual(atlas_figure.digits(self.read([row])[0]), digits)
+            self.assertEqual(atlas_figure.digits(read([row])[0]), digits)
 
     def test_scenes_go_by_group_then_by_number(self) -> None:
         row = made_up.stability_study()[0]
         names = [("b", f"friction_{mu}") for mu in ("10", "1e-8", "1", "10_sheared", "0")]
         names.append(("a", "z"))
-        rows = self.read([row | dict(scene_group=g, scene=s) for g, s in names])
+        rows = read([row | dict(scene_group=g, scene=s) for g, s in names])
         self.assertEqual(atlas_figure.scenes_of(rows),
                          [names[5], names[4], names[1], names[2], names[0], names[3]])
 
     def test_digits_are_written_where_there_is_room(self) -> None:
-        rows = self.read(made_up.stability_study())
+        rows = read(made_up.stability_study())
         few = [row for row in rows if row.method in ("3STEPD", "HYBRID", "ALM")]
         words = studies.words_of(atlas_figure.draw(few))
         self.assertIn("with the digits of its largest error", words)
@@ -97,7 +94,7 @@ class AtlasTest(studies.StudiesTest):
         for number, count in Counter(map(atlas_figure.digits, (row for row in few
                                                                if row.outcome == "ok"))).items():
             self.assertGreaterEqual(written[number], count)
-        many = studies.words_of(atlas_figure.draw(self.read(self.many(50))))
+        many = studies.words_of(atlas_figure.draw(read(self.many(50))))
         self.assertIn("deeper: more digits", many)
 
     def many(self, methods: int) -> list[dict]:
@@ -106,7 +103,7 @@ class AtlasTest(studies.StudiesTest):
 
     def test_more_methods_than_there_is_room_for_go_on_below(self) -> None:
         for methods, blocks in ((50, 1), (150, 3)):
-            rows = self.read(self.many(methods))
+            rows = read(self.many(methods))
             figure = atlas_figure.draw(rows)
             self.assertEqual(len(figure.axes), blocks)
             self.assertEqual(sum(len(axes.patches) for axes in figure.axes), len(rows))
@@ -115,13 +112,9 @@ class AtlasTest(studies.StudiesTest):
                 self.assertGreaterEqual(inches / axes.get_xlim()[1], atlas_figure.NARROWEST - 1e-9)
 
     def test_its_table_has_the_digits(self) -> None:
-        rows = self.read(made_up.stability_study())
+        rows = read(made_up.stability_study())
         table = list(csv.DictReader(atlas_figure.table_of(rows).splitlines()))
         self.assertEqual(len(table), len(rows))
         self.assertEqual(Counter(line["digits"] for line in table if line["outcome"] == "ok"),
                          Counter(atlas_figure.digits(row) for row in rows if row.outcome == "ok"))
         self.assertEqual({line["digits"] for line in table if line["outcome"] != "ok"}, {""})
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,7 +1,6 @@
 """Runs of one's own: methods, preconditioners and bodies that nothing here knows by name."""
 import json
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
@@ -9,18 +8,14 @@ from pathlib import Path
 import matplotlib
 from matplotlib.figure import Figure
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import drawn  # noqa: E402
-import figure_parts  # noqa: E402
-import figures  # noqa: E402
-import made_up_history  # noqa: E402
-import night_history  # noqa: E402
-import page_data  # noqa: E402
-import records  # noqa: E402
-from figure_files import Drawing  # noqa: E402
+import drawn
+import figures
+import made_up_history
+import night_history
+import page_data
+from drawing import STYLE, Drawing
 
 BODIES = {"punch": ["punch1", "punch2", "punch3"],
           "dovetail": ["dovetail1", "dovetail2", "dovetail3"]}
@@ -30,7 +25,7 @@ HEAP = 50
 
 
 def ordinary_run() -> list[dict[str, object]]:
-    """Both bodies beside each other, and the preconditioners on the largest mesh of each."""
+    """Both bodies next to each other, and the preconditioners on the largest mesh of each."""
     rows = []
     for mesh in made_up.OWN:
         for k, method in enumerate(METHODS):
@@ -55,17 +50,16 @@ class OwnRunTest(unittest.TestCase):
         cls.folder = Path(tempfile.mkdtemp())
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         matplotlib.rcdefaults()
-        matplotlib.rcParams.update(figure_parts.STYLE)
-        cls.run_ = cls.drawings("run", ordinary_run())
-        cls.study = cls.drawings("study", [made_up.record(row) for row in made_up.error_study(
+        matplotlib.rcParams.update(STYLE)
+        cls.run_ = cls.drawings(ordinary_run())
+        cls.study = cls.drawings([made_up.record(row) for row in made_up.error_study(
             list(made_up.OWN), sweep=False)] + [made_up.record(made_up.point(
                 mesh, "NEWTON", 1e-5, 1e-13)) for mesh in made_up.OWN])
 
     @classmethod
-    def drawings(cls, name: str, lines: list[dict]) -> dict[str, Drawing]:
-        made_up.write_lines(cls.folder / f"{name}.jsonl", lines)
-        rows = records.rows_of(records.read(cls.folder / f"{name}.jsonl"))
-        return {drawing.name: drawing for drawing in figures.drawings_of(rows)}
+    def drawings(cls, lines: list[dict]) -> dict[str, Drawing]:
+        return {drawing.name: drawing
+                for drawing in figures.drawings_of(made_up.read_lines(lines))}
 
     def figure(self, drawing: Drawing) -> Figure:
         figure = drawing.draw(drawing.rows, **drawing.options)
@@ -164,7 +158,3 @@ class OwnRunTest(unittest.TestCase):
         self.assertEqual(own[0]["name"], "punch1/default/NEWTON")
         row = next(row for row in data["rows"] if row["method"] == "3STEPCG:JACOBI")
         self.assertEqual((row["name"], row["body"]), ("punch3/default/3STEPCG:JACOBI", "punch"))
-
-
-if __name__ == "__main__":
-    unittest.main()

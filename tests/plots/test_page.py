@@ -3,18 +3,16 @@ import json
 import os
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from collections.abc import Callable
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "plots"))
+import made_up_history as made_up
+from browser import CHROMIUM, Browser, Element
+from running import run, run_command
 
-import made_up_history as made_up  # noqa: E402
-import page as page_program  # noqa: E402
-from browser import CHROMIUM, Browser, Element  # noqa: E402
-from running import run, run_command  # noqa: E402
+import page as page_program
 
 # A pixel.
 PNG = bytes.fromhex("89504e470d0a1a0a0000000d4948445200000001000000010806000000"
@@ -335,7 +333,3 @@ class WrongInputTest(unittest.TestCase):
         self.assertEqual(run(page_program, self.history, f"--out={page}")[0], 0)
         self.assertTrue(page.is_symlink())
         self.assertGreater((self.folder / "there/page.html").stat().st_size, 1000)
-
-
-if __name__ == "__main__":
-    unittest.main()

@@ -1,27 +1,21 @@
-"""Figures at the width of a page, and the numbers beside them.  /usr/bin/python3 -m unittest FILE"""
+"""Figures at the width of a page, and the numbers next to them.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import shutil
-import sys
-import tempfile
 import unittest
-from itertools import combinations
+from itertools import combinations, pairwise
 from pathlib import Path
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import direct_labels  # noqa: E402
-import drawn  # noqa: E402
-import figure_parts  # noqa: E402
-import figure_table  # noqa: E402
-import figures  # noqa: E402
-import records  # noqa: E402
-from figure_files import PAGE_WIDTH, SMALLEST_PT, Drawing  # noqa: E402
+import drawn
+import figures
+from drawing import PAGE_WIDTH, STYLE, Drawing, axes_at, log_log
+from labels import LEADER_NAME, Labels, crossing
+from words import csv_of
 
 PAGE_PIXELS = 830
 LEGIBLE = 9  # pixels
@@ -63,12 +57,9 @@ def of_all_kinds() -> list[dict]:
 class PageTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls) -> None:
-        folder = Path(tempfile.mkdtemp())
-        cls.addClassCleanup(shutil.rmtree, folder)
         matplotlib.rcdefaults()
-        matplotlib.rcParams.update(figure_parts.STYLE)
-        made_up.write_lines(folder / "records.jsonl", of_all_kinds())
-        cls.rows = records.rows_of(records.read_run(folder))
+        matplotlib.rcParams.update(STYLE)
+        cls.rows = made_up.read_lines(of_all_kinds())
         cls.drawings = {drawing.name: drawing for drawing in figures.drawings_of(cls.rows)}
         cls.figures = {name: figure for name, drawing in cls.drawings.items()
                        if isinstance(figure := drawing.draw(drawing.rows, **drawing.options), Figure)}
@@ -76,8 +67,8 @@ class PageTest(unittest.TestCase):
             cls.painted = {name: drawn.paint(figure) for name, figure in cls.figures.items()}
 
     def test_all_kinds_of_figures_are_here(self) -> None:
-        modules = {path.stem for path in Path(figures.__file__).parent.glob("*_figure.py")}
-        used = {drawing.draw.__module__ for name, drawing in self.drawings.items()
+        modules = {path.stem for path in Path(figures.__file__).parent.glob("figure/*.py")}
+        used = {drawing.draw.__module__.removeprefix("figure.") for name, drawing in self.drawings.items()
                 if name in self.figures}
         self.assertEqual(used, modules)
 
@@ -91,26 +82,20 @@ class PageTest(unittest.TestCase):
 
     def test_words_are_on_the_sheet_and_apart(self) -> None:
         for name, figure in self.figures.items():
-            painted, renderer = self.painted[name]
-            boxes = [(words, words.get_window_extent(renderer)) for words in painted
-                     if words.get_rotation() in (0, 90)]
-            for words, box in boxes:
-                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0 <= box.y0
-                                and box.y1 <= figure.bbox.y1, f"{name}: {words}")
-            for (words, box), (other, other_box) in combinations(boxes, 2):
-                self.assertFalse(box.padded(-1).overlaps(other_box), f"{name}: {words} {other}")
+            with self.subTest(name):
+                drawn.assert_readable(self, figure, *self.painted[name])
 
     def test_leaders_do_not_cross(self) -> None:
         seen = 0
         for name, figure in self.figures.items():
             for axes in figure.axes:
                 ends = [line.get_transform().transform(line.get_xydata()) for line in axes.lines
-                        if line.get_label() == direct_labels.LEADER_NAME]
+                        if line.get_label() == LEADER_NAME]
                 seen += len(ends)
                 pieces = [(k, a, b) for k, points in enumerate(ends)
                           for a, b in zip(points, points[1:])]
                 for (j, a, b), (k, c, d) in combinations(pieces, 2):
-                    self.assertFalse(j != k and direct_labels.crossing(a, b, c, d), name)
+                    self.assertFalse(j != k and crossing(a, b, c, d), name)
         self.assertGreater(seen, 20)
 
     def test_the_numbers_of_every_figure_stand_beside_it(self) -> None:
@@ -158,7 +143,7 @@ class TableTest(unittest.TestCase):
     def test_cells(self) -> None:
         values = [(None, ""), (True, "true"), (0.1 + 0.2, "0.30000000000000004"), ("=1+1", "'=1+1"),
                   ("a,b", '"a,b"'), (-1.5, "-1.5")]
-        text = figure_table.csv_of([value for value, _ in values], ("value", lambda value: value))
+        text = csv_of([value for value, _ in values], ("value", lambda value: value))
         self.assertEqual(text.split("\n"),
                          ["value", *(f'""' if not cell else cell for _, cell in values), ""])
 
@@ -166,22 +151,34 @@ class TableTest(unittest.TestCase):
 class LeadersTest(unittest.TestCase):
     def test_crossing(self) -> None:
         a, b, c, d = np.array([[0, 0], [2, 2], [0, 2], [2, 0]], float)
-        self.assertTrue(direct_labels.crossing(a, b, c, d))
-        self.assertFalse(direct_labels.crossing(a, c, b, d))
-        self.assertFalse(direct_labels.crossing(a, b, a, d))  # a common end
+        self.assertTrue(crossing(a, b, c, d))
+        self.assertFalse(crossing(a, c, b, d))
+        self.assertFalse(crossing(a, b, a, d))  # a common end
 
     def test_crowded_labels_have_leaders_that_do_not_cross(self) -> None:
         seen = 0
         for seed in range(8):
             axes = Figure(figsize=(6, 4)).add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
-            labels = direct_labels.Labels(axes)
+            labels = Labels(axes)
             for k, (x, y) in enumerate(np.random.default_rng(seed).normal(0.5, 0.05, (14, 2))):
                 labels.add(f"method {k}", x, y)
             seen += len(labels.leaders)
             for (a, b), (c, d) in combinations(labels.leaders, 2):
-                self.assertFalse(direct_labels.crossing(a, b, c, d), seed)
+                self.assertFalse(crossing(a, b, c, d), seed)
         self.assertGreater(seen, 20)
 
 
-if __name__ == "__main__":
-    unittest.main()
+class LogAxisTest(unittest.TestCase):
+    def test_labels_do_not_touch(self) -> None:
+        for inches in (0.9, 1.2, 1.8, 3, 6):
+            for low, high in ((15, 1700), (2, 150), (300, 2000), (1e3, 6e6)):
+                with self.subTest(inches=inches, low=low, high=high):
+                    figure = Figure((inches + 1, 3))
+                    axes = axes_at(figure, 0.5, 0.3, inches, 2)
+                    log_log(axes, xlim=(low, high), ylim=(1, 10))
+                    FigureCanvasAgg(figure).draw()
+                    boxes = [label.get_window_extent() for place, label in
+                             zip(axes.get_xticks(), axes.get_xticklabels()) if low <= place <= high]
+                    self.assertGreaterEqual(len(boxes), 1)
+                    for left, right in pairwise(boxes):
+                        self.assertLess(left.x1, right.x0)

@@ -1,10 +1,7 @@
 """The paper's figures of made-up results.  /usr/bin/python3 -m unittest FILE"""
-import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
-from collections.abc import Sequence
 from pathlib import Path
 from unittest import mock
 
@@ -12,29 +9,26 @@ import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.text import Text
-from matplotlib.transforms import Bbox
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import drawn  # noqa: E402
-import command  # noqa: E402
-import figure_files  # noqa: E402
-import figure_parts  # noqa: E402
-import figure_words  # noqa: E402
-import figures  # noqa: E402
-import preconditioner_figure  # noqa: E402
-import records  # noqa: E402
-import size_figure  # noqa: E402
-from made_up import case  # noqa: E402
-from paper_sizes import SIZES  # noqa: E402
-from running import run  # noqa: E402
+import command
+import drawing as sheets
+import drawn
+import figures
+from catalogue import SIZES
+from drawing import STYLE, TYPE
+from figure import preconditioner as preconditioner_figure
+from figure import size as size_figure
+from labels import spread
+from made_up import case, read
+from running import PROJECT, FolderTest, run
+from selection import exponent
+from words import wrapped
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
 POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(made_up.COMPARED)}
-RUN = Path(__file__).resolve().parents[2] / "run"
+RUN = PROJECT / "run"
 ALIASES = {general: alias for alias, general in made_up.SEVEN.items()}
 
 
@@ -57,12 +51,8 @@ def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
             for k, name in enumerate(names)]
 
 
-class PaperFiguresTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.results = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.results)
-        self.csv = self.results / "results.csv"
-        self.figures = self.results / "figures"
+class PaperFiguresTest(FolderTest):
+    program = figures
 
     def write(self, rows: list[dict[str, object]]) -> None:
         made_up.write(self.csv, rows)
@@ -76,33 +66,17 @@ class PaperFiguresTest(unittest.TestCase):
             if path.stem not in words:  # as .svg and .png
                 words[path.stem] = drawn.words_of(figure)
             path.touch()
-        with mock.patch.object(figure_files, "write", keep), \
-                mock.patch.object(figure_files, "write_small_png",
+        with mock.patch.object(sheets, "write", keep), \
+                mock.patch.object(sheets, "write_small_png",
                                   lambda figure, dpi, path, colours: path.touch()):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         return out, words
 
-    def read(self, rows: list[dict[str, object]]) -> list[records.Row]:
-        self.write(rows)
-        return records.rows_of(records.read(self.csv))
-
-    def assert_refused(self, *parts: str, arguments: Sequence[str] = ()) -> None:
-        """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = run(figures, self.results, *arguments)
-        self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
-        for part in parts:
-            self.assertIn(part, err)
-        self.assertFalse(self.figures.exists())
-
-    def refuse_cell(self, column: str, cell: object, allowed: str) -> None:
-        self.write([case("Mesh0", "3STEPD"), case("Mesh1", "3STEPD") | {column: cell}])
-        self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
-
     def test_all_figures_of_both_stops(self) -> None:
         rows = power_laws()[:9] + [row for row in preconditioners() if "DTIC4" in row["method"]]
         self.write(rows + [row | {"stop": "paper"} for row in rows])
-        with drawn.without_minor_ticks(), mock.patch.object(figure_files, "VECTOR_DPI", 50):
+        with drawn.without_minor_ticks(), mock.patch.object(sheets, "VECTOR_DPI", 50):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
@@ -138,8 +112,8 @@ class PaperFiguresTest(unittest.TestCase):
         self.assertEqual(words["figure5"].count("$n^{1.25}$"), 9)
 
     def test_exponents_need_three_completed_points(self) -> None:
-        self.assertIsNone(size_figure.exponent([10, 100], [1, 10]))
-        self.assertAlmostEqual(size_figure.exponent([10, 100, 1000], [1, 10, 100]), 1)
+        self.assertIsNone(exponent([10, 100], [1, 10]))
+        self.assertAlmostEqual(exponent([10, 100, 1000], [1, 10, 100]), 1)
         rows = [row for row in without_heap(power_laws()) if row["method"] == "3STEPD"]
         for row in rows[2:]:
             row |= UNFINISHED | dict(status="timeout", done_fraction=0.5, extrapolated_time_s=9e9)
@@ -169,8 +143,7 @@ class PaperFiguresTest(unittest.TestCase):
 
     def test_every_case_has_its_point(self) -> None:
         rows = power_laws()
-        read = self.read(rows)
-        time, _ = size_figure.drawings(read)
+        time, _ = size_figure.drawings(read(rows))
         with mock.patch.object(size_figure, "draw_point") as point:
             time.draw(time.rows, **time.options)
         drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
@@ -230,7 +203,7 @@ class PaperFiguresTest(unittest.TestCase):
         self.write(power_laws()[:9])
         self.figures.mkdir()
         (self.figures / "figure5.csv").write_text("earlier")
-        with drawn.without_minor_ticks(), mock.patch.object(figure_files, "VECTOR_DPI", 50):
+        with drawn.without_minor_ticks(), mock.patch.object(sheets, "VECTOR_DPI", 50):
             status, out, err = run(figures, self.results, "--only=figure4,t*,figure3")
         self.assertEqual((status, err), (0, ""))
         names = {f"figure4.{kind}" for kind in ("svg", "png", "csv")}
@@ -258,7 +231,7 @@ class PaperFiguresTest(unittest.TestCase):
         self.write([case("Mesh0", "3STEPD")])
         for arguments, part in ((("--nonsense",), "--nonsense"),
                                 (("--out", self.csv), "expected a folder to write to")):
-            with mock.patch.object(figure_files, "write"):
+            with mock.patch.object(sheets, "write"):
                 status, _, err = run(figures, self.results, *arguments)
             self.assertEqual((status, err.count("\n")), (2, 1), err)
             self.assertIn(part, err)
@@ -277,49 +250,29 @@ class PaperFiguresTest(unittest.TestCase):
 class LayoutTest(unittest.TestCase):
     def test_labels_are_spread_and_stay_inside(self) -> None:
         wanted = sorted(np.random.default_rng(1).uniform(0, 1, 9).tolist() + [0.5, 0.5])
-        places = size_figure.spread(wanted, 0.08, 0, 1)
+        places = spread(wanted, 0.08, 0, 1)
         self.assertGreaterEqual(min(np.diff(places)), 0.08 - 1e-12)
         self.assertTrue(0 <= places[0] and places[-1] <= 1)
-        self.assertEqual(size_figure.spread([0.1, 0.9], 0.1, 0, 1), [0.1, 0.9])
-        np.testing.assert_allclose(size_figure.spread([0.5, 0.5], 0.1, 0, 1), [0.45, 0.55])
+        self.assertEqual(spread([0.1, 0.9], 0.1, 0, 1), [0.1, 0.9])
+        np.testing.assert_allclose(spread([0.5, 0.5], 0.1, 0, 1), [0.45, 0.55])
 
     def test_wrapping_keeps_the_words_and_the_width(self) -> None:
         text = " ".join(["the quick brown fox, 12\u00a0% done,"] * 6)
-        lines = figure_words.wrapped(text, 2, figure_parts.TYPE)
+        lines = wrapped([text], 2, TYPE)
         self.assertEqual(" ".join(lines), text)
         figure = Figure(figsize=(9, 9))
         renderer = FigureCanvasAgg(figure).get_renderer()
         for line in lines:
-            drawn = figure.text(0, 0, line, fontsize=figure_parts.TYPE)
-            self.assertLess(drawn.get_window_extent(renderer).width / figure.dpi, 2.1, line)
+            words = figure.text(0, 0, line, fontsize=TYPE)
+            self.assertLess(words.get_window_extent(renderer).width / figure.dpi, 2.1, line)
         self.assertLess(len(lines), 7)
 
     def test_type_is_legible_and_apart(self) -> None:
-        with tempfile.TemporaryDirectory() as folder:
-            made_up.write(Path(folder) / "results.csv", power_laws() + preconditioners())
-            read = records.rows_of(records.read_run(Path(folder)))
-        painted: list[Text] = []
-        paint = Text.draw
-
-        def keep(words: Text, renderer: object) -> None:
-            painted.append(words)
-            paint(words, renderer)
-        for drawing in (*preconditioner_figure.drawings(read), *size_figure.drawings(read)):
-            painted.clear()
-            with matplotlib.rc_context(figure_parts.STYLE), mock.patch.object(Text, "draw", keep):
+        rows = read(power_laws() + preconditioners())
+        for drawing in (*preconditioner_figure.drawings(rows), *size_figure.drawings(rows)):
+            with matplotlib.rc_context(STYLE):
                 figure = drawing.draw(drawing.rows, **drawing.options)
-                renderer = FigureCanvasAgg(figure).get_renderer()
-                figure.draw(renderer)
-            boxes: list[tuple[Text, Bbox]] = []
-            for words in painted:
-                if not (words.get_visible() and words.get_text()) or words.get_rotation() == 45:
-                    continue
-                self.assertGreaterEqual(words.get_fontsize(), 7, words)
-                box = words.get_window_extent(renderer)
-                self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
-                for other, other_box in boxes:
-                    self.assertFalse(box.padded(-0.5).overlaps(other_box), f"{words} {other}")
-                boxes.append((words, box))
+                drawn.assert_readable(self, figure, *drawn.paint(figure), overlap=0.5)
 
 
 class RunTest(unittest.TestCase):
@@ -333,7 +286,3 @@ class RunTest(unittest.TestCase):
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
         self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
         self.assertIn("another' (valid: a results folder, --only=GLOB,...)", wrong.stderr)
-
-
-if __name__ == "__main__":
-    unittest.main()

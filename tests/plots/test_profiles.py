@@ -1,22 +1,16 @@
 """Performance and data profiles of made-up records.  /usr/bin/python3 -m unittest FILE"""
 import csv
-import shutil
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
 import numpy as np
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import drawn  # noqa: E402
-import profile_figure  # noqa: E402
-import profiles  # noqa: E402
-import records  # noqa: E402
-from figures import drawings_of  # noqa: E402
+import drawn
+from figure import profile as profile_figure
+import profiles
+import records
+from figures import drawings_of
 
 # By hand: seconds of each method on four cases; None: not solved.
 TIMES = {"3STEPD": (1.0, 4.0, 3.0, None), "HYBRID": (2.0, 1.0, None, None),
@@ -33,12 +27,6 @@ def lines(times: dict = TIMES, **cells: object) -> list[dict]:
 
 
 class ProfilesTest(unittest.TestCase):
-    def rows(self, cases: list[dict]) -> list[records.Row]:
-        folder = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, folder)
-        made_up.write_lines(folder / "records.jsonl", cases)
-        return records.rows_of(records.read_run(folder))
-
     def shares(self, rows: list[records.Row], kind: str, quantity: str, method: str,
                at: float) -> float:
         cases = profiles.cases_of(rows)
@@ -47,7 +35,7 @@ class ProfilesTest(unittest.TestCase):
         return float(profile.shares(cases.methods.index(method), np.array([at]))[0][0])
 
     def test_by_hand(self) -> None:
-        rows = self.rows(lines())
+        rows = made_up.read_lines(lines())
         for method, factor, share in (("3STEPD", 1, 2 / 4), ("3STEPD", 3.9, 2 / 4),
                                       ("3STEPD", 4, 3 / 4), ("3STEPD", 1e9, 3 / 4),
                                       ("HYBRID", 1, 1 / 4), ("HYBRID", 2, 2 / 4),
@@ -60,7 +48,7 @@ class ProfilesTest(unittest.TestCase):
 
     def test_a_case_that_nobody_solves_counts(self) -> None:
         times = {method: (*own[:3], None) for method, own in TIMES.items()}
-        self.assertEqual(self.shares(self.rows(lines(times)), "performance", "time_s", "BLIND", 1e9),
+        self.assertEqual(self.shares(made_up.read_lines(lines(times)), "performance", "time_s", "BLIND", 1e9),
                          3 / 4)
         np.testing.assert_array_equal(profiles.ratios(np.array([[2.0, 1.0], [INFINITE, INFINITE]])),
                                       [[2, 1], [INFINITE, INFINITE]])
@@ -70,45 +58,45 @@ class ProfilesTest(unittest.TestCase):
                 ("ok", "ok", True), ("ok", "other_solution", True), ("ok", "unverified", False),
                 ("inaccurate", "wrong_success", False), ("inaccurate", "inaccurate", False),
                 ("timeout", "timeout", False), ("skipped", "skipped", False)):
-            row, = self.rows(lines({"3STEPD": (1.0,)}, status=status, outcome=outcome))
+            row, = made_up.read_lines(lines({"3STEPD": (1.0,)}, status=status, outcome=outcome))
             self.assertEqual(profiles.solved(row), solved, (status, outcome))
 
     def test_memory_has_the_same_cases(self) -> None:
         cases = lines()
         for case in cases:
             case["peak_heap_bytes"] = 100.0 if case["method"] == "HYBRID" else 300.0
-        rows = self.rows(cases)
+        rows = made_up.read_lines(cases)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "HYBRID", 1), 2 / 4)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "BLIND", 1), 2 / 4)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "BLIND", 3), 1)
         cases[-1]["peak_heap_bytes"] = None  # of a case that is solved
-        shown = profile_figure.profiles_of(profiles.cases_of(self.rows(cases)))
+        shown = profile_figure.profiles_of(profiles.cases_of(made_up.read_lines(cases)))
         self.assertEqual([profile.quantity for profile in shown], ["time_s", "time_s"])
 
     def test_cases_that_not_all_have(self) -> None:
         more = lines() + lines({"ALM": (1.0,)})
-        cases = profiles.cases_of(self.rows([case for case in more if (
+        cases = profiles.cases_of(made_up.read_lines([case for case in more if (
             case["method"], case["mesh"]) != ("HYBRID", "Mesh3")]))
         self.assertEqual((cases.absent, cases.dropped), (["ALM"], 1))
         self.assertEqual([case[0] for case in cases.cases], list(MESHES[:3]))
 
     def test_variants_on_few_meshes_do_not_take_the_others_cases(self) -> None:
         few = {f"3STEPD:V{k}": (1.0, 1.0) for k in range(3)}
-        cases = profiles.cases_of(self.rows(lines(few) + lines()))
+        cases = profiles.cases_of(made_up.read_lines(lines(few) + lines()))
         self.assertEqual((set(cases.methods), len(cases.cases)), (set(TIMES), 4))
         self.assertEqual(cases.absent, list(few))
 
     def test_scenes_and_targets_make_cases(self) -> None:
-        rows = self.rows(lines() + lines(scene="flat"))
+        rows = made_up.read_lines(lines() + lines(scene="flat"))
         self.assertEqual(len(profiles.cases_of(rows).cases), 8)
-        self.assertEqual(len(profiles.cases_of(self.rows(
+        self.assertEqual(len(profiles.cases_of(made_up.read_lines(
             lines() + lines({"3STEPD": TIMES["3STEPD"]}, scene="flat", target_error=1e-9))).cases), 4)
 
     def test_bands_are_of_the_repetitions(self) -> None:
         cases = lines({"3STEPD": (1.0,) * 4, "HYBRID": (1.01,) * 4})
         for case in cases:  # 3STEPD is as often slower as faster than HYBRID
             case["samples_s"] = [0.9, 1.0, 1.1] if case["method"] == "3STEPD" else [1.01] * 3
-        found = profiles.cases_of(self.rows(cases))
+        found = profiles.cases_of(made_up.read_lines(cases))
         profile = profile_figure.profiles_of(found)[0]
         share, low, high = (float(ends[0]) for ends in profile.shares(0, np.array([1.0])))
         self.assertEqual(share, 1)
@@ -117,7 +105,7 @@ class ProfilesTest(unittest.TestCase):
         sure = profile.shares(0, np.array([2.0]))
         self.assertEqual([float(ends[0]) for ends in sure], [1, 1, 1])
         np.testing.assert_array_equal(found.resampled(), found.resampled())  # seeded
-        alone = profile_figure.profiles_of(profiles.cases_of(self.rows(lines())))[0]
+        alone = profile_figure.profiles_of(profiles.cases_of(made_up.read_lines(lines())))[0]
         self.assertIsNone(alone.resampled)
 
     def test_order_behind_the_best_depends_on_it(self) -> None:
@@ -128,7 +116,7 @@ class ProfilesTest(unittest.TestCase):
         self.assertIsNone(profiles.order_depends_on_best(costs[:, :2]))
 
     def test_the_figure_says_what_it_cannot_tell(self) -> None:
-        drawing, = (d for d in drawings_of(self.rows(lines())) if d.name == "profiles")
+        drawing, = (d for d in drawings_of(made_up.read_lines(lines())) if d.name == "profiles")
         figure = drawing.draw(drawing.rows)
         words = drawn.words_of(figure)
         for part in ("3 methods on 4 cases", "Gould & Scott 2016", "status ok and verified", *TIMES):
@@ -136,7 +124,7 @@ class ProfilesTest(unittest.TestCase):
         self.assertNotIn("bootstrap", words)
 
     def test_its_table_has_every_step(self) -> None:
-        drawing, = profile_figure.drawings(self.rows(lines()))
+        drawing, = profile_figure.drawings(made_up.read_lines(lines()))
         figure = drawing.draw(drawing.rows)
         table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
         steps = {(float(line["factor_of_best"]), float(line["share_solved"])) for line in table
@@ -150,11 +138,11 @@ class ProfilesTest(unittest.TestCase):
         for cases, reason in ((lines({"3STEPD": TIMES["3STEPD"]}), "1 methods on 4 cases"),
                               (lines({m: own[:2] for m, own in TIMES.items()}), "3 methods on 2 case"),
                               (lines({m: (None,) * 4 for m in TIMES}), "none of its 4 cases")):
-            drawing, = profile_figure.drawings(self.rows(cases))
+            drawing, = profile_figure.drawings(made_up.read_lines(cases))
             self.assertIn(reason, drawing.draw(drawing.rows))
 
     def test_studies_have_profiles_of_their_own(self) -> None:
-        rows = self.rows(lines() + lines(stop="paper") + lines(
+        rows = made_up.read_lines(lines() + lines(stop="paper") + lines(
             study="stability", outcome="ok", scene_group="loads", scene="a", error_stress=1e-9))
         self.assertEqual({d.name: len(d.rows) for d in profile_figure.drawings(rows)},
                          {"profiles": 12, "profiles_paper_stop": 12, "profiles_stability": 12})
@@ -162,8 +150,4 @@ class ProfilesTest(unittest.TestCase):
     def test_samples_that_cannot_be_are_refused(self) -> None:
         for samples in ([0.1, -1], "0.1", [None]):
             with self.assertRaisesRegex(records.RecordsError, ":1: samples_s is .*, expected a list"):
-                self.rows(lines(samples_s=samples))
-
-
-if __name__ == "__main__":
-    unittest.main()
+                made_up.read_lines(lines(samples_s=samples))

@@ -1,18 +1,14 @@
 """The numbers in README.md and docs/ against the records.  /usr/bin/python3 -m unittest FILE"""
 import re
 import shutil
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import quoted_numbers  # noqa: E402
-import quoted_values  # noqa: E402
-from running import run  # noqa: E402
+import quoted_numbers
+from running import run
 
 PROJECT = Path(__file__).resolve().parents[2]
 TEXT = """# A README
@@ -145,7 +141,7 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assertIn("HYBRID takes 1.1 of\n", self.readme.read_text(encoding="utf-8"))
 
     def test_numbers_keep_their_form(self) -> None:
-        even, up = quoted_values.ROUNDING[None], quoted_values.ROUNDING["at most"]
+        even, up = quoted_numbers.ROUNDING[None], quoted_numbers.ROUNDING["at most"]
         for value, rounding, like, shown in (
                 (0.0905, even, "0.08", "0.09"), (0.2007, even, "0.31", "0.20"),
                 (9.96, even, "3", "10"), (12.3, even, "4", "12"), (2604.0, even, "2603", "2604"),
@@ -177,7 +173,3 @@ class QuotedNumbersTest(unittest.TestCase):
         self.assert_refused(head + "  other: count of */*\n", "results.csv", "cannot be read")
         self.readme.write_text(TEXT.replace("table run:", "table"), encoding="utf-8")
         self.assert_refused(QUOTES, "README.md: 1 comments begin a table, 0 of them can be read")
-
-
-if __name__ == "__main__":
-    unittest.main()

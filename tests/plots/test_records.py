@@ -1,36 +1,22 @@
 """The reader of records, and what follows from their keys.  /usr/bin/python3 -m unittest FILE"""
 import gzip
 import json
-import shutil
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
+import records
+from catalogue import FAMILIES, MEASURES, catalogue_mesh, looks_of, plain_looks
+from case_names import case_name, file_of
+from made_up import case, read
+from running import FolderTest
+from selection import compared, given, sharing_axes
 
-import records  # noqa: E402
-from bodies import sharing_axes  # noqa: E402
-from looks import FAMILIES, looks_of, plain_looks  # noqa: E402
-from made_up import case  # noqa: E402
-from paper_sizes import catalogue_mesh  # noqa: E402
-from selection import compared, given  # noqa: E402
-
-MEASURES = ("area_mm2", "contact_length_mm", "width_mm", "height_mm")
+# As in tests/bench/records/case_name_test.cpp.
+SWEPT = "Mesh0/default/SYMMLQ:SSOR0.7,schur=sparse/study=error/contact_sweeps=1e-12/stop=paper"
 
 
-class RecordsTest(unittest.TestCase):
-    def setUp(self) -> None:
-        self.results = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.results)
-        self.csv, self.lines = self.results / "results.csv", self.results / "records.jsonl"
-
-    def read(self, rows: list[dict], columns: list[str] = made_up.COLUMNS) -> list[records.Row]:
-        made_up.write(self.csv, rows, columns)
-        return records.rows_of(records.read(self.csv))
-
+class ReaderTest(FolderTest):
     def assert_refused(self, *parts: str, file: str = "results.csv") -> None:
         with self.assertRaises(records.RecordsError) as refused:
             records.read(self.results / file)
@@ -44,15 +30,13 @@ class RecordsTest(unittest.TestCase):
         made_up.write(self.csv, [case("Mesh0", "3STEPD"), row | {column: cell}])
         self.assert_refused(f"{self.csv}:3: {column} is '{cell}', expected {allowed}")
 
-
-class ReaderTest(RecordsTest):
     def test_both_files_give_the_same(self) -> None:
         rows = [case("Mesh0", "SDTIC3", done_fraction=0.25, knob_value=1e-12), case("Mesh1", "P2"),
                 made_up.error_study(["Mesh3"])[40]]
         made_up.write_lines(self.lines, [made_up.record(row) for row in rows])
         of_lines = records.rows_of(records.read(self.lines))
         self.assertEqual([vars(row) | {"line": row.line + 1} for row in of_lines],
-                         [vars(row) for row in self.read(rows)])
+                         [vars(row) for row in read(rows)])
 
     def test_lines_that_gzip_packed_are_read_alike(self) -> None:
         made_up.write_lines(self.lines, [made_up.record(case("Mesh0", "P2"))])
@@ -73,18 +57,18 @@ class ReaderTest(RecordsTest):
         self.assertEqual(list(records.read(self.lines).scene), ["a\u2028b\x85c"] * 2)
 
     def test_what_keeps_a_text_from_being_a_formula_is_not_the_texts(self) -> None:
-        rows = self.read([case("Mesh0", "P2", scene="'=1"), case("Mesh0", "P2", scene="''a")])
+        rows = read([case("Mesh0", "P2", scene="'=1"), case("Mesh0", "P2", scene="''a")])
         self.assertEqual([row.scene for row in rows], ["=1", "'a"])
 
     def test_a_folder_is_read_from_its_records_if_it_has_them(self) -> None:
-        self.read([case("Mesh0", "3STEPD")])
+        made_up.write(self.csv, [case("Mesh0", "3STEPD")])
         self.assertEqual(list(records.read_run(self.results).mesh), ["Mesh0"])
         made_up.write_lines(self.lines, [made_up.record(case("Mesh1", "3STEPD"))])
         self.assertEqual(list(records.read_run(self.results).mesh), ["Mesh1"])
 
     def test_contact_problems_without_a_body_are_passed_over(self) -> None:
         problem = case("pile", "CONDENSED") | {"scene": "fclib", "n_phi": "", "n_f": "", "n_c": 40}
-        rows = self.read([problem, case("Mesh0", "3STEPD")])
+        rows = read([problem, case("Mesh0", "3STEPD")])
         self.assertEqual([("Mesh0", 3)], [(row.mesh, row.line) for row in rows])
         made_up.write(self.csv, [problem])
         self.assert_refused(f"{self.csv}: only contact problems without a body")
@@ -140,7 +124,7 @@ class ReaderTest(RecordsTest):
 
     def test_a_point_of_a_study_is_there_once(self) -> None:
         rows = [row for row in made_up.error_study(["Mesh0"]) if row["knob"] == "tolerance"]
-        self.assertEqual(len(self.read(rows[:6])), 6)  # they differ in knob_value
+        self.assertEqual(len(read(rows[:6])), 6)  # they differ in knob_value
         made_up.write(self.csv, [rows[0], rows[0]])
         self.assert_refused(f"{self.csv}:3:", "SYMMLQ:DTIC6, target, error, tolerance, 0.1' is")
 
@@ -161,9 +145,9 @@ class ReaderTest(RecordsTest):
                          ("BLIND:SKY", "BLIND", "one tooth", None))
 
 
-class BodiesTest(RecordsTest):
-    def bodies(self, rows: list[dict], columns: list[str] = made_up.COLUMNS) -> list[str]:
-        return [row.body for row in self.read(rows, columns)]
+class BodiesTest(unittest.TestCase):
+    def bodies(self, rows: list[dict], *columns: list[str]) -> list[str]:
+        return [row.body for row in read(rows, *columns)]
 
     def test_meshes_of_one_body_have_its_measures(self) -> None:
         meshes = ("punch1", "dovetail1", "punch2", "Mesh0", "Mesh7", "dovetail2", "Mesh3")
@@ -198,16 +182,16 @@ class BodiesTest(RecordsTest):
             self.assertEqual(catalogue_mesh(mesh), ours, mesh)
 
     def test_bodies_share_axes_where_their_sizes_do_not_overlap(self) -> None:
-        rows = self.read([case(mesh, "3STEPD") for mesh in (*made_up.OWN, *made_up.SIZES)])
+        rows = read([case(mesh, "3STEPD") for mesh in (*made_up.OWN, *made_up.SIZES)])
         self.assertEqual([sorted({row.body for row in own}) for own in sharing_axes(rows)],
                          [["punch", "rack of four teeth"], ["dovetail"], ["one tooth"]])
-        rows = self.read([case(mesh, "3STEPD") for mesh in made_up.SIZES])
+        rows = read([case(mesh, "3STEPD") for mesh in made_up.SIZES])
         self.assertEqual(len(sharing_axes(rows)), 1)
 
 
-class SelectionTest(RecordsTest):
+class SelectionTest(unittest.TestCase):
     def names(self, methods: list[str], room: int, **cells: object) -> list[str]:
-        rows = self.read([case("Mesh0", method, **cells) for method in methods])
+        rows = read([case("Mesh0", method, **cells) for method in methods])
         return [row.method for row in compared(rows, room)]
 
     def test_variants_where_there_is_room(self) -> None:
@@ -221,7 +205,7 @@ class SelectionTest(RecordsTest):
         self.assertEqual(self.names(["SYMMLQ:DTIC3", "SDTIC3", "3STEPD"], 9), ["SDTIC3", "3STEPD"])
 
     def test_given_parameters(self) -> None:
-        rows = self.read([case("Mesh0", name) for name in (
+        rows = read([case("Mesh0", name) for name in (
             "ALM:r=20,rho=40", "ALM", "MINE:r=1e-6,rho=2", "ALM:r=a,rho=b")])
         self.assertEqual([given(row) for row in rows], [(20, 40), None, (1e-6, 2), None])
 
@@ -244,5 +228,19 @@ class LooksTest(unittest.TestCase):
         self.assertEqual((looks["M2"], looks["M4"][1]), (("o", "-"), "-"))
 
 
-if __name__ == "__main__":
-    unittest.main()
+class CaseNamesTest(unittest.TestCase):
+    def test_the_parts_that_are_not_the_default(self) -> None:
+        case = dict(mesh="Mesh0", scene="default", method="HYBRID")
+        self.assertEqual(case_name(case), "Mesh0/default/HYBRID")
+        self.assertEqual(case_name(case | dict(stop="target", study="", knob="", knob_value=None)),
+                         "Mesh0/default/HYBRID")
+        case |= dict(method="SYMMLQ:SSOR0.7,schur=sparse", study="error", knob="contact sweeps",
+                     stop="paper")
+        self.assertEqual(case_name(case | dict(knob_value=1e-12)), SWEPT)
+        self.assertEqual(case_name(case | dict(knob_value="1e-12")), SWEPT)  # a cell of CSV
+        self.assertTrue(case_name(case | dict(knob_value=30.0)).endswith("_sweeps=30/stop=paper"))
+
+    def test_files(self) -> None:
+        self.assertEqual(file_of(SWEPT), "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
+                                         "contact_sweeps=1e-12--stop=paper")
+        self.assertEqual(file_of("-a-/b+--c%/d-e"), "%2Da%2D--b%2B%2D%2Dc%25--d-e")

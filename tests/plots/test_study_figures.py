@@ -2,7 +2,6 @@
 import functools
 import shutil
 import struct
-import sys
 import tempfile
 import unittest
 from dataclasses import dataclass, replace
@@ -13,24 +12,23 @@ import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
-sys.path.insert(0, str(Path(__file__).resolve().parent))
+import made_up  # finds plots
 
-import made_up  # noqa: E402; finds plots
-
-import convergence_figure  # noqa: E402
-import direct_labels  # noqa: E402
-import drawn  # noqa: E402
-import figure_files  # noqa: E402
-import figure_parts  # noqa: E402
-import figures  # noqa: E402
-import memory_figure  # noqa: E402
-import pareto_figure  # noqa: E402
-import records  # noqa: E402
-import stop_figure  # noqa: E402
-import study_parts  # noqa: E402
-import work_precision_figure  # noqa: E402
-from paper_sizes import SIZES  # noqa: E402
-from running import run  # noqa: E402
+import drawing as sheets
+import drawn
+import figures
+from catalogue import SIZES
+from drawing import STYLE
+from figure import convergence as convergence_figure
+from figure import memory as memory_figure
+from figure import pareto as pareto_figure
+from figure import stop as stop_figure
+from figure import work_precision as work_precision_figure
+from labels import Labels
+from made_up import read
+from records import Row
+from running import FolderTest, run
+from words import percent, seconds
 
 
 def words_of(figure: Figure) -> str:
@@ -44,7 +42,7 @@ class Drawn:
     run: tuple[int, str, str]
 
 
-write_small_png = figure_files.write_small_png
+write_small_png = sheets.write_small_png
 
 
 @functools.cache
@@ -60,32 +58,19 @@ def everything() -> Drawn:
     def keep(figure: Figure, dpi: int, path: Path, colours: int) -> None:
         kept[path.stem] = figure
         write_small_png(figure, dpi, path, colours)
-    with mock.patch.object(figure_files, "write_small_png", keep), drawn.without_minor_ticks(), \
-            mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+    with mock.patch.object(sheets, "write_small_png", keep), drawn.without_minor_ticks(), \
+            mock.patch.object(sheets, "write", lambda figure, path: path.touch()):
         done = run(figures, results)
     return Drawn(results / "figures", kept, done)
 
 
-class StudiesTest(unittest.TestCase):
+class StudiesTest(FolderTest):
+    program = figures
+
     def setUp(self) -> None:
-        self.results = Path(tempfile.mkdtemp())
-        self.addCleanup(shutil.rmtree, self.results)
-        self.csv = self.results / "results.csv"
-        self.figures = self.results / "figures"
+        super().setUp()
         matplotlib.rcdefaults()
-        matplotlib.rcParams.update(figure_parts.STYLE)
-
-    def read(self, rows: list[dict[str, object]]) -> list[records.Row]:
-        made_up.write(self.csv, rows)
-        return records.rows_of(records.read(self.csv))
-
-    def assert_refused(self, *parts: str) -> None:
-        """Exit 2, one line that has all the parts, and nothing written."""
-        status, out, err = run(figures, self.results)
-        self.assertEqual((status, out, err.count("\n")), (2, "", 1), err)
-        for part in parts:
-            self.assertIn(part, err)
-        self.assertFalse(self.figures.exists())
+        matplotlib.rcParams.update(STYLE)
 
 
 class StudyFiguresTest(StudiesTest):
@@ -108,7 +93,7 @@ class StudyFiguresTest(StudiesTest):
         rows = [row | dict(error_discretisation="", error_total="")
                 for row in made_up.error_study(["Mesh0"], sweep=False)[:12]]
         made_up.write(self.csv, rows)
-        with mock.patch.object(figure_files, "write_small_png",
+        with mock.patch.object(sheets, "write_small_png",
                                lambda figure, dpi, path, colours: path.touch()):
             self.figures.mkdir()
             (self.figures / "pareto.png").touch()
@@ -121,20 +106,20 @@ class StudyFiguresTest(StudiesTest):
     def test_one_size_makes_no_line(self) -> None:
         made_up.write(self.csv, [row for row in made_up.sizes_to_the_limit()
                                  if row["mesh"] == "Mesh0"])
-        with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+        with mock.patch.object(sheets, "write", lambda figure, path: path.touch()):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("all_methods: left out: no method has two sizes\n", out)
 
     def test_the_papers_figures_pass_over_studies(self) -> None:
-        planned = figures.drawings_of(self.read(made_up.error_study(["Mesh0"])[:5]))
+        planned = figures.drawings_of(read(made_up.error_study(["Mesh0"])[:5]))
         self.assertEqual([drawing.name for drawing in planned],
                          ["convergence", "pareto", "stop_and_error", "work_precision_Mesh0"])
 
 
 class WorkPrecisionTest(StudiesTest):
     def test_curves_and_the_papers_stop(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh1"]))
+        rows = read(made_up.error_study(["Mesh1"]))
         curves = work_precision_figure.curves_of(rows)
         self.assertEqual(len(curves[("ALM", "uzawa iterations")]), 10)  # without its paper stop
         self.assertEqual(len(curves[("HYBRID", "contact sweeps")]), 6)
@@ -149,7 +134,7 @@ class WorkPrecisionTest(StudiesTest):
             self.assertIn(method, words)
 
     def test_every_point_is_drawn(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh1"]))
+        rows = read(made_up.error_study(["Mesh1"]))
         figure = everything().figures["work_precision_Mesh1"]
         points = {tuple(point) for axes in figure.axes for line in axes.lines
                   for point in line.get_xydata()}
@@ -163,7 +148,7 @@ class WorkPrecisionTest(StudiesTest):
             cases += [made_up.point("Mesh1", f"ALM:r={r},rho={r}", factor * 0.01 * 2**k, 1e-3 * 4.0**-k
                                     * (1 if k < 4 or r == 1 else 1e2), knob="uzawa iterations",
                                     knob_value=2**k) for k in range(8)]
-        rows = self.read(cases)
+        rows = read(cases)
         own, = work_precision_figure.families_of(work_precision_figure.curves_of(rows)).values()
         self.assertEqual(len(own), 24)
         best = work_precision_figure.envelope(own, "time_s")
@@ -186,7 +171,7 @@ class WorkPrecisionTest(StudiesTest):
         self.assertTrue(all(line.get_zorder() < 2 for line in grey))
 
     def test_one_set_of_parameters_is_a_curve_like_others(self) -> None:
-        rows = self.read([made_up.point("Mesh1", "ALM:r=20,rho=20", 0.01 * 2**k, 1e-3 * 4.0**-k,
+        rows = read([made_up.point("Mesh1", "ALM:r=20,rho=20", 0.01 * 2**k, 1e-3 * 4.0**-k,
                                         knob="uzawa iterations", knob_value=2**k) for k in range(8)])
         self.assertEqual(work_precision_figure.families_of(work_precision_figure.curves_of(rows)), {})
         self.assertIn("ALM:r=20,rho=20", words_of(work_precision_figure.draw(rows)))
@@ -194,13 +179,13 @@ class WorkPrecisionTest(StudiesTest):
     def test_a_row_without_an_error_is_named(self) -> None:
         rows = made_up.error_study(["Mesh3"], sweep=False)
         rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
-        words = words_of(work_precision_figure.draw(self.read(rows)))
+        words = words_of(work_precision_figure.draw(read(rows)))
         self.assertIn("No point: 3STEPD (timeout).", words)
 
 
 class ParetoTest(StudiesTest):
     def test_nothing_beats_the_front(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh0", "Mesh1", "Mesh2", "Mesh3"]))
+        rows = read(made_up.error_study(["Mesh0", "Mesh1", "Mesh2", "Mesh3"]))
         for column in ("time_s", "peak_heap_bytes"):
             front = pareto_figure.front(rows, column)
             self.assertGreater(len(front), 3)
@@ -214,7 +199,7 @@ class ParetoTest(StudiesTest):
                     self.fail(f"{row} is cheaper than the front")
 
     def test_table_names_the_cheapest(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh0", "Mesh3"]))
+        rows = read(made_up.error_study(["Mesh0", "Mesh3"]))
         stress = [row for row in rows if row.method != "P2"]
         for level in (0.25, 0.1):
             best = pareto_figure.cheapest(stress, level)
@@ -224,7 +209,7 @@ class ParetoTest(StudiesTest):
         self.assertIsNone(pareto_figure.cheapest(rows, 1e-3))
         table = pareto_figure.levels_table(rows)
         self.assertTrue(all(len(line) == len(pareto_figure.TABLE) for line in table))
-        self.assertEqual(table[-1][0], study_parts.percent(0.1))
+        self.assertEqual(table[-1][0], percent(0.1))
         self.assertEqual((table[-1][2], table[-1][5]), ("Mesh3", "Mesh3"))
 
     def test_levels_can_be_reached(self) -> None:
@@ -234,13 +219,13 @@ class ParetoTest(StudiesTest):
             self.assertTrue(all(level >= min(errors) for level in levels), errors)
 
     def test_coarse_meshes_are_not_cut_off(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh0"], sweep=False))
+        rows = read(made_up.error_study(["Mesh0"], sweep=False))
         for floor, highest in ((0.01, 0.2), (0.3, 0.45), (0.9, 1)):
             self.assertAlmostEqual(pareto_figure.highest_of(
                 [replace(row, error_discretisation=floor) for row in rows]), highest)
 
     def test_bodies_are_kept_apart(self) -> None:
-        words = words_of(pareto_figure.draw(self.read(made_up.error_study(["Mesh3", "Mesh4"]))))
+        words = words_of(pareto_figure.draw(read(made_up.error_study(["Mesh3", "Mesh4"]))))
         self.assertIn("one tooth", words)
         self.assertIn("rack of four teeth", words)
 
@@ -249,7 +234,7 @@ class ParetoTest(StudiesTest):
         levels = [made_up.case(f"Mesh0+{kind}{k}", "HYBRID", n_phi=800 * 3**k, adapt_level=k,
                                time_s=0.01 * 2**k, error_total=0.1 * rate**k)
                   for kind, rate in (("adapt", 0.3), ("refined", 0.7)) for k in range(4)]
-        rows = self.read(study + levels)
+        rows = read(study + levels)
         plan = [d for d in figures.drawings_of(rows) if d.name == "pareto"]
         self.assertEqual([len(study) + len(levels)], [len(d.rows) for d in plan])
         words = words_of(plan[0].draw(plan[0].rows))
@@ -260,8 +245,8 @@ class ParetoTest(StudiesTest):
 
 class ConvergenceTest(StudiesTest):
     def test_rate(self) -> None:
-        rows = self.read(made_up.error_study(list(SIZES), sweep=False))
-        bodies = convergence_figure.points_of(rows)
+        rows = read(made_up.error_study(list(SIZES), sweep=False))
+        bodies = convergence_figure.points_of(rows, "default")
         self.assertEqual([p.mesh for p in bodies["one tooth"]], list(SIZES)[:4])
         for points in bodies.values():  # made as n_phi^-0.45
             self.assertAlmostEqual(convergence_figure.rate(points), 0.9, 6)
@@ -273,20 +258,19 @@ class ConvergenceTest(StudiesTest):
         rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
         smooth = made_up.error_study(["Mesh0", "Mesh1"], sweep=False)
         rows += [row | dict(scene="frictionless") for row in smooth]
-        words = words_of(convergence_figure.draw(self.read(rows)))
+        words = words_of(convergence_figure.draw(read(rows)))
         self.assertIn("Below: scene frictionless", words)
         self.assertEqual(words.count("bounds of the energy, one tooth"), 1)
 
     def test_without_bounds(self) -> None:
         rows = [row | dict(lower_bound_Nmm="") for row in made_up.error_study(["Mesh0", "Mesh1"])]
-        words = words_of(convergence_figure.draw(self.read(rows)))
+        words = words_of(convergence_figure.draw(read(rows)))
         self.assertNotIn("bounds", words)
 
 
 class MemoryFigureTest(StudiesTest):
-    def bars(self, *lines: dict) -> list[records.Row]:
-        made_up.write_lines(self.results / "records.jsonl", list(lines))
-        drawings = list(memory_figure.drawings(records.rows_of(records.read_run(self.results))))
+    def bars(self, *lines: dict) -> list[Row]:
+        drawings = list(memory_figure.drawings(made_up.read_lines(list(lines))))
         return drawings[0].rows if drawings else []
 
     def test_bars_of_the_largest_mesh_by_their_peaks(self) -> None:
@@ -323,17 +307,16 @@ class MemoryFigureTest(StudiesTest):
             other | {"study": "error"}), [])
 
     def test_is_drawn_from_the_folder_and_bad_lines_are_refused(self) -> None:
-        lines = self.results / "records.jsonl"
         good = [made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID")]
-        made_up.write_lines(lines, good)
-        with mock.patch.object(figure_files, "write", lambda figure, path: path.touch()):
+        made_up.write_lines(self.lines, good)
+        with mock.patch.object(sheets, "write", lambda figure, path: path.touch()):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("memory_by_owner.png, .csv: 2 cases", out)
         shutil.rmtree(self.figures)
-        made_up.write_lines(lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
+        made_up.write_lines(self.lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
         self.assert_refused("records.jsonl:3", "memory_by_owner", "wings", "blocks")
-        lines.write_text("no JSON\n", encoding="utf-8")
+        self.lines.write_text("no JSON\n", encoding="utf-8")
         self.assert_refused("records.jsonl:1", "not JSON")
 
 
@@ -345,7 +328,7 @@ class OtherFiguresTest(StudiesTest):
         self.assertIn("3STEPD:CHOLMOD $n^{1.30}$", words)
 
     def test_stop_and_error(self) -> None:
-        rows = self.read(made_up.error_study(["Mesh1"]))
+        rows = read(made_up.error_study(["Mesh1"]))
         curve, = stop_figure.curves_of(rows).values()
         self.assertEqual([stop.r for stop in curve], [5, 20, 80, 320, 1280])
         self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows)))
@@ -353,7 +336,7 @@ class OtherFiguresTest(StudiesTest):
     def test_labels_keep_apart_and_inside(self) -> None:
         figure = Figure(figsize=(6, 4))
         axes = figure.add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
-        labels = direct_labels.Labels(axes)
+        labels = Labels(axes)
         for k, (x, y) in enumerate(np.random.default_rng(2).uniform(0, 1, (25, 2))):
             labels.add(f"method {k}", x, y)
         box = axes.get_window_extent().bounds
@@ -367,10 +350,6 @@ class OtherFiguresTest(StudiesTest):
     def test_words_for_numbers(self) -> None:
         for value, words in ((0.0712, "7.1 %"), (0.2, "20 %"), (7e-4, "0.07 %"), (6e-6, "6e-6"),
                              (1.5, "1.5")):
-            self.assertEqual(study_parts.percent(value).replace("\u00a0", " "), words)
+            self.assertEqual(percent(value).replace("\u00a0", " "), words)
         for value, words in ((0.0031, "3.1 ms"), (0.25, "0.25 s"), (150, "150 s")):
-            self.assertEqual(study_parts.seconds(value).replace("\u00a0", " "), words)
-
-
-if __name__ == "__main__":
-    unittest.main()
+            self.assertEqual(seconds(value).replace("\u00a0", " "), words)

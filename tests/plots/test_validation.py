@@ -1,14 +1,11 @@
 """docs/validation.md: its tables say what is committed.  /usr/bin/python3 -m unittest FILE"""
-import sys
 import tempfile
 import unittest
 from pathlib import Path
 
-PROJECT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(PROJECT / "plots"))
+from running import PROJECT, run
 
-import validation_profiles  # noqa: E402
-from running import run  # noqa: E402
+import validation_profiles
 
 
 class ValidationTest(unittest.TestCase):
@@ -26,7 +23,3 @@ class ValidationTest(unittest.TestCase):
             out = Path(folder) / "validation.png"
             self.assertEqual(run(validation_profiles, f"--out={out}")[0], 0)
             self.assertTrue(out.read_bytes().startswith(b"\x89PNG"))
-
-
-if __name__ == "__main__":
-    unittest.main()

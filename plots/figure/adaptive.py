@@ -1,0 +1,106 @@
+"""Total error against unknowns and time: adapted meshes next to the meshes as they are."""
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from drawing import Drawing, log_limits, log_log, panel_at, sheet
+from labels import Labels
+from marks import WIDTH
+from records import Row
+from selection import by_body, exponent, grouped, is_paper_stop, kind_of, of_scene
+from words import CASE, csv_of, plain, threads
+
+LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.62, 0.45, 0.42, 2.5, 0.15, 0.5  # inches
+BODIES = 2  # that there is room for
+ALL_LEVELS = "#B00020"
+COLOURS = {"as they are": "0.35", "refined everywhere": "#4B6BC8", "adapted": ALL_LEVELS}  # of kinds
+DASHES = {"as they are": (0, (4, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}
+HIGHEST = 1.0  # total errors above are not drawn
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    known = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
+                      and not is_paper_stop(row) and row.completed and row.error_total])
+    bodies = {body for body, own in by_body(known).items()
+              if len({row.n_phi for row in own if kind_of(row) == "adapted"}) > 1}
+    shown = [row for row in known if row.body in sorted(bodies)[:BODIES]]
+    if shown:
+        yield Drawing("adaptive", shown, draw, table_of, vector=True)
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, ("kind_of_mesh", kind_of), "adapt_level", "error_total", "time_s",
+                  "adapt_time_s")
+
+
+def best_of(rows: list[Row]) -> list[Row]:
+    meshes = grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
+    return [min(own, key=lambda row: row.error_total) for own in meshes.values()]
+
+
+def draw(rows: list[Row]) -> Figure:
+    bodies = by_body([row for row in rows if row.error_total <= HIGHEST])
+    figure = sheet(
+        TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
+        f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
+        "they are (open, dashed), refined everywhere (open, dotted) and adapted (filled, solid). Below: "
+        "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
+        "estimates of the error. "
+        "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
+        f"one's unknowns on. {threads(rows)}.", width=WIDTH)
+    every = [row for own in bodies.values() for row in own]
+    times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
+    width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
+    panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$, 1", [row.n_phi for row in every]),
+              (TOP + HEIGHT + BETWEEN, draw_times, "time, s", times))
+    for k, (body, own) in enumerate(bodies.items()):
+        for top, draw_panel, xlabel, x in panels:
+            axes = panel_at(figure, LEFT + k * (width + GAP), top, width, HEIGHT)
+            log_log(axes, xlim=log_limits(x, 1.3), xlabel=xlabel,
+                    ylim=log_limits([row.error_total for row in every], 1.4),
+                    ylabel="" if k else "total error, 1", title=plain(body) if top == TOP else "")
+            axes.tick_params(labelleft=k == 0)
+            draw_panel(axes, own)
+    return figure
+
+
+def style(row: Row, marker: str, colour: str) -> dict[str, object]:
+    kind = kind_of(row)
+    return dict(marker=marker, markersize=4.5, linewidth=1.1, linestyle=DASHES[kind],
+                markerfacecolor=colour if kind == "adapted" else "white")
+
+
+def draw_unknowns(axes: Axes, rows: list[Row]) -> None:
+    labels = Labels(axes)
+    for kind, colour in COLOURS.items():
+        best = best_of([row for row in rows if kind_of(row) == kind])
+        if not best:
+            continue
+        late = [row for row in best if kind != "adapted" or row.n_phi >= 1.5 * best[0].n_phi]
+        power = exponent([row.n_phi for row in late], [row.error_total for row in late], least=2)
+        labels.line(kind if power is None else f"{kind}: $N^{{{power:.2f}}}$",
+                    [row.n_phi for row in best], [row.error_total for row in best], colour,
+                    formula=True, **style(best[0], "o", colour))
+    labels.name_lines(weight="bold")
+
+
+def draw_times(axes: Axes, rows: list[Row]) -> None:
+    labels = Labels(axes)
+    named: set[str] = set()
+    curves = grouped([row for row in rows if row.time_s],
+                     lambda row: (row.method, kind_of(row)))
+    for (method, _), own in sorted(curves.items(), key=lambda item: item[0][1] != "adapted"):
+        own.sort(key=lambda row: row.n_phi)
+        look = own[0].look
+        line = [row.time_s for row in own], [row.error_total for row in own]
+        axes.plot(*line, color=look.colour, **style(own[0], look.marker, look.colour))
+        labels.avoid(*line)
+        if method not in named:
+            named.add(method)
+            labels.add(method, line[0][::-1], line[1][::-1], color=look.colour, weight="bold")
+    loop = [(row.adapt_time_s, row.error_total)
+            for row in best_of([row for row in rows if kind_of(row) == "adapted"]) if row.adapt_time_s]
+    if loop:
+        axes.plot(*zip(*loop), color=ALL_LEVELS, linewidth=2, zorder=6)
+        labels.add("whole loop", *zip(*loop[::-1]), color=ALL_LEVELS, weight="bold")

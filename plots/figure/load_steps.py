@@ -1,0 +1,53 @@
+"""Time along a path of loads over the number of its steps: what a body costs once and each step."""
+from collections.abc import Iterator
+
+from matplotlib.figure import Figure
+
+from drawing import Drawing, log_limits, log_log, sheet, side_by_side
+from labels import Labels
+from records import Row
+from selection import by_mesh, by_method
+from words import csv_of, threads
+
+LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
+COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
+MESHES = 2  # that there is room for
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = [row for row in rows if row.study == "load-steps" and row.load_steps]
+    shown = [row for own in list(by_mesh(study).values())[:MESHES] for row in own]
+    if shown:
+        yield Drawing("load_steps", shown, draw, table_of, vector=True)
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of([row for own in by_mesh(rows).values()
+                   for line in by_method(own, "load_steps").values() for row in line], *COLUMNS)
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    timed = [row for row in rows if row.completed and row.time_s]
+    if not timed:
+        return "no case of the study of load steps has a time"
+    lost = len(rows) - len(timed)
+    figure = sheet(
+        TOP + HEIGHT + BOTTOM, "Load steps",
+        "Time of all steps of a path to the same loads, over their number. Level at the left: what "
+        "a body costs once, its condensation; rising in proportion to the right: what each step "
+        "costs anew, contact law, recovery and check, or a whole iteration. "
+        f"{threads(rows)}."
+        + (f" {lost} of {len(rows)} cases have no answer and are not drawn." if lost else ""))
+    meshes = by_mesh(timed)
+    panels = side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)
+    for axes, own in zip(panels, meshes.values()):
+        log_log(axes, xlim=log_limits([row.load_steps for row in timed], 1.4),
+                ylim=log_limits([row.time_s for row in timed], 1.6), xlabel="load steps, 1",
+                ylabel="time, s" if axes is panels[0] else "")
+        labels = Labels(axes)
+        for method, line in by_method(own, "load_steps").items():
+            look = line[0].look
+            labels.line(method, [row.load_steps for row in line], [row.time_s for row in line],
+                        look.colour, marker=look.marker, markersize=5, linewidth=1.2)
+        labels.name_lines(weight="bold")
+    return figure

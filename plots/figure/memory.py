@@ -1,0 +1,115 @@
+"""Whose the heap of a solve is at its peak, method by method, next to what the methods count."""
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from drawing import PAGE_WIDTH, TYPE, Drawing, panel_at, sheet
+from records import OWNERS, Row
+from selection import by_body, by_mesh, compared, grouped, of_scene
+from words import CASE, columns_of, csv_of, mebibytes, plain, threads, width_of
+
+LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
+BETWEEN = 0.75  # the axes of two meshes
+ROOM = 24  # bars
+MIB = 2**20
+# Okabe and Ito's colours, and what they stand for.
+LOOKS = {"blocks": ("#999999", "blocks S, C, q"),
+         "system_matrix": ("#000000", "own system matrix"),
+         "factor": ("#0072B2", "factor"),
+         "preconditioner": ("#56B4E9", "preconditioner"),
+         "intermediate": ("#E69F00", "S⁻¹Cᵀ and its kin"),
+         "condensed": ("#D55E00", "D, G and contact"),
+         "iteration": ("#009E73", "iteration vectors"),
+         "answer": ("#CC79A7", "answer φ, σ"),
+         "check": ("#F0E442", "error estimate"),
+         "other": ("#DDDDDD", "other")}
+COUNT = dict(marker="D", markersize=5.5, markerfacecolor="white", markeredgecolor="black",
+             markeredgewidth=1.1, linestyle="none")
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    split = of_scene([row for row in rows if row.memory_by_owner and row.completed
+                      and row.stop == "target" and not row.study])
+    if split:
+        bars = [bar for own in by_body(split).values() for bar in chosen(own)]
+        yield Drawing("memory_by_owner", bars, draw, table_of)
+
+
+def chosen(rows: list[Row]) -> list[Row]:
+    """Of a body's largest mesh that has two methods or more; by peak."""
+    meshes = [compared(own, ROOM) for own in by_mesh(rows).values()]
+    return sorted(next((own for own in reversed(meshes) if len(own) > 1), []), key=peak_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    pieces = [(row, owner, own) for row in rows for owner, own in row.memory_by_owner.items()]
+    return csv_of(pieces, *columns_of(lambda piece: piece[0], *CASE),
+                  ("owner", lambda piece: piece[1]),
+                  *((name, lambda piece, name=name: piece[2].get(name))
+                    for name in ("peak_bytes", "counted_bytes")))
+
+
+def peak_of(row: Row, *owners: str) -> int:
+    """Bytes of these owners, of all without any, at the overall peak."""
+    return sum(row.memory_by_owner[owner]["peak_bytes"] for owner in owners or row.memory_by_owner
+               if owner in row.memory_by_owner)
+
+
+def counted(row: Row) -> int:
+    return sum(own.get("counted_bytes") or 0 for own in row.memory_by_owner.values())
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    if not rows:
+        return "no mesh has two methods whose heap was split"
+    used = [owner for owner in OWNERS if any(peak_of(row, owner) > 0 for row in rows)]
+    meshes = grouped(rows, lambda row: row.mesh)
+    sizes = [f"{mesh}, n_φ = {own[0].n_phi}" for mesh, own in meshes.items()]
+    differ = [row.method + (f" on {row.mesh}" if len(meshes) > 1 else "") for row in rows
+              if row.memory_counts_differ]
+    body = sum(BETWEEN + BAR * len(own) for own in meshes.values()) - BETWEEN
+    figure = sheet(
+        TOP + body + BOTTOM, "Where the memory goes",
+        f"{'; '.join(sizes)}, scene {rows[0].scene}, {threads(rows)}. "
+        "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
+        "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
+        "count, entries times size, and the blocks. A bar that ends beyond it is workspace; one "
+        "that ends before it never holds everything at once.",
+        f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
+        else "")
+    left = max(LEFT, max(width_of(row.method, TYPE) for row in rows) / 72 + 0.2)
+    top = TOP
+    for mesh, own in meshes.items():
+        axes = panel_at(figure, left, top, PAGE_WIDTH - left - RIGHT, BAR * len(own))
+        draw_bars(axes, own, used)
+        if len(meshes) > 1:
+            axes.set_title(plain(mesh), loc="left", pad=2, weight="bold")
+        top += BAR * len(own) + BETWEEN
+    figure.legend(*axes.get_legend_handles_labels(), loc="upper left", ncols=4, frameon=False,
+                  bbox_to_anchor=(left / PAGE_WIDTH - 0.01, 1 - 0.26 / figure.get_size_inches()[1]),
+                  borderpad=0, columnspacing=1.4, handlelength=1.2, labelspacing=0.3)
+    return figure
+
+
+def draw_bars(axes: Axes, rows: list[Row], used: list[str]) -> None:
+    counts = [counted(row) / MIB for row in rows]
+    places = range(len(rows))
+    start = [0.0] * len(rows)
+    for owner in used:
+        colour, words = LOOKS[owner]
+        widths = [max(peak_of(row, owner), 0) / MIB for row in rows]
+        axes.barh(places, widths, left=start, height=0.72, color=colour, label=words,
+                  edgecolor="white", linewidth=0.4)
+        start = [left + width for left, width in zip(start, widths)]
+    axes.plot(counts, places, label="the method's own count", **COUNT)
+    axes.set(xlim=(0, 1.04 * max(*start, *counts)), ylim=(-0.6, len(rows) - 0.4),
+             xlabel="heap at the peak of the solve, MiB")
+    axes.set_yticks(places, [plain(row.method) for row in rows])
+    axes.invert_yaxis()
+    axes.tick_params(axis="y", length=0)
+    axes.grid(False, axis="y")
+    for place, row, count in zip(places, rows, counts):
+        axes.annotate(f"{mebibytes(peak_of(row))}, counted {mebibytes(count * MIB)}",
+                      (1.01, place), va="center", xycoords=axes.get_yaxis_transform(), fontsize=7,
+                      annotation_clip=False)

@@ -1,0 +1,261 @@
+"""Total error, of the discretisation and of the method together, against time and memory."""
+import math
+from collections.abc import Iterator
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+import selection
+from drawing import PAGE_WIDTH, STOP, Drawing, log_limits, log_log, sheet, side_by_side, text_at
+from figure.work_precision import AXES
+from labels import Labels
+from records import Row
+from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene, value_of
+from words import (CASE, KNOB, csv_of, mebibytes, percent, plain, seconds, threads, width_of)
+
+LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
+TABLE_LINE = 0.17  # inches: a line of the table
+HIGHEST = 0.2  # total errors above are of no use, and not drawn …
+OVER_FLOOR = 1.5  # … but for so many times the discretisation error of the coarsest mesh
+GAIN = 0.01  # of the error: less is not worth a point of the front
+STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
+LEVELS = 7  # lines of a table at most
+TABLE = ("error at most", "cheapest method", "mesh", "time", "peak heap",
+         "displacements: mesh", "time", "peak heap")
+NAME = dict(weight="bold", fontsize=8.5)
+FLOOR_WORDS = 11  # points, between words of two floors
+# Kinds of meshes: colour and width of their fronts.
+KINDS = {"as they are": ("black", 2.2), "refined everywhere": ("#6B6B80", 1.8),
+         "adapted": ("#B00020", 2.6)}  # as kind_of() says
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "error"])
+    if study:
+        levels_of = [row for row in rows if row.study == "" and row.adapt_level is not None
+                     and row.scene == study[0].scene]
+        yield Drawing("pareto", study + levels_of, draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    """on_front_in_…: of the stress methods on meshes of the kind."""
+    known = known_of(rows)
+    stress = [row for row in known if not row.in_displacements]
+    fronts = {column: {row.line for own in grouped(stress, lambda row: (row.body, kind_of(row)))
+                       .values() for row in front(own, column)} for column in AXES}
+    return csv_of(known, *CASE, *KNOB, ("kind_of_mesh", kind_of), *AXES, "error_discretisation",
+                  "error_stress", "error_total",
+                  *((f"on_front_in_{column}", lambda row, own=own: row.line in own)
+                    for column, own in fronts.items()))
+
+
+def known_of(rows: list[Row]) -> list[Row]:
+    highest = highest_of(rows)
+    return [row for row in rows if row.time_s and row.error_total and row.error_total <= highest]
+
+
+def highest_of(rows: list[Row]) -> float:
+    """Total error drawn, at most 1: nothing of such an answer is right."""
+    floor = max((row.error_discretisation or 0 for row in rows), default=0)
+    return min(max(HIGHEST, OVER_FLOOR * floor), 1)
+
+
+def front(rows: list[Row], column: str) -> list[Row]:
+    """Those that no cheaper one equals in total error, the cheapest first; GAIN is no gain."""
+    return selection.front(rows, lambda row: value_of(row, column), lambda row: row.error_total,
+                           GAIN)
+
+
+def levels(errors: list[float]) -> list[float]:
+    """Round ones that can be reached, up to the largest error: at most LEVELS, the smallest."""
+    low, high = min(errors), max(errors)
+    found = [float(f"{m * 10.0**k:.2g}") for k in range(math.floor(math.log10(low)), 2)
+             for m in STEPS]
+    found = [level for level in found if level >= low]
+    return [level for level in found if level <= max(high, found[0])][:LEVELS]
+
+
+def displacements_of(rows: list[Row]) -> list[str]:
+    return list(dict.fromkeys(row.method for row in rows if row.in_displacements))
+
+
+def cheapest(rows: list[Row], level: float) -> Row | None:
+    reach = [row for row in rows if row.error_total <= level]
+    return min(reach, key=lambda row: row.time_s, default=None)
+
+
+def with_knob(row: Row) -> str:
+    """'3STEPD, contact sweeps 10'."""
+    return f"{row.method}, {row.knob} {row.knob_value or 0:g}" if row.knob else row.method
+
+
+def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
+    stress = [row for row in rows if not row.in_displacements]
+    others = [row for row in rows if row.in_displacements]
+    several = len(displacements_of(rows)) > 1
+    lines = []
+    for level in reversed(levels([row.error_total for row in rows])):
+        best, other = cheapest(stress, level), cheapest(others, level)
+        which = f"{other.method}, " if other and several else ""
+        lines.append((percent(level), with_knob(best) if best else "–", *costs(best),
+                      *costs(other, which)))
+    return lines
+
+
+def costs(row: Row | None, which: str = "") -> list[str]:
+    return [which + row.mesh, seconds(row.time_s), mebibytes(row.peak_heap_bytes)] if row \
+        else ["–"] * 3
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    known = known_of(rows)
+    if not known:
+        return "no row has time_s and an error_total up to 1"
+    bodies = by_body(sorted(known, key=lambda row: row.n_phi))
+    tables = {body: levels_table(of_body) for body, of_body in bodies.items()}
+    kinds = [kind for kind in KINDS if kind in map(kind_of, known)]
+    columns = [column for column in AXES if any(value_of(row, column) for row in known)]
+    heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 2)
+               for body, table in tables.items()}
+    figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
+                   caption(rows, known, kinds))
+    above = 0.0
+    for body, of_body in bodies.items():
+        errors = [row.error_total for row in of_body]
+        text_at(figure, LEFT, above + TOP - 0.18, plain(body), va="baseline", fontsize=10,
+                weight="bold")
+        panels = side_by_side(figure, [""] * len(columns), LEFT, above + TOP, HEIGHT, GAP)
+        for axes, column in zip(panels, columns):
+            own = [row for row in of_body if value_of(row, column)]
+            log_log(axes, xlabel=AXES[column], ylim=(min(errors) / 1.25, max(errors) * 1.1),
+                    xlim=log_limits([value_of(row, column) for row in own], 1.6))
+            axes.grid(False)
+            draw_panel(axes, own, column, kinds)
+        panels[0].set_ylabel("total relative error of the stresses, 1")
+        draw_table(figure, above + TOP + HEIGHT + BOTTOM, displacements_of(of_body), tables[body])
+        above += heights[body]
+    return figure
+
+
+def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
+    names = displacements_of(known)
+    others = ""
+    if len(names) == 1:
+        others = (f"The displacement method {names[0]} has its own curve; by definition it has the "
+                  "mesh's error. ")
+    elif names:
+        others = (f"The displacement methods {', '.join(names[:-1])} and {names[-1]} have their own "
+                  "curves and errors. ")
+    tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
+    tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
+    adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
+    highest = highest_of(rows)
+    beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
+    cut = f" {beyond} solves with errors above {percent(highest)} are not drawn." \
+        if beyond else ""
+    return (
+        f"Scene {known[0].scene}, {threads(known)}. Total error: relative constitutive "
+        "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
+        "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
+        "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
+        "the discretisation error of meshes as they are, the lowest that a method can reach there. "
+        f"{others}Small points: all solves{tuned}.{adapting}{cut}")
+
+
+def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> None:
+    labels = Labels(axes)
+    draw_floors(axes, [row for row in rows if kind_of(row) == "as they are"], labels)
+    stress = [row for row in rows if not row.in_displacements]
+    for row in stress:
+        axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
+                  marker=row.look.marker, markersize=2.5, alpha=0.35, markeredgewidth=0, zorder=2)
+    fronts = {kind: front([row for row in stress if kind_of(row) == kind], column)
+              for kind in kinds}
+    for kind, best in fronts.items():
+        if best:
+            draw_front(axes, labels, line_of(best, column), best, kind)
+    displacements = grouped(
+        sorted((row for row in rows if row.in_displacements), key=lambda row: row.n_phi),
+        lambda row: (displacements_of(rows).index(row.method), kinds.index(kind_of(row))))
+    for (_, k), own in sorted(displacements.items()):
+        line, look = line_of(own, column), own[0].look
+        axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
+                  zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
+        labels.avoid(*line)
+        labels.add(f"{own[0].method}, {kinds[k]}" if len(kinds) > 1 else
+                   f"{own[0].method} displacements", *line, color=look.colour, **NAME)
+    draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
+    for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
+        meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
+        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column), weight="bold",
+                   color=own[0].look.colour)
+
+
+def line_of(rows: list[Row], column: str) -> tuple[list[float], list[float]]:
+    return [value_of(row, column) for row in rows], [row.error_total for row in rows]
+
+
+def joined(meshes: list[str]) -> str:
+    return meshes[0] if len(meshes) == 1 else f"{meshes[0]}..{meshes[-1]}"
+
+
+def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]], best: list[Row],
+               kind: str) -> None:
+    colour, width = KINDS[kind]
+    axes.step(*line, where="post", color=colour, linewidth=width, alpha=0.85, zorder=4)
+    labels.avoid(*line)
+    for cost, row in zip(line[0], best):
+        axes.plot(cost, row.error_total, color=row.look.colour, marker=row.look.marker,
+                  markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
+    if kind != "as they are":
+        methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
+        labels.add(f"{kind}: {methods}", line[0][::-1], line[1][::-1], color=colour, **NAME)
+
+
+def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
+    """The meshes' discretisation errors; those that are too near to each other share their words."""
+    right = axes.get_xlim()[1]
+    floors = {row.mesh: row.error_discretisation for row in rows if row.error_discretisation}
+    groups: list[list[str]] = []
+    for mesh in sorted(floors, key=floors.get, reverse=True):
+        axes.axhline(floors[mesh], color="0.55", linewidth=0.8, linestyle=(0, (1, 2)), zorder=1)
+        high = labels.points(right, floors[groups[-1][0]])[0, 1] if groups else math.inf
+        if high - labels.points(right, floors[mesh])[0, 1] < FLOOR_WORDS:
+            groups[-1].append(mesh)
+        else:
+            groups.append([mesh])
+    for group in groups:
+        ends = [group[0], group[-1]] if len(group) > 1 else group
+        words = f"{joined(ends)}: {' to '.join(percent(floors[mesh]) for mesh in ends)}"
+        axes.annotate(plain(words), (1, floors[group[0]]), xytext=(-2, 1.5), ha="right",
+                      xycoords=axes.get_yaxis_transform(), textcoords="offset points",
+                      fontsize=7.5, color="0.35", zorder=9,
+                      bbox=dict(facecolor="white", edgecolor="none", alpha=0.75, pad=0.3))
+        labels.reserve(words, right, floors[group[0]], 7.5)
+
+
+def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
+    """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
+    stops = [row for row in rows if is_paper_stop(row) and not given(row)]
+    for method, own in grouped(stops, lambda row: row.method).items():
+        x, y = line_of(own, column)
+        for at in zip(x, y):
+            axes.plot(*at, markerfacecolor=own[0].look.colour, **STOP | {"markersize": 12})
+            labels.avoid(*at)
+        labels.add(f"{method} with the paper's stop", x, y, color=own[0].look.colour, **NAME)
+
+
+def draw_table(figure: Figure, top: float, displacements: list[str],
+               lines: list[tuple[str, ...]]) -> None:
+    who = displacements[0] if len(displacements) == 1 else "displacements"
+    heads = [f"{who}: mesh" if head.startswith("displ") else head
+             for head in TABLE][:None if displacements else 5]
+    table = [heads, *lines]
+    widths = [max(width_of(cell, 8, "bold") for cell in column) / 72 for column in zip(*table)]
+    gap = (PAGE_WIDTH - LEFT - 0.1 - sum(widths)) / max(len(heads) - 1, 1)
+    for k, line in enumerate(table):
+        left = LEFT
+        for cell, width in zip(line, widths):
+            text_at(figure, left, top + k * TABLE_LINE, plain(cell), fontsize=8,
+                    weight="bold" if k == 0 else "normal")
+            left += width + min(gap, 0.35)

@@ -1,0 +1,105 @@
+"""What the paper's stop of ALM does to the answer, for given parameters r and rho."""
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from drawing import Drawing, log_limits, log_log, panel_at, sheet
+from labels import Labels
+from records import Row
+from selection import given, grouped, is_paper_stop, of_scene
+from words import CASE, csv_of, percent, short
+
+LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 0.72, 0.4, 3.38, 0.72, 3.8, 0.5  # inches
+SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
+MARKERS = "o^sDvP<X"
+
+
+@dataclass(frozen=True)
+class Stop:
+    row: Row
+    r: float
+    ratio: float  # rho / r
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    study = of_scene([row for row in rows if row.study == "error"])
+    if study:
+        yield Drawing("stop_and_error", [row for row in study if stop_of(row)], draw, table_of)
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, ("r", lambda row: stop_of(row).r),
+                  ("rho_over_r", lambda row: stop_of(row).ratio), "error_force",
+                  "uzawa_iterations")
+
+
+def stop_of(row: Row) -> Stop | None:
+    """None: not of given parameters under the paper's stop, or no error is known."""
+    parameters = given(row)
+    if not is_paper_stop(row) or not parameters or not row.error_force:
+        return None
+    r, rho = parameters
+    return Stop(row, r, float(f"{rho / r:.6g}")) if r > 0 else None
+
+
+def curves_of(rows: list[Row]) -> dict[str, list[Stop]]:
+    """'Mesh3, rho = 2 r' -> its cases by r."""
+    stops = [stop for row in rows if (stop := stop_of(row))]
+    families = {stop.row.family for stop in stops}
+
+    def name(stop: Stop) -> str:
+        ratio = "r" if stop.ratio == 1 else f"{stop.ratio:g} r"
+        family = f"{stop.row.family}, " if len(families) > 1 else ""
+        return f"{family}{stop.row.mesh}, ρ = {ratio}"
+    return grouped(sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)), name)
+
+
+def draw(rows: list[Row]) -> Figure | str:
+    curves = curves_of(rows)
+    if not any(len(curve) > 1 for curve in curves.values()):
+        return "no two methods NAME:r=..,rho=.. with stop=paper and error_force"
+    stops = [stop for curve in curves.values() for stop in curve]
+    families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
+    target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
+    low, high = (percent(end(stop.row.error_force for stop in stops)) for end in (min, max))
+    figure = sheet(
+        TOP + HEIGHT + BOTTOM, f"The paper's stop: errors from {low} to {high}",
+        f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
+        "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
+        f"which the stop does not see; dashed: the target error {short(target)} of the other "
+        "figures. Right: the iterations it took.")
+    left = panel_at(figure, LEFT, TOP, PANEL, HEIGHT)
+    draw_panel(left, curves, "error_force", [target])
+    left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
+    left.set_ylabel("relative error of the contact forces, 1")
+    right = panel_at(figure, LEFT + PANEL + GAP, TOP, PANEL, HEIGHT)
+    draw_panel(right, curves, "uzawa_iterations", [])
+    right.set_ylabel("Uzawa iterations, 1")
+    return figure
+
+
+def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
+               included: list[float]) -> None:
+    """Curves of one point are grey, those of one r under one name."""
+    known = {words: [(stop.r, getattr(stop.row, column), stop.row.mesh) for stop in curve
+                     if getattr(stop.row, column)] for words, curve in curves.items()}
+    points = [point for curve in known.values() for point in curve]
+    log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
+            xlim=log_limits([r for r, *_ in points], 1.5),
+            ylim=log_limits([*(y for _, y, _ in points), *included], 1.8))
+    labels = Labels(axes)
+    for k, words in enumerate(words for words, curve in curves.items() if len(curve) > 1):
+        if known[words]:
+            r, y, _ = zip(*known[words])
+            labels.line(words, r, y, SHADES[k % len(SHADES)], marker=MARKERS[k % len(MARKERS)],
+                        markersize=5, linewidth=1.1, linestyle="-" if k < len(SHADES) else "--")
+    single = [point for words, curve in curves.items() if len(curve) == 1
+              for point in known[words]]
+    for own in grouped(single, lambda point: point[0]).values():
+        r, y, meshes = zip(*own)
+        axes.plot(r, y, color="0.55", marker="x", markersize=4.5, linestyle="none")
+        labels.avoid(r, y)
+        labels.add("..".join(dict.fromkeys([meshes[0], meshes[-1]])), r, y, color="0.4", fontsize=8)
+    labels.name_lines(fontsize=8)

@@ -1,0 +1,158 @@
+"""Words and numbers of figures: captions, cases without a point, the CSV next to a picture."""
+import csv
+import io
+import re
+from collections.abc import Callable, Iterable
+from functools import cache
+
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextToPath
+
+from records import Row
+from selection import grouped
+
+Column = str | tuple[str, Callable[[object], object]]  # an attribute, or a name and what it is
+
+CASE = ("mesh", "body", "n_phi", "scene", "method", "stop", "status")  # which one a line is of
+KNOB = ("knob", "knob_value")
+EXTRAPOLATED = ("extrapolated_time_s", "done_fraction")  # of one that reached its time limit
+
+
+def csv_of(items: Iterable[object], *columns: Column) -> str:
+    """A line per item under the columns' names, numbers unrounded; what is not there is empty."""
+    named = [(column, lambda item, name=column: getattr(item, name)) if isinstance(column, str)
+             else column for column in columns]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(name for name, _ in named)
+    writer.writerows([cell(of(item)) for _, of in named] for item in items)
+    return text.getvalue()
+
+
+def columns_of(part: Callable[[object], object], *names: str) -> list[Column]:
+    """Attributes of a part of the item; empty where there is no such part."""
+    return [(name, lambda item, name=name: getattr(part(item), name, None)) for name in names]
+
+
+def cell(value: object) -> object:
+    """As in results.csv: true and false; a ' before what a spreadsheet would take for a formula."""
+    if value is None or isinstance(value, bool):
+        return "" if value is None else str(value).lower()
+    if isinstance(value, str) and value[:1] in tuple("=+-@'"):
+        return "'" + value
+    return value
+
+
+def short(value: float) -> str:
+    """0.000012 -> 1e-5."""
+    mantissa, exponent = f"{value:.0e}".split("e")
+    return f"{mantissa}e{int(exponent)}" if value else "0"
+
+
+def percent(value: float) -> str:
+    """0.0712 -> 7.1 %; what is too small for that as 1e-6."""
+    return f"{100 * value:.2g}\u00a0%" if 1e-4 <= value < 1 else f"{value:.2g}" \
+        if 1 <= value < 100 else short(value)
+
+
+def seconds(value: float) -> str:
+    return f"{1e3 * value:.2g}\u00a0ms" if value < 0.0995 else f"{value:.2g}\u00a0s" \
+        if value < 99.5 else f"{value:.0f}\u00a0s"
+
+
+def mebibytes(value: float | None) -> str:
+    if value is None:
+        return "–"
+    mib = value / 2**20
+    return f"{mib:.2g}\u00a0MiB" if mib < 99.5 else f"{mib:.0f}\u00a0MiB"
+
+
+def counted(count: int, noun: str, nouns: str = "") -> str:
+    return f"{count} {noun if count == 1 else nouns or f'{noun}s'}"
+
+
+def span(values: Iterable[int]) -> str:
+    low, high = min(values := set(values)), max(values)
+    return f"{low}" if low == high else f"{low} to {high}"
+
+
+def threads(rows: list[Row]) -> str:
+    count = span(row.threads for row in rows)
+    return f"{count} thread{'' if count == '1' else 's'}"
+
+
+def plain(text: str) -> str:
+    """Text in which $ does not begin a formula."""
+    return text.replace("$", r"\$")
+
+
+@cache
+def width_of(words: str, size_pt: float, weight: str = "normal") -> float:
+    font = FontProperties(size=size_pt, weight=weight)
+    return TextToPath().get_text_width_height_descent(words.replace("$", ""), font, False)[0]
+
+
+def wrapped(texts: Iterable[str], width: float, size_pt: float) -> list[str]:
+    """Lines of at most so many inches; no-break spaces stay."""
+    lines: list[str] = []
+    for text in filter(None, texts):
+        lines.append("")
+        for word in text.split(" "):
+            longer = f"{lines[-1]} {word}".strip()
+            if width_of(longer, size_pt) > 72 * width and lines[-1]:
+                lines.append(word)
+            else:
+                lines[-1] = longer
+    return lines
+
+
+def merged(cases: list[str]) -> str:
+    """'ALM on Mesh1', 'ALM on Mesh2' -> 'ALM on Mesh1, Mesh2'."""
+    methods = grouped((case.partition(" on ") for case in cases), lambda parts: parts[0])
+    return ", ".join(f"{method} on {', '.join(mesh for *_, mesh in on)}" if on[0][2] else method
+                     for method, on in methods.items())
+
+
+def cases_by_reason(reasons: dict[str, list[str]]) -> str:
+    return "; ".join(f"{merged(cases)} ({reason})" for reason, cases in reasons.items())
+
+
+def no_point(rows: list[Row]) -> str:
+    """Which of the cases were not solved; empty: all were."""
+    failed = grouped([row for row in rows if not row.completed], Row.status_words)
+    words = cases_by_reason({why: [f"{row.method} on {row.mesh}" for row in own]
+                             for why, own in failed.items()})
+    return f"No point: {words}." if words else ""
+
+
+def targets(rows: list[Row]) -> list[str]:
+    """The target errors of a run, as far as its rows tell."""
+    found = {row.target_error for row in rows} - {None}
+    for row in rows:
+        told = re.search(r"above the target (\d+(?:\.\d+)?(?:e[+-]?\d+)?)", row.status_reason)
+        found |= {float(told[1])} if told and not row.target_error else set()
+    return [short(error) if float(short(error)) == error else f"{error:g}"
+            for error in sorted(found)]
+
+
+def caption(rows: list[Row], measured: str, run: list[Row]) -> str:
+    """What was measured and how: scene, stop, target, threads. run: all rows of its stop."""
+    target = "target error " + (" or ".join(targets(run)) or "of the run")
+    stop = (f"Iterations run to the {target}." if rows[0].stop == "target" else
+            f"Iterations end by the paper's own stops; {target}.")
+    return f"{measured}; {threads(rows)}. Scene {rows[0].scene}. {stop}"
+
+
+def time_caption(rows: list[Row], run: list[Row]) -> str:
+    words = "Time of one solve, from assembled blocks to contact forces and stresses"
+    done = {row.repetitions for row in rows if row.completed}
+    if done:
+        words += f", median of {span(done)} repetition{'' if done == {1} else 's'}"
+    words = caption(rows, words, run)
+    if any(row.tuning_s for row in rows):
+        words += " Finding tolerances and parameters is not in the time."
+    return words
+
+
+def heap_caption(rows: list[Row], run: list[Row]) -> str:
+    return caption(rows, "Highest heap during one solve, its blocks and result included", run)

@@ -1,0 +1,201 @@
+"""The figures that are lines over a size, of made-up records.  /usr/bin/python3 -m unittest FILE"""
+import csv
+import unittest
+
+import made_up  # finds plots
+
+import drawn
+from figure import adaptive as adaptive_figure
+from figure import growth as growth_figure
+from figure import load_steps as load_steps_figure
+from figure import overview as overview_figure
+from figure import scaling as scaling_figure
+from figures import drawings_of
+from thread_scaling import points_of
+
+
+def levels(mesh: str, count: int) -> list[dict]:
+    """error = 100 / n_phi exactly."""
+    return [made_up.case(f"{mesh}+adapt{level}", method, n_phi=1000 * 2**level, adapt_level=level,
+                         adapt_time_s=0.1 * 2**level, error_total=0.1 / 2**level, time_s=0.02 * 2**level)
+            for level in range(count) for method in ("HYBRID", "3STEPD")]
+
+
+class AdaptiveTest(unittest.TestCase):
+    def test_adapted_meshes_are_beside_those_of_their_body_with_their_rate(self) -> None:
+        uniform = [made_up.case(mesh, "HYBRID", error_total=0.04 / (k + 1))
+                   for k, mesh in enumerate(("Mesh0", "Mesh1"))]
+        rows = made_up.read([*levels("Mesh0", 5), *uniform])
+        self.assertEqual({"one tooth"}, {row.body for row in rows})
+        plan = [d for d in drawings_of(rows) if d.name == "adaptive"]
+        self.assertEqual([len(rows)], [len(d.rows) for d in plan])
+        words = drawn.words_of(plan[0].draw(plan[0].rows))
+        for expected in ("adapted: $N^{-1.00}$", "as they are", "whole loop", "one tooth"):
+            self.assertIn(expected, words)
+
+    def test_without_two_levels_there_is_none(self) -> None:
+        self.assertEqual([], list(adaptive_figure.drawings(made_up.read(levels("Mesh0", 1)))))
+        self.assertEqual([], list(adaptive_figure.drawings(made_up.read([made_up.case("Mesh0", "ALM")]))))
+
+    def test_points_of_a_turned_knob_are_not_a_methods_own(self) -> None:
+        turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1,
+                          "error_discretisation": 0.01} for case in levels("Mesh0", 3)]
+        self.assertEqual([], list(adaptive_figure.drawings(made_up.read(turned))))
+
+
+def refined(method: str, power: float, levels: range, **cells: object) -> list[dict[str, object]]:
+    return [made_up.case(f"Mesh3+refine{k}", method, n_phi=6000 * 4**k, time_s=1e-6 * (6000 * 4**k)**power,
+                         error_stress="" if k > 3 else 1e-12, error_estimate=1e-7, **cells)
+            for k in levels]
+
+
+class GrowthTest(unittest.TestCase):
+    def test_exponents_are_those_of_the_large_ones(self) -> None:
+        rows = made_up.read(refined("HYBRID:CG", 1.1, range(6)) + refined("HYBRID", 1.4, range(4)))
+        lines = growth_figure.lines_of(rows)
+        time = growth_figure.PANELS[0]
+        self.assertAlmostEqual(growth_figure.power(lines["HYBRID:CG"], time), 1.1)
+        self.assertIsNone(growth_figure.power(lines["HYBRID"], time))  # one mesh above the limit
+
+    def test_another_program_has_its_memory_elsewhere(self) -> None:
+        ours, other = made_up.read(
+            refined("HYBRID", 1, range(1)) +
+            refined("EXTERNAL:x", 1, range(1), program="x 1", peak_rss_bytes=2.0**30))
+        self.assertEqual(growth_figure.memory_of(ours), 2.0**22)
+        self.assertEqual(growth_figure.memory_of(other), 2.0**30)
+
+    def test_an_error_without_a_reference_is_the_methods_word(self) -> None:
+        drawing, = growth_figure.drawings(made_up.read(refined("HYBRID:CG", 1, range(5))))
+        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        self.assertEqual([(row["error"], row["error_is_estimated"]) for row in table[3:]],
+                         [("1e-12", "false"), ("1e-07", "true")])
+        self.assertIn("HYBRID:CG: $n^{1.00}$", drawn.words_of(drawing.draw(drawing.rows)))
+
+    def test_without_refined_meshes_there_is_none(self) -> None:
+        self.assertEqual(list(growth_figure.drawings(made_up.read(made_up.sizes_to_the_limit()))), [])
+
+
+class OverviewTest(unittest.TestCase):
+    ADAPTED = [made_up.case(f"Mesh0+adapt{k}", "HYBRID", n_phi=800 * 2**k, error_total=0.04 / 2**k,
+                            time_s=0.01 * 2**k, adapt_time_s=0.03 * 2**k) for k in range(3)]
+    BOTH = [made_up.case("Mesh0", "ALM", stop=stop, error_total=0.04, time_s=0.02)
+            for stop in ("target", "paper")]
+
+    def test_a_curve_each(self) -> None:
+        paper_direct = made_up.case("Mesh0", "3STEPD", stop="paper", error_total=0.04)
+        drawing, = overview_figure.drawings(made_up.read(self.ADAPTED + self.BOTH + [paper_direct]))
+        curves = overview_figure.curves_of(drawing.rows)
+        self.assertEqual({curve.words for curve in curves},
+                         {"ALM, the paper’s stop", "ALM to 1e-6", "HYBRID, adapted meshes"})
+        self.assertEqual(overview_figure.loop_of(drawing.rows),
+                         [(0.03, 0.04), (0.06, 0.02), (0.12, 0.01)])
+        words = drawn.words_of(drawing.draw(drawing.rows))
+        for curve in curves:
+            self.assertIn(curve.words, words)
+
+    def test_it_needs_both_stops_and_adapted_meshes(self) -> None:
+        for rows in (self.ADAPTED, self.BOTH, self.ADAPTED + self.BOTH[:1]):
+            self.assertEqual(list(overview_figure.drawings(made_up.read(rows))), [])
+
+
+STEPS = (1, 5, 20)
+COSTS = {"3STEPD:CHOLMOD": (0.13, 0.02), "ALM": (0, 0.1)}  # once, and each step
+
+
+def paths(cells: dict | None = None) -> list:
+    made = [made_up.case("Mesh3", method, study="load-steps", scene=f"steps_{count:02d}",
+                         load_steps=count, time_s=once + count * each, time_once_s=once or 1e-3,
+                         time_per_load_s=each) | (cells or {})
+            for method, (once, each) in COSTS.items() for count in STEPS]
+    return made_up.read(made)
+
+
+class LoadStepsTest(unittest.TestCase):
+    def test_a_curve_per_method_over_its_steps(self) -> None:
+        (drawing,) = load_steps_figure.drawings(paths())
+        figure = drawing.draw(drawing.rows)
+        (axes,) = [axes for axes in figure.axes if axes.get_xlabel()]
+        curves = [line for line in axes.lines if len(line.get_xdata()) == len(STEPS)]
+        self.assertEqual(len(curves), len(COSTS))
+        for line, (once, each) in zip(sorted(curves, key=lambda line: -line.get_ydata()[0]),
+                                      sorted(COSTS.values(), key=lambda cost: -sum(cost))):
+            self.assertEqual(tuple(line.get_xdata()), STEPS)
+            self.assertAlmostEqual(line.get_ydata()[-1], once + STEPS[-1] * each)
+        for method in COSTS:
+            self.assertIn(method, drawn.words_of(figure))
+
+    def test_its_numbers_stand_beside_it(self) -> None:
+        (drawing,) = load_steps_figure.drawings(paths())
+        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        self.assertEqual(len(table), len(COSTS) * len(STEPS))
+        self.assertEqual(table[0].keys(), set(load_steps_figure.COLUMNS))
+
+    def test_without_a_time_it_says_so(self) -> None:
+        (drawing,) = load_steps_figure.drawings(paths(dict(status="timeout", time_s="")))
+        self.assertIn("has a time", drawing.draw(drawing.rows))
+
+    def test_other_runs_have_none(self) -> None:
+        self.assertEqual(list(load_steps_figure.drawings(paths(dict(study="")))), [])
+
+
+# Mesh2 has 3105 unknowns, Mesh3 6287: 1.012 times the double.
+THREADED = {("Mesh2", 1): 1.0, ("Mesh2", 2): 0.6, ("Mesh3", 1): 3.0, ("Mesh3", 2): 1.6}
+GROWTH = 6287 / 3105
+
+
+def threaded(times: dict = THREADED, **cells: object) -> list[dict]:
+    return [made_up.record(made_up.case(mesh, "3STEPD", study="scaling", knob="threads",
+                                        knob_value=threads, threads=threads, time_s=time,
+                                        noise_kernel_s=0.001, busy_kernel_s=0.0011) | cells)
+            | {"samples_s": [time] * 5} for (mesh, threads), time in times.items()]
+
+
+class ScalingTest(unittest.TestCase):
+    def points(self, cases: list[dict]) -> dict:
+        return {(point.row.mesh, point.row.threads): point for point in points_of(made_up.read_lines(cases))}
+
+    def test_by_hand(self) -> None:
+        points = self.points(threaded())
+        for case, speed_up, efficiency in ((("Mesh2", 1), 1, 1), (("Mesh2", 2), 1 / 0.6, 1 / 1.2),
+                                           (("Mesh3", 2), 3 / 1.6, 3 / 3.2)):
+            self.assertAlmostEqual(points[case].speed_up, speed_up)
+            self.assertAlmostEqual(points[case].speed_up_low, speed_up)  # samples without scatter
+            self.assertAlmostEqual(points[case].efficiency, efficiency)
+        weak = points["Mesh3", 2]
+        self.assertEqual(weak.weak_from, "Mesh2")
+        self.assertAlmostEqual(weak.weak_growth, GROWTH / 2)
+        self.assertAlmostEqual(weak.weak_one_thread, GROWTH / 3)
+        # Unknowns per second and thread over those of one thread on the small mesh.
+        self.assertAlmostEqual(weak.weak_efficiency, (6287 / (2 * 1.6)) / (3105 / 1.0))
+        self.assertEqual(points["Mesh2", 1].weak_efficiency, 1)
+        self.assertIsNone(points["Mesh2", 2].weak_efficiency)
+        self.assertAlmostEqual(weak.busy_kernel_ratio, 1.1)
+
+    def test_a_mesh_that_did_not_grow_with_the_threads_is_no_point(self) -> None:
+        times = {(mesh, threads): 1.0 for mesh in ("Mesh0", "Mesh3") for threads in (1, 2, 4)}
+        self.assertEqual([case for case, point in self.points(threaded(times)).items()
+                          if point.weak_from], [("Mesh0", 1)])
+
+    def test_one_sample_has_no_efficiency(self) -> None:
+        cases = threaded()
+        cases[-1] |= {"repetitions": 1, "samples_s": [1.6]}
+        point = self.points(cases)["Mesh3", 2]
+        self.assertEqual((point.speed_up, point.efficiency, point.weak_efficiency), (None,) * 3)
+        (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded(repetitions=1)))
+        self.assertIn("one sample gives no efficiency", drawing.draw(drawing.rows))
+
+    def test_nothing_is_said_without_one_thread_or_a_solution(self) -> None:
+        for cases in (threaded({("Mesh3", 2): 1.0}), threaded(status="inaccurate", outcome="inaccurate")):
+            self.assertEqual({point.speed_up for point in self.points(cases).values()}, {None})
+
+    def test_the_figure_says_what_it_shows(self) -> None:
+        (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded() + threaded(scene="other")))
+        words = drawn.words_of(drawing.draw(drawing.rows))
+        for part in ("Mesh2: speed-up", "Mesh3: speed-up", "growing meshes", "1.01 times",
+                     "takes 1.1 times its time alone", "3STEPD"):
+            self.assertIn(part, words)
+        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        self.assertEqual([(line["mesh"], line["threads"]) for line in table],
+                         [(mesh, str(threads)) for mesh, threads in THREADED])
+        self.assertEqual(list(scaling_figure.drawings(made_up.read_lines(threaded(study="", knob="",
+                                                                      knob_value=None)[:1]))), [])
