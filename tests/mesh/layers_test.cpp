@@ -4,21 +4,13 @@
 
 #include <cmath>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::mesh_layers_test {
 namespace {
 
 using testing::small_tooth;
-
-std::string complaint(const Layers& layers) {
-  try {
-    layered(small_tooth(8, 4), layers);
-  } catch (const TransformError& error) {
-    return error.what();
-  }
-  return "none";
-}
 
 TEST(MeshLayers, ATriangleBelongsToTheLayerOfItsCentroid) {
   for (const Eigen::Vector2d& normal :
@@ -36,39 +28,32 @@ TEST(MeshLayers, ATriangleBelongsToTheLayerOfItsCentroid) {
       const double d =
           normal.normalized().dot(mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
       const int layer = mesh.triangle_body[t];
-      if (layer > 0) {
-        EXPECT_GE(d, layers.interfaces_mm[layer - 1]);
-      }
-      if (layer < 3) {
-        EXPECT_LT(d, layers.interfaces_mm[layer]);
-      }
+      EXPECT_TRUE(layer == 0 || d >= layers.interfaces_mm[layer - 1]) << d << " in " << layer;
+      EXPECT_TRUE(layer == 3 || d < layers.interfaces_mm[layer]) << d << " in " << layer;
     }
   }
 }
 
-TEST(MeshLayers, ACountMakesThemEquallyThick) {
-  Layers by_count, by_interfaces;
-  by_count.count = 4;
-  by_interfaces.interfaces_mm = {2.5, 5, 7.5};
-  EXPECT_EQ(layered(small_tooth(8, 4), by_count).triangle_body,
-            layered(small_tooth(8, 4), by_interfaces).triangle_body);
-}
-
-TEST(MeshLayers, NoneKeepTheBodies) {
-  EXPECT_EQ(layered(small_tooth(8, 4), {}).body_names, std::vector<std::string>{"body"});
+TEST(MeshLayers, ACountMakesThemEquallyThickAndNoneKeepTheBodies) {
+  const Mesh tooth = small_tooth(8, 4);
+  EXPECT_EQ(layered(tooth, {{1, 0}, 4, {}}).triangle_body,
+            layered(tooth, {{1, 0}, 1, {2.5, 5, 7.5}}).triangle_body);
+  EXPECT_EQ(layered(tooth, {}).body_names, std::vector<std::string>{"body"});
 }
 
 TEST(MeshLayers, ImpossibleValuesAreNamed) {
-  EXPECT_EQ(complaint({{0, 0}, 2, {}}), "normal: [0, 0] (allowed: a direction, not [0, 0])");
-  EXPECT_EQ(complaint({{1, 0}, -1, {}}), "count: -1 (allowed: a whole number from 0 to 1000)");
-  EXPECT_EQ(complaint({{1, 0}, 1, {3, 3}}),
-            "interfaces_mm: 3 (allowed: finite numbers, ascending)");
-  EXPECT_EQ(complaint({{1, 0}, 1, {std::nan("")}}),
-            "interfaces_mm: nan (allowed: finite numbers, ascending)");
-  EXPECT_EQ(complaint({{1, 0}, 1, {5, 20}}),
-            "interfaces_mm: 3 layers, but layer 3 has no triangle of the mesh small tooth");
-  EXPECT_EQ(complaint({{1, 0}, 100, {}}),
-            "count: 100 layers, but layer 1 has no triangle of the mesh small tooth");
+  const std::vector<std::pair<Layers, std::string>> cases = {
+      {{{0, 0}, 2, {}}, "normal: [0, 0] (allowed: a direction, not [0, 0])"},
+      {{{1, 0}, -1, {}}, "count: -1 (allowed: a whole number from 0 to 1000)"},
+      {{{1, 0}, 1, {3, 3}}, "interfaces_mm: 3 (allowed: finite numbers, ascending)"},
+      {{{1, 0}, 1, {std::nan("")}}, "interfaces_mm: nan (allowed: finite numbers, ascending)"},
+      {{{1, 0}, 1, {5, 20}},
+       "interfaces_mm: 3 layers, but layer 3 has no triangle of the mesh small tooth"},
+      {{{1, 0}, 100, {}}, "count: 100 layers, but layer 1 has no triangle of the mesh small tooth"},
+  };
+  for (const auto& [layers, complaint] : cases)
+    EXPECT_EQ(testing::complaint_of<TransformError>([&] { layered(small_tooth(8, 4), layers); }),
+              complaint);
 }
 
 }  // namespace

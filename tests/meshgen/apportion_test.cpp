@@ -10,22 +10,19 @@ namespace {
 
 using Counts = std::vector<int>;
 
-TEST(Apportion, ExactShares) { EXPECT_EQ(apportion({1, 2, 3}, 12), (Counts{2, 4, 6})); }
-
-TEST(Apportion, LargestRemaindersGetTheRest) {
-  // Shares 2.6, 3.3, 4.1.
-  EXPECT_EQ(apportion({2.6, 3.3, 4.1}, 10), (Counts{3, 3, 4}));
-}
-
-TEST(Apportion, EqualRemaindersGoToTheEarlier) {
-  EXPECT_EQ(apportion({1, 1, 1, 1}, 50), (Counts{13, 13, 12, 12}));
-  // Equal but for rounding.
-  EXPECT_EQ(apportion({1, 1 + 1e-15, 1, 1 + 1e-15}, 50), (Counts{13, 13, 12, 12}));
-}
-
-TEST(Apportion, SmallSegmentsGetOneFirst) {
-  EXPECT_EQ(apportion({0.001, 10, 0.001, 10}, 6), (Counts{1, 2, 1, 2}));
-  EXPECT_EQ(apportion({1e-12, 1}, 2), (Counts{1, 1}));
+TEST(Apportion, LargestRemaindersGetTheRestAndSmallSegmentsOneFirst) {
+  struct Case {
+    std::vector<double> weights;
+    int total;
+    Counts counts;
+  };
+  for (const auto& [weights, total, counts] :
+       {Case{{1, 2, 3}, 12, {2, 4, 6}},            // exact shares
+        Case{{2.6, 3.3, 4.1}, 10, {3, 3, 4}},      // shares 2.6, 3.3, 4.1
+        Case{{1, 1, 1, 1}, 50, {13, 13, 12, 12}},  // equal remainders go to the earlier
+        Case{{1, 1 + 1e-15, 1, 1 + 1e-15}, 50, {13, 13, 12, 12}},  // equal but for rounding
+        Case{{0.001, 10, 0.001, 10}, 6, {1, 2, 1, 2}}, Case{{1e-12, 1}, 2, {1, 1}}})
+    EXPECT_EQ(apportion(weights, total), counts) << weights.front() << " … in " << total;
 }
 
 TEST(Apportion, SumIsTheTotalAndNobodyIsLeftOut) {

@@ -9,6 +9,7 @@
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/sha256.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sanitized.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -118,13 +119,8 @@ TEST(Checksums, ReadWhatWasWrittenAndWhatSha256sumWrites) {
 TEST(Checksums, RefusesOtherLines) {
   const testing::TemporaryFolder folder;
   const auto file = testing::write_text(folder / "SHA256SUMS", "Mesh3.msh abc\n");
-  try {
-    read_checksums(file);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(),
-              file.string() + ":1: 64 hexadecimal digits, two blanks and a file name expected");
-  }
+  EXPECT_EQ(testing::complaint_of<std::runtime_error>([&] { read_checksums(file); }),
+            file.string() + ":1: 64 hexadecimal digits, two blanks and a file name expected");
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 
 #include "mesh/msh_format.hpp"
 #include "meshgen/convert.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::testing {
@@ -30,100 +32,11 @@ Physical Surface("cast iron") = {2};
 )";
 
 // A unit square of four triangles in MSH 4.1, as Gmsh 4.8.4 wrote it.
-inline const std::string plate_msh4 = R"($MeshFormat
-4.1 0 8
-$EndMeshFormat
-$PhysicalNames
-3
-1 11 "displacement"
-1 12 "force"
-1 13 "contact"
-$EndPhysicalNames
-$Entities
-4 4 1 0
-1 0 0 0 0 
-2 1 0 0 0 
-3 1 1 0 0 
-4 0 1 0 0 
-1 0 0 0 1 0 0 1 12 2 1 -2 
-2 1 0 0 1 1 0 1 13 2 2 -3 
-3 0 1 0 1 1 0 1 12 2 3 -4 
-4 0 0 0 0 1 0 1 11 2 4 -1 
-1 0 0 0 1 1 0 1 21 4 1 2 3 4 
-$EndEntities
-$Nodes
-9 5 1 5
-0 1 0 1
-1
-0 0 0
-0 2 0 1
-2
-1 0 0
-0 3 0 1
-3
-1 1 0
-0 4 0 1
-4
-0 1 0
-1 1 0 0
-1 2 0 0
-1 3 0 0
-1 4 0 0
-2 1 0 1
-5
-0.5 0.5 0
-$EndNodes
-$Elements
-5 8 1 8
-1 1 1 1
-1 1 2 
-1 2 1 1
-2 2 3 
-1 3 1 1
-3 3 4 
-1 4 1 1
-4 4 1 
-2 1 2 4
-5 1 2 5 
-6 4 1 5 
-7 2 3 5 
-8 3 4 5 
-$EndElements
-)";
+inline const std::string plate_msh4 = text_of(test_data("meshgen/plate_msh4.msh"));
 
 // The same square in MSH 2.2, the triangles clockwise, with a node of no triangle and wide gaps in
 // the numbers.
-inline const std::string clockwise_plate = R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-4
-1 11 "displacement"
-1 12 "force"
-1 13 "contact"
-2 21 "steel"
-$EndPhysicalNames
-$Nodes
-6
-10 0 0 0
-20 1 0 0
-30 1 1 0
-40 0 1 0
-50 0.5 0.5 0
-60 7 7 0
-$EndNodes
-$Elements
-8
-1 1 2 12 1 20 10
-2 1 2 13 2 20 30
-3 1 2 12 3 40 30
-4 1 2 11 4 40 10
-5 2 2 21 1 20 10 50
-6 2 2 21 1 10 40 50
-7 2 2 21 1 30 20 50
-8 2 2 21 1 40 30 50
-$EndElements
-)";
+inline const std::string clockwise_plate = text_of(test_data("meshgen/clockwise_plate.msh"));
 
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
@@ -148,17 +61,19 @@ class Conversion : public ::testing::Test {
   Mesh convert(const std::string& name, const std::string& text) {
     return convert_model(write_text(folder_ / name, text), options_).mesh;
   }
-  // What is said after the file's name.
+  // What is said after the file's name: of one with this text, and of one that is there.
   std::string complaint(const std::string& name, const std::string& text) {
-    try {
-      convert(name, text);
-    } catch (const MeshError& error) {
-      const std::string what = error.what(), prefix = (folder_ / name).string() + ": ";
-      EXPECT_TRUE(what.starts_with(prefix)) << what;
-      EXPECT_EQ(what.find('\n'), std::string::npos) << what;
-      return what.substr(std::min(prefix.size(), what.size()));
-    }
-    return "no complaint";
+    write_text(folder_ / name, text);
+    return complaint(name);
+  }
+  std::string complaint(const std::string& name) {
+    const std::string what =
+        complaint_of<MeshError>([&] { convert_model(folder_ / name, options_); });
+    if (what == "no complaint") return what;
+    const std::string prefix = (folder_ / name).string() + ": ";
+    EXPECT_TRUE(what.starts_with(prefix)) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    return what.substr(std::min(prefix.size(), what.size()));
   }
 
   const TemporaryFolder folder_;

@@ -1,8 +1,6 @@
-#include <map>
-
 #include "meshgen/gmsh_mesher.hpp"
 #include "tests/meshgen/conversion.hpp"
-#include "tests/support/places.hpp"
+#include "tests/support/mesh_checks.hpp"
 
 namespace airybench::convert_test {
 namespace {
@@ -16,16 +14,12 @@ TEST_F(Convert, GeometryOfTwoBodiesIsMeshed) {
   EXPECT_NO_THROW(validate(mesh));
   EXPECT_EQ(mesh.name, "squares");
   EXPECT_EQ(mesh.body_names, (std::vector<std::string>{"steel", "cast iron"}));
-  double area[2] = {0, 0};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const double x = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]).x() / 3;
     EXPECT_EQ(mesh.triangle_body[t], x < 1 ? 0 : 1);
-    area[mesh.triangle_body[t]] +=
-        cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
   }
-  EXPECT_NEAR(area[0], 1, 1e-12);
-  EXPECT_NEAR(area[1], 1, 1e-12);
+  for (const auto& [body, area] : area_of_bodies(mesh)) EXPECT_NEAR(area, 1, 1e-12) << body;
   for (const BoundaryEdge& edge : mesh.boundary) {
     const double x = (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]).x() / 2;
     EXPECT_EQ(edge.role, x == 0   ? BoundaryRole::displacement
@@ -55,17 +49,14 @@ TEST_F(Convert, MeshOfFormat4) {
   EXPECT_EQ(mesh.body_names, std::vector<std::string>{"body"});  // its surface group has no name
 }
 
-TEST_F(Convert, SeveralUnnamedSurfacesAreToldApart) {
-  const Mesh mesh =
-      convert("squares.geo", two_squares_geometry + roles +
-                                 "Physical Surface(7) = {1};\nPhysical Surface(9) = {2};\n");
-  EXPECT_EQ(mesh.body_names, (std::vector<std::string>{"body7", "body9"}));
-}
-
-TEST_F(Convert, SurfacesOfOneNameAreOneBody) {
-  const Mesh mesh = convert(
-      "squares.geo", two_squares_geometry + roles + "Physical Surface(\"steel\") = {1, 2};\n");
-  EXPECT_EQ(mesh.body_names, std::vector<std::string>{"steel"});
+TEST_F(Convert, UnnamedSurfacesAreToldApartAndThoseOfOneNameAreOneBody) {
+  const std::string squares = two_squares_geometry + roles;
+  EXPECT_EQ(convert("unnamed.geo",
+                    squares + "Physical Surface(7) = {1};\n" + "Physical Surface(9) = {2};\n")
+                .body_names,
+            (std::vector<std::string>{"body7", "body9"}));
+  EXPECT_EQ(convert("one.geo", squares + "Physical Surface(\"steel\") = {1, 2};\n").body_names,
+            std::vector<std::string>{"steel"});
 }
 
 TEST_F(Convert, ClockwiseTrianglesAndLinesAreTurnedAndUnusedNodesDropped) {
@@ -92,10 +83,7 @@ TEST_F(Convert, AnyConstantZButNoOther) {
   EXPECT_EQ(complaint("plate.msh", lifted), "no complaint");
   EXPECT_EQ(complaint("plate.msh", replaced(lifted, "30 1 1 3.5", "30 1 1 3.6")),
             "node 30 has z = 3.6, others 3.5; the body must lie in a plane z = constant");
-}
-
-TEST_F(Convert, UnusedNodeMayLieAnywhere) {
-  EXPECT_EQ(complaint("plate.msh", replaced(clockwise_plate, "60 7 7 0", "60 7 7 7")),
+  EXPECT_EQ(complaint("unused.msh", replaced(clockwise_plate, "60 7 7 0", "60 7 7 7")),
             "no complaint");
 }
 
@@ -121,10 +109,10 @@ TEST_F(Convert, RolesByTheNamesOfTheModel) {
                                      "\"contact\"", "\"force:flank\"");
   options_ = model_options_of({"clamped=displacement:left", "force:flank=contact"}, {}, "");
   const Mesh mesh = convert("named.geo", named);
-  std::map<std::string, int> edges;
-  for (const BoundaryEdge& edge : mesh.boundary) ++edges[boundary_label(mesh, edge)];
-  EXPECT_EQ(edges.size(), 3u);
-  for (const char* label : {"displacement:left", "force", "contact"}) EXPECT_GT(edges[label], 0);
+  const auto length = length_of_boundaries(mesh);
+  EXPECT_EQ(length.size(), 3u);
+  for (const char* label : {"displacement:left", "force", "contact"})
+    EXPECT_TRUE(length.contains(label)) << label;
   options_ = model_options_of({"clampd=displacement"}, {}, "");
   EXPECT_EQ(complaint("named.geo", named),
             "--role: it has no physical curve 'clampd' (its physical curves: 'clamped', 'force', "
@@ -190,21 +178,13 @@ TEST_F(Convert, CurvesOfACadFileGoByTheirNumbers) {
 Save "plate.brep";
 Box(1) = {0, 0, 0, 1, 1, 1}; Save "box.brep";
 )");
-  const auto message = [&](const char* file) {
-    try {
-      convert_model(folder_ / file, options_);
-    } catch (const MeshError& error) {
-      return std::string(error.what()).substr((folder_ / file).string().size() + 2);
-    }
-    return std::string("no complaint");
-  };
-  EXPECT_EQ(message("plate.brep"),
+  EXPECT_EQ(complaint("plate.brep"),
             "a CAD file names no curves; each needs a role by its number, --role 1=force (its "
             "curves: 1 at (10, 0), 2 at (20, 5), 3 at (10, 10), 4 at (0, 5))");
-  EXPECT_EQ(message("box.brep"),
+  EXPECT_EQ(complaint("box.brep"),
             "1 volume(s); the body must be plane: one or more faces in a plane z = constant");
   options_ = model_options_of({"4=displacement", "2=contact", "1=force", "5=force"}, {}, "2");
-  EXPECT_EQ(message("plate.brep"),
+  EXPECT_EQ(complaint("plate.brep"),
             "--role: it has no physical curve '5' (its physical curves: '1', '2', '3', '4')");
   options_ = model_options_of({"4=displacement", "2=contact", "1=force", "3=force:top"}, {}, "2");
   const Mesh mesh = convert_model(folder_ / "plate.brep", options_).mesh;
@@ -230,10 +210,7 @@ TEST_F(Convert, NamedBoundaryGroupsAreKept) {
                                 "\"contact\"", "\"contact:flank\"") +
                        "Physical Curve(\"force:bottom\") = {5};\n"
                        "Physical Curve(\"force:top\") = {6};\n");
-  std::map<std::string, double> length;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    length[boundary_label(mesh, edge)] +=
-        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  auto length = length_of_boundaries(mesh);
   ASSERT_EQ(length.size(), 5U);
   for (const char* label : {"displacement", "contact:flank", "force:bottom", "force:top"})
     EXPECT_NEAR(length[label], 1, 1e-12) << label;
@@ -242,29 +219,7 @@ TEST_F(Convert, NamedBoundaryGroupsAreKept) {
 
 TEST_F(Convert, KeepsAFileThatIsOneOfOursAlready) {
   // One tag per element: allowed in MSH 2.2 and read by read_msh(), but not by Gmsh.
-  const Mesh mesh = convert("ours.msh", R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-3
-1 1 "displacement"
-1 2 "force"
-2 4 "steel"
-$EndPhysicalNames
-$Nodes
-3
-1 0 0 0
-2 1 0 0
-3 0 1 0
-$EndNodes
-$Elements
-4
-1 1 1 1 1 2
-2 1 1 2 2 3
-3 1 1 2 3 1
-4 2 1 4 1 2 3
-$EndElements
-)");
+  const Mesh mesh = convert_model(test_data("meshgen/one_tag.msh")).mesh;
   EXPECT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(mesh.body_names.front(), "steel");
   EXPECT_EQ(mesh_sizes(mesh).n_f, 8);
@@ -276,8 +231,7 @@ TEST_F(Convert, KeepsAHole) {
   EXPECT_EQ(mesh.boundary_groups, std::vector<std::string>{"hole"});
   EXPECT_EQ(mesh_sizes(mesh).n_phi,
             3 * static_cast<int>(mesh.vertices.size()) + number_edges(mesh).count());
-  const MeshSizes& sizes = mesh_sizes(mesh);
-  EXPECT_GE(sizes.force_edges, 3);
+  EXPECT_GE(mesh_sizes(mesh).force_edges, 3);
 }
 
 }  // namespace

@@ -2,34 +2,20 @@
 // under which it would take many minutes; methods_test.cpp has one of each kind for them.
 #include <gtest/gtest.h>
 
-#include <cctype>
-#include <cmath>
 #include <map>
-#include <ostream>
 
-#include "assembly/scene.hpp"
-#include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
-#include "solvers/methods.hpp"
-#include "tests/support/dense_algebra.hpp"
+#include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::product_test {
 
-void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
-
 namespace {
-
-std::string readable(std::string name) {
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return name;
-}
 
 Mesh mesh_named(const std::string& name) {
   if (name == "SmallTooth") return testing::small_tooth(8, 6);
@@ -42,7 +28,7 @@ const DualSystem& system_of(const std::string& mesh, Blocks blocks = Blocks::air
   static std::map<std::pair<std::string, Blocks>, DualSystem> systems;
   const auto key = std::pair(mesh, blocks);
   if (!systems.contains(key))
-    systems.emplace(key, assemble(testing::posed(Scene{}, mesh_named(mesh)), blocks));
+    systems.emplace(key, assemble(testing::posed({}, mesh_named(mesh)), blocks));
   return systems.at(key);
 }
 
@@ -50,7 +36,7 @@ const Solution& reference(const std::string& mesh) {
   static std::map<std::string, Solution> solutions;
   Solution& solution = solutions[mesh];
   if (solution.status != Status::ok)
-    solution = run(select_methods("HYBRID").front(), system_of(mesh, Blocks::contact_points), {});
+    solution = testing::solved_by("HYBRID", system_of(mesh, Blocks::contact_points));
   return solution;
 }
 
@@ -59,21 +45,18 @@ using MethodOnMesh = std::tuple<std::string, Method>;
 class Answer : public ::testing::TestWithParam<MethodOnMesh> {
  public:
   static std::string name_of(const ::testing::TestParamInfo<MethodOnMesh>& test) {
-    return readable(std::get<Method>(test.param).name);
+    return testing::readable_name(std::get<Method>(test.param).name);
   }
 };
 
 TEST_P(Answer, HasTheReferencesForcesAndStresses) {
   const auto& [mesh, method] = GetParam();
   const DualSystem& system = system_of(mesh, method.blocks);
-  RunControl control;
-  control.tolerance = 1e-10;
-  const Solution solution = run(method, system, control);
+  const Solution solution = run(method, system, testing::with_tolerance(1e-10));
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const Solution& other = reference(mesh);
-  EXPECT_LE(testing::distance(solution.F_C, other.F_C), 1e-6 * other.F_C.norm());
-  EXPECT_LE(stress_distance(*system.problem, solution.stress, other.stress),
-            1e-6 * std::sqrt(stress_norm_squared(*system.problem, other.stress)));
+  EXPECT_LE(testing::force_error(solution, other), 1e-6);
+  EXPECT_LE(testing::stress_error(*system.problem, solution, other), 1e-6);
   EXPECT_EQ(solution.linear_iterations.has_value(), method.identity().starts_with("SYMMLQ") ||
                                                         method.identity().starts_with("3STEPCG") ||
                                                         method.name == "HYBRID:CG");
@@ -125,7 +108,7 @@ using PreconditionerOnMesh = std::tuple<std::string, std::string>;
 class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
  public:
   static std::string name_of(const ::testing::TestParamInfo<PreconditionerOnMesh>& test) {
-    return readable(std::get<1>(test.param));
+    return testing::readable_name(std::get<1>(test.param));
   }
 
  protected:

@@ -24,14 +24,7 @@ struct Saddle {
     system = testing::system_of(scene);
     n = system.n(), m = system.n_f() + system.n_c();
   }
-  Eigen::MatrixXd dense() const {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, n + m);
-    A.topLeftCorner(n, n) = Eigen::MatrixXd(system.S).selfadjointView<Eigen::Lower>();
-    A.block(n, 0, system.n_f(), n) = system.C_F;
-    A.block(n + system.n_f(), 0, system.n_c(), n) = system.C_C;
-    A.topRightCorner(n, m) = A.bottomLeftCorner(m, n).transpose();
-    return A;
-  }
+  Eigen::MatrixXd dense() const { return saddle_matrix(system); }
 };
 
 TEST(SaddleOperator, IsTheWholeMatrix) {
