@@ -11,37 +11,11 @@
 namespace airybench::msh_format_test {
 namespace {
 
-// A unit square as Gmsh 4.8.4 wrote it in MSH 2.2: its own numbers of the physical groups.
-const std::string plate = R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-4
-1 11 "displacement"
-1 12 "force"
-1 13 "contact"
-2 21 "steel"
-$EndPhysicalNames
-$Nodes
-5
-1 0 0 0
-2 1 0 0
-3 1 1 0
-4 0 1 0
-5 0.5 0.5 0
-$EndNodes
-$Elements
-8
-1 1 2 12 1 1 2
-2 1 2 13 2 2 3
-3 1 2 12 3 3 4
-4 1 2 11 4 4 1
-5 2 2 21 1 1 2 5
-6 2 2 21 1 4 1 5
-7 2 2 21 1 2 3 5
-8 2 2 21 1 3 4 5
-$EndElements
-)";
+// A unit square as Gmsh 4.8.4 wrote it in MSH 2.2, with its own numbers of the physical groups; and
+// as we write it.
+const std::string plate = testing::text_of(testing::test_data("mesh/plate.msh")),
+                  canonical_plate =
+                      testing::text_of(testing::test_data("mesh/plate_canonical.msh"));
 
 // The plate with its one line `from` (without line end) turned into `to`.
 std::string plate_with(const std::string& from, const std::string& to) {
@@ -193,38 +167,7 @@ TEST(ReadMsh, WhatIsNoFileIsTold) {
             testing::mesh_folder().string() + ": a folder, not a file");
 }
 
-TEST(WriteMsh, CanonicalText) {
-  EXPECT_EQ(msh_text(read(plate)), R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-4
-1 1 "displacement"
-1 2 "force"
-1 3 "contact"
-2 4 "steel"
-$EndPhysicalNames
-$Nodes
-5
-1 0 0 0
-2 1 0 0
-3 1 1 0
-4 0 1 0
-5 0.5 0.5 0
-$EndNodes
-$Elements
-8
-1 1 2 2 2 1 2
-2 1 2 3 3 2 3
-3 1 2 2 2 3 4
-4 1 2 1 1 4 1
-5 2 2 4 4 1 2 5
-6 2 2 4 4 4 1 5
-7 2 2 4 4 2 3 5
-8 2 2 4 4 3 4 5
-$EndElements
-)");
-}
+TEST(WriteMsh, CanonicalText) { EXPECT_EQ(msh_text(read(plate)), canonical_plate); }
 
 // Tags in any order; a group without edges, "force:unused", is not written.
 TEST(WriteMsh, NamedBoundaryGroupsComeBack) {

@@ -49,8 +49,7 @@ TEST(Outline, SeveralPolygonsMeetOrNot) {
   EXPECT_TRUE(where_they_meet({square, moved(hole, -1, 0)})) << "an edge on an edge";
 }
 
-// Every pair of edges beside the tree, on outlines and pairs of outlines of which many cross and
-// many do not.
+// On outlines and pairs of outlines, of which many cross and many do not.
 TEST(Outline, TheTreeFindsWhatAllPairsFind) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> any(0, 1);

@@ -121,7 +121,7 @@ TEST_P(Factor, NothingToSolveAndOutOfTime) {
   EXPECT_THROW(factorise(grid_matrix(9))(x, Deadline::after(-1)), TimeoutReached);
 }
 
-TEST_P(Factor, LivesBesideOthers) {
+TEST_P(Factor, SeveralLiveAtOnce) {
   const Eigen::MatrixXd A = grid_matrix(5), B = grid_matrix(8);
   const SolveWith first = factorise(A), second = factorise(B);
   Eigen::MatrixXd x = Eigen::MatrixXd::Ones(A.rows(), 1), y = Eigen::MatrixXd::Ones(B.rows(), 1);
@@ -225,7 +225,7 @@ TEST(Skyline, ADeadlineEndsTheFactorisation) {
   EXPECT_THROW(skyline_factor(random_dense(60), 16, Deadline::after(-1)), TimeoutReached);
 }
 
-TEST(Mumps, CountsNegativePivotsAlsoBesideOthers) {
+TEST(Mumps, CountsNegativePivotsOfSeveralAtOnce) {
   const std::array<SparseColumns, 3> matrices = {
       lower_of(grid_saddle(2, 1)), lower_of(grid_saddle(5, 8)), lower_of(grid_saddle(12, 48))};
   std::array<MumpsFactor, 3> factors;

@@ -51,7 +51,7 @@ TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
       EXPECT_LT(stress_deviation(*problem, solution.stress, exact), 1e-10);
       EXPECT_FALSE(solution.contact_iterations);
       EXPECT_FALSE(solution.times[Stage::contact]);
-      EXPECT_EQ(system_.n_f() + system_.n_c() == 0, all_held);
+      EXPECT_TRUE(!all_held || system_.n_f() + system_.n_c() == 0);
     }
   }
 }

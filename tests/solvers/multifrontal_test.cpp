@@ -54,6 +54,13 @@ Eigen::MatrixXd dense(const ElementMatrices& K) {
   return lower.selfadjointView<Eigen::Lower>();
 }
 
+MultifrontalFactor factored(const ElementMatrices& K, int trailing = 0) {
+  MultifrontalFactor factor;
+  factor.analyse(K, trailing);
+  factor.factor(K);
+  return factor;
+}
+
 TEST(ElementMatrices, TheirProductIsThatOfTheirSum) {
   const ElementMatrices K = grid_elements(3, true);
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
@@ -108,9 +115,7 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
       const int n = K.order;
       for (const int trailing : {0, 1, 4, side * 8, n}) {
         const int inner = n - trailing;
-        MultifrontalFactor cholesky;
-        cholesky.analyse(K, trailing);
-        cholesky.factor(K);
+        MultifrontalFactor cholesky = factored(K, trailing);
         const Eigen::MatrixXd L = cholesky.trailing_factor();
         ASSERT_EQ(L.rows(), trailing);
         if (trailing > 0) {
@@ -135,9 +140,7 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
 
 TEST(Multifrontal, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   const ElementMatrices K = grid_elements(4);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K, 5);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K, 5);
   // Given the last unknowns, the inner ones follow from the backward sweep alone.
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.order);
   const Eigen::VectorXd last = Eigen::VectorXd::LinSpaced(5, 1, 2);
@@ -153,9 +156,7 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
   const ElementMatrices K = grid_elements(4);
   for (const int trailing : {1, 5, 33}) {
     using Columns = MultifrontalFactor::Columns;
-    MultifrontalFactor cholesky;
-    cholesky.analyse(K, trailing);
-    cholesky.factor(K);
+    MultifrontalFactor cholesky = factored(K, trailing);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
     Eigen::VectorXd y = cholesky.forward(b, Columns::inner);
     const Eigen::MatrixXd L = cholesky.trailing_factor();
@@ -167,9 +168,7 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
 
 TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   ElementMatrices K = grid_elements(5);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K);
   for (auto& element : K.lower)
     for (double& entry : element) entry *= 4;
   cholesky.factor(K);
@@ -235,9 +234,7 @@ TEST(Multifrontal, IndefiniteNaNAndTimeAreSaid) {
     EXPECT_THROW(cholesky.factor(K), Breakdown);
   }
   const ElementMatrices K = grid_elements(4);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K);
   Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
   EXPECT_THROW(cholesky.solve_in_place(x, Deadline::after(-1)), TimeoutReached);
 }

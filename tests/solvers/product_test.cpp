@@ -8,6 +8,7 @@
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
+#include "tests/support/condensed.hpp"
 #include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
@@ -114,20 +115,13 @@ class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
  protected:
   static const DualSystem& system() { return system_of(std::get<0>(GetParam())); }
   static const std::string& preconditioner() { return std::get<1>(GetParam()); }
-  // What a direct solver makes of the system, computed once.
-  struct Exact {
-    SkylineFactor factor;
-    CondensedSystem condensed;
-  };
-  static const Exact& exact() {
-    static std::map<std::string, Exact> all;
-    Exact& of_mesh = all[std::get<0>(GetParam())];
-    if (of_mesh.condensed.D.size() == 0) {
-      of_mesh.factor = factor_ldlt(analyse_skyline(system().S), system().S);
-      const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(of_mesh.factor, X); };
-      of_mesh.condensed = condense_in_three_steps(system(), solve).condensed;
-    }
-    return of_mesh;
+  // By a factor of the hybridized system, computed once.
+  static const Eigen::MatrixXd& exact_D() {
+    static std::map<std::string, Eigen::MatrixXd> all;
+    Eigen::MatrixXd& D = all[std::get<0>(GetParam())];
+    if (D.size() == 0)
+      D = testing::condensed(assemble_hybridized(*system().problem, system().contact)).D;
+    return D;
   }
   // How many right-hand sides: one for the preconditioners that need thousands of iterations.
   static int sides() {
@@ -161,7 +155,7 @@ TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
   const Preconditioner S_star = preconditioner_named(preconditioner())(system().S, {});
   const Eigen::MatrixXd B = loads();
   Eigen::MatrixXd X = B, Y = B;
-  solve_in_place(exact().factor, Y);
+  solve_in_place(factor_ldlt(analyse_skyline(system().S), system().S), Y);
   const KrylovSummary summary =
       solve_by_conjugate_gradients(system().S, S_star, columns_of(X), options(1e-10));
   EXPECT_TRUE(summary.converged);
@@ -181,7 +175,7 @@ TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n + n_f + n_c, sides()), D(n_c, sides());
   for (int l = 0; l < sides(); ++l) {
     X(n + n_f + l * n_c / sides(), l) = 1;
-    D.col(l) = exact().condensed.D.col(l * n_c / sides());
+    D.col(l) = exact_D().col(l * n_c / sides());
   }
   // SSOR and NONE leave an error of about 1e-6 at a relative residual of 1e-10.
   const KrylovSummary summary =

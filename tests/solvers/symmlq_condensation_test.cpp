@@ -2,12 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "assembly/scene.hpp"
 #include "solvers/krylov/symmlq.hpp"
-#include "tests/support/dense_algebra.hpp"
-#include "tests/support/krylov_checks.hpp"
+#include "tests/support/dense_operators.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
 
 namespace airybench::symmlq_condensation_test {
 namespace {

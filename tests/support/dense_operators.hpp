@@ -76,6 +76,15 @@ inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
 
 inline Preconditioner no_preconditioner() { return preconditioner_named("NONE")({}, {}); }
 
+inline KrylovOptions with(double tolerance, int lanes = 1, int threads = 1) {
+  KrylovOptions options;
+  options.tolerance = tolerance;
+  options.lanes = lanes;
+  options.threads = threads;
+  options.most_iterations = 500;
+  return options;
+}
+
 // ‖R‖_M⁻¹ of every column.
 inline Eigen::VectorXd norms(const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& R) {
   return (R.transpose() * inverse * R).diagonal().cwiseMax(0).cwiseSqrt();
