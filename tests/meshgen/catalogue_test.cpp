@@ -12,6 +12,7 @@
 #include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/sanitized.hpp"
+#include "tests/support/small_meshes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::catalogue_test {
@@ -62,8 +63,7 @@ TEST(Catalogue, Mesh0And4AreMadeAnewByteForByte) {
 TEST(CheckMesh, NamesEveryDifference) {
   Mesh mesh = read_msh(repository / "Mesh0.msh");
   EXPECT_TRUE(check_mesh(catalogue[0], mesh).differences.empty());
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  mesh = testing::with_role(mesh, BoundaryRole::contact, BoundaryRole::force);
   EXPECT_EQ(
       check_mesh(catalogue[0], mesh).differences,
       (std::vector<std::string>{"Mesh0: n_f is 136, should be 96", "Mesh0: n_C is 0, should be 40",

@@ -13,7 +13,8 @@
 namespace airybench::methods_test {
 namespace {
 
-using testing::posed, testing::scenes_named, testing::small_tooth, testing::stress_deviation;
+using testing::posed, testing::scenes_named, testing::small_tooth, testing::stress_deviation,
+    testing::with_role;
 
 class EveryKindOfMethod : public ::testing::TestWithParam<Method> {
  protected:
@@ -36,12 +37,9 @@ INSTANTIATE_TEST_SUITE_P(Table, EveryKindOfMethod, ::testing::ValuesIn(testing::
 TEST_P(EveryKindOfMethod, ReproducesLinearStressesExactlyWithoutContact) {
   constexpr double young = 2000, poisson = 0.3;
   for (const bool all_held : {false, true}) {
-    Mesh mesh = small_tooth(5, 4);
-    for (BoundaryEdge& edge : mesh.boundary)
-      if (all_held)
-        edge.role = BoundaryRole::displacement;
-      else if (edge.role == BoundaryRole::contact)
-        edge.role = BoundaryRole::force;
+    using enum BoundaryRole;
+    Mesh mesh = with_role(small_tooth(5, 4), contact, force);
+    if (all_held) mesh = with_role(mesh, force, displacement);
     for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
       SCOPED_TRACE(exact.name + (all_held ? ", all held" : ""));
       const auto problem = std::make_shared<const Problem>(make_problem(

@@ -20,9 +20,8 @@ Solution solve(const std::shared_ptr<const Problem>& problem, const RunControl& 
 }
 
 TEST(QuadraticDisplacements, ReproducesQuadraticFieldsExactlyWithBodyForceAndTractions) {
-  Mesh mesh = small_tooth(5, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  const Mesh mesh =
+      testing::with_role(small_tooth(5, 4), BoundaryRole::contact, BoundaryRole::force);
   for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
     const auto problem = std::make_shared<const Problem>(make_problem(
         mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0.2));
@@ -99,9 +98,8 @@ TEST(QuadraticDisplacements, ContactForcesBalanceReactionsAndLoads) {
 }
 
 TEST(QuadraticDisplacements, AContactVertexOnThePrescribedBoundaryHasNoLaw) {
-  Mesh mesh = small_tooth(6, 5);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::displacement;
+  const Mesh mesh =
+      testing::with_role(small_tooth(6, 5), BoundaryRole::force, BoundaryRole::displacement);
   Scene scene;
   scene.displacement_mm = {0.005, 0.002};  // less than the gap at the face's ends
   const auto problem = posed(scene, mesh);

@@ -217,9 +217,8 @@ TEST_P(ConstantStress, IsExactBetweenObliqueRollers) {
   constexpr double e = 1e-3;
   const Eigen::Matrix3d c = compliance(material, Plane::strain);
   const double p = e / (c(0, 0) + c(0, 1));
-  Mesh mesh = testing::small_tooth(5, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::displacement;
+  const Mesh mesh = testing::with_role(testing::small_tooth(5, 4), BoundaryRole::force,
+                                       BoundaryRole::displacement);
   const testing::ExactField exact = {
       "pressed from all sides",
       {0, 0},
