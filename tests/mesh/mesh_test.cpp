@@ -2,14 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
 #include <set>
+
+#include "tests/support/mesh_checks.hpp"
 
 namespace airybench::mesh_test {
 namespace {
 
+using testing::complaint;
 constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
                contact = BoundaryRole::contact;
 
@@ -47,33 +47,50 @@ Mesh grid_without(std::set<int> missing_squares, int n = 3) {
       mesh.triangles.push_back({a, a + n + 2, a + n + 1});
     }
   }
-  mesh.triangle_body.assign(mesh.triangles.size(), 0);
-  std::set<std::array<int, 2>> sides;
-  for (const auto& triangle : mesh.triangles)
-    for (int k = 0; k < 3; ++k) sides.insert({triangle[k], triangle[(k + 1) % 3]});
-  for (const auto& [a, b] : sides)
-    if (!sides.contains({b, a})) mesh.boundary.push_back({{a, b}, displacement});
+  testing::hold_all_around(mesh);
   return mesh;
 }
 
-std::string complaint(const Mesh& mesh) {
-  try {
-    validate(mesh);
-  } catch (const MeshError& error) {
-    return error.what();
+TEST(MeshValidate, AcceptsValidMeshesAndCountsTheirHoles) {
+  EXPECT_EQ(complaint(two_squares()), "no complaint");
+  Mesh thin = two_squares();
+  thin.vertices[6].y() = 1e-6;  // but not flat
+  EXPECT_EQ(complaint(thin), "no complaint");
+  for (const auto& [missing, n, holes] :
+       std::vector<std::tuple<std::set<int>, int, int>>{{{}, 3, 0},
+                                                        {{1}, 3, 0},  // a notch
+                                                        {{4}, 3, 1},
+                                                        {{6, 8, 17}, 5, 3},
+                                                        {{6, 7, 12, 17}, 5, 1}}) {
+    const Mesh mesh = grid_without(missing, n);
+    EXPECT_EQ(complaint(mesh), "no complaint") << missing.size() << " of " << n << " missing";
+    EXPECT_EQ(hole_count(mesh), holes) << missing.size() << " of " << n << " missing";
   }
-  return "no complaint";
 }
 
-TEST(MeshValidate, AcceptsAValidMesh) {
-  EXPECT_EQ(complaint(two_squares()), "no complaint");
-  EXPECT_EQ(complaint(grid_without({})), "no complaint");
-  EXPECT_EQ(complaint(grid_without({1})), "no complaint");  // a notch is no hole
+void add_edge(Mesh& mesh, int a, int b, BoundaryRole role) {
+  mesh.boundary.push_back({{a, b}, role});
+}
+
+// With a ninth vertex.
+void add_triangle(Mesh& mesh, double x, double y, int a, int b, int c) {
+  mesh.vertices.emplace_back(x, y);
+  mesh.triangles.push_back({a, b, c});
+  mesh.triangle_body.push_back(0);
+}
+
+void add_another(Mesh& mesh) {
+  const Mesh other = two_squares();
+  for (const auto& vertex : other.vertices) mesh.vertices.emplace_back(vertex.x() + 5, vertex.y());
+  for (const auto& [a, b, c] : other.triangles) mesh.triangles.push_back({a + 8, b + 8, c + 8});
+  mesh.triangle_body.assign(16, 0);
+  for (const auto& [vertices, role, group] : other.boundary)
+    add_edge(mesh, vertices[0] + 8, vertices[1] + 8, role);
 }
 
 struct Wrong {
   const char* name;
-  std::function<void(Mesh&)> change;
+  void (*change)(Mesh&);
   std::string complaint;  // after the mesh's name
 };
 
@@ -93,16 +110,8 @@ TEST(MeshValidate, NamesWhatIsWrong) {
        "triangle 3: vertex 0 does not exist (1..8)"},
       {"body out of range", [](Mesh& m) { m.triangle_body[7] = 1; },
        "triangle 8: body 2 does not exist (1..1)"},
-      {"flat",
-       [](Mesh& m) {
-         m.vertices[6] = {0.5, 0};
-       },
-       "triangle 1: zero area"},
-      {"numerically flat",
-       [](Mesh& m) {
-         m.vertices[6] = {0.5, 1e-14};
-       },
-       "triangle 1: zero area"},
+      {"flat", [](Mesh& m) { m.vertices[6].y() = 0; }, "triangle 1: zero area"},
+      {"numerically flat", [](Mesh& m) { m.vertices[6].y() = 1e-14; }, "triangle 1: zero area"},
       {"all vertices in one place",
        [](Mesh& m) { std::fill(m.vertices.begin(), m.vertices.end(), Eigen::Vector2d(1, 1)); },
        "triangle 1: zero area"},
@@ -110,93 +119,48 @@ TEST(MeshValidate, NamesWhatIsWrong) {
        "triangle 4: inverted (its vertices must run counter-clockwise)"},
       {"dangling vertex", [](Mesh& m) { m.vertices.emplace_back(0.2, 0.1); },
        "vertex 9: dangling (in no triangle)"},
-      {"edge of three triangles",
-       [](Mesh& m) {
-         m.vertices.emplace_back(0.7, 0.6);
-         m.triangles.push_back({4, 8, 1});
-         m.triangle_body.push_back(0);
-       },
+      {"edge of three triangles", [](Mesh& m) { add_triangle(m, 0.7, 0.6, 4, 8, 1); },
        "edge 2-5: shared by 3 triangles; at most two can meet"},
-      {"overlapping triangles",
-       [](Mesh& m) {
-         m.vertices.emplace_back(0.5, 2);
-         m.triangles.push_back({0, 1, 8});
-         m.triangle_body.push_back(0);
-       },
+      {"overlapping triangles", [](Mesh& m) { add_triangle(m, 0.5, 2, 0, 1, 8); },
        "edge 1-2: its two triangles overlap"},
       {"boundary vertex out of range", [](Mesh& m) { m.boundary[0].vertices[1] = 8; },
        "boundary edge 1-9: a vertex does not exist (1..8)"},
       {"boundary edge clockwise",
        [](Mesh& m) { std::swap(m.boundary[2].vertices[0], m.boundary[2].vertices[1]); },
        "boundary edge 6-3: walked clockwise; the body must lie on its left"},
-      {"boundary edge inside",
-       [](Mesh& m) {
-         m.boundary.push_back({{1, 4}, force});
-       },
+      {"boundary edge inside", [](Mesh& m) { add_edge(m, 1, 4, force); },
        "boundary edge 2-5: not on the boundary of the triangles"},
-      {"boundary edge twice",
-       [](Mesh& m) {
-         m.boundary.push_back({{1, 2}, contact});
-       },
+      {"boundary edge twice", [](Mesh& m) { add_edge(m, 1, 2, contact); },
        "boundary edge 2-3: given twice"},
       {"boundary edge without role", [](Mesh& m) { m.boundary.erase(m.boundary.begin() + 4); },
        "edge 5-4: a boundary edge without a role (displacement, force or contact)"},
       {"nothing held", [](Mesh& m) { m.boundary[5].role = force; },
        "no displacement edge; at least one is needed to hold the body"},
-      {"two pieces",
-       [](Mesh& m) {
-         const Mesh other = two_squares();
-         for (const auto& vertex : other.vertices)
-           m.vertices.emplace_back(vertex.x() + 5, vertex.y());
-         for (const auto& [a, b, c] : other.triangles) m.triangles.push_back({a + 8, b + 8, c + 8});
-         m.triangle_body.assign(16, 0);
-         for (const auto& edge : other.boundary)
-           m.boundary.push_back({{edge.vertices[0] + 8, edge.vertices[1] + 8}, edge.role});
-       },
-       "2 separate pieces; the body must be one"},
+      {"two pieces", add_another, "2 separate pieces; the body must be one"},
   };
   for (const auto& [name, change, expected] : cases) {
     Mesh mesh = two_squares();
     change(mesh);
     EXPECT_EQ(complaint(mesh), "squares: " + expected) << name;
   }
-  Mesh thin = two_squares();
-  thin.vertices[6] = {0.5, 1e-6};  // but not flat
-  EXPECT_EQ(complaint(thin), "no complaint");
 }
 
-TEST(MeshValidate, BoundaryThatTouchesItself) {
-  EXPECT_EQ(complaint(grid_without({3, 7})), "grid: vertex 10: the boundary touches itself there");
+TEST(MeshValidate, NamesWhereABoundaryTouchesItself) {
+  for (const auto& [missing, n, vertex] : std::vector<std::tuple<std::set<int>, int, const char*>>{
+           {{3, 7}, 3, "10"}, {{6, 12}, 5, "15"}, {{6, 2}, 5, "9"}})
+    EXPECT_EQ(complaint(grid_without(missing, n)),
+              std::string("grid: vertex ") + vertex + ": the boundary touches itself there");
   EXPECT_EQ(complaint(grid_without({0, 4})).find('\n'), std::string::npos);
 }
 
-TEST(MeshValidate, AcceptsHoles) {
-  EXPECT_EQ(complaint(grid_without({4})), "no complaint");
-  EXPECT_EQ(complaint(grid_without({6, 8, 17}, 5)), "no complaint");
-  EXPECT_EQ(hole_count(grid_without({1})), 0);
-  EXPECT_EQ(hole_count(grid_without({4})), 1);
-  EXPECT_EQ(hole_count(grid_without({6, 8, 17}, 5)), 3);
-  EXPECT_EQ(hole_count(grid_without({6, 7, 12, 17}, 5)), 1);
-}
-
-TEST(MeshValidate, HolesMustNotTouch) {
-  EXPECT_EQ(complaint(grid_without({6, 12}, 5)),
-            "grid: vertex 15: the boundary touches itself there");
-  EXPECT_EQ(complaint(grid_without({6, 2}, 5)),
-            "grid: vertex 9: the boundary touches itself there");
-}
-
-TEST(MeshValidate, AHoleThroughTheOuterBoundary) {
+TEST(MeshValidate, NamesWhatIsWrongWithAHole) {
   Mesh mesh = grid_without({4});
-  mesh.vertices[5].y() = -1;
+  mesh.vertices[5].y() = -1;  // through the outer boundary
   EXPECT_EQ(complaint(mesh),
             "grid: triangle 1: inverted (its vertices must run counter-clockwise)");
   mesh.vertices[5].y() = 0;
   EXPECT_EQ(complaint(mesh), "grid: triangle 1: zero area");
-}
-
-TEST(MeshValidate, AHoleWalkedTheWrongWay) {
-  Mesh mesh = grid_without({4});
+  mesh = grid_without({4});
   for (BoundaryEdge& edge : mesh.boundary) {
     const Eigen::Vector2d middle =
         (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]) / 2;
@@ -205,10 +169,7 @@ TEST(MeshValidate, AHoleWalkedTheWrongWay) {
   }
   EXPECT_EQ(complaint(mesh),
             "grid: boundary edge 10-6: walked clockwise; the body must lie on its left");
-}
-
-TEST(MeshValidate, AnIslandInAHole) {
-  EXPECT_EQ(complaint(grid_without({6, 7, 8, 11, 13, 16, 17, 18}, 5)),
+  EXPECT_EQ(complaint(grid_without({6, 7, 8, 11, 13, 16, 17, 18}, 5)),  // an island in it
             "grid: 2 separate pieces; the body must be one");
 }
 
@@ -219,29 +180,18 @@ TEST(NumberEdges, EveryEdgeOnceFromLowToHigh) {
   EXPECT_EQ(edges.count(), 8 + 8 - 1);  // Euler: E = V + T − 1
   EXPECT_EQ(distinct.size(), edges.vertices.size());
   for (const auto& [low, high] : edges.vertices) EXPECT_LT(low, high);
-}
 
-TEST(NumberEdges, TriangleEdgeKJoinsItsVerticesKAndKPlusOne) {
-  const Mesh mesh = two_squares();
-  const MeshEdges edges = number_edges(mesh);
+  const auto expect_edge = [&](int edge, int a, int b) {
+    EXPECT_EQ(edges.vertices[edge], (std::array{std::min(a, b), std::max(a, b)}));
+  };
   ASSERT_EQ(edges.of_triangle.size(), mesh.triangles.size());
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
-      EXPECT_EQ(edges.vertices[edges.of_triangle[t][k]], (std::array{low, high}));
-    }
-  }
-}
-
-TEST(NumberEdges, BoundaryRowsPointToTheirEdge) {
-  const Mesh mesh = two_squares();
-  const MeshEdges edges = number_edges(mesh);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      expect_edge(edges.of_triangle[t][k], mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
   ASSERT_EQ(edges.of_boundary.size(), mesh.boundary.size());
-  for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
-    const auto [low, high] =
-        std::minmax(mesh.boundary[row].vertices[0], mesh.boundary[row].vertices[1]);
-    EXPECT_EQ(edges.vertices[edges.of_boundary[row]], (std::array{low, high}));
-  }
+  for (std::size_t row = 0; row < mesh.boundary.size(); ++row)
+    expect_edge(edges.of_boundary[row], mesh.boundary[row].vertices[0],
+                mesh.boundary[row].vertices[1]);
 }
 
 using Chains = std::vector<std::vector<int>>;
@@ -250,6 +200,7 @@ TEST(BoundaryChains, TwoChainsFollowTheBoundaryCounterClockwise) {
   EXPECT_EQ(boundary_chains(two_squares(), force), (Chains{{0, 1}, {3, 4}}));
   EXPECT_EQ(boundary_chains(two_squares(), contact), (Chains{{2}}));
   EXPECT_EQ(boundary_chains(two_squares(), displacement), (Chains{{5}}));
+  EXPECT_TRUE(boundary_chains(grid_without({}), contact).empty());
 }
 
 TEST(BoundaryChains, RowsInAnyOrder) {
@@ -277,10 +228,6 @@ TEST(BoundaryChains, AHoleIsAChainOfItsOwn) {
               mesh.boundary[chains[1][(k + 1) % 4]].vertices[0]);
 }
 
-TEST(BoundaryChains, NoneOfARole) {
-  EXPECT_TRUE(boundary_chains(grid_without({}), contact).empty());
-}
-
 TEST(MeshSizes, CountAsThePaperDoes) {
   const Mesh mesh = two_squares();
   const MeshSizes sizes = mesh_sizes(mesh);
@@ -291,11 +238,8 @@ TEST(MeshSizes, CountAsThePaperDoes) {
   EXPECT_EQ(sizes.displacement_edges, 1);
   EXPECT_EQ(sizes.force_edges, 4);
   EXPECT_EQ(sizes.contact_edges, 1);
-}
-
-TEST(MeshSizes, OfABodyWithHolesCountItsEdges) {
-  const Mesh mesh = grid_without({6, 8}, 5);
-  EXPECT_EQ(mesh_sizes(mesh).n_phi, 3 * 36 + number_edges(mesh).count());
+  const Mesh with_holes = grid_without({6, 8}, 5);
+  EXPECT_EQ(mesh_sizes(with_holes).n_phi, 3 * 36 + number_edges(with_holes).count());
 }
 
 TEST(CrossArea, IsTwiceTheSignedArea) {

@@ -4,16 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <random>
-#include <set>
 
-#include "mesh/mesh.hpp"
+#include "tests/support/mesh_checks.hpp"
 
 namespace airybench::outline_test {
 namespace {
 
+using testing::complaint;
 using Points = std::vector<Eigen::Vector2d>;
 using Edges = std::array<PolygonEdge, 2>;
 
@@ -50,8 +49,7 @@ TEST(Outline, SeveralPolygonsMeetOrNot) {
   EXPECT_TRUE(where_they_meet({square, moved(hole, -1, 0)})) << "an edge on an edge";
 }
 
-// Every pair of edges beside the tree, on outlines and pairs of outlines of which many cross and
-// many do not.
+// On outlines and pairs of outlines, of which many cross and many do not.
 TEST(Outline, TheTreeFindsWhatAllPairsFind) {
   std::mt19937 engine(3);
   std::uniform_real_distribution<double> any(0, 1);
@@ -124,15 +122,6 @@ Mesh ring_of(double turns, double pitch, bool is_closed = false) {
   return mesh;
 }
 
-std::string complaint(const Mesh& mesh) {
-  try {
-    validate(mesh);
-  } catch (const MeshError& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
-
 TEST(Overlap, IsRefused) {
   EXPECT_NO_THROW(validate(ring_of(0.75, 0)));
   EXPECT_NO_THROW(validate(ring_of(2, 1.5))) << "a spiral, whose turns are apart";
@@ -170,24 +159,15 @@ TEST(Overlap, OfTwoSheetsWithoutBoundariesThatMeet) {
     if (i == 3 && j == 3) return vertex(cell < 3 ? sheet : 1 - sheet, i, j);
     return vertex(sheet, i, j);
   };
-  std::set<std::array<int, 2>> sides;
-  const auto add = [&](int a, int b, int c) {
-    mesh.triangles.push_back({a, b, c});
-    sides.insert({a, b});
-    sides.insert({b, c});
-    sides.insert({c, a});
-  };
   for (int sheet = 0; sheet < 2; ++sheet)
     for (int i = sheet; i < 6 - sheet; ++i)
       for (int j = sheet; j < 6 - sheet; ++j) {
         const int a = corner(sheet, i, i, j), b = corner(sheet, i, i + 1, j),
                   c = corner(sheet, i, i + 1, j + 1), d = corner(sheet, i, i, j + 1);
-        add(a, b, c);
-        add(a, c, d);
+        mesh.triangles.push_back({a, b, c});
+        mesh.triangles.push_back({a, c, d});
       }
-  mesh.triangle_body.assign(mesh.triangles.size(), 0);
-  for (const auto& [a, b] : sides)
-    if (!sides.contains({b, a})) mesh.boundary.push_back({{a, b}, BoundaryRole::displacement});
+  testing::hold_all_around(mesh);
   EXPECT_EQ(mesh.boundary.size(), 4 * 6 + 4 * 4u);
   EXPECT_EQ(complaint(mesh), "sheets: 2 outer boundaries; the body must not overlap itself");
 }

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <numbers>
 
-#include "mesh/msh_format.hpp"
+#include "mesh/layers.hpp"
+#include "mesh/quality.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -15,32 +14,20 @@
 namespace airybench::mesh_transform_test {
 namespace {
 
-using testing::catalogue_mesh, testing::expect_same_body, testing::small_tooth;
+using testing::catalogue_mesh, testing::expect_same_body, testing::length_of_boundaries,
+    testing::small_tooth;
 
-// Of one triangle: its longest edge over its height there; its smallest angle in degrees.
-struct Shape {
-  double aspect, angle;
-};
-Shape shape(const Mesh& mesh, std::size_t t) {
-  const auto& triangle = mesh.triangles[t];
-  double longest = 0, angle = 180;
-  for (int k = 0; k < 3; ++k) {
-    const Eigen::Vector2d &a = mesh.vertices[triangle[k]],
-                          &b = mesh.vertices[triangle[(k + 1) % 3]],
-                          &c = mesh.vertices[triangle[(k + 2) % 3]];
-    longest = std::max(longest, (b - a).norm());
-    angle = std::min(angle, std::atan2(cross_area(a, b, c), (b - a).dot(c - a)));
-  }
+// Longest edge over the height there.
+double aspect(const Mesh& mesh, const std::array<int, 3>& triangle) {
+  double longest = 0;
+  for (int k = 0; k < 3; ++k)
+    longest = std::max(longest,
+                       (mesh.vertices[triangle[(k + 1) % 3]] - mesh.vertices[triangle[k]]).norm());
   const auto& [a, b, c] = triangle;
-  return {longest * longest / cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]),
-          angle * 180 / std::numbers::pi};
+  return longest * longest / cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
 }
-double smallest_angle(const Mesh& mesh) {
-  double smallest = 180;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-    smallest = std::min(smallest, shape(mesh, t).angle);
-  return smallest;
-}
+
+double smallest_angle(const Mesh& mesh) { return mesh_quality(mesh).smallest_angle_deg; }
 
 double longest_edge_at(const Mesh& mesh, const Eigen::Vector2d& x) {
   const auto nearest = std::ranges::min_element(
@@ -52,15 +39,6 @@ double longest_edge_at(const Mesh& mesh, const Eigen::Vector2d& x) {
       for (const int w : triangle)
         longest = std::max(longest, (mesh.vertices[w] - *nearest).norm());
   return longest;
-}
-
-std::string complaint(const MeshTransform& transform, Mesh mesh = small_tooth(4, 4)) {
-  try {
-    transformed(std::move(mesh), transform);
-  } catch (const TransformError& error) {
-    return error.what();
-  }
-  return "none";
 }
 
 Mesh two_bodies() {
@@ -133,18 +111,18 @@ TEST(MeshTransform, GradingReachesItsRatioAndKeepsAngles) {
 }
 
 TEST(MeshTransform, SliversHaveTheirAspectRatio) {
-  for (const double aspect : {10., 1e3, 1e5}) {
+  for (const double wanted : {10., 1e3, 1e5}) {
     const Mesh coarse = catalogue_mesh("Mesh0");
     MeshTransform transform;
-    transform.slivers = {aspect, 5};
+    transform.slivers = {wanted, 5};
     const Mesh mesh = transformed(coarse, transform);
     expect_same_body(mesh, coarse);
     EXPECT_EQ(mesh.vertices.size(), coarse.vertices.size() + 5);
     EXPECT_EQ(mesh.triangles.size(), coarse.triangles.size() + 10);
     int slivers = 0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      slivers += std::abs(shape(mesh, t).aspect / aspect - 1) < 1e-9;
-    EXPECT_EQ(slivers, 5) << aspect;
+    for (const auto& triangle : mesh.triangles)
+      slivers += std::abs(aspect(mesh, triangle) / wanted - 1) < 1e-9;
+    EXPECT_EQ(slivers, 5) << wanted;
   }
 }
 
@@ -174,43 +152,34 @@ TEST(MeshTransform, FarAwayTheShapeIsRoundedNoMoreThanCoordinatesAre) {
   }
 }
 
+struct Kept {
+  std::optional<int> contact, displacement, force;  // asked for
+  int contact_edges, displacement_edges, force_edges;
+};
+
 TEST(MeshTransform, TheMiddleEdgesKeepTheirRole) {
-  const auto with = [](auto change) {
+  for (const Kept& kept :
+       {Kept{{}, {}, {}, 5, 5, 8}, Kept{1, {}, {}, 1, 5, 12}, Kept{{}, 3, {}, 5, 3, 10},
+        Kept{{}, {}, 0, 5, 13, 0}, Kept{0, {}, 0, 0, 18, 0}}) {
     MeshTransform transform;
-    change(transform);
+    transform.keep_contact_edges = kept.contact;
+    transform.keep_displacement_edges = kept.displacement;
+    transform.keep_force_edges = kept.force;
     const Mesh mesh = transformed(small_tooth(4, 5), transform);
     EXPECT_NO_THROW(validate(mesh));
-    return mesh;
-  };
-  const Mesh one = with([](MeshTransform& t) { t.keep_contact_edges = 1; });
-  EXPECT_EQ(mesh_sizes(one).contact_edges, 1);
-  EXPECT_EQ(mesh_sizes(one).force_edges, 8 + 4);
-  for (const BoundaryEdge& edge : one.boundary) {
-    if (edge.role != BoundaryRole::contact) continue;
-    const auto [a, b] = edge.vertices;
-    EXPECT_NEAR((one.vertices[a] + one.vertices[b]).y(), 0, 1e-12);
+    const MeshSizes sizes = mesh_sizes(mesh);
+    EXPECT_EQ(sizes.contact_edges, kept.contact_edges);
+    EXPECT_EQ(sizes.displacement_edges, kept.displacement_edges) << kept.contact_edges;
+    EXPECT_EQ(sizes.force_edges, kept.force_edges) << kept.contact_edges;
+    for (const BoundaryEdge& edge : mesh.boundary)
+      if (kept.contact == 1 && edge.role == BoundaryRole::contact) {
+        EXPECT_NEAR((mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]).y(), 0,
+                    1e-12);
+      }
   }
-
-  const Mesh held = with([](MeshTransform& t) { t.keep_displacement_edges = 3; });
-  EXPECT_EQ(mesh_sizes(held).displacement_edges, 3);
-  EXPECT_EQ(mesh_sizes(held).force_edges, 8 + 2);
-
-  const Mesh free_of_force = with([](MeshTransform& t) { t.keep_force_edges = 0; });
-  EXPECT_EQ(mesh_sizes(free_of_force).n_f, 0);
-  EXPECT_EQ(mesh_sizes(free_of_force).displacement_edges, 5 + 8);
-
-  const Mesh all_held =
-      with([](MeshTransform& t) { t.keep_contact_edges = t.keep_force_edges = 0; });
-  EXPECT_EQ(mesh_sizes(all_held).displacement_edges, 18);
-}
-
-// Per label of the boundary's groups: the length of its edges.
-std::map<std::string, double> lengths(const Mesh& mesh) {
-  std::map<std::string, double> length;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    length[boundary_label(mesh, edge)] +=
-        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
-  return length;
+  MeshTransform transform;
+  transform.keep_contact_edges = 2;  // of a rack, face by face
+  EXPECT_EQ(mesh_sizes(transformed(catalogue_mesh("Mesh4"), transform)).contact_edges, 2);
 }
 
 TEST(MeshTransform, NamedBoundaryGroupsAreKept) {
@@ -220,83 +189,119 @@ TEST(MeshTransform, NamedBoundaryGroupsAreKept) {
     if (edge.role == BoundaryRole::force && tooth.vertices[edge.vertices[0]].y() > 0)
       edge.group = boundary_group(tooth, "upper flank");
   }
-  const auto before = lengths(tooth);
-  EXPECT_EQ(before.size(), 4U);
+  EXPECT_EQ(length_of_boundaries(tooth).size(), 4U);
   MeshTransform transform;
   transform.refine = 1;
   transform.grade = {{10, 3}, 50};
   transform.slivers = {10, 2};
-  const auto after = lengths(transformed(tooth, transform));
-  ASSERT_EQ(after.size(), before.size());
-  for (const auto& [label, length] : before) EXPECT_NEAR(after.at(label), length, 1e-12) << label;
+  expect_same_body(transformed(tooth, transform), tooth);
 
   transform = {};
   transform.keep_contact_edges = 2;
-  const auto kept = lengths(transformed(tooth, transform));
+  const auto kept = length_of_boundaries(transformed(tooth, transform));
   EXPECT_EQ(kept.at("contact:tip"), kept.at("force:tip"));  // two of four edges each
 }
 
-TEST(MeshTransform, OnARackTheMiddleIsCountedFaceByFace) {
-  MeshTransform transform;
-  transform.keep_contact_edges = 2;
-  const Mesh mesh = transformed(catalogue_mesh("Mesh4"), transform);
-  EXPECT_EQ(mesh_sizes(mesh).contact_edges, 2);
-}
+using V2 = Eigen::Vector2d;
+
+struct Impossible {
+  void (*change)(MeshTransform&);
+  std::string complaint;  // begins so
+};
 
 TEST(MeshTransform, ImpossibleValuesAreNamed) {
-  const auto with = [](auto change) {
+  const std::vector<Impossible> cases = {
+      {[](auto& t) { t.refine = 7; }, "refine: 7 (allowed: a whole number from 0 to 6)"},
+      {[](auto& t) { t.refine = -1; }, "refine: -1 (allowed: a whole number from 0 to 6)"},
+      {[](auto& t) {
+         t.grade = Grading{V2(10, 0), 0.5};
+       },
+       "grade: ratio: 0.5 (allowed: >= 1)"},
+      {[](auto& t) {
+         t.slivers = Slivers{2, 1};
+       },
+       "slivers: aspect: 2 (allowed: > 2)"},
+      {[](auto& t) {
+         t.slivers = Slivers{10, 0};
+       },
+       "slivers: count: 0 (allowed: >= 1)"},
+      {[](auto& t) {
+         t.slivers = Slivers{10, 33};
+       },
+       "slivers: count: 33 (allowed: 1 to 32, the triangles that such a sliver fits into)"},
+      {[](auto& t) { t.scale = 0; }, "scale: 0 (allowed: > 0)"},
+      {[](auto& t) { t.stretch = V2(1, -1); }, "stretch: [1, -1] (allowed: two numbers > 0)"},
+      {[](auto& t) { t.move_mm.x() = std::nan(""); },
+       "move_mm: [nan, 0] (allowed: finite numbers)"},
+      {[](auto& t) { t.keep_contact_edges = 5; },
+       "keep_contact_edges: 5 (the mesh small tooth has 4)"},
+      {[](auto& t) { t.keep_displacement_edges = 0; },
+       "keep_displacement_edges: 0 (allowed: a whole number >= 1)"},
+      {[](auto& t) { t.keep_force_edges = -1; },
+       "keep_force_edges: -1 (allowed: a whole number >= 0)"},
+      // What flattens a triangle.
+      {[](auto& t) { t.stretch = V2(1, 1e-14); },
+       "stretch: [1, 1e-14] cannot be: small tooth: triangle 1: zero area"},
+      {[](auto& t) {
+         t.slivers = Slivers{1e14, 1};
+       },
+       "slivers: aspect: 1e+14 cannot be: small tooth: triangle 17: zero area"},
+      {[](auto& t) { t.move_mm.x() = 1e17; },
+       "move_mm: [1e+17, 0] cannot be: small tooth: triangle 1"},
+      {[](auto& t) { t.scale = 1e200; },
+       "scale: 1e+200 cannot be: small tooth: triangle 1: zero area"},
+  };
+  for (const auto& [change, expected] : cases) {
     MeshTransform transform;
     change(transform);
-    return complaint(transform);
-  };
-  EXPECT_EQ(with([](auto& t) { t.refine = 7; }), "refine: 7 (allowed: a whole number from 0 to 6)");
-  EXPECT_EQ(with([](auto& t) { t.refine = -1; }),
-            "refine: -1 (allowed: a whole number from 0 to 6)");
-  EXPECT_EQ(with([](auto& t) {
-              t.grade = Grading{{10, 0}, 0.5};
-            }),
-            "grade: ratio: 0.5 (allowed: >= 1)");
-  EXPECT_EQ(with([](auto& t) { t.slivers = Slivers{2, 1}; }), "slivers: aspect: 2 (allowed: > 2)");
-  EXPECT_EQ(with([](auto& t) { t.slivers = Slivers{10, 0}; }), "slivers: count: 0 (allowed: >= 1)");
-  EXPECT_EQ(with([](auto& t) {
-              t.slivers = Slivers{10, 33};
-            }),
-            "slivers: count: 33 (allowed: 1 to 32, the triangles that such a sliver fits into)");
-  EXPECT_EQ(with([](auto& t) { t.scale = 0; }), "scale: 0 (allowed: > 0)");
-  EXPECT_EQ(with([](auto& t) {
-              t.stretch = {1, -1};
-            }),
-            "stretch: [1, -1] (allowed: two numbers > 0)");
-  EXPECT_EQ(with([](auto& t) { t.move_mm.x() = std::nan(""); }),
-            "move_mm: [nan, 0] (allowed: finite numbers)");
-  EXPECT_EQ(with([](auto& t) { t.keep_contact_edges = 5; }),
-            "keep_contact_edges: 5 (the mesh small tooth has 4)");
-  EXPECT_EQ(with([](auto& t) { t.keep_displacement_edges = 0; }),
-            "keep_displacement_edges: 0 (allowed: a whole number >= 1)");
-  EXPECT_EQ(with([](auto& t) { t.keep_force_edges = -1; }),
-            "keep_force_edges: -1 (allowed: a whole number >= 0)");
+    const std::string complaint =
+        testing::complaint_of<TransformError>([&] { transformed(small_tooth(4, 4), transform); });
+    EXPECT_TRUE(complaint.starts_with(expected)) << complaint << "\nnot " << expected;
+  }
 }
 
-TEST(MeshTransform, WhatFlattensATriangleIsNamed) {
-  const auto with = [](auto change) {
-    MeshTransform transform;
-    change(transform);
-    return complaint(transform);
+TEST(MeshLayers, ATriangleBelongsToTheLayerOfItsCentroid) {
+  for (const Eigen::Vector2d& normal :
+       {Eigen::Vector2d(1, 0), Eigen::Vector2d(0, -2), Eigen::Vector2d(3, 4)}) {
+    Layers layers;
+    layers.normal = normal;
+    layers.interfaces_mm = {-1.5, 0.25, 3};
+    if (normal.y() == 0) layers.interfaces_mm = {2.5, 5, 7.5};
+    const Mesh mesh = layered(small_tooth(8, 4), layers);
+    EXPECT_NO_THROW(validate(mesh));
+    EXPECT_EQ(mesh.body_names,
+              (std::vector<std::string>{"layer 1", "layer 2", "layer 3", "layer 4"}));
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const double d =
+          normal.normalized().dot(mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]) / 3;
+      const int layer = mesh.triangle_body[t];
+      EXPECT_TRUE(layer == 0 || d >= layers.interfaces_mm[layer - 1]) << d << " in " << layer;
+      EXPECT_TRUE(layer == 3 || d < layers.interfaces_mm[layer]) << d << " in " << layer;
+    }
+  }
+}
+
+TEST(MeshLayers, ACountMakesThemEquallyThickAndNoneKeepTheBodies) {
+  const Mesh tooth = small_tooth(8, 4);
+  EXPECT_EQ(layered(tooth, {{1, 0}, 4, {}}).triangle_body,
+            layered(tooth, {{1, 0}, 1, {2.5, 5, 7.5}}).triangle_body);
+  EXPECT_EQ(layered(tooth, {}).body_names, std::vector<std::string>{"body"});
+}
+
+TEST(MeshLayers, ImpossibleValuesAreNamed) {
+  const std::vector<std::pair<Layers, std::string>> cases = {
+      {{{0, 0}, 2, {}}, "normal: [0, 0] (allowed: a direction, not [0, 0])"},
+      {{{1, 0}, -1, {}}, "count: -1 (allowed: a whole number from 0 to 1000)"},
+      {{{1, 0}, 1, {3, 3}}, "interfaces_mm: 3 (allowed: finite numbers, ascending)"},
+      {{{1, 0}, 1, {std::nan("")}}, "interfaces_mm: nan (allowed: finite numbers, ascending)"},
+      {{{1, 0}, 1, {5, 20}},
+       "interfaces_mm: 3 layers, but layer 3 has no triangle of the mesh small tooth"},
+      {{{1, 0}, 100, {}}, "count: 100 layers, but layer 1 has no triangle of the mesh small tooth"},
   };
-  EXPECT_EQ(with([](auto& t) {
-              t.stretch = {1, 1e-14};
-            }),
-            "stretch: [1, 1e-14] cannot be: small tooth: triangle 1: zero area");
-  EXPECT_EQ(with([](auto& t) {
-              t.slivers = Slivers{1e14, 1};
-            }),
-            "slivers: aspect: 1e+14 cannot be: small tooth: triangle 17: zero area");
-  EXPECT_EQ(with([](auto& t) {
-              t.move_mm = {1e17, 0};
-            }).substr(0, 54),
-            "move_mm: [1e+17, 0] cannot be: small tooth: triangle 1");
-  EXPECT_EQ(with([](auto& t) { t.scale = 1e200; }),
-            "scale: 1e+200 cannot be: small tooth: triangle 1: zero area");
+  for (const auto& [layers, complaint] : cases)
+    EXPECT_EQ(testing::complaint_of<TransformError>([&] { layered(small_tooth(8, 4), layers); }),
+              complaint);
 }
 
 }  // namespace

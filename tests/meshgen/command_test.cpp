@@ -37,14 +37,18 @@ struct Outcome {
 
 class Command : public ::testing::Test {
  protected:
+  // -1: ended by a signal.
+  static int exit_code_of(const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
   // Arguments as in a shell, in the folder of this test.
   Outcome run(const std::string& arguments, const std::string& environment = "") const {
     const std::string command =
         "cd '" + folder.path().string() + "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
         testing::meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(folder / ".out"),
-            text_of(folder / ".err")};
+    const int exit_code = exit_code_of(command);
+    return {exit_code, text_of(folder / ".out"), text_of(folder / ".err")};
   }
   // Exit code 2 or 1, nothing on standard output, one line on standard error that holds `parts`.
   void expect_refusal(const std::string& arguments, int exit_code,
@@ -67,11 +71,6 @@ class Command : public ::testing::Test {
     std::sort(names.begin(), names.end());
     return names;
   }
-  bool gmsh_is_the_catalogues() const {
-    const GmshSession session;
-    return gmsh_version() == catalogue_gmsh_version;
-  }
-
   const testing::TemporaryFolder folder;
 };
 
@@ -81,14 +80,10 @@ TEST_F(Command, OutputThatCannotBeWrittenIsTold) {
   for (const char* arguments : {"--check", "--help", "--modify=Mesh0 --out=m.msh"}) {
     const std::string command = "cd '" + folder.path().string() + "' && '" +
                                 testing::meshgen_executable().string() + "' " + arguments;
-    const auto code = [&](const char* redirection) {
-      const int status = std::system((command + redirection).c_str());
-      return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    };
-    EXPECT_EQ(code(" >/dev/full 2>.err"), 2) << arguments;
+    EXPECT_EQ(exit_code_of(command + " >/dev/full 2>.err"), 2) << arguments;
     EXPECT_EQ(text_of(folder / ".err"),
               "meshgen: standard output: cannot be written (a full disk?)\n");
-    EXPECT_EQ(code(" >&- 2>&-"), 0) << arguments;
+    EXPECT_EQ(exit_code_of(command + " >&- 2>&-"), 0) << arguments;
   }
   EXPECT_EQ(text_of(folder / "m.msh").substr(0, 12), "$MeshFormat\n");
 }
@@ -308,23 +303,18 @@ TEST_F(Command, CheckOfTheRepositoryPasses) {
     EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
 }
 
-TEST_F(Command, CheckNoticesAnotherMesh) {
+TEST_F(Command, CheckNoticesAnotherMeshAndAnotherHashAlsoByTheEnvironment) {
   fs::copy(testing::mesh_folder(), folder / "meshes");
   fs::copy_file(folder / "meshes/Mesh0.msh", folder / "meshes/Mesh1.msh",
                 fs::copy_options::overwrite_existing);
-  const Outcome outcome = run("--check --meshes=meshes");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("Mesh1: n_phi is 761, should be 1973\n"), std::string::npos)
-      << outcome.out;
-}
-
-TEST_F(Command, CheckNoticesAnotherHashAndObeysTheEnvironment) {
-  fs::copy(testing::mesh_folder(), folder / "meshes");
   write_text(folder / "meshes/Mesh2.msh", text_of(folder / "meshes/Mesh2.msh") + "\n");
-  const Outcome outcome = run("--check", "AIRYBENCH_MESH_DIR=meshes");
-  EXPECT_EQ(outcome.exit_code, 1);
-  EXPECT_NE(outcome.out.find("Mesh2: SHA256SUMS has another hash\n"), std::string::npos)
-      << outcome.out;
+  for (const Outcome& outcome :
+       {run("--check --meshes=meshes"), run("--check", "AIRYBENCH_MESH_DIR=meshes")}) {
+    EXPECT_EQ(outcome.exit_code, 1);
+    for (const char* part :
+         {"Mesh1: n_phi is 761, should be 1973\n", "Mesh2: SHA256SUMS has another hash\n"})
+      EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
+  }
 }
 
 TEST_F(Command, CheckNeedsTheFiles) {
@@ -335,7 +325,8 @@ TEST_F(Command, CheckNeedsTheFiles) {
 }
 
 TEST_F(Command, RemakesIdenticalFiles) {
-  if (!gmsh_is_the_catalogues()) GTEST_SKIP() << "another version of Gmsh makes other meshes";
+  if (const GmshSession session; gmsh_version() != catalogue_gmsh_version)
+    GTEST_SKIP() << "another version of Gmsh makes other meshes";
   const Outcome outcome = run("--mesh='Mesh0..Mesh1,Mesh[0-2]' --out=new");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
   std::string expected;
@@ -345,9 +336,8 @@ TEST_F(Command, RemakesIdenticalFiles) {
     EXPECT_EQ(sha256_of_file(folder / "new" / (name + ".msh")), sha256_of_file(file));
   }
   EXPECT_EQ(outcome.out, expected);
-  EXPECT_EQ(std::system(("cd '" + (folder / "new").string() +
-                         "' && sha256sum --status --strict -c SHA256SUMS")
-                            .c_str()),
+  EXPECT_EQ(exit_code_of("cd '" + (folder / "new").string() +
+                         "' && sha256sum --status --strict -c SHA256SUMS"),
             0);
 }
 

@@ -1,31 +1,98 @@
-#include <map>
+#include "meshgen/convert.hpp"
 
+#include <gtest/gtest.h>
+
+#include "mesh/msh_format.hpp"
 #include "meshgen/gmsh_mesher.hpp"
-#include "tests/meshgen/conversion.hpp"
+#include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench::convert_test {
 namespace {
 
 using namespace testing;
 
-class Convert : public Conversion {};
+// Two unit squares side by side. The lines run clockwise around the body.
+const std::string two_squares_geometry = R"(
+h = 0.4;
+Point(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {2, 0, 0, h};
+Point(4) = {0, 1, 0, h}; Point(5) = {1, 1, 0, h}; Point(6) = {2, 1, 0, h};
+Line(1) = {2, 1}; Line(2) = {1, 4}; Line(3) = {4, 5}; Line(4) = {5, 2};
+Line(5) = {3, 2}; Line(6) = {5, 6}; Line(7) = {6, 3};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Curve Loop(2) = {5, -4, 6, 7}; Plane Surface(2) = {2};
+)";
+const std::string roles = R"(
+Physical Curve("displacement") = {2};
+Physical Curve("force") = {1, 3, 5, 6};
+Physical Curve("contact") = {7};
+)";
+const std::string bodies = R"(
+Physical Surface("steel") = {1};
+Physical Surface("cast iron") = {2};
+)";
+
+// A unit square of four triangles in MSH 4.1, as Gmsh 4.8.4 wrote it.
+const std::string plate_msh4 = text_of(test_data("meshgen/plate_msh4.msh"));
+
+// The same square in MSH 2.2, the triangles clockwise, with a node of no triangle and wide gaps in
+// the numbers.
+const std::string clockwise_plate = text_of(test_data("meshgen/clockwise_plate.msh"));
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  if (at == text.npos) throw std::logic_error("'" + from + "' not found");
+  return text.replace(at, from.size(), to);
+}
+
+// Two triangles of curves, the second one X further on.
+std::string two_loops(const std::string& x) {
+  return "X = " + x + R"(;
+Point(1) = {0, 0, 0, 1}; Point(2) = {4, 0, 0, 1}; Point(3) = {0, 4, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1}; Curve Loop(1) = {1, 2, 3};
+Point(4) = {X, 1, 0, 1}; Point(5) = {X + 1, 1, 0, 1}; Point(6) = {X, 2, 0, 1};
+Line(4) = {4, 5}; Line(5) = {5, 6}; Line(6) = {6, 4}; Curve Loop(2) = {4, 5, 6};
+Physical Curve("displacement") = {1:3}; Physical Curve("force:hole") = {4:6};
+Physical Surface("steel") = {1};
+)";
+}
+
+class Convert : public ::testing::Test {
+ protected:
+  Mesh convert(const std::string& name, const std::string& text) {
+    return convert_model(write_text(folder_ / name, text), options_).mesh;
+  }
+  // What is said after the file's name: of one with this text, and of one that is there.
+  std::string complaint(const std::string& name, const std::string& text) {
+    write_text(folder_ / name, text);
+    return complaint(name);
+  }
+  std::string complaint(const std::string& name) {
+    const std::string what =
+        complaint_of<MeshError>([&] { convert_model(folder_ / name, options_); });
+    if (what == "no complaint") return what;
+    const std::string prefix = (folder_ / name).string() + ": ";
+    EXPECT_TRUE(what.starts_with(prefix)) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos) << what;
+    return what.substr(std::min(prefix.size(), what.size()));
+  }
+
+  const TemporaryFolder folder_;
+  ModelOptions options_;
+};
 
 TEST_F(Convert, GeometryOfTwoBodiesIsMeshed) {
   const Mesh mesh = convert("squares.geo", two_squares_geometry + roles + bodies);
   EXPECT_NO_THROW(validate(mesh));
   EXPECT_EQ(mesh.name, "squares");
   EXPECT_EQ(mesh.body_names, (std::vector<std::string>{"steel", "cast iron"}));
-  double area[2] = {0, 0};
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
     const auto& [a, b, c] = mesh.triangles[t];
     const double x = (mesh.vertices[a] + mesh.vertices[b] + mesh.vertices[c]).x() / 3;
     EXPECT_EQ(mesh.triangle_body[t], x < 1 ? 0 : 1);
-    area[mesh.triangle_body[t]] +=
-        cross_area(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]) / 2;
   }
-  EXPECT_NEAR(area[0], 1, 1e-12);
-  EXPECT_NEAR(area[1], 1, 1e-12);
+  for (const auto& [body, area] : area_of_bodies(mesh)) EXPECT_NEAR(area, 1, 1e-12) << body;
   for (const BoundaryEdge& edge : mesh.boundary) {
     const double x = (mesh.vertices[edge.vertices[0]] + mesh.vertices[edge.vertices[1]]).x() / 2;
     EXPECT_EQ(edge.role, x == 0   ? BoundaryRole::displacement
@@ -55,17 +122,14 @@ TEST_F(Convert, MeshOfFormat4) {
   EXPECT_EQ(mesh.body_names, std::vector<std::string>{"body"});  // its surface group has no name
 }
 
-TEST_F(Convert, SeveralUnnamedSurfacesAreToldApart) {
-  const Mesh mesh =
-      convert("squares.geo", two_squares_geometry + roles +
-                                 "Physical Surface(7) = {1};\nPhysical Surface(9) = {2};\n");
-  EXPECT_EQ(mesh.body_names, (std::vector<std::string>{"body7", "body9"}));
-}
-
-TEST_F(Convert, SurfacesOfOneNameAreOneBody) {
-  const Mesh mesh = convert(
-      "squares.geo", two_squares_geometry + roles + "Physical Surface(\"steel\") = {1, 2};\n");
-  EXPECT_EQ(mesh.body_names, std::vector<std::string>{"steel"});
+TEST_F(Convert, UnnamedSurfacesAreToldApartAndThoseOfOneNameAreOneBody) {
+  const std::string squares = two_squares_geometry + roles;
+  EXPECT_EQ(convert("unnamed.geo",
+                    squares + "Physical Surface(7) = {1};\n" + "Physical Surface(9) = {2};\n")
+                .body_names,
+            (std::vector<std::string>{"body7", "body9"}));
+  EXPECT_EQ(convert("one.geo", squares + "Physical Surface(\"steel\") = {1, 2};\n").body_names,
+            std::vector<std::string>{"steel"});
 }
 
 TEST_F(Convert, ClockwiseTrianglesAndLinesAreTurnedAndUnusedNodesDropped) {
@@ -92,10 +156,7 @@ TEST_F(Convert, AnyConstantZButNoOther) {
   EXPECT_EQ(complaint("plate.msh", lifted), "no complaint");
   EXPECT_EQ(complaint("plate.msh", replaced(lifted, "30 1 1 3.5", "30 1 1 3.6")),
             "node 30 has z = 3.6, others 3.5; the body must lie in a plane z = constant");
-}
-
-TEST_F(Convert, UnusedNodeMayLieAnywhere) {
-  EXPECT_EQ(complaint("plate.msh", replaced(clockwise_plate, "60 7 7 0", "60 7 7 7")),
+  EXPECT_EQ(complaint("unused.msh", replaced(clockwise_plate, "60 7 7 0", "60 7 7 7")),
             "no complaint");
 }
 
@@ -121,10 +182,10 @@ TEST_F(Convert, RolesByTheNamesOfTheModel) {
                                      "\"contact\"", "\"force:flank\"");
   options_ = model_options_of({"clamped=displacement:left", "force:flank=contact"}, {}, "");
   const Mesh mesh = convert("named.geo", named);
-  std::map<std::string, int> edges;
-  for (const BoundaryEdge& edge : mesh.boundary) ++edges[boundary_label(mesh, edge)];
-  EXPECT_EQ(edges.size(), 3u);
-  for (const char* label : {"displacement:left", "force", "contact"}) EXPECT_GT(edges[label], 0);
+  const auto length = length_of_boundaries(mesh);
+  EXPECT_EQ(length.size(), 3u);
+  for (const char* label : {"displacement:left", "force", "contact"})
+    EXPECT_TRUE(length.contains(label)) << label;
   options_ = model_options_of({"clampd=displacement"}, {}, "");
   EXPECT_EQ(complaint("named.geo", named),
             "--role: it has no physical curve 'clampd' (its physical curves: 'clamped', 'force', "
@@ -190,21 +251,13 @@ TEST_F(Convert, CurvesOfACadFileGoByTheirNumbers) {
 Save "plate.brep";
 Box(1) = {0, 0, 0, 1, 1, 1}; Save "box.brep";
 )");
-  const auto message = [&](const char* file) {
-    try {
-      convert_model(folder_ / file, options_);
-    } catch (const MeshError& error) {
-      return std::string(error.what()).substr((folder_ / file).string().size() + 2);
-    }
-    return std::string("no complaint");
-  };
-  EXPECT_EQ(message("plate.brep"),
+  EXPECT_EQ(complaint("plate.brep"),
             "a CAD file names no curves; each needs a role by its number, --role 1=force (its "
             "curves: 1 at (10, 0), 2 at (20, 5), 3 at (10, 10), 4 at (0, 5))");
-  EXPECT_EQ(message("box.brep"),
+  EXPECT_EQ(complaint("box.brep"),
             "1 volume(s); the body must be plane: one or more faces in a plane z = constant");
   options_ = model_options_of({"4=displacement", "2=contact", "1=force", "5=force"}, {}, "2");
-  EXPECT_EQ(message("plate.brep"),
+  EXPECT_EQ(complaint("plate.brep"),
             "--role: it has no physical curve '5' (its physical curves: '1', '2', '3', '4')");
   options_ = model_options_of({"4=displacement", "2=contact", "1=force", "3=force:top"}, {}, "2");
   const Mesh mesh = convert_model(folder_ / "plate.brep", options_).mesh;
@@ -230,10 +283,7 @@ TEST_F(Convert, NamedBoundaryGroupsAreKept) {
                                 "\"contact\"", "\"contact:flank\"") +
                        "Physical Curve(\"force:bottom\") = {5};\n"
                        "Physical Curve(\"force:top\") = {6};\n");
-  std::map<std::string, double> length;
-  for (const BoundaryEdge& edge : mesh.boundary)
-    length[boundary_label(mesh, edge)] +=
-        (mesh.vertices[edge.vertices[1]] - mesh.vertices[edge.vertices[0]]).norm();
+  auto length = length_of_boundaries(mesh);
   ASSERT_EQ(length.size(), 5U);
   for (const char* label : {"displacement", "contact:flank", "force:bottom", "force:top"})
     EXPECT_NEAR(length[label], 1, 1e-12) << label;
@@ -242,29 +292,7 @@ TEST_F(Convert, NamedBoundaryGroupsAreKept) {
 
 TEST_F(Convert, KeepsAFileThatIsOneOfOursAlready) {
   // One tag per element: allowed in MSH 2.2 and read by read_msh(), but not by Gmsh.
-  const Mesh mesh = convert("ours.msh", R"($MeshFormat
-2.2 0 8
-$EndMeshFormat
-$PhysicalNames
-3
-1 1 "displacement"
-1 2 "force"
-2 4 "steel"
-$EndPhysicalNames
-$Nodes
-3
-1 0 0 0
-2 1 0 0
-3 0 1 0
-$EndNodes
-$Elements
-4
-1 1 1 1 1 2
-2 1 1 2 2 3
-3 1 1 2 3 1
-4 2 1 4 1 2 3
-$EndElements
-)");
+  const Mesh mesh = convert_model(test_data("meshgen/one_tag.msh")).mesh;
   EXPECT_EQ(mesh.triangles.size(), 1u);
   EXPECT_EQ(mesh.body_names.front(), "steel");
   EXPECT_EQ(mesh_sizes(mesh).n_f, 8);
@@ -276,8 +304,82 @@ TEST_F(Convert, KeepsAHole) {
   EXPECT_EQ(mesh.boundary_groups, std::vector<std::string>{"hole"});
   EXPECT_EQ(mesh_sizes(mesh).n_phi,
             3 * static_cast<int>(mesh.vertices.size()) + number_edges(mesh).count());
-  const MeshSizes& sizes = mesh_sizes(mesh);
-  EXPECT_GE(sizes.force_edges, 3);
+  EXPECT_GE(mesh_sizes(mesh).force_edges, 3);
+}
+
+struct Refusal {
+  std::string file, text;
+  std::string complaint, end = {};  // the whole, or where it begins and ends
+};
+
+TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
+  const std::string squares = two_squares_geometry + roles + bodies,
+                    unnamed = two_squares_geometry + bodies;
+  const auto with_roles = [&](const char* from, const char* to) {
+    return unnamed + replaced(roles, from, to);
+  };
+  const std::vector<Refusal> cases = {
+      {"quadrangles.geo", squares + "Recombine Surface {1, 2};\n",
+       "surface 1 has elements 'Quadrilateral 4'; only triangles (without Recombine in Gmsh) are "
+       "allowed"},
+      {"last_line_without_end.geo", squares.substr(0, squares.size() - 1),
+       "its last line does not end: Gmsh would pass over it (allowed: a new line there)"},
+      {"no_roles.geo", unnamed,
+       "no edges in a physical curve named displacement; it is needed, force and contact are "
+       "allowed"},
+      {"no_displacement.geo", with_roles("\"displacement\"", "\"Displacement\""),
+       "no edges in a physical curve named displacement (others found: 'Displacement'; --role "
+       "gives them one); it is needed, force and contact are allowed"},
+      {"no_surface.geo", two_squares_geometry + roles,
+       "no physical surface; at least one is needed (one per body; any name is allowed)"},
+      {"unknown_role.msh", replaced(clockwise_plate, "\"contact\"", "\"glue\""),
+       "boundary edge from (1, 0) to (1, 1) is in no physical curve named displacement, force or "
+       "contact (others found: 'glue'; --role gives them one)"},
+      {"edge_without_role.geo", with_roles("Physical Curve(\"contact\") = {7};", ""),
+       "boundary edge from (2, 0) to (2, 0.333333) is in no physical curve named displacement, "
+       "force or contact"},
+      {"role_inside.geo", with_roles("contact\") = {7", "contact\") = {4, 7"),
+       "physical curve 'contact': edge from (1, ", " is not on the body's boundary"},
+      {"two_roles.geo", with_roles("contact\") = {7", "contact\") = {6, 7"),
+       "curve 6: an edge is in the physical curves force and contact; one role is allowed"},
+      {"two_bodies.geo",
+       two_squares_geometry + roles +
+           "Physical Surface(\"steel\", 1) = {1, 2};\nPhysical Surface(\"iron\", 2) = {2};\n",
+       "surface 2 is in the physical surfaces 1 and 2; one body is allowed"},
+      {"flat.msh", replaced(clockwise_plate, "50 0.5 0.5", "50 0.5 0"),
+       "triangle of nodes 20, 10, 50 at (1, 0) has zero area"},
+      {"apart.geo",
+       two_loops("9") + "Plane Surface(1) = {1}; Plane Surface(2) = {2};\n" +
+           "Physical Surface(\"steel\") += {2};\n",
+       "2 separate pieces; the body must be one (in Gmsh, Coherence or BooleanFragments joins "
+       "surfaces that touch or overlap)"},
+      {"filled_hole.geo",
+       two_loops("1") + "Plane Surface(1) = {1, 2}; Plane Surface(2) = {2};\n" +
+           "Physical Surface(\"plug\") = {2};\n",
+       "physical curve 'force:hole': edge from (1, 1) to (2, 1) is not on the body's boundary"},
+      {"broken.geo", "Point(1) = {0, 0, 0};\nfoo bar;\n", "Gmsh: ", "line 2"},
+      {"truncated.msh", plate_msh4.substr(0, plate_msh4.find("0 3 0 1")),
+       "Gmsh: Could not read nodes"},
+  };
+  for (const auto& [file, text, expected, end] : cases) {
+    const std::string what = complaint(file, text);
+    if (end.empty())
+      EXPECT_EQ(what, expected) << file;
+    else
+      EXPECT_TRUE(what.starts_with(expected) && what.find(end) != what.npos) << file << what;
+  }
+}
+
+TEST_F(Convert, RefusesAFileThatIsNotThere) { EXPECT_EQ(complaint("tooth.geo"), "no such file"); }
+
+TEST_F(Convert, RefusesWithoutPrinting) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  EXPECT_NE(complaint("bad.step", "not a STEP file\n"), "no complaint");
+  EXPECT_NE(complaint("bad.geo", "foo bar;\n"), "no complaint");
+  EXPECT_EQ(complaint("good.geo", two_squares_geometry + roles + bodies), "no complaint");
+  EXPECT_EQ(::testing::internal::GetCapturedStdout(), "");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 }  // namespace

@@ -2,21 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
+#include "tests/support/complaint.hpp"
 
 namespace airybench::model_options_test {
 namespace {
 
 using Texts = std::vector<std::string>;
-
-std::string complaint(const Texts& roles, const Texts& parameters, const std::string& mesh_size) {
-  try {
-    model_options_of(roles, parameters, mesh_size);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
 
 TEST(ModelOptions, FromTheirTexts) {
   const ModelOptions options =
@@ -30,17 +21,19 @@ TEST(ModelOptions, FromTheirTexts) {
 }
 
 TEST(ModelOptions, WhatIsWrongIsRefusedWithWhatIsAllowed) {
-  const std::string of_roles =
-      " (allowed: NAME=ROLE with displacement, force, contact, or one of these with a name: "
-      "force:top)";
-  EXPECT_EQ(complaint({"clamped"}, {}, ""), "--role: clamped" + of_roles);
-  EXPECT_EQ(complaint({"=force"}, {}, ""), "--role: =force" + of_roles);
-  EXPECT_EQ(complaint({"clamped=fixed"}, {}, ""), "--role: clamped=fixed" + of_roles);
-  EXPECT_EQ(complaint({"a=force:"}, {}, ""), "--role: a=force:" + of_roles);
+  const auto complaint = [](const Texts& roles, const Texts& parameters, const std::string& size) {
+    return testing::complaint_of<std::invalid_argument>(
+        [&] { model_options_of(roles, parameters, size); });
+  };
+  for (const std::string role : {"clamped", "=force", "clamped=fixed", "a=force:"})
+    EXPECT_EQ(complaint({role}, {}, ""),
+              "--role: " + role +
+                  " (allowed: NAME=ROLE with displacement, force, contact, or one of these with a "
+                  "name: force:top)");
   EXPECT_EQ(complaint({"a=force", "a=contact"}, {}, ""), "--role: a is given twice");
-  EXPECT_EQ(complaint({}, {"h"}, ""), "--parameter: h (allowed: NAME=NUMBER)");
-  EXPECT_EQ(complaint({}, {"h=1mm"}, ""), "--parameter: h=1mm (allowed: NAME=NUMBER)");
-  EXPECT_EQ(complaint({}, {"h=nan"}, ""), "--parameter: h=nan (allowed: NAME=NUMBER)");
+  for (const std::string parameter : {"h", "h=1mm", "h=nan"})
+    EXPECT_EQ(complaint({}, {parameter}, ""),
+              "--parameter: " + parameter + " (allowed: NAME=NUMBER)");
   for (const std::string size : {"0", "-1", "0%", "fine", "%", "1e300", "nan"})
     EXPECT_EQ(complaint({}, {}, size),
               "--mesh-size: " + size +

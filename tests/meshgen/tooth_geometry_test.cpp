@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <map>
-#include <stdexcept>
+#include <numeric>
+
+#include "meshgen/apportion.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace airybench::tooth_geometry_test {
 namespace {
@@ -12,11 +15,7 @@ namespace {
 constexpr auto displacement = BoundaryRole::displacement, force = BoundaryRole::force,
                contact = BoundaryRole::contact;
 
-ToothDimensions rack(int teeth) {
-  ToothDimensions dimensions;
-  dimensions.teeth = teeth;
-  return dimensions;
-}
+ToothDimensions rack(int teeth) { return {.teeth = teeth}; }
 
 // Shoelace formula; positive when counter-clockwise.
 double area(const BoundaryPolygon& polygon) {
@@ -33,23 +32,17 @@ double edge_length(const BoundaryPolygon& polygon, std::size_t i) {
   return (polygon.vertices[(i + 1) % polygon.vertices.size()] - polygon.vertices[i]).norm();
 }
 
-std::map<BoundaryRole, int> counts(const BoundaryPolygon& polygon) {
-  std::map<BoundaryRole, int> count;
-  for (const BoundaryRole role : polygon.roles) ++count[role];
-  return count;
-}
-
 TEST(BoundarySegments, OneToothIsATrapezoid) {
   const auto segments = boundary_segments({});
   ASSERT_EQ(segments.size(), 4u);
-  EXPECT_EQ(segments[0].start, Eigen::Vector2d(0, -5));
-  EXPECT_EQ(segments[1].start, Eigen::Vector2d(10, -3));
-  EXPECT_EQ(segments[2].start, Eigen::Vector2d(10, 3));
-  EXPECT_EQ(segments[3].start, Eigen::Vector2d(0, 5));
-  EXPECT_EQ(segments[0].role, force);
-  EXPECT_EQ(segments[1].role, contact);
-  EXPECT_EQ(segments[2].role, force);
-  EXPECT_EQ(segments[3].role, displacement);
+  const auto expect_segment = [&](int k, double x, double y, BoundaryRole role) {
+    EXPECT_EQ(segments[k].start, Eigen::Vector2d(x, y)) << k;
+    EXPECT_EQ(segments[k].role, role) << k;
+  };
+  expect_segment(0, 0, -5, force);
+  expect_segment(1, 10, -3, contact);
+  expect_segment(2, 10, 3, force);
+  expect_segment(3, 0, 5, displacement);
 }
 
 TEST(BoundarySegments, AreClosed) {
@@ -93,7 +86,8 @@ TEST(BoundaryPolygon, ClosedCounterClockwiseWithTheBodysArea) {
 
 TEST(BoundaryPolygon, EdgeCountsAreExact) {
   for (const EdgeCounts& edges : {EdgeCounts{6, 24, 10}, {1, 2, 1}, {3, 17, 5}}) {
-    auto count = counts(boundary_polygon({}, edges));
+    std::map<BoundaryRole, int> count;
+    for (const BoundaryRole role : boundary_polygon({}, edges).roles) ++count[role];
     EXPECT_EQ(count[displacement], edges.displacement);
     EXPECT_EQ(count[force], edges.force);
     EXPECT_EQ(count[contact], edges.contact);
@@ -159,52 +153,76 @@ TEST(RoundedCoordinate, ToTenDecimalsWithoutNegativeZero) {
   EXPECT_FALSE(std::signbit(rounded_coordinate(-1e-12)));
 }
 
-std::string complaint(const ToothDimensions& dimensions, const EdgeCounts& edges) {
-  try {
-    boundary_polygon(dimensions, edges);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "no complaint";
-}
+struct Impossible {
+  ToothDimensions dimensions;
+  EdgeCounts edges;
+  std::string complaint;
+};
 
-TEST(BoundaryPolygon, RefusesImpossibleDimensions) {
+TEST(BoundaryPolygon, RefusesImpossibleDimensionsAndTooFewEdges) {
   const EdgeCounts edges{6, 40, 10};
-  ToothDimensions bad;
-  bad.root_half_height = 0;
-  EXPECT_EQ(complaint(bad, edges), "root half height is 0 mm; a positive number is needed");
-  bad = {};
-  bad.length = -10;
-  EXPECT_EQ(complaint(bad, edges), "length is -10 mm; a positive number is needed");
-  bad = {};
-  bad.tip_half_height = std::nan("");
-  EXPECT_EQ(complaint(bad, edges), "tip half height is nan mm; a positive number is needed");
-  bad = rack(0);
-  EXPECT_EQ(complaint(bad, edges), "teeth is 0; at least 1 is needed");
-  bad = rack(2);
-  bad.pitch = 9;
-  EXPECT_EQ(complaint(bad, edges),
-            "pitch is 9 mm; the roots need at least 10 (twice the root half height)");
-  bad.tip_half_height = 7;
-  bad.pitch = 14;
-  EXPECT_EQ(complaint(bad, edges),
-            "pitch is 14 mm; the tips need more than 14 (twice the tip half height)");
-  bad = rack(2);
-  bad.block_depth = 0;
-  EXPECT_EQ(complaint(bad, edges), "block depth is 0 mm; a positive number is needed");
+  const double nan = std::nan("");
+  const std::vector<Impossible> cases = {
+      {{.root_half_height = 0}, edges, "root half height is 0 mm; a positive number is needed"},
+      {{.length = -10}, edges, "length is -10 mm; a positive number is needed"},
+      {{.tip_half_height = nan}, edges, "tip half height is nan mm; a positive number is needed"},
+      {{.teeth = 0}, edges, "teeth is 0; at least 1 is needed"},
+      {{.teeth = 2, .pitch = 9},
+       edges,
+       "pitch is 9 mm; the roots need at least 10 (twice the root half height)"},
+      {{.teeth = 2, .tip_half_height = 7, .pitch = 14},
+       edges,
+       "pitch is 14 mm; the tips need more than 14 (twice the tip half height)"},
+      {{.teeth = 2, .block_depth = 0}, edges, "block depth is 0 mm; a positive number is needed"},
+      {{.pitch = 1, .block_depth = -1}, edges, "no complaint"},  // a rack's only
+      {{}, {0, 24, 10}, "displacement edges: 0; at least 1 is needed"},
+      {{}, {6, 1, 10}, "force edges: 1; at least 2 needed, one per straight piece"},
+      {rack(4), {6, 40, 3}, "contact edges: 3; at least 4 needed, one per tooth"},
+  };
+  for (const auto& [dimensions, counts, complaint] : cases)
+    EXPECT_EQ(
+        testing::complaint_of<std::invalid_argument>([&] { boundary_polygon(dimensions, counts); }),
+        complaint);
 }
 
-TEST(BoundaryPolygon, RackOnlyDimensionsDoNotMatterToOneTooth) {
-  ToothDimensions tooth;
-  tooth.pitch = 1;
-  tooth.block_depth = -1;
-  EXPECT_EQ(complaint(tooth, {6, 24, 10}), "no complaint");
+using Counts = std::vector<int>;
+
+TEST(Apportion, LargestRemaindersGetTheRestAndSmallSegmentsOneFirst) {
+  struct Case {
+    std::vector<double> weights;
+    int total;
+    Counts counts;
+  };
+  for (const auto& [weights, total, counts] :
+       {Case{{1, 2, 3}, 12, {2, 4, 6}},            // exact shares
+        Case{{2.6, 3.3, 4.1}, 10, {3, 3, 4}},      // shares 2.6, 3.3, 4.1
+        Case{{1, 1, 1, 1}, 50, {13, 13, 12, 12}},  // equal remainders go to the earlier
+        Case{{1, 1 + 1e-15, 1, 1 + 1e-15}, 50, {13, 13, 12, 12}},  // equal but for rounding
+        Case{{0.001, 10, 0.001, 10}, 6, {1, 2, 1, 2}}, Case{{1e-12, 1}, 2, {1, 1}}})
+    EXPECT_EQ(apportion(weights, total), counts) << weights.front() << " … in " << total;
 }
 
-TEST(BoundaryPolygon, RefusesTooFewEdges) {
-  EXPECT_EQ(complaint({}, {0, 24, 10}), "displacement edges: 0; at least 1 is needed");
-  EXPECT_EQ(complaint({}, {6, 1, 10}), "force edges: 1; at least 2 needed, one per straight piece");
-  EXPECT_EQ(complaint(rack(4), {6, 40, 3}), "contact edges: 3; at least 4 needed, one per tooth");
+TEST(Apportion, SumIsTheTotalAndEachGetsOne) {
+  const std::vector<double> weights = {0.3, 7.1, 2.9, 0.05, 4.4, 1.25, 1.25};
+  for (int total = 7; total < 300; ++total) {
+    const Counts counts = apportion(weights, total);
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), total);
+    for (const int count : counts) EXPECT_GE(count, 1) << total;
+  }
+}
+
+TEST(Apportion, WithinOneOfTheShareWhenAllSharesExceedOne) {
+  const std::vector<double> weights = {3.7, 7.1, 2.9, 5.3};
+  const double sum = 19;
+  const Counts counts = apportion(weights, 77);
+  for (std::size_t i = 0; i < weights.size(); ++i)
+    EXPECT_LT(std::abs(counts[i] - 77 * weights[i] / sum), 1);
+}
+
+TEST(Apportion, RefusesTooFewEdgesAndBadWeights) {
+  EXPECT_THROW(apportion({1, 1, 1}, 2), std::invalid_argument);
+  EXPECT_THROW(apportion({1, 0}, 5), std::invalid_argument);
+  EXPECT_THROW(apportion({1, -1}, 5), std::invalid_argument);
 }
 
 }  // namespace

@@ -8,18 +8,17 @@
 #include "assembly/scene.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
-#include "solvers/methods.hpp"
-#include "tests/support/dense_algebra.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/environment_variable.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::column_store_test {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::system_of;
+using testing::solved_by, testing::system_of;
 
 // No file may be larger, as on a full disk, for the scope of the object.
 class FileSizeLimit {
@@ -41,10 +40,6 @@ class FileSizeLimit {
   rlimit before_{};
   void (*signal_)(int) = SIG_DFL;
 };
-
-Solution solve(const char* method, const DualSystem& system) {
-  return run(select_methods(method).front(), system, {});
-}
 
 TEST(ColumnStore, IsAZeroMatrixInEitherPlaceThatKeepsWhatIsWritten) {
   for (const auto place : {ColumnStore::Place::memory, ColumnStore::Place::file}) {
@@ -75,14 +70,9 @@ TEST(ColumnStore, TheFileHasNoNameAndIsGoneAfterwards) {
 
 TEST(ColumnStore, AFolderThatCannotTakeItIsNamed) {
   const testing::TemporaryFolder folder;
-  const auto refusal = [](const fs::path& temporary) -> std::string {
+  const auto refusal = [](const fs::path& temporary) {
     const testing::EnvironmentVariable variable("TMPDIR", temporary);
-    try {
-      const MappedFile file(std::size_t{1} << 24);
-    } catch (const Breakdown& breakdown) {
-      return breakdown.what();
-    }
-    return "no refusal";
+    return testing::complaint_of<Breakdown>([] { const MappedFile file(std::size_t{1} << 24); });
   };
   const fs::path nowhere = folder / "nowhere", file = testing::write_text(folder / "file", "x");
   const std::string begin = "no room for 16777216 bytes in a temporary file in ",
@@ -103,10 +93,10 @@ TEST(ColumnStore, AMethodWithoutRoomForItsFileBreaksDown) {
   const testing::TemporaryFolder folder;
   const testing::EnvironmentVariable variable("TMPDIR", folder / "nowhere");
   const DualSystem system = system_of();
-  const Solution solution = solve("3STEPD:FILE", system);
+  const Solution solution = solved_by("3STEPD:FILE", system);
   EXPECT_EQ(solution.status, Status::breakdown);
   EXPECT_NE(solution.message.find((folder / "nowhere").string()), std::string::npos);
-  EXPECT_EQ(solve("3STEPD", system).status, Status::ok);
+  EXPECT_EQ(solved_by("3STEPD", system).status, Status::ok);
 }
 
 TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
@@ -115,12 +105,12 @@ TEST(ColumnStore, WhereTheMatricesAreDoesNotChangeTheAnswer) {
   frictionless.friction = 0;
   for (const Scene& scene : {Scene{}, body_force, frictionless}) {
     const DualSystem system = system_of(scene);
-    const Solution memory = solve("3STEPD", system);
+    const Solution memory = solved_by("3STEPD", system);
     ASSERT_EQ(memory.status, Status::ok);
-    const Solution file = solve("3STEPD:FILE", system), lean = solve("3STEPD:LEAN", system);
+    const Solution file = solved_by("3STEPD:FILE", system), lean = solved_by("3STEPD:LEAN", system);
     EXPECT_EQ(file.F_C, memory.F_C);  // the same operations on other pages
     EXPECT_EQ(file.phi, memory.phi);
-    EXPECT_LT(testing::distance(lean.F_C, memory.F_C), 1e-12 * memory.F_C.norm());
+    EXPECT_LT(testing::force_error(lean, memory), 1e-12);
     EXPECT_LT(testing::distance(lean.phi, memory.phi), 1e-9 * memory.phi.norm());
     EXPECT_LT(matrix_bytes(lean), matrix_bytes(memory));
   }

@@ -2,14 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "assembly/scene.hpp"
-#include "mesh/msh_format.hpp"
-#include "solvers/methods.hpp"
-#include "tests/support/dense_algebra.hpp"
+#include "tests/support/dense_operators.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::condition_test {
 namespace {
@@ -21,10 +17,9 @@ double exact_condition(const Eigen::MatrixXd& A) {
 }
 
 double estimate(const Eigen::MatrixXd& A) {
-  const Eigen::SparseMatrix<double> lower =
-      Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
   const auto lu = testing::factorised(A);
-  return estimate_condition(lower, [&](Eigen::Ref<Eigen::MatrixXd> X) { X = lu(X); });
+  return estimate_condition(testing::lower_of(A),
+                            [&](Eigen::Ref<Eigen::MatrixXd> X) { X = lu(X); });
 }
 
 Eigen::MatrixXd equilibrated(const Eigen::MatrixXd& A) {
@@ -34,10 +29,9 @@ Eigen::MatrixXd equilibrated(const Eigen::MatrixXd& A) {
 
 // Random eigenvectors, eigenvalues from 1 down to 1/kappa.
 Eigen::MatrixXd random_definite(int n, double kappa) {
-  const Eigen::MatrixXd Q = testing::orthogonal_factor(Eigen::MatrixXd::Random(n, n));
-  const Eigen::VectorXd powers =
-      Eigen::VectorXd::LinSpaced(n, 0, -std::log(kappa)).array().exp().matrix();
-  return Q * powers.asDiagonal() * Q.transpose();
+  return testing::with_eigenvalues(
+      testing::orthogonal_factor(Eigen::MatrixXd::Random(n, n)),
+      Eigen::VectorXd::LinSpaced(n, 0, -std::log(kappa)).array().exp().matrix());
 }
 
 TEST(ConditionEstimate, IsAtMostTheExactOneAndAtLeastAThird) {
@@ -81,18 +75,13 @@ TEST(ConditionEstimate, ASingularMatrixIsInfinite) {
 // κ₁ lies between κ₂ and n κ₂. κ₂ by extreme eigenvalues: of S and K with unit diagonal 5.5e5 and
 // about 1e4 on Mesh0 (docs/theory.md, section 16).
 TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
-  const Mesh mesh = testing::catalogue_mesh("Mesh0");
-  const auto problem = testing::posed(Scene{}, mesh);
-  const DualSystem system = assemble(problem);
+  const DualSystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
   RunControl control;
   control.condition = true;
   const auto of = [&](const char* name) {
-    return run(select_methods(name).front(), system, control).condition_estimate.value_or(0);
+    return testing::solved_by(name, system, control).condition_estimate.value_or(0);
   };
   const double S = of("3STEPD"), K = of("HYBRID"), M = of("BLIND");
-  for (const auto& [name, value] : {std::pair{"S", S}, std::pair{"K", K}, std::pair{"M11", M}}) {
-    RecordProperty(name, std::to_string(value));
-  }
   EXPECT_GT(S, 5.5e5);
   EXPECT_LT(S, 5.5e5 * system.n());
   EXPECT_NEAR(of("3STEPD:CHOLMOD") / S, 1, 1e-6);
@@ -100,7 +89,7 @@ TEST(ConditionEstimate, OfEveryMethodThatFactorises) {
   EXPECT_LT(K, S / 5);
   EXPECT_GT(M, 1e3);
   EXPECT_NEAR(of("BLIND:SKY") / M, 1, 1e-6);
-  EXPECT_FALSE(run(select_methods("HYBRID").front(), system, {}).condition_estimate);
+  EXPECT_FALSE(testing::solved_by("HYBRID", system).condition_estimate);
 }
 
 }  // namespace

@@ -1,22 +1,18 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Core>
-#include <cmath>
 #include <limits>
-#include <random>
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/direct/dense_cholesky.hpp"
 #include "solvers/direct/dense_lu.hpp"
-#include "tests/support/dense_algebra.hpp"
+#include "tests/support/dense_operators.hpp"
 
 namespace airybench::dense_test {
 namespace {
 
 Eigen::MatrixXd random_matrix(int rows, int columns) {
-  std::mt19937 bits(11);
-  std::uniform_real_distribution<double> number(-1, 1);
-  return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return number(bits); });
+  std::mt19937 generator(11);
+  return testing::random_matrix(rows, columns, generator);
 }
 
 Eigen::MatrixXd random_matrix(int n) { return random_matrix(n, n); }
@@ -107,7 +103,7 @@ TEST(DenseLu, SingularIsNotFinite) {
 // n columns and what is below them, in the lower part of an array that has more of both.
 TEST(DenseCholesky, IsTheFirstColumnsOfAFactorOfAnySize) {
   constexpr double stays = 7;
-  for (const int n : {1, 7, 8, 9, 20, 64, 65, 150})
+  for (const int n : {1, 7, 8, 9, 20, 47, 48, 64, 65, 150})
     for (const int below : {0, 1, 8, 11, 90}) {
       const int m = n + below;
       const Eigen::MatrixXd root = random_matrix(m), A = root * root.transpose();
@@ -146,19 +142,15 @@ TEST(DenseCholesky, AMatrixThatIsNotPositiveDefiniteIsSaidToBeNone) {
       }
 }
 
-TEST(DenseCholesky, IsTheFactorAtAnySize) {
+TEST(DenseCholesky, ItsInverseIsSymmetric) {
   for (const int n : {1, 47, 48, 90}) {
     const Eigen::MatrixXd root = random_matrix(n), A = root * root.transpose();
     Eigen::MatrixXd L = A;
     ASSERT_TRUE(factorise_in_place(L));
-    L.triangularView<Eigen::StrictlyUpper>().setZero();
-    EXPECT_LE(testing::residual(L, L.transpose(), A), 1e-13 * A.norm()) << n;
     const Eigen::MatrixXd inverse = inverse_from_factor(L);
     EXPECT_EQ(inverse, inverse.transpose());
     EXPECT_LE(testing::residual(A, inverse, Eigen::MatrixXd::Identity(n, n)),
               1e-13 * A.norm() * inverse.norm());
-    Eigen::MatrixXd indefinite = -A;
-    EXPECT_FALSE(factorise_in_place(indefinite));
   }
 }
 

@@ -1,12 +1,10 @@
 // The examples of docs/adding-a-method.md do what they say.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "assembly/scene.hpp"
-#include "solvers/methods.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
 
 // Under other names than those of copies in solvers/, which who follows the document makes.
 #define three_step_simplicial example_of_a_method
@@ -20,19 +18,14 @@ namespace airybench::example_test {
 namespace {
 
 TEST(Example, TheMethodHasTheAnswerOfHybrid) {
-  const auto problem =
-      std::make_shared<const Problem>(pose(Scene{}, testing::catalogue_mesh("Mesh0")));
-  const DualSystem system = assemble(problem);
+  const DualSystem system = testing::system_of({}, testing::catalogue_mesh("Mesh0"));
   const Solution solution = run(example_of_a_method(), system, {});
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
-  const Solution other = run(select_methods("HYBRID").front(), system, {});
-  EXPECT_LE((solution.F_C - other.F_C).norm(), 1e-8 * other.F_C.norm());
-  EXPECT_LE(stress_distance(*problem, solution.stress, other.stress),
-            1e-8 * std::sqrt(stress_norm_squared(*problem, other.stress)));
+  const Solution other = testing::solved_by("HYBRID", system);
+  EXPECT_LE(testing::force_error(solution, other), 1e-8);
+  EXPECT_LE(testing::stress_error(*system.problem, solution, other), 1e-8);
   for (const Stage stage : example_of_a_method().stages) EXPECT_TRUE(solution.times[stage]);
-  RunControl late;
-  late.deadline = Deadline::after(-1);
-  EXPECT_EQ(run(example_of_a_method(), system, late).status, Status::timeout);
+  EXPECT_EQ(run(example_of_a_method(), system, testing::out_of_time()).status, Status::timeout);
 }
 
 TEST(Example, ThePreconditionerDividesByTheDiagonal) {

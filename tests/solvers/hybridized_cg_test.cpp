@@ -6,34 +6,29 @@
 #include "solvers/contact/condensed.hpp"
 #include "solvers/contact/contact_result.hpp"
 #include "solvers/krylov/gmres.hpp"
-#include "solvers/methods.hpp"
 #include "solvers/two_level/preconditioner.hpp"
 #include "tests/support/condensed.hpp"
-#include "tests/support/dense_algebra.hpp"
 #include "tests/support/named_scenes.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/random_scenes.hpp"
 #include "tests/support/sanitized.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::hybridized_cg_test {
 namespace {
 
-using testing::posed;
-using testing::small_rack;
-using testing::small_tooth;
+using testing::posed, testing::small_rack, testing::small_tooth;
 
 Solution solve(const char* method, const std::shared_ptr<const Problem>& problem,
                const RunControl& control = {}) {
-  return run(select_methods(method).front(), assemble(problem, Blocks::contact_points), control);
+  return testing::solved_by(method, assemble(problem, Blocks::contact_points), control);
 }
 
 // As the harness begins with it.
 RunControl first_control() {
-  RunControl control;
-  control.tolerance = select_methods("HYBRID:CG").front().first_tolerance * control.target_error;
-  return control;
+  return testing::with_tolerance(select_methods("HYBRID:CG").front().first_tolerance *
+                                 RunControl().target_error);
 }
 
 // The larger of the relative errors in stress and force, energy norms, HYBRID being right to 1e-10.
@@ -49,26 +44,9 @@ double true_error(const Problem& problem, const Solution& solution, const Soluti
 }
 
 testing::NamedScenes scenes() {
-  return testing::named_scenes({
-      {"default", [](Scene&) {}},
-      {"frictionless", [](Scene& s) { s.friction = 0; }},
-      {"mu = 1", [](Scene& s) { s.friction = 1; }},
-      {"mu = 3, sheared",
-       [](Scene& s) {
-         s.friction = 3;
-         s.displacement_mm = {0.01, 0.03};
-         s.crown_radius_mm = 200;
-       }},
-      {"plane stress", [](Scene& s) { s.plane = Plane::stress; }},
-      {"body force",
-       [](Scene& s) {
-         s.body_force_N_per_mm3 = {3, -1};
-       }},
-      {"flat face", [](Scene& s) { s.crown_radius_mm.reset(); }},
-      {"clearance", [](Scene& s) { s.clearance_mm = 0.005; }},
-      {"nearly incompressible", [](Scene& s) { s.material.poisson = 0.4999; }},
-      {"nothing touches", [](Scene& s) { s.clearance_mm = 1; }},
-  });
+  return testing::scenes_named({"default", "frictionless", "friction 1", "friction 3, sheared",
+                                "plane stress", "body force", "flat face", "clearance",
+                                "nearly incompressible", "nothing touches"});
 }
 
 TEST(HybridizedCg, AgreesWithHybridAndItsEstimateIsHonest) {
@@ -109,8 +87,6 @@ TEST(HybridizedCg, ItsEstimateCoversTheContactLaw) {
 // To 1e-8, those of its check counted.
 TEST(HybridizedCg, ItsIterationsDoNotGrowWithTheMesh) {
   constexpr int levels = testing::sanitized ? 3 : 4;
-  RunControl control;
-  control.tolerance = 1e-8;
   for (const auto& [poisson, most] : {std::pair{0.3, 40}, {0.4999, 65}}) {
     Scene scene;
     scene.material.poisson = poisson;
@@ -120,7 +96,8 @@ TEST(HybridizedCg, ItsIterationsDoNotGrowWithTheMesh) {
     Mesh mesh = read_msh(testing::mesh_file("Mesh0"));
     std::vector<std::int64_t> counts;
     for (int level = 0; level < levels; ++level, mesh = uniformly_refined(mesh)) {
-      const Solution solution = solve("HYBRID:CG", posed(scene, mesh), control);
+      const Solution solution =
+          solve("HYBRID:CG", posed(scene, mesh), testing::with_tolerance(1e-8));
       ASSERT_EQ(solution.status, Status::ok) << solution.message;
       counts.push_back(*solution.linear_iterations);
       EXPECT_LE(counts.back(), most) << poisson << " at level " << level;
@@ -151,20 +128,19 @@ TEST(HybridizedCg, ThreadsDoNotChangeTheAnswer) {
     const Solution together = solve("HYBRID:CG", problem, control);
     ASSERT_EQ(together.status, Status::ok) << together.message;
     EXPECT_EQ(together.linear_iterations, alone.linear_iterations) << threads;
-    EXPECT_LT(testing::distance(together.F_C, alone.F_C), 1e-9 * alone.F_C.norm()) << threads;
-    EXPECT_LT(stress_distance(*problem, together.stress, alone.stress),
-              1e-9 * std::sqrt(stress_norm_squared(*problem, alone.stress)))
-        << threads;
+    EXPECT_LT(testing::force_error(together, alone), 1e-9) << threads;
+    EXPECT_LT(testing::stress_error(*problem, together, alone), 1e-9) << threads;
   }
 }
 
 TEST(HybridizedCg, SaysWhichCoarseDisplacementsItChose) {
-  Scene scene;
-  EXPECT_TRUE(
-      solve("HYBRID:CG", posed(scene, small_tooth(4, 4))).parameters.starts_with("coarse=linear"));
-  scene.material.poisson = 0.49;
-  EXPECT_TRUE(solve("HYBRID:CG", posed(scene, small_tooth(4, 4)))
-                  .parameters.starts_with("coarse=per-edge"));
+  for (const auto& [poisson, chosen] :
+       {std::pair(0.3, "coarse=linear"), {0.49, "coarse=per-edge"}}) {
+    Scene scene;
+    scene.material.poisson = poisson;
+    const Solution solution = solve("HYBRID:CG", posed(scene, small_tooth(4, 4)));
+    EXPECT_TRUE(solution.parameters.starts_with(chosen)) << solution.parameters;
+  }
 }
 
 // Ok and right, or honestly not ok.
@@ -233,16 +209,14 @@ TEST(Gmres, SolvesANonsymmetricSystemInAsManyStepsAsItHasRows) {
   const Eigen::VectorXd r = Eigen::VectorXd::Random(n), m = r.cwiseAbs() + Eigen::VectorXd::Ones(n);
   Eigen::VectorXd x;
   KrylovSpace space;
+  const auto multiply = [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; };
+  const auto divide = [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v.cwiseQuotient(m); };
+  const auto poison = [](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v * NAN; };
   const GmresResult result =
-      solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
-                     [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v.cwiseQuotient(m); },
-                     r, {.tolerance = 1e-12}, {}, space, x);
+      solve_by_gmres(multiply, divide, r, {.tolerance = 1e-12}, {}, space, x);
   EXPECT_LE(result.iterations, n);
   EXPECT_LT(testing::residual(A, x, r), 1e-9 * r.norm());
-  EXPECT_THROW(solve_by_gmres([&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = A * v; },
-                              [](const Eigen::VectorXd& v, Eigen::VectorXd& y) { y = v * NAN; }, r,
-                              {}, {}, space, x),
-               Breakdown);
+  EXPECT_THROW(solve_by_gmres(multiply, poison, r, {}, {}, space, x), Breakdown);
 }
 
 }  // namespace

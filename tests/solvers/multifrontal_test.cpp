@@ -1,10 +1,13 @@
+// Elimination element by element, and the dissection that orders it.
 #include "solvers/direct/multifrontal.hpp"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 #include <random>
 
+#include "solvers/direct/dissection.hpp"
 #include "tests/support/dense_algebra.hpp"
 
 namespace airybench::multifrontal_test {
@@ -49,6 +52,13 @@ ElementMatrices grid_elements(int side, bool blocks_of_unlike_size = false) {
 Eigen::MatrixXd dense(const ElementMatrices& K) {
   const Eigen::MatrixXd lower = lower_triangle(K);
   return lower.selfadjointView<Eigen::Lower>();
+}
+
+MultifrontalFactor factored(const ElementMatrices& K, int trailing = 0) {
+  MultifrontalFactor factor;
+  factor.analyse(K, trailing);
+  factor.factor(K);
+  return factor;
 }
 
 TEST(ElementMatrices, TheirProductIsThatOfTheirSum) {
@@ -105,9 +115,7 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
       const int n = K.order;
       for (const int trailing : {0, 1, 4, side * 8, n}) {
         const int inner = n - trailing;
-        MultifrontalFactor cholesky;
-        cholesky.analyse(K, trailing);
-        cholesky.factor(K);
+        MultifrontalFactor cholesky = factored(K, trailing);
         const Eigen::MatrixXd L = cholesky.trailing_factor();
         ASSERT_EQ(L.rows(), trailing);
         if (trailing > 0) {
@@ -132,9 +140,7 @@ TEST(Multifrontal, SolvesWithAnyTrailingUnknowns) {
 
 TEST(Multifrontal, TheTrailingPartOfAForwardSolveIsInItsPlace) {
   const ElementMatrices K = grid_elements(4);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K, 5);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K, 5);
   // Given the last unknowns, the inner ones follow from the backward sweep alone.
   const Eigen::VectorXd b = Eigen::VectorXd::Ones(K.order);
   const Eigen::VectorXd last = Eigen::VectorXd::LinSpaced(5, 1, 2);
@@ -150,9 +156,7 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
   const ElementMatrices K = grid_elements(4);
   for (const int trailing : {1, 5, 33}) {
     using Columns = MultifrontalFactor::Columns;
-    MultifrontalFactor cholesky;
-    cholesky.analyse(K, trailing);
-    cholesky.factor(K);
+    MultifrontalFactor cholesky = factored(K, trailing);
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(K.order, -1, 2);
     Eigen::VectorXd y = cholesky.forward(b, Columns::inner);
     const Eigen::MatrixXd L = cholesky.trailing_factor();
@@ -164,9 +168,7 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
 
 TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   ElementMatrices K = grid_elements(5);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K);
   for (auto& element : K.lower)
     for (double& entry : element) entry *= 4;
   cholesky.factor(K);
@@ -232,11 +234,73 @@ TEST(Multifrontal, IndefiniteNaNAndTimeAreSaid) {
     EXPECT_THROW(cholesky.factor(K), Breakdown);
   }
   const ElementMatrices K = grid_elements(4);
-  MultifrontalFactor cholesky;
-  cholesky.analyse(K);
-  cholesky.factor(K);
+  MultifrontalFactor cholesky = factored(K);
   Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
   EXPECT_THROW(cholesky.solve_in_place(x, Deadline::after(-1)), TimeoutReached);
+}
+
+struct Graph {
+  int vertex_count = 0;
+  IndexLists vertices;  // per element
+  std::vector<std::array<double, 2>> centres;
+};
+
+// Squares with four corners, side × side; x is stretched beyond recognition.
+Graph grid(int side) {
+  Graph graph;
+  graph.vertex_count = (side + 1) * (side + 1);
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x) {
+      for (const int corner : {0, 1, side + 1, side + 2})
+        graph.vertices.entry.push_back(y * (side + 1) + x + corner);
+      graph.vertices.end_list();
+      graph.centres.push_back({std::exp(x / 4.0), static_cast<double>(y)});
+    }
+  return graph;
+}
+
+std::vector<int> stages_of(const Graph& graph) {
+  return dissect(graph.vertex_count, graph.vertices, graph.centres);
+}
+
+// How many vertices have each stage.
+std::vector<int> sizes(const std::vector<int>& stage) {
+  std::vector<int> size(static_cast<std::size_t>(*std::ranges::max_element(stage)) + 1, 0);
+  for (const int s : stage) ++size[s];
+  return size;
+}
+
+// Eight parts of 200 squares and seven cuts between them, which parts alone meet in: of two
+// vertices of an element one is in the other's part or in a cut around it.
+TEST(Dissection, CutsAGridAlongItsLines) {
+  constexpr int side = 40;
+  const Graph graph = grid(side);
+  const std::vector<int> stage = stages_of(graph);
+  ASSERT_EQ(stage.size(), std::size_t{(side + 1) * (side + 1)});
+  ASSERT_GE(*std::ranges::min_element(stage), 0);
+  const std::vector<int> size = sizes(stage);
+  EXPECT_EQ(size.back(), side + 1);  // the first cut's: one line of the grid
+  EXPECT_LT(*std::ranges::max_element(size), 300);
+  // Of each stage the cut that made its part; a cut comes after both its parts.
+  constexpr std::array parent = {2, 2, 6, 5, 5, 6, 14, 9, 9, 13, 12, 12, 13, 14, -1};
+  ASSERT_EQ(size.size(), parent.size());
+  const auto is_around = [&](int outer, int inner) {
+    while (inner != -1 && inner != outer) inner = parent[inner];
+    return inner == outer;
+  };
+  for (int e = 0; e < graph.vertices.count(); ++e)
+    for (const int v : graph.vertices[e])
+      for (const int w : graph.vertices[e])
+        EXPECT_TRUE(is_around(stage[v], stage[w]) || is_around(stage[w], stage[v]))
+            << stage[v] << " and " << stage[w];
+}
+
+TEST(Dissection, WithoutAnyPlaceStillEnds) {
+  Graph graph = grid(30);
+  for (auto& centre : graph.centres) centre = {1, 1};
+  const std::vector<int> stage = stages_of(graph);
+  EXPECT_GE(*std::ranges::min_element(stage), 0);
+  EXPECT_GT(*std::ranges::max_element(stage), 2);
 }
 
 }  // namespace

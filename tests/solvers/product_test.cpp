@@ -2,34 +2,21 @@
 // under which it would take many minutes; methods_test.cpp has one of each kind for them.
 #include <gtest/gtest.h>
 
-#include <cctype>
-#include <cmath>
 #include <map>
-#include <ostream>
 
-#include "assembly/scene.hpp"
-#include "mesh/msh_format.hpp"
 #include "solvers/condensation/symmlq_condensation.hpp"
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "solvers/krylov/conjugate_gradients.hpp"
-#include "solvers/methods.hpp"
-#include "tests/support/dense_algebra.hpp"
+#include "tests/support/condensed.hpp"
+#include "tests/support/method_names.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::product_test {
 
-void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
-
 namespace {
-
-std::string readable(std::string name) {
-  for (char& letter : name)
-    if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
-  return name;
-}
 
 Mesh mesh_named(const std::string& name) {
   if (name == "SmallTooth") return testing::small_tooth(8, 6);
@@ -42,7 +29,7 @@ const DualSystem& system_of(const std::string& mesh, Blocks blocks = Blocks::air
   static std::map<std::pair<std::string, Blocks>, DualSystem> systems;
   const auto key = std::pair(mesh, blocks);
   if (!systems.contains(key))
-    systems.emplace(key, assemble(testing::posed(Scene{}, mesh_named(mesh)), blocks));
+    systems.emplace(key, assemble(testing::posed({}, mesh_named(mesh)), blocks));
   return systems.at(key);
 }
 
@@ -50,7 +37,7 @@ const Solution& reference(const std::string& mesh) {
   static std::map<std::string, Solution> solutions;
   Solution& solution = solutions[mesh];
   if (solution.status != Status::ok)
-    solution = run(select_methods("HYBRID").front(), system_of(mesh, Blocks::contact_points), {});
+    solution = testing::solved_by("HYBRID", system_of(mesh, Blocks::contact_points));
   return solution;
 }
 
@@ -59,21 +46,18 @@ using MethodOnMesh = std::tuple<std::string, Method>;
 class Answer : public ::testing::TestWithParam<MethodOnMesh> {
  public:
   static std::string name_of(const ::testing::TestParamInfo<MethodOnMesh>& test) {
-    return readable(std::get<Method>(test.param).name);
+    return testing::readable_name(std::get<Method>(test.param).name);
   }
 };
 
 TEST_P(Answer, HasTheReferencesForcesAndStresses) {
   const auto& [mesh, method] = GetParam();
   const DualSystem& system = system_of(mesh, method.blocks);
-  RunControl control;
-  control.tolerance = 1e-10;
-  const Solution solution = run(method, system, control);
+  const Solution solution = run(method, system, testing::with_tolerance(1e-10));
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   const Solution& other = reference(mesh);
-  EXPECT_LE(testing::distance(solution.F_C, other.F_C), 1e-6 * other.F_C.norm());
-  EXPECT_LE(stress_distance(*system.problem, solution.stress, other.stress),
-            1e-6 * std::sqrt(stress_norm_squared(*system.problem, other.stress)));
+  EXPECT_LE(testing::force_error(solution, other), 1e-6);
+  EXPECT_LE(testing::stress_error(*system.problem, solution, other), 1e-6);
   EXPECT_EQ(solution.linear_iterations.has_value(), method.identity().starts_with("SYMMLQ") ||
                                                         method.identity().starts_with("3STEPCG") ||
                                                         method.name == "HYBRID:CG");
@@ -125,26 +109,19 @@ using PreconditionerOnMesh = std::tuple<std::string, std::string>;
 class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
  public:
   static std::string name_of(const ::testing::TestParamInfo<PreconditionerOnMesh>& test) {
-    return readable(std::get<1>(test.param));
+    return testing::readable_name(std::get<1>(test.param));
   }
 
  protected:
   static const DualSystem& system() { return system_of(std::get<0>(GetParam())); }
   static const std::string& preconditioner() { return std::get<1>(GetParam()); }
-  // What a direct solver makes of the system, computed once.
-  struct Exact {
-    SkylineFactor factor;
-    CondensedSystem condensed;
-  };
-  static const Exact& exact() {
-    static std::map<std::string, Exact> all;
-    Exact& of_mesh = all[std::get<0>(GetParam())];
-    if (of_mesh.condensed.D.size() == 0) {
-      of_mesh.factor = factor_ldlt(analyse_skyline(system().S), system().S);
-      const auto solve = [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(of_mesh.factor, X); };
-      of_mesh.condensed = condense_in_three_steps(system(), solve).condensed;
-    }
-    return of_mesh;
+  // By a factor of the hybridized system, computed once.
+  static const Eigen::MatrixXd& exact_D() {
+    static std::map<std::string, Eigen::MatrixXd> all;
+    Eigen::MatrixXd& D = all[std::get<0>(GetParam())];
+    if (D.size() == 0)
+      D = testing::condensed(assemble_hybridized(*system().problem, system().contact)).D;
+    return D;
   }
   // How many right-hand sides: one for the preconditioners that need thousands of iterations.
   static int sides() {
@@ -178,7 +155,7 @@ TEST_P(KernelsOnARack, ConjugateGradientsHaveTheDirectAnswer) {
   const Preconditioner S_star = preconditioner_named(preconditioner())(system().S, {});
   const Eigen::MatrixXd B = loads();
   Eigen::MatrixXd X = B, Y = B;
-  solve_in_place(exact().factor, Y);
+  solve_in_place(factor_ldlt(analyse_skyline(system().S), system().S), Y);
   const KrylovSummary summary =
       solve_by_conjugate_gradients(system().S, S_star, columns_of(X), options(1e-10));
   EXPECT_TRUE(summary.converged);
@@ -198,7 +175,7 @@ TEST_P(KernelsOnARack, SymmlqHasTheDirectAnswer) {
   Eigen::MatrixXd X = Eigen::MatrixXd::Zero(n + n_f + n_c, sides()), D(n_c, sides());
   for (int l = 0; l < sides(); ++l) {
     X(n + n_f + l * n_c / sides(), l) = 1;
-    D.col(l) = exact().condensed.D.col(l * n_c / sides());
+    D.col(l) = exact_D().col(l * n_c / sides());
   }
   // SSOR and NONE leave an error of about 1e-6 at a relative residual of 1e-10.
   const KrylovSummary summary =

@@ -5,84 +5,32 @@
 #include <gtest/gtest.h>
 
 #include "assembly/edge_forces.hpp"
-#include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::quadratic_displacements_test {
 namespace {
 
-using testing::posed;
-using testing::small_tooth;
+using testing::displacement_deviation, testing::posed, testing::small_tooth;
 constexpr double young = 2000, poisson = 0.3;
 
 Solution solve(const std::shared_ptr<const Problem>& problem, const RunControl& control = {}) {
-  return run(select_methods("P2").front(), assemble(problem, Blocks::contact_points), control);
-}
-
-// The largest deviation of w + ρ from an exact field, relative to its largest value, at every
-// vertex and at every edge's middle.
-double deviation(const Problem& problem, const DisplacementField& w,
-                 const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& exact) {
-  const DisplacementField u = with_rigid_motion(problem, w);
-  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
-  double worst = 0, size = 0;
-  const auto hold = [&](const Eigen::Vector2d& value, const Eigen::Vector2d& x) {
-    worst = std::max(worst, (value - exact(x)).norm());
-    size = std::max(size, exact(x).norm());
-  };
-  for (Eigen::Index v = 0; v < vertices; ++v) hold(u.col(v), problem.mesh.vertices[v]);
-  for (int e = 0; e < problem.edges.count(); ++e) {
-    const auto [a, b] = problem.edges.vertices[e];
-    hold((u.col(a) + 2 * u.col(vertices + e) + u.col(b)) / 4,
-         (problem.mesh.vertices[a] + problem.mesh.vertices[b]) / 2);
-  }
-  return worst / size;
+  return testing::solved_by("P2", assemble(problem, Blocks::contact_points), control);
 }
 
 TEST(QuadraticDisplacements, ReproducesQuadraticFieldsExactlyWithBodyForceAndTractions) {
-  Mesh mesh = small_tooth(5, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  const Mesh mesh =
+      testing::with_role(small_tooth(5, 4), BoundaryRole::contact, BoundaryRole::force);
   for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
     const auto problem = std::make_shared<const Problem>(make_problem(
         mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0.2));
     const Solution solution = solve(problem);
     ASSERT_EQ(solution.status, Status::ok) << solution.message;
-    EXPECT_LT(deviation(*problem, solution.displacement, exact.displacement), 1e-11) << exact.name;
+    EXPECT_LT(displacement_deviation(*problem, solution.displacement, exact), 1e-11) << exact.name;
     EXPECT_EQ(solution.F_C.size(), 0);
     EXPECT_FALSE(solution.contact_iterations);  // no contact loop
     EXPECT_FALSE(solution.times[Stage::contact]);
-  }
-}
-
-TEST(QuadraticDisplacements, ReproducesAConstantStressThatSticksOrSlipsOnTheWall) {
-  // As methods_test.cpp has it; here F_C are the forces of the control points, ∫ t B ds.
-  constexpr double mu = 0.25;
-  const Eigen::Matrix3d c = compliance({young, poisson}, Plane::stress);
-  for (const auto& [tau, slip] : {std::pair{10.0, 0.0}, {-20.0, 0.0}, {25.0, -0.5}, {-25.0, 0.3}}) {
-    const Eigen::Vector3d stress(-100, -100 * poisson, tau);
-    const Eigen::Vector3d strain = c * stress;
-    testing::ExactField exact;
-    exact.body_force.setZero();
-    exact.stress = [=](const Eigen::Vector2d&) { return stress; };
-    exact.displacement = [=, slid = slip](const Eigen::Vector2d& x) {
-      return Eigen::Vector2d(strain(0) * (x.x() - 10), strain(2) * (x.x() - 10) + slid);
-    };
-    const auto problem = std::make_shared<const Problem>(
-        make_problem(small_tooth(5, 4), {c}, testing::loads_of(exact), mu));
-    const Solution solution = solve(problem);
-    ASSERT_EQ(solution.status, Status::ok) << solution.message;
-    EXPECT_LT(deviation(*problem, solution.displacement, exact.displacement), 1e-10) << tau;
-    const ControlPoints control = control_points(*problem);
-    for (int p = 0; p < control.law.count; ++p) {  // four edges of 1.5 mm; ∫ B = 0.5 on each
-      const bool is_edge = control.node[p] >= static_cast<int>(problem->mesh.vertices.size());
-      const bool is_inner = is_edge || std::abs(problem->mesh.vertices[control.node[p]].y()) < 2.9;
-      const double weight = is_inner && !is_edge ? 1 : 0.5;
-      EXPECT_NEAR(solution.F_C(2 * p), -100 * weight, 1e-7) << p;
-      EXPECT_NEAR(solution.F_C(2 * p + 1), tau * weight, 1e-7) << p;
-    }
   }
 }
 
@@ -150,9 +98,8 @@ TEST(QuadraticDisplacements, ContactForcesBalanceReactionsAndLoads) {
 }
 
 TEST(QuadraticDisplacements, AContactVertexOnThePrescribedBoundaryHasNoLaw) {
-  Mesh mesh = small_tooth(6, 5);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::displacement;
+  const Mesh mesh =
+      testing::with_role(small_tooth(6, 5), BoundaryRole::force, BoundaryRole::displacement);
   Scene scene;
   scene.displacement_mm = {0.005, 0.002};  // less than the gap at the face's ends
   const auto problem = posed(scene, mesh);
@@ -174,9 +121,9 @@ TEST(QuadraticDisplacements, ABodyThatOnlyMovesHasNoStress) {
   const Solution solution = solve(problem);
   EXPECT_TRUE(solution.F_C.isZero(0));
   EXPECT_LT(std::sqrt(stress_norm_squared(*problem, solution.stress)), 1e-9);
-  EXPECT_LT(deviation(*problem, solution.displacement,
-                      [&](const auto&) { return scene.displacement_mm; }),
-            1e-12);
+  testing::ExactField moved;
+  moved.displacement = [&](const auto&) { return scene.displacement_mm; };
+  EXPECT_LT(displacement_deviation(*problem, solution.displacement, moved), 1e-12);
 }
 
 TEST(QuadraticDisplacements, ABodyFarFromTheOriginHasTheSameAnswer) {
@@ -190,16 +137,14 @@ TEST(QuadraticDisplacements, ABodyFarFromTheOriginHasTheSameAnswer) {
 }
 
 TEST(QuadraticDisplacements, WhatGoesWrongBecomesAStatus) {
-  RunControl late;
-  late.deadline = Deadline::after(-1);
-  EXPECT_EQ(solve(posed({}), late).status, Status::timeout);
+  EXPECT_EQ(solve(posed({}), testing::out_of_time()).status, Status::timeout);
 
   const auto problem = posed({});
   const DualSystem system = assemble(problem, Blocks::contact_points);
   const auto spoiled = [&](auto spoil) {
     return run(
         [&](const DualSystem& s, const RunControl& control) {
-          Solution solution = run(select_methods("P2").front(), s, control);
+          Solution solution = testing::solved_by("P2", s, control);
           spoil(solution);
           return solution;
         },

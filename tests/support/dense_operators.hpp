@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "assembly/dual_system.hpp"
 #include "solvers/krylov/symmlq.hpp"
 #include "solvers/preconditioners/preconditioner.hpp"
 #include "tests/support/dense_algebra.hpp"
@@ -53,6 +54,17 @@ inline SparseColumns lower_of(const Eigen::MatrixXd& A) {
   return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView();
 }
 
+// [S Cᵀ; C 0] with C = [C_F; C_C].
+inline Eigen::MatrixXd saddle_matrix(const DualSystem& system) {
+  const int n = system.n(), n_f = system.n_f(), n_c = system.n_c();
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + n_f + n_c, n + n_f + n_c);
+  M.topLeftCorner(n, n) = Eigen::MatrixXd(system.S).selfadjointView<Eigen::Lower>();
+  M.block(n, 0, n_f, n) = system.C_F;
+  M.block(n + n_f, 0, n_c, n) = system.C_C;
+  M.topRightCorner(n, n_f + n_c) = M.bottomLeftCorner(n_f + n_c, n).transpose();
+  return M;
+}
+
 // M⁻¹ as a dense matrix.
 inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
   Preconditioner result;
@@ -63,6 +75,15 @@ inline Preconditioner preconditioner_of(const Eigen::MatrixXd& inverse) {
 }
 
 inline Preconditioner no_preconditioner() { return preconditioner_named("NONE")({}, {}); }
+
+inline KrylovOptions with(double tolerance, int lanes = 1, int threads = 1) {
+  KrylovOptions options;
+  options.tolerance = tolerance;
+  options.lanes = lanes;
+  options.threads = threads;
+  options.most_iterations = 500;
+  return options;
+}
 
 // ‖R‖_M⁻¹ of every column.
 inline Eigen::VectorXd norms(const Eigen::MatrixXd& inverse, const Eigen::MatrixXd& R) {

@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "assembly/displacement_field.hpp"
 #include "assembly/problem.hpp"
+#include "assembly/stress_field.hpp"
 
 namespace airybench::testing {
 
@@ -22,5 +24,11 @@ std::vector<ExactField> exact_fields(double young, double poisson);
 
 // The boundary data that make `field` the solution.
 Loads loads_of(const ExactField& field);
+
+// The largest deviations from an exact field, relative to its largest value: of a stress at every
+// corner of its parts; of w + ρ at every vertex and every edge's middle.
+double stress_deviation(const Problem& problem, const StressField& stress, const ExactField& exact);
+double displacement_deviation(const Problem& problem, const DisplacementField& w,
+                              const ExactField& exact);
 
 }  // namespace airybench::testing

@@ -1,13 +1,29 @@
-// What every mesh made from another must keep.
+// What meshes must keep and what is said of wrong ones.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <map>
+#include <set>
 
 #include "mesh/mesh.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace airybench::testing {
+
+inline std::string complaint(const Mesh& mesh) {
+  return complaint_of<MeshError>([&] { validate(mesh); });
+}
+
+// One body of all triangles, held wherever there is no other one.
+inline void hold_all_around(Mesh& mesh) {
+  mesh.triangle_body.assign(mesh.triangles.size(), 0);
+  std::set<std::array<int, 2>> sides;
+  for (const auto& triangle : mesh.triangles)
+    for (int k = 0; k < 3; ++k) sides.insert({triangle[k], triangle[(k + 1) % 3]});
+  for (const auto& [a, b] : sides)
+    if (!sides.contains({b, a})) mesh.boundary.push_back({{a, b}, BoundaryRole::displacement});
+}
 
 inline std::map<std::string, double> area_of_bodies(const Mesh& mesh) {
   std::map<std::string, double> area;
@@ -27,7 +43,7 @@ inline std::map<std::string, double> length_of_boundaries(const Mesh& mesh) {
   return length;
 }
 
-// The same bodies with the same roles and groups on their boundary.
+// As it was before: the same bodies with the same roles and groups on their boundary.
 inline void expect_same_body(const Mesh& fine, const Mesh& coarse) {
   EXPECT_NO_THROW(validate(fine));
   EXPECT_EQ(fine.name, coarse.name);

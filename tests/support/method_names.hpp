@@ -5,17 +5,42 @@
 
 #include <cctype>
 #include <string>
+#include <vector>
 
-#include "solvers/base/method.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/sanitized.hpp"
 
-namespace airybench::testing {
+namespace airybench {
+
+inline void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
+
+namespace testing {
 
 // "SYMMLQ_SKY_schur_sparse": what the name of a test may be made of.
-inline std::string readable(const ::testing::TestParamInfo<Method>& info) {
-  std::string name = info.param.name;
+inline std::string readable_name(std::string name) {
   for (char& letter : name)
     if (!std::isalnum(static_cast<unsigned char>(letter))) letter = '_';
   return name;
 }
+inline std::string readable(const ::testing::TestParamInfo<Method>& info) {
+  return readable_name(info.param.name);
+}
 
-}  // namespace airybench::testing
+// Each kind of method once, the preconditioned ones with one preconditioner of every kind; but
+// those in displacements.
+inline std::vector<Method> kinds_of_methods() {
+  std::vector<Method> kinds;
+  for (const Method& method : methods())
+    if (!method.is_iterative() && !method.in_displacements) kinds.push_back(method);
+  const auto add = [&](const std::string& names) {
+    for (const Method& method : select_methods(names)) kinds.push_back(method);
+  };
+  add("HYBRID:CG,ALM:r=20,rho=20,ALM:AUTO,SYMMLQ:DTIC4,lanes=1,3STEPCG:DTIC4,lanes=1,SYMMLQ:DTIC3,"
+      "SYMMLQ:FLIC2,SYMMLQ:SKY,3STEPCG:DTIC3,3STEPCG:FLIC2,3STEPCG:SKY");
+  if (!sanitized)  // thousands of iterations; preconditioners_test has these, too
+    add("SYMMLQ:SKY,schur=sparse,SYMMLQ:SSOR1.0,SYMMLQ:NONE,3STEPCG:SSOR1.0,3STEPCG:NONE");
+  return kinds;
+}
+
+}  // namespace testing
+}  // namespace airybench

@@ -135,6 +135,12 @@ Mesh small_ring(int around, int across, double inner_mm, double outer_mm) {
   return mesh;
 }
 
+Mesh with_role(Mesh mesh, BoundaryRole before, BoundaryRole after) {
+  for (BoundaryEdge& edge : mesh.boundary)
+    if (edge.role == before) edge.role = after;
+  return mesh;
+}
+
 Mesh small_rack(int teeth, int nx, int ny) {
   const int block = 2, pitch = ny + 2;  // in cells: below and above every tooth's ny is a gap
   const auto is_cell = [&](int i, int j) {

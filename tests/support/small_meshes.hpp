@@ -24,4 +24,7 @@ Mesh small_ring(int around, int across, double inner_mm, double outer_mm);
 // So many of these teeth side by side on a block, as in the documentation's rack.
 Mesh small_rack(int teeth, int nx, int ny);
 
+// With one role in place of another.
+Mesh with_role(Mesh mesh, BoundaryRole before, BoundaryRole after);
+
 }  // namespace airybench::testing

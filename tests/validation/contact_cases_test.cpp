@@ -14,12 +14,11 @@
 #include "solvers/condensation/hybridized.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/methods.hpp"
 #include "tests/bench/studies/expected_table.hpp"
 #include "tests/support/condensed.hpp"
-#include "tests/support/dense_algebra.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::contact_cases_test {
 namespace {
@@ -70,7 +69,7 @@ struct Face {
     slip = Eigen::VectorXd::Zero(system.contact.count);
     for (int p = 0; p < system.contact.count && system.contact.components == 2; ++p)
       slip(p) = r(2 * p + 1);
-    const Solution displacements = run(select_methods("P2").front(), system, control);
+    const Solution displacements = testing::solved_by("P2", system, control);
     EXPECT_EQ(displacements.status, Status::ok) << displacements.message;
     u = with_rigid_motion(*problem, displacements.displacement);
   }
@@ -109,10 +108,10 @@ Ellipse fitted(const Face& face, double least, const std::function<double(int ed
   for (int e = 0; e < face.edges(); ++e)
     if (const double x = face.middle(e); y(e) > least * largest)
       rows.emplace_back(1, x, x * x, y(e) * y(e));
-  Eigen::MatrixX4d all(static_cast<Eigen::Index>(rows.size()), 4);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    all.row(static_cast<Eigen::Index>(i)) = rows[i].transpose();
-  const Eigen::VectorXd c = testing::least_squares(all.leftCols<3>(), all.col(3));
+  const Eigen::Map<const Eigen::Matrix4Xd> all(rows.front().data(), 4,
+                                               static_cast<Eigen::Index>(rows.size()));
+  const Eigen::VectorXd c =
+      testing::least_squares(all.topRows<3>().transpose(), all.row(3).transpose());
   const double height_squared = c(0) - c(1) * c(1) / (4 * c(2));
   return {std::sqrt(-height_squared / c(2)), std::sqrt(height_squared)};
 }

@@ -13,9 +13,9 @@
 #include "bench/verify/reference.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/refinement.hpp"
-#include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::holes_test {
 namespace {
@@ -115,8 +115,8 @@ struct Solved {
   explicit Solved(Problem problem)
       : system(
             assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points)),
-        hybrid(run(select_methods("HYBRID").front(), system, {})),
-        p2(run(select_methods("P2").front(), system, {})) {
+        hybrid(testing::solved_by("HYBRID", system)),
+        p2(testing::solved_by("P2", system)) {
     EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
     EXPECT_EQ(p2.status, Status::ok) << p2.message;
     const Reference reference = compute_reference(system);

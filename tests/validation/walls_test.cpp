@@ -1,16 +1,16 @@
 // Bodies and walls of one's own, against closed forms and against each other.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
 #include "bench/plan/scene_file.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
-#include "solvers/methods.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/solved.hpp"
 
 namespace airybench::walls_test {
 namespace {
@@ -22,42 +22,39 @@ struct Solved {
   Solution solution;
 
   Solved(const Scene& scene, const Mesh& mesh, const char* method)
-      : system(assemble(testing::posed(scene, mesh))),
-        solution(run(select_methods(method).front(), system, {})) {
+      : system(testing::system_of(scene, mesh)), solution(testing::solved_by(method, system)) {
     EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
   }
   const Problem& problem() const { return *system.problem; }
   double energy() const { return stress_norm_squared(problem(), solution.stress) / 2; }
+  ConstitutiveError recovered_error() const {
+    return constitutive_error(
+        system, solution.stress, solution.F_C,
+        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+  }
 };
 
-// Mean pressure of contact edges by the x of their middles.
-std::vector<std::pair<double, double>> pressures(const Solved& solved) {
-  std::vector<std::pair<double, double>> all;
-  const ContactPoints& contact = solved.system.contact;
-  for (int p = 0; p < contact.count; p += 2) {
-    const auto [a, b] = solved.problem().mesh.boundary[contact.boundary[p]].vertices;
-    const auto &x = solved.problem().mesh.vertices[a], &y = solved.problem().mesh.vertices[b];
-    const int m = contact.components;
-    all.emplace_back(
-        (x.x() + y.x()) / 2,
-        -(solved.solution.F_C(m * p) + solved.solution.F_C(m * (p + 1))) / (y - x).norm());
-  }
-  return all;
-}
-
-// The largest difference from Hertz' pressure under the same load, where that is not near its end,
-// relative to its peak; and the half width.
+// The largest difference from Hertz' pressure under the same load, of an edge's mean where that is
+// not near its end, relative to its peak; and the half width.
 std::pair<double, double> difference_from_hertz(const Solved& solved) {
   constexpr double R = 8, E = 210000 / (1 - 0.3 * 0.3);
+  const ContactPoints& contact = solved.system.contact;
+  const Eigen::VectorXd& F_C = solved.solution.F_C;
+  const int m = contact.components;
   double P = 0;
-  for (int i = 0; i < solved.solution.F_C.size(); i += solved.system.contact.components)
-    P -= solved.solution.F_C(i);
+  for (int i = 0; i < F_C.size(); i += m) P -= F_C(i);
   const double a = std::sqrt(4 * P * R / (std::numbers::pi * E)),
                p0 = 2 * P / (std::numbers::pi * a);
   double worst = 0;
-  for (const auto& [x, p] : pressures(solved))
+  for (int p = 0; p < contact.count; p += 2) {
+    const auto [start, end] = solved.problem().mesh.boundary[contact.boundary[p]].vertices;
+    const Vector2d &from = solved.problem().mesh.vertices[start],
+                   &to = solved.problem().mesh.vertices[end];
+    const double x = (from.x() + to.x()) / 2,
+                 pressure = -(F_C(m * p) + F_C(m * (p + 1))) / (to - from).norm();
     if (std::abs(x) < 0.9 * a)
-      worst = std::max(worst, std::abs(p / p0 - std::sqrt(1 - x * x / (a * a))));
+      worst = std::max(worst, std::abs(pressure / p0 - std::sqrt(1 - x * x / (a * a))));
+  }
   return {worst, a};
 }
 
@@ -69,10 +66,7 @@ TEST(Walls, ACylinderOfStraightEdgesIsHertzsWhereItsFaceIsSaidToBeRound) {
   const auto [off, a] = difference_from_hertz(round);
   EXPECT_NEAR(a, 0.28, 0.01);
   EXPECT_LT(off, 0.01);
-  const ConstitutiveError error =
-      constitutive_error(round.system, round.solution.stress, round.solution.F_C,
-                         recovered_displacement(round.system, round.solution.stress,
-                                                round.solution.F_C, round.solution.edge_moments));
+  const ConstitutiveError error = round.recovered_error();
   EXPECT_TRUE(error.guaranteed) << error.flaw;
   EXPECT_LT(error.relative, 0.03);
   // As a polygon it bears on its vertices, which finer edges show.
@@ -118,13 +112,22 @@ Scene socket(double radius_mm) {
   Scene scene;
   scene.wall = CircularWall{{0, 0}, radius_mm, CircularWall::Bodies::inside};
   scene.face = CircularWall{{0, 0}, 30, CircularWall::Bodies::inside};
+  scene.friction = 0;
+  return scene;
+}
+
+// The ends free to slide, too.
+Scene socket_to_slide_in(double radius_mm) {
+  Scene scene = socket(radius_mm);
+  for (const char* end : {"displacement:left", "displacement:right"})
+    scene.boundary[end].support = BoundaryValues::Support::normal;
+  scene.displacement_mm = {0, 0};
   return scene;
 }
 
 TEST(Walls, ARingTurnsInItsSocketWithoutStress) {
   const Mesh mesh = ring_segment(2, 16);
   Scene scene = socket(30);
-  scene.friction = 0;
   constexpr double angle = 1e-3;
   const auto turned = [&](const Vector2d& x) { return Vector2d(-angle * x.y(), angle * x.x()); };
   for (const auto& [label, degrees] :
@@ -145,11 +148,7 @@ TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
   // Pressed from inside, its ends free to slide: a uniform pressure, the nearer the finer.
   double before = 0;
   for (const int radial : {2, 4}) {
-    Scene scene = socket(30.001);
-    scene.friction = 0;
-    scene.boundary["displacement:left"].support = BoundaryValues::Support::normal;
-    scene.boundary["displacement:right"].support = BoundaryValues::Support::normal;
-    scene.displacement_mm = {0, 0};
+    Scene scene = socket_to_slide_in(30.001);
     scene.boundary["force"].pressure_MPa = LinearValue<double>{{40, 40}};
     const Solved solved(scene, ring_segment(radial, 12 * radial), "HYBRID");
     double least = 1e9, largest = 0;
@@ -172,16 +171,8 @@ TEST(Walls, ARingSlidesAlongItsSocketAsFinerOnesDo) {
 }
 
 TEST(Walls, ARoundWallHasNoStrictBoundsAndNoFalseCrossingOfThem) {
-  Scene scene = socket(29.99);
-  scene.friction = 0;
-  scene.displacement_mm = {0, 0};
-  scene.boundary["displacement:left"].support = BoundaryValues::Support::normal;
-  scene.boundary["displacement:right"].support = BoundaryValues::Support::normal;
-  const Solved solved(scene, ring_segment(2, 24), "HYBRID");
-  const ConstitutiveError error =
-      constitutive_error(solved.system, solved.solution.stress, solved.solution.F_C,
-                         recovered_displacement(solved.system, solved.solution.stress,
-                                                solved.solution.F_C, solved.solution.edge_moments));
+  const Scene scene = socket_to_slide_in(29.99);
+  const ConstitutiveError error = Solved(scene, ring_segment(2, 24), "HYBRID").recovered_error();
   EXPECT_EQ(error.flaw, "");
   EXPECT_FALSE(error.guaranteed);
   EXPECT_GT(error.relative, 0);
@@ -193,17 +184,14 @@ TEST(Walls, ATurnedBlockOnAFlatWallIsTheOneOnItsOwnFace) {
     Scene own;
     own.crown_radius_mm.reset();
     const Solved expected(own, testing::small_block(4, 4, 0), method);
-    const double a = 33. / 180 * std::numbers::pi;
-    Eigen::Matrix2d turn;
-    turn << std::cos(a), -std::sin(a), std::sin(a), std::cos(a);
+    const Eigen::Matrix2d turn =
+        Eigen::Rotation2Dd(33. / 180 * std::numbers::pi).toRotationMatrix();
     Scene scene;
     scene.wall = FlatWall{turn * Vector2d(10, 3), turn * Vector2d(-1, 0)};
     scene.displacement_mm = turn * own.displacement_mm;
     const Solved turned(scene, testing::small_block(4, 4, 33), method);
     EXPECT_NEAR(turned.energy() / expected.energy(), 1, 1e-11) << method;
-    EXPECT_LT((turned.solution.F_C - expected.solution.F_C).norm(),
-              1e-11 * expected.solution.F_C.norm())
-        << method;
+    EXPECT_LT(testing::force_error(turned.solution, expected.solution), 1e-11) << method;
   }
 }
 
