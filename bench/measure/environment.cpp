@@ -116,7 +116,7 @@ Context context_of_run(const Options& options) {
     context["tuning_budget_s"] = fmt::format("{}", *options.tuning_budget_s);
   if (!options.budgets_s.empty())
     context["budgets_s"] = fmt::format("{}", fmt::join(options.budgets_s, ","));
-  if (options.study == Study::scaling)
+  if (options.study.points == Study::Points::threads)
     context["threads"] = fmt::format("{}", fmt::join(options.thread_counts, ","));
   if (options.precision) {
     context["precision"] = fmt::format("{}", *options.precision);

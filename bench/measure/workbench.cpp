@@ -92,7 +92,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.stop = options_.stop;
   control.contact = options_.contact.value_or(control.contact);
   control.target_error = options_.target_error;
-  control.condition = histories && asks_for_condition(options_.study);
+  control.condition = histories && options_.study.condition;
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
@@ -355,7 +355,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   }
   // The detail run of a path judges between its steps, which takes memory.
   const bool once = problem_->later_steps.empty() &&
-                    (run.time_s > options_.long_case_s || options_.study == Study::stability);
+                    (run.time_s > options_.long_case_s || options_.study.once);
   if (once && is_measured(record)) {
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);

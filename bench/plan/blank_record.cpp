@@ -45,7 +45,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   record.retry_noisy = options.retry_noisy;
   record.tuning_budget_s = options.tuning_budget_s;
   record.stop = options.stop;
-  record.study = name_of(options.study);
+  record.study = options.study.name;
   record.target_error = options.target_error;
   if (!problem.given) {
     record.n_phi = sizes.n_phi;
@@ -85,7 +85,7 @@ void identify(const Case& planned, Record& record) {
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
   if (planned.knob.threads) record.threads = *planned.knob.threads;
-  record.study = name_of(planned.study);
+  record.study = planned.study;
   record.stop = planned.stop;
   record.contact_solver = planned.contact;
 }

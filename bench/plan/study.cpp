@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <stdexcept>
 
+#include "bench/records/case_name.hpp"
+#include "bench/records/json.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -50,31 +55,70 @@ std::vector<TurnedMethod> turned_to(const Method& method, const std::string& kno
   return points;
 }
 
-}  // namespace
+std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
 
-std::string name_of(Study study) {
-  switch (study) {
-    case Study::error:
-      return "error";
-    case Study::stability:
-      return "stability";
-    case Study::contact:
-      return "contact";
-    case Study::adapted:
-      return "adapted";
-    case Study::load_steps:
-      return "load-steps";
-    case Study::scaling:
-      return "scaling";
-    default:
-      return "";
+Study study_of(const std::filesystem::path& file) {
+  using enum Study::Points;
+  static const std::map<std::string, Study::Points> points = {
+      {"", one}, {"accuracy", accuracy}, {"contact", contact}, {"threads", threads}};
+  try {
+    const Json json = parse_json(file_text(file));
+    Study study;
+    study.name = file.stem().string();
+    study.about = json.at("about").get<std::string>();
+    study.methods = json.value("method", "");
+    study.scenes = json.value("scenes", "");
+    study.points = points.at(json.value("points", ""));
+    const Json options = json.value("options", Json::object());
+    for (const auto& [option, value] : options.items())
+      study.options.emplace_back(option, value.get<std::string>());
+    study.once = json.value("once", false);
+    study.condition = json.value("condition", false);
+    study.bounds = json.value("bounds", false);
+    return study;
+  } catch (const Json::exception& wrong) {
+    throw FileError(file.string() + ": no study: " + without_prefix(wrong));
+  } catch (const std::out_of_range&) {
+    throw FileError(file.string() + ": points (allowed: accuracy, contact, threads)");
   }
 }
 
-Study study_of(std::string_view name) {
-  for (const Study study : all_studies)
-    if (name_of(study) == name) return study;
-  return Study::none;
+}  // namespace
+
+std::vector<Study> all_studies() {
+  std::vector<Study> studies;
+  for (const std::filesystem::path& file : json_files(data_folder("scenes")))
+    studies.push_back(study_of(file));
+  return studies;
+}
+
+std::optional<Study> study_named(const std::string& name) {
+  for (const Study& study : all_studies())
+    if (study.name == name) return study;
+  return {};
+}
+
+std::string default_methods(const Study& study) {
+  if (!study.methods.empty()) return study.methods;
+  std::string names;
+  for (const Method& method : methods())
+    if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
+  return names;
+}
+
+std::vector<std::filesystem::path> scenes_of(const Study& study) {
+  if (study.scenes.empty()) return {};
+  const std::filesystem::path folder = data_folder("scenes") / study.scenes;
+  std::vector<std::filesystem::path> files = json_files(folder);
+  if (files.empty()) throw std::invalid_argument(folder.string() + ": has no scene files");
+  return files;
 }
 
 std::vector<TurnedMethod> contact_points(const Method& method) {
@@ -127,58 +171,6 @@ std::vector<TurnedMethod> error_points(const Method& method) {
     default:
       return {{method, {}}};
   }
-}
-
-std::optional<StudyDefaults> defaults_of(Study study) {
-  switch (study) {
-    case Study::stability:
-      return StudyDefaults{"Mesh0", 60};
-    case Study::contact:
-      return StudyDefaults{"Mesh0..Mesh7", 60};
-    case Study::adapted:
-      return StudyDefaults{"Mesh0,Mesh4", 60};
-    case Study::load_steps:
-      return StudyDefaults{"Mesh3", 120};
-    case Study::scaling:
-      return StudyDefaults{"Mesh4..Mesh7", 120};
-    default:
-      return {};
-  }
-}
-
-std::string default_methods(Study study) {
-  if (study == Study::error)
-    return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"
-           "ALM:r=100,rho=100,ALM:r=300,rho=300,BLIND,BLIND:SCHUR,HYBRID,P2";
-  if (study == Study::contact) return "HYBRID";
-  if (study == Study::adapted)
-    return "SDTIC3,SDTIC6,SSKY,SYMMLQ:FLIC3,SYMMLQ:SSOR1.0,3STEPCG3,3STEPCG6,3STEPCG:FLIC3,"
-           "3STEPCG:SSOR1.0,3STEPD,3STEPD:REFINED,ALM:r=20,rho=20,BLIND,BLIND:SCHUR,"
-           "BLIND:SCHUR:REFINED,HYBRID,P2";
-  if (study == Study::load_steps)
-    return "3STEPD:CHOLMOD,ALM:r=20,rho=20,ALM:AUTO,BLIND:SCHUR,HYBRID,P2";
-  if (study == Study::scaling) return "3STEPD,3STEPD:CHOLMOD,BLIND,BLIND:SCHUR,HYBRID,SDTIC6";
-  if (study == Study::none) {
-    std::string names;
-    for (const Method& method : methods())
-      if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
-    return names;
-  }
-  // The table, and the augmented Lagrangian far from where its parameters belong.
-  return "*,ALM:r=1e-6,rho=1e-6,ALM:r=1e6,rho=1e6,ALM:r=1e12,rho=1e12,ALM:r=20,rho=40,"
-         "ALM:r=20,rho=44";
-}
-
-std::vector<std::filesystem::path> scenes_of(Study study) {
-  if (study != Study::stability && study != Study::contact && study != Study::load_steps) return {};
-  const std::filesystem::path folder = data_folder("scenes/" + name_of(study));
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  if (files.empty()) throw std::invalid_argument(folder.string() + ": has no scene files");
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 }  // namespace airybench

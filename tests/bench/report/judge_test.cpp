@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/commands/track_command.hpp"
+#include "bench/commands/commands.hpp"
 #include "bench/report/judge_counters.hpp"
 #include "tests/bench/report/synthetic_history.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -24,7 +24,7 @@ TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
   EXPECT_EQ(
       header,
       "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
-  EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2% --levels=last --method="),
+  EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2%,levels=last --method="),
             std::string::npos)
       << best;
   EXPECT_NE(bench_.content("o/advice.csv").find("Mesh0+refined1"), std::string::npos);
