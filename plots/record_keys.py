@@ -17,6 +17,9 @@ STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "tim
 COMPLETED = STATUSES[:3]
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
+# bench/plan/study.hpp: a study is a file.
+STUDIES = tuple(sorted(file.stem for file in
+                       (Path(__file__).resolve().parents[1] / "bench/scenes").glob("*.json")))
 CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
 # As in memory_by_owner, from what every method has to what few have.
 OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
@@ -175,8 +178,7 @@ class Row:
     condition_estimate: float | None = key(NOT_NEGATIVE)  # of what the method factorises
     lower_bound_Nmm: float | None = key(FINITE)
     upper_bound_Nmm: float | None = key(FINITE)
-    study: str = key(words(("error", "stability", "contact", "adapted", "load-steps", "scaling"),
-                           may_be_empty=True))
+    study: str = key(words(STUDIES, may_be_empty=True))
     outcome: str = key(words(OUTCOMES, may_be_empty=True))
     claimed_status: str = key(words(STATUSES, may_be_empty=True))
     scene_group: str = key(TEXT)

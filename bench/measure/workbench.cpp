@@ -354,8 +354,8 @@ Workbench::Examination Workbench::examine(const Method& method,
       write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
-  const bool once = problem_->later_steps.empty() &&
-                    (run.time_s > options_.long_case_s || options_.study.once);
+  const bool once =
+      problem_->later_steps.empty() && (run.time_s > options_.long_case_s || options_.study.once);
   if (once && is_measured(record)) {
     record.measured_once = true;
     record.samples_s.push_back(run.time_s);

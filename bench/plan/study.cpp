@@ -1,7 +1,6 @@
 #include "bench/plan/study.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <stdexcept>
 
@@ -17,23 +16,20 @@ namespace {
 
 // A copy of the method that runs under a changed control, once and untightened.
 TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
+  const auto changed = [turn](RunControl control) {
+    turn(control);
+    return control;
+  };
+  const auto under_it = [changed](const Solve& solve) {
+    return [=](const DualSystem& s, const RunControl& c) { return solve(s, changed(c)); };
+  };
   TurnedMethod result{method, std::move(knob)};
   result.method.first_tolerance = 0;
-  result.method.solve = [solve = method.solve, turn](const DualSystem& s, const RunControl& c) {
-    RunControl control = c;
-    turn(control);
-    return solve(s, control);
-  };
+  result.method.solve = under_it(method.solve);
   if (method.tune)
-    result.method.tune = [tune = method.tune, turn](const DualSystem& s, const RunControl& c) {
-      RunControl control = c;
-      turn(control);
-      Tuning tuning = tune(s, control);
-      tuning.solve = [solve = tuning.solve, turn](const DualSystem& s2, const RunControl& c2) {
-        RunControl again = c2;
-        turn(again);
-        return solve(s2, again);
-      };
+    result.method.tune = [=, tune = method.tune](const DualSystem& s, const RunControl& c) {
+      Tuning tuning = tune(s, changed(c));
+      tuning.solve = under_it(tuning.solve);
       return tuning;
     };
   return result;
@@ -44,9 +40,8 @@ TurnedMethod at_paper_stop(const Method& method) {
                 [](RunControl& control) { control.stop = Stop::paper; });
 }
 
-template <std::size_t count>
 std::vector<TurnedMethod> turned_to(const Method& method, const std::string& knob,
-                                    const std::array<double, count>& values,
+                                    const std::vector<double>& values,
                                     void (*turn)(RunControl&, double)) {
   std::vector<TurnedMethod> points;
   for (const double value : values)
@@ -141,33 +136,29 @@ std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector
 }
 
 std::vector<TurnedMethod> error_points(const Method& method) {
-  constexpr std::array<double, 6> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  constexpr std::array<double, 10> iterations = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};
-  constexpr std::array<double, 7> sweeps = {1, 3, 10, 30, 100, 300, 1000};
+  std::vector<TurnedMethod> points;
   switch (method.knob) {
     case AccuracyKnob::krylov_tolerance:
-      return turned_to(method, "tolerance", tolerances,
+      return turned_to(method, "tolerance", {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
                        [](RunControl& control, double value) { control.tolerance = value; });
-    case AccuracyKnob::uzawa_iterations: {
-      auto points =
-          turned_to(method, "uzawa iterations", iterations, [](RunControl& control, double value) {
-            control.tolerance = 0;
-            control.uzawa_iterations = static_cast<int>(value);
-          });
+    case AccuracyKnob::uzawa_iterations:
+      points = turned_to(method, "uzawa iterations", {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000},
+                         [](RunControl& control, double value) {
+                           control.tolerance = 0;
+                           control.uzawa_iterations = static_cast<int>(value);
+                         });
       points.push_back(at_paper_stop(method));
       return points;
-    }
-    case AccuracyKnob::stop:
-      return {{method, {}}, at_paper_stop(method)};
-    case AccuracyKnob::contact_sweeps: {
-      auto points = turned_to(method, std::string(sweeps_knob), sweeps,
-                              [](RunControl& control, double value) {
-                                control.contact_sweeps = static_cast<int>(value);
-                                control.contact = ContactSolver::gauss_seidel;
-                              });
+    case AccuracyKnob::contact_sweeps:
+      points = turned_to(method, std::string(sweeps_knob), {1, 3, 10, 30, 100, 300, 1000},
+                         [](RunControl& control, double value) {
+                           control.contact_sweeps = static_cast<int>(value);
+                           control.contact = ContactSolver::gauss_seidel;
+                         });
       points.push_back({method, {}});
       return points;
-    }
+    case AccuracyKnob::stop:
+      return {{method, {}}, at_paper_stop(method)};
     default:
       return {{method, {}}};
   }

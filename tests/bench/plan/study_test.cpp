@@ -124,18 +124,18 @@ TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
 
 // Their files say what they need, and no two cases of a plan have one name.
 TEST(Study, AllCanBePlanned) {
-  std::set<std::string> studies = {""};
+  std::vector<std::string> studies = {""};
   for (const Study& study : all_studies()) {
-    studies.insert(study.name);
+    studies.push_back(study.name);
     EXPECT_FALSE(study.about.empty());
   }
-  EXPECT_EQ(studies, (std::set<std::string>{"", "adapted", "contact", "error", "load-steps",
-                                            "scaling", "stability"}));
+  for (const char* name : {"adapted", "contact", "error", "load-steps", "scaling", "stability"})
+    EXPECT_EQ(std::ranges::count(studies, name), 1) << name;
   for (const std::string& name : studies) {
     Options options;
     if (!name.empty()) options = options_of(name);
     const auto methods = select_methods(default_methods(options.study));
-    EXPECT_GE(methods.size(), name == "contact" ? 1u : 6u) << name;
+    EXPECT_GE(methods.size(), name == "error" || name == "stability" ? 7u : 1u) << name;
     std::set<std::string> names;
     for (const Case& c : plan_cases(scenes({"default", "other"}), methods, options))
       EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();

@@ -1,4 +1,5 @@
-// --repetitions: how often a case is timed, decided from made-up samples; what the record then says.
+// --repetitions: how often a case is timed, decided from made-up samples; what the record then
+// says.
 #include <gtest/gtest.h>
 
 #include "bench/records/summary.hpp"
