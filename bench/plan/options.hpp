@@ -1,4 +1,4 @@
-// What a run is told: the command line of `bench`, see bench/commands/run_options.hpp.
+// What a run is told: the command line of `bench`, see bench/commands/run_options.cpp.
 #pragma once
 
 #include <cstdint>

@@ -73,9 +73,10 @@ TEST(Command, FailedCasesAreRecordedAndExitWithOne) {
 
 TEST(Command, WritesFieldsOnRequest) {
   const BenchCommand bench;
-  const CommandResult result =
-      bench.run("--mesh=Mesh0 --method=3STEPD:CHOLMOD --repetitions=1 --fields --out=o");
+  const CommandResult result = bench.run(
+      "--mesh=Mesh0 --method=SDTIC6,3STEPD:CHOLMOD --repetitions=1 --fields=histories --out=o");
   ASSERT_EQ(result.code, 0) << result.err;
+  EXPECT_FALSE(bench.records()[0]["histories"].empty());  // of SDTIC6
   const std::string stress = bench.content("o/fields/Mesh0--default--3STEPD+CHOLMOD.stress.csv");
   EXPECT_EQ(std::count(stress.begin(), stress.end(), '\n'), 1 + 9 * 226);
   const std::string contact = bench.content("o/fields/Mesh0--default--3STEPD+CHOLMOD.contact.csv");

@@ -1,8 +1,6 @@
 // Bodies with holes from outside: what is run, what is skipped and how that is said.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "mesh/msh_format.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/small_meshes.hpp"

@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"

@@ -51,7 +51,7 @@ TEST_F(AdviseCommand, RefusesWhatItCannotAdviseOn) {
            {"--mesh=Mesh0 --error=5000", "--error: 5000 (allowed"},
            {"--mesh=Mesh0 --error=0%", "--error: 0% (allowed"},
            {"--mesh=Mesh0 --error=1% --budget=0", "--budget: 0 (allowed"},
-           {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3 (allowed: one mesh)"}}) {
+           {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3: 4 meshes (allowed: one)"}}) {
     EXPECT_EQ(bench(arguments + " --out=o"), 2) << arguments;
     EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
     EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();

@@ -1,16 +1,9 @@
 // bench --study from outside: exit codes, records, one-line complaints.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 #include <thread>
-#include <vector>
 
-#include "bench/records/json.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/places.hpp"
 
