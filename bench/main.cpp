@@ -8,15 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "bench/commands/advise_command.hpp"
-#include "bench/commands/claims_command.hpp"
-#include "bench/commands/compare_command.hpp"
-#include "bench/commands/export_command.hpp"
-#include "bench/commands/export_problem_command.hpp"
-#include "bench/commands/merge_command.hpp"
-#include "bench/commands/replay_command.hpp"
-#include "bench/commands/run_command.hpp"
-#include "bench/commands/track_command.hpp"
+#include "bench/commands/commands.hpp"
+#include "bench/run/isolated_scene.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"

@@ -33,10 +33,8 @@ install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-co
         RENAME airybench)
 install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions
         RENAME airybench-meshgen)
-install(DIRECTORY meshgen/meshes results docs/bodies DESTINATION ${data}
+install(DIRECTORY meshgen/meshes bench/scenes results docs/bodies DESTINATION ${data}
         PATTERN "figures" EXCLUDE PATTERN "__pycache__" EXCLUDE)
-list(TRANSFORM studies_with_scenes PREPEND bench/scenes/)
-install(DIRECTORY ${studies_with_scenes} DESTINATION ${data}/scenes)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: meshes, assembly, methods, and the verifier.

@@ -42,7 +42,7 @@ def cases_of(rows: list[Row]) -> list[Row]:
 
 
 def budgets_of(cases: list[Row]) -> list[float]:
-    """Those that the runs were told (--budget); else the powers of ten among the times."""
+    """Those that the runs were told (--study=error:SECONDS); else the powers of ten among the times."""
     words = {word for row in cases for word in (row.context or {}).get("budgets_s", "").split(",")}
     told = sorted(filter(POSITIVE.accepts, map(POSITIVE.of_text, words)))
     if told:

@@ -22,7 +22,9 @@ COMPLETED = STATUSES[:3]
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
 CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
-STUDIES = ("error", "stability", "contact", "adapted", "load-steps", "scaling")
+# A study is a file: bench/plan/study.hpp.
+STUDIES = tuple(sorted(file.stem for file in
+                       (Path(__file__).resolve().parents[1] / "bench/scenes").glob("*.json")))
 # As in memory_by_owner, from what every method has to what few have.
 OWNERS = ("blocks", "system_matrix", "factor", "preconditioner", "intermediate", "condensed",
           "iteration", "answer", "check", "other")

@@ -1,4 +1,4 @@
-#include "bench/commands/advise_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -9,8 +9,7 @@
 #include <numeric>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/commands/own_bodies.hpp"
-#include "bench/commands/posed_scenes.hpp"
+#include "bench/commands/run_parts.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/plan/blank_record.hpp"
 #include "bench/plan/mesh_files.hpp"
@@ -30,7 +29,7 @@ namespace {
 
 constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
-Beside it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond by
+Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond by
 power laws. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes,
 fields.
 
@@ -48,54 +47,45 @@ constexpr const char* uniform_candidate = "HYBRID";
 
 Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   Options options;
-  options.meshes.clear();
+  options.methods = candidates;
   options.out = "results/advice";
   options.timeout_s = 20;
   options.repetitions = 3;
-  std::string error, scene;
+  std::string error;
   CLI::App app("Which mesh and method give a total error, how long they take, in how much memory.",
                "bench advise");
   app.footer(advise_footer);
-  app.add_option("--mesh", options.meshes, "of the catalogue, or a file")->required();
-  add_model_settings(app, options.model_settings);
-  app.add_option("--scene", scene, "scene file; default: the documented tooth or rack");
+  add_one_body(app, options);
   app.add_option("--error", error, "total error, relative: 1%")->required();
   app.add_option("--method", options.methods, "to compare, by names or globs")
-      ->default_str(candidates);
-  add_number(app, "--timeout", Least::above_zero, 1e9, options.timeout_s,
+      ->capture_default_str();
+  add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
              "seconds that one solve may take");
-  add_number(app, "--budget", Least::above_zero, 1e9, budget_s,
+  add_number(app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
              "seconds for measuring methods: what earlier records say does not fit in is left out");
-  add_whole(
-      app, "--memory-limit", 1, std::int64_t{1} << 40, 0,
-      [&](std::int64_t MiB) { options.memory_limit_bytes = MiB * 1024 * 1024; },
-      "MiB of heap that one solve may use");
+  add_memory_limit(app, options);
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
-  app.add_option("--then", options.then, "as for a run");
   parse_command_line(app, argc, argv);
   const std::optional<AdaptGoal> goal = adapt_goal_of(error);
   if (!goal || !goal->error)
     throw UsageError(
         fmt::format("--error: {} (allowed: above 0% and below 100%, as 1%)", shortened(error)));
   options.adapt = {*goal};
-  if (options.methods.empty()) options.methods = candidates;
-  if (!scene.empty()) options.scenes = {scene};
   return options;
 }
 
-// A row of the advice.
+// A row of the advice: a record, measured or forecast.
 struct Advice {
-  std::string mesh, method, basis, command;
-  std::int64_t n_phi = 0;
-  std::optional<double> error_total, time_s, adapt_time_s;
-  std::optional<std::int64_t> peak_heap_bytes;
-  Status status = Status::ok;
+  Record record;
+  std::string basis, command;
 
   bool meets(double error) const {
-    return status == Status::ok && error_total && *error_total <= error;
+    return record.status == Status::ok && record.error_total && *record.error_total <= error;
   }
   // With the adaptive loop, where there is one.
-  double whole_time_s() const { return time_s.value_or(INFINITY) + adapt_time_s.value_or(0); }
+  double whole_time_s() const {
+    return record.time_s.value_or(INFINITY) + record.adapt_time_s.value_or(0);
+  }
 };
 
 // Of a level or of the refined mesh, as a file; of the best one from the start.
@@ -110,21 +100,15 @@ std::string command_of(const Options& options, const Record& r, bool is_adapted)
     text += shell_word(file.string()) +
             " --scene=" + shell_word((file.parent_path() / (r.scene + ".json")).string());
   }
-  if (is_adapted) text += fmt::format(" --adapt={} --levels=last", text_of(options.adapt));
+  if (is_adapted) text += fmt::format(" --adapt={},levels=last", text_of(options.adapt));
   return text + " --method=" + shell_word(r.method);
 }
 
 Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
-  return {.mesh = r.mesh,
-          .method = r.method,
-          .basis = r.status == Status::skipped ? r.status_reason : "measured",
-          .command = command_of(options, r, is_adapted),
-          .n_phi = r.n_phi.value_or(0),
-          .error_total = r.error_total,
-          .time_s = r.time_s,
-          .adapt_time_s = is_adapted ? r.adapt_time_s : std::nullopt,
-          .peak_heap_bytes = r.peak_heap_bytes,
-          .status = r.status};
+  Advice advice = {r, r.status == Status::skipped ? r.status_reason : "measured",
+                   command_of(options, r, is_adapted)};
+  if (!is_adapted) advice.record.adapt_time_s.reset();
+  return advice;
 }
 
 // What refining everywhere takes, from the coarse mesh and the one refined once.
@@ -145,20 +129,19 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
     const double exponent = std::max(*pooled_exponent({{first, second}}, n), least_exponent);
     return extrapolate({second}, n, exponent, 0).value;
   };
-  // Small meshes are dear for their size: what grows less than in proportion there will not further
-  // on.
+  // Small meshes cost more per unknown, so less than proportional growth does not go on.
   const double proportional = 1, any = -std::numeric_limits<double>::infinity();
-  Advice advice;
-  advice.mesh = fmt::format("refined {:g} times", steps + 1);
-  advice.method = fine.method;
-  advice.basis = "forecast";
-  advice.n_phi = n;
-  advice.error_total = at_n(*coarse.error_total, *fine.error_total, any);
-  advice.time_s = at_n(*coarse.time_s, *fine.time_s, proportional);
-  advice.peak_heap_bytes =
+  Record forecast;
+  forecast.status = Status::ok;
+  forecast.mesh = fmt::format("refined {:g} times", steps + 1);
+  forecast.method = fine.method;
+  forecast.n_phi = n;
+  forecast.error_total = at_n(*coarse.error_total, *fine.error_total, any);
+  forecast.time_s = at_n(*coarse.time_s, *fine.time_s, proportional);
+  forecast.peak_heap_bytes =
       std::llround(at_n(static_cast<double>(*coarse.peak_heap_bytes),
                         static_cast<double>(*fine.peak_heap_bytes), proportional));
-  return advice;
+  return Advice{forecast, "forecast", ""};
 }
 
 // Takes cases out of a plan that by earlier records do not fit into the budget, the longest first;
@@ -166,10 +149,8 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
 std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const RunLimits limits = {options.repetitions, options.timeout_s, options.long_case_s,
-                            options.memory_limit_bytes};
-  const std::vector<Prediction> expected =
-      forecast(planned, read_committed_records(planned, options.out).records, limits).cases;
+  const std::vector<Record> past = read_committed_records(planned, options.out).records;
+  const std::vector<Prediction> expected = forecast(planned, past, limits_of(options)).cases;
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::size_t k) { return expected[k].run_s.value_or(0); });
@@ -180,9 +161,8 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
     spent_s += expected[k].run_s.value_or(0);
     stays[k] = spent_s <= budget_s || k == order.front();
     if (stays[k]) continue;
-    Advice& row = rows.emplace_back(advice_of(planned[k], options, false));
-    row.command.clear();
-    row.basis = "forecast: over --budget";
+    Record& row = rows.emplace_back(Advice{planned[k], "forecast: over --budget", ""}).record;
+    row.adapt_time_s.reset();
     row.time_s = expected[k].time_s->value;
     row.status = Status::skipped;
   }
@@ -194,13 +174,13 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
 std::string table_of(const std::vector<Advice>& rows) {
   std::vector<std::vector<std::string>> cells = {
       {"mesh", "method", "n_phi", "error total", "time", "adapted in", "heap", "basis"}};
-  for (const Advice& row : rows)
-    cells.push_back({row.mesh, row.method, std::to_string(row.n_phi), show_error(row.error_total),
-                     show_seconds(row.time_s), show_seconds(row.adapt_time_s),
-                     show_bytes(row.peak_heap_bytes),
-                     row.status == Status::ok || row.status == Status::skipped
-                         ? row.basis
-                         : std::string(name_of(row.status))});
+  for (const auto& [row, basis, command] : rows) {
+    const bool has_basis = row.status == Status::ok || row.status == Status::skipped;
+    cells.push_back({row.mesh, row.method, std::to_string(row.n_phi.value_or(0)),
+                     show_error(row.error_total), show_seconds(row.time_s),
+                     show_seconds(row.adapt_time_s), show_bytes(row.peak_heap_bytes),
+                     has_basis ? basis : std::string(name_of(row.status))});
+  }
   return aligned_table(cells, 2);
 }
 
@@ -210,11 +190,11 @@ std::string csv_of(const std::vector<Advice>& rows) {
   const auto number = [](const auto& value) {
     return value ? fmt::format("{}", *value) : std::string();
   };
-  for (const Advice& row : rows)
+  for (const auto& [row, basis, command] : rows)
     text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_quoted(row.mesh),
-                        csv_quoted(row.method), row.n_phi, number(row.error_total),
+                        csv_quoted(row.method), row.n_phi.value_or(0), number(row.error_total),
                         number(row.time_s), number(row.adapt_time_s), number(row.peak_heap_bytes),
-                        csv_cell(row.basis), name_of(row.status), csv_quoted(row.command));
+                        csv_cell(basis), name_of(row.status), csv_quoted(command));
   return text;
 }
 
@@ -225,11 +205,9 @@ int advise_command(int argc, const char* const* argv) {
   const Options options = parse_advise(argc, argv, budget_s);
   require_threads(options.threads);
   catch_interrupts();
-  const std::vector<PosedScene> start = pose_all(options);
-  if (start.size() != 1)
-    throw UsageError(fmt::format("--mesh: {} (allowed: one mesh)", shortened(options.meshes)));
+  const PosedScene start = one_posed_scene(options);
   const std::vector<Method> chosen = select_methods(options.methods);
-  const AdaptedScenes adapted = adapted_scenes(start.front(), options);
+  const AdaptedScenes adapted = adapted_scenes(start, options);
   if (!adapted.why_not_reached.empty()) std::cerr << "note: " << adapted.why_not_reached << "\n";
   if (adapted.levels.empty()) return some_case_failed;
 
@@ -239,9 +217,9 @@ int advise_command(int argc, const char* const* argv) {
     plan = plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
                       select_methods(uniform_candidate));
   const std::size_t uniform = plan.size();
-  std::vector<Case> candidates_plan = plan_cases({adapted.levels.back()}, chosen);
-  const std::vector<Advice> left_out = leave_out(candidates_plan, options, budget_s);
-  for (Case& c : candidates_plan) {
+  std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen);
+  const std::vector<Advice> left_out = leave_out(compared, options, budget_s);
+  for (Case& c : compared) {
     c.number = static_cast<int>(plan.size()) + 1;
     plan.push_back(std::move(c));
   }
@@ -267,19 +245,17 @@ int advise_command(int argc, const char* const* argv) {
     fmt::print("no measured method meets {}\n", text_of(options.adapt));
     return some_case_failed;
   }
-  fmt::print("best: {}, {}:\n  {}\nalso in {}\n", rows.front().mesh, rows.front().method,
-             rows.front().command, (options.out / "advice.csv").string());
+  const Record& best = rows.front().record;
+  fmt::print("best: {}, {}:\n  {}\nalso in {}\n", best.mesh, best.method, rows.front().command,
+             (options.out / "advice.csv").string());
 
-  const auto best = std::ranges::find_if(plan, [&](const Case& c) {
-    return c.method.name == rows.front().method && c.posed.problem->mesh.name == rows.front().mesh;
+  const auto planned = std::ranges::find_if(plan, [&](const Case& c) {
+    return c.method.name == best.method && c.posed.problem->mesh.name == best.mesh;
   });
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;
   with_fields.repetitions = 1;
-  const std::vector<Record> drawn = run_cases({*best}, with_fields, context).records;
-  run_after(options.then, options.out);
-  if (const std::string line = picture_line(drawn, options.out, true); !line.empty())
-    fmt::print("{}\n", line);
+  end_run(run_cases({*planned}, with_fields, context).records, options.out, true);
   return all_ok;
 }
 

@@ -1,4 +1,4 @@
-#include "bench/commands/claims_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
 

@@ -1,20 +1,32 @@
 #include "bench/commands/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glob.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <iostream>
+#include <iterator>
 
 #include "mesh/model_settings.hpp"
 #include "support/errors.hpp"
+#include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
+namespace {
+
+// The file of that name, or those that a glob matches; one that matches nothing is a file's name.
+std::vector<std::filesystem::path> files_of(const std::string& item) {
+  if (std::error_code error; std::filesystem::exists(item, error)) return {item};
+  glob_t found = {};
+  glob(item.c_str(), GLOB_NOCHECK, nullptr, &found);
+  std::vector<std::filesystem::path> files(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  globfree(&found);
+  return files;
+}
+
+}  // namespace
 
 void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
@@ -38,34 +50,88 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   }
 }
 
-CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t least,
-                       std::int64_t most, std::int64_t preset,
-                       const std::function<void(std::int64_t)>& set,
-                       const std::string& description) {
-  const auto read = [=](const std::string& text) {
-    const std::optional<std::int64_t> value = parse_whole(text);
-    if (!value || *value < least || *value > most)
-      throw UsageError(fmt::format("{}: {} (allowed: a whole number from {} to {})", name,
-                                   shortened(text), least, most));
-    set(*value);
-  };
-  return app.add_option_function<std::string>(name, read, description)
-      ->type_name("INT")
-      ->default_str(preset < least ? "" : std::to_string(preset));
+std::int64_t read_whole(const std::string& option, const std::string& text, std::int64_t least,
+                        std::int64_t most) {
+  const std::optional<std::int64_t> value = parse_whole(text);
+  if (!value || *value < least || *value > most)
+    throw UsageError(fmt::format("{}: {} (allowed: a whole number from {} to {})", option,
+                                 shortened(text), least, most));
+  return *value;
+}
+
+double read_number(const std::string& option, const std::string& text, Least least, double most) {
+  const std::optional<double> value = parse_number(text);
+  if (!value || *value < 0 || (*value == 0 && least == Least::above_zero) || *value > most)
+    throw UsageError(fmt::format("{}: {} (allowed: a number {} {})", option, shortened(text),
+                                 least == Least::zero ? "from 0 to" : "above 0, up to", most));
+  return *value;
 }
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description) {
   const auto read = [=, &number](const std::string& text) {
-    const std::optional<double> value = parse_number(text);
-    if (!value || *value < 0 || (*value == 0 && least == Least::above_zero) || *value > most)
-      throw UsageError(fmt::format("{}: {} (allowed: a number {} {})", name, shortened(text),
-                                   least == Least::zero ? "from 0 to" : "above 0, up to", most));
-    number = *value;
+    number = read_number(name, text, least, most);
   };
   return app.add_option_function<std::string>(name, read, description)
       ->type_name("NUMBER")
       ->default_str(fmt::format("{}", number));
+}
+
+ValueParts::ValueParts(const std::string& of_option, const std::string& whole,
+                       const std::vector<std::string>& keys)
+    : option(of_option), text(whole) {
+  for (const std::string& part : split_list(text)) {
+    const std::size_t equals = part.find('=');
+    if (equals == part.npos) {
+      items.push_back(part);
+      continue;
+    }
+    const std::string key = part.substr(0, equals);
+    if (std::ranges::find(keys, key) == keys.end() ||
+        !settings.emplace(key, part.substr(equals + 1)).second)
+      throw UsageError(fmt::format("{}: {} (allowed: {}=, once)", option, shortened(part),
+                                   fmt::join(keys, "=, ")));
+  }
+}
+
+const std::string& ValueParts::only_item() const {
+  if (items.size() != 1)
+    throw UsageError(
+        fmt::format("{}: {} (allowed: one number, and settings)", option, shortened(text)));
+  return items.front();
+}
+
+std::optional<std::string> ValueParts::setting(const std::string& key) const {
+  const auto found = settings.find(key);
+  return found == settings.end() ? std::nullopt : std::optional(found->second);
+}
+
+std::optional<double> ValueParts::number(const std::string& key, double most) const {
+  const std::optional<std::string> value = setting(key);
+  if (!value) return {};
+  return read_number(option + ": " + key, *value, Least::above_zero, most);
+}
+
+void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
+               const std::string& about) {
+  app.add_option_function<std::vector<std::string>>(
+      option,
+      [&files](const std::vector<std::string>& lists) {
+        for (const std::string& list : lists)
+          for (const std::string& item : split_list(list))
+            std::ranges::copy(files_of(item), std::back_inserter(files));
+      },
+      about);
+}
+
+void add_memory_limit(CLI::App& app, Options& options) {
+  const auto read = [&options](const std::string& text) {
+    options.memory_limit_bytes =
+        read_whole("--memory-limit", text, 1, std::int64_t{1} << 40) * 1024 * 1024;
+  };
+  app.add_option_function<std::string>("--memory-limit", read,
+                                       "MiB of heap that one solve may use, its blocks included")
+      ->type_name("INT");
 }
 
 void add_model_settings(CLI::App& app, std::vector<std::string>& settings) {
@@ -80,21 +146,13 @@ void add_model_settings(CLI::App& app, std::vector<std::string>& settings) {
   }
 }
 
-std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_./+-=%@", c) != nullptr;
-  });
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
-void run_after(const std::string& command, const std::filesystem::path& folder) {
-  if (command.empty()) return;
-  std::fflush(stdout);
-  if (std::system(fmt::format("{} {}", command, shell_word(folder.string())).c_str()) != 0)
-    std::cerr << fmt::format("note: --then: {}: failed\n", command);
+void add_one_body(CLI::App& app, Options& options) {
+  app.add_option("--mesh", options.meshes, "one mesh: a name of the catalogue, or a file")
+      ->required()
+      ->default_str("");
+  add_model_settings(app, options.model_settings);
+  app.add_option("--scene", options.scenes, "scene file; default: the documented tooth or rack")
+      ->expected(1);
 }
 
 }  // namespace airybench

@@ -1,10 +1,11 @@
-#include "bench/commands/merge_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
+#include <type_traits>
 
 #include "bench/commands/command_line.hpp"
 #include "bench/plan/mesh_files.hpp"
@@ -57,54 +58,35 @@ MergeOptions parse_merge(int argc, const char* const* argv) {
   return options;
 }
 
-// Meshes in the folders of runs, by their paths from there, which are the same in the whole.
-class OwnMeshes {
- public:
-  // Throws FileError: another file of that path.
-  void add(const std::string& path, const std::filesystem::path& file) {
-    if (!std::filesystem::exists(file)) return;  // a run may have been kept without its meshes
-    const auto [there, is_new] = files_.emplace(path, file);
-    if (is_new || there->second == file) return;  // another case of the same run
-    if (sha256_of_file(there->second) != sha256_of_file(file))
-      throw FileError(fmt::format("{} and {}: two meshes that would be one file of the whole",
-                                  there->second.string(), file.string()));
-  }
-  void copy_to(const std::filesystem::path& folder) const {
-    for (const auto& [path, file] : files_) {
-      const std::filesystem::path copy = folder / path;
-      make_folder(copy.parent_path());
-      write_file_atomically(copy, file_text(file));
-    }
-  }
-
- private:
-  std::map<std::string, std::filesystem::path> files_;
-};
-
 bool lies_in_its_folder(const std::filesystem::path& recorded) {
   return recorded.has_parent_path() && recorded.is_relative() &&
          *recorded.lexically_normal().begin() != "..";
 }
 
-// A path from a run's folder becomes one from the folder of the whole.
-void name_mesh_from(const std::filesystem::path& out, const std::filesystem::path& folder,
-                    OwnMeshes& meshes, RecordLine& line) {
-  std::string& name = line.record.mesh_file;
-  if (name.empty()) return;
-  const std::filesystem::path file = recorded_file(name, folder);
-  if (lies_in_its_folder(name))
-    meshes.add(name, file);
-  else
-    name = recorded_path(file, out);
-  line.json["mesh_file"] = name;
+// Meshes in the folders of runs, by their paths from there, which are the same in the whole.
+using OwnMeshes = std::map<std::string, std::filesystem::path>;
+
+// Throws FileError: there is another file of that path.
+void add(const std::string& path, const std::filesystem::path& file, OwnMeshes& meshes) {
+  if (!std::filesystem::exists(file)) return;  // a run may have been kept without its meshes
+  const auto [there, is_new] = meshes.emplace(path, file);
+  if (is_new || there->second == file) return;  // another case of the same run
+  if (sha256_of_file(there->second) != sha256_of_file(file))
+    throw FileError(fmt::format("{} and {}: two meshes that would be one file of the whole",
+                                there->second.string(), file.string()));
 }
 
-std::vector<RecordLine> read_all(const std::vector<std::filesystem::path>& folders,
-                                 const std::filesystem::path& out, OwnMeshes& meshes) {
+// Paths from a run's folder become paths from the folder of the whole.
+std::vector<RecordLine> read_all(const MergeOptions& options, OwnMeshes& meshes) {
   std::vector<RecordLine> all;
-  for (const auto& folder : folders)
+  for (const std::filesystem::path& folder : options.folders)
     for (RecordLine& line : lines_in(folder)) {
-      name_mesh_from(out, folder, meshes, line);
+      std::string& mesh = line.record.mesh_file;
+      const std::filesystem::path file = recorded_file(mesh, folder);
+      if (lies_in_its_folder(mesh))
+        add(mesh, file, meshes);
+      else if (!mesh.empty())
+        line.json["mesh_file"] = mesh = recorded_path(file, options.out);
       all.push_back(std::move(line));
     }
   if (all.empty()) throw FileError("the folders have no records");
@@ -120,19 +102,17 @@ void refuse_mixtures(const std::vector<RecordLine>& all, Sameness sameness) {
   }
 }
 
-// By the case's number in the plan.
-std::map<std::int64_t, RecordLine> by_number(const std::vector<RecordLine>& all) {
-  std::map<std::int64_t, RecordLine> cases;
+// Two records of one case, by whatever tells cases apart, are refused.
+template <typename Key, typename KeyOf>
+std::map<Key, RecordLine> by(const std::vector<RecordLine>& all, KeyOf key_of) {
+  std::map<Key, RecordLine> cases;
   for (const RecordLine& line : all) {
-    const std::int64_t number = line.record.case_number.value_or(0);
-    if (number < 1)
-      throw FileError(fmt::format(
-          "{}: case_number: {} (allowed: from 1; records of before there were shards do not join)",
-          line.place, number));
-    const auto [there, is_new] = cases.emplace(number, line);
-    if (!is_new)
-      throw FileError(fmt::format("{} and {}: both are case {}, {}", there->second.place,
-                                  line.place, number, name_of(line.record).text()));
+    const Key key = key_of(line);
+    const auto [there, is_new] = cases.emplace(key, line);
+    if (is_new) continue;
+    std::string name = name_of(line.record).text();
+    if constexpr (std::is_integral_v<Key>) name = fmt::format("case {}, {}", key, name);
+    throw FileError(fmt::format("{} and {}: both are {}", there->second.place, line.place, name));
   }
   return cases;
 }
@@ -150,36 +130,38 @@ std::int64_t cases_planned(const RecordLine& line) {
   return *planned;
 }
 
+std::int64_t number_of(const RecordLine& line) {
+  const std::int64_t number = line.record.case_number.value_or(0);
+  if (number < 1)
+    throw FileError(fmt::format(
+        "{}: case_number: {} (allowed: from 1; records of before there were shards do not join)",
+        line.place, number));
+  return number;
+}
+
+void refuse_missing(const std::map<std::int64_t, RecordLine>& cases, std::int64_t planned) {
+  constexpr int most_named = 10;
+  std::vector<std::string> missing;
+  for (std::int64_t number = 1; number <= planned; ++number)
+    if (!cases.contains(number)) missing.push_back(std::to_string(number));
+  const std::size_t count = missing.size();
+  if (count == 0) return;
+  if (count > most_named) missing.resize(most_named);
+  throw FileError(
+      fmt::format("{} of {} cases are missing: {}{} (go on with the shard by "
+                  "--resume, or take --incomplete)",
+                  count, planned, fmt::join(missing, ", "), count > most_named ? ", …" : ""));
+}
+
 // In the plan's order.
 std::vector<RecordLine> of_shards(const std::vector<RecordLine>& all, bool incomplete) {
-  const std::map<std::int64_t, RecordLine> cases = by_number(all);
-  // The same in all, or they would have been refused.
-  const std::int64_t plan = cases_planned(all.front());
-  std::string missing;
-  int count = 0;
-  for (std::int64_t number = 1; number <= plan; ++number)
-    if (cases.count(number) == 0 && ++count <= 10)
-      missing += fmt::format("{}{}", missing.empty() ? "" : ", ", number);
-  if (count > 0 && !incomplete)
-    throw FileError(
-        fmt::format("{} of {} cases are missing: {}{} (go on with the shard by "
-                    "--resume, or take --incomplete)",
-                    count, plan, missing, count > 10 ? ", …" : ""));
+  const auto cases = by<std::int64_t>(all, number_of);
+  // The plan is the same in all, or they would have been refused.
+  const std::int64_t planned = cases_planned(all.front());
+  if (!incomplete) refuse_missing(cases, planned);
   std::vector<RecordLine> lines;
   for (const auto& [number, line] : cases) lines.push_back(line);
   return lines;
-}
-
-// As they are named.
-std::vector<RecordLine> of_runs(const std::vector<RecordLine>& all) {
-  std::map<std::string, std::string> place_of;
-  for (const RecordLine& line : all) {
-    const std::string name = name_of(line.record).text();
-    const auto [there, is_new] = place_of.emplace(name, line.place);
-    if (!is_new)
-      throw FileError(fmt::format("{} and {}: both are {}", there->second, line.place, name));
-  }
-  return all;
 }
 
 }  // namespace
@@ -187,15 +169,20 @@ std::vector<RecordLine> of_runs(const std::vector<RecordLine>& all) {
 int merge_command(int argc, const char* const* argv) {
   const MergeOptions options = parse_merge(argc, argv);
   OwnMeshes meshes;
-  const std::vector<RecordLine> all = read_all(options.folders, options.out, meshes);
-  refuse_mixtures(all, options.runs ? Sameness::different_runs : Sameness::same_sources);
-  const std::vector<RecordLine> lines =
-      options.runs ? of_runs(all) : of_shards(all, options.incomplete);
+  std::vector<RecordLine> lines = read_all(options, meshes);
+  refuse_mixtures(lines, options.runs ? Sameness::different_runs : Sameness::same_sources);
+  if (options.runs)
+    by<std::string>(lines, [](const RecordLine& line) { return name_of(line.record).text(); });
+  else
+    lines = of_shards(lines, options.incomplete);
   write_records(options.out, lines);
-  meshes.copy_to(options.out);
+  for (const auto& [path, file] : meshes) {
+    make_folder((options.out / path).parent_path());
+    write_file_atomically(options.out / path, file_text(file));
+  }
   fmt::print("{} records of {} folders in {}\n", lines.size(), options.folders.size(),
              options.out.string());
-  return 0;
+  return all_ok;
 }
 
 }  // namespace airybench

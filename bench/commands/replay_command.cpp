@@ -1,4 +1,4 @@
-#include "bench/commands/replay_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -29,7 +29,8 @@ Exit status  0  the same status, iterations and contact states as recorded
 )";
 
 struct ReplayOptions {
-  std::string record;
+  std::string record;         // as it is named
+  std::string folder, which;  // its parts
   std::filesystem::path out = "results/replay";
   bool other_program = false;
 };
@@ -43,36 +44,31 @@ ReplayOptions parse_replay(int argc, const char* const* argv) {
   app.add_flag("--other-program", options.other_program,
                "although program, machine or settings are not the record's");
   parse_command_line(app, argc, argv);
+  const FirstItem folder = first_item(options.record, ':');
+  options.folder = folder.item;
+  options.which = folder.rest.value_or("");
+  if (options.which.empty())
+    throw UsageError(fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)",
+                                 shortened(options.record)));
   return options;
 }
 
-struct FolderAndCase {
-  std::string folder, which;
-};
-FolderAndCase folder_and_case(const std::string& name) {
-  const FirstItem folder = first_item(name, ':');
-  return {folder.item, std::string(folder.rest.value_or(""))};
-}
-
-Record find_record(const std::string& name) {
-  const auto [folder, which] = folder_and_case(name);
-  if (which.empty())
-    throw UsageError(
-        fmt::format("{}: which case? (allowed: FOLDER:CASE, FOLDER:LINE)", shortened(name)));
-  const std::vector<RecordLine> lines = lines_in(folder);
-  if (const std::optional<std::int64_t> line = parse_whole(which)) {
-    if (*line < 1 || *line > static_cast<std::int64_t>(lines.size()))
-      throw UsageError(fmt::format("{}: line {} (allowed: 1 to {})", name, *line, lines.size()));
+Record find_record(const ReplayOptions& asked) {
+  const std::vector<RecordLine> lines = lines_in(asked.folder);
+  if (const std::optional<std::int64_t> line = parse_whole(asked.which)) {
+    if (*line < 1 || *line > std::ssize(lines))
+      throw UsageError(
+          fmt::format("{}: line {} (allowed: 1 to {})", asked.record, *line, lines.size()));
     return lines[static_cast<std::size_t>(*line - 1)].record;
   }
-  if (!case_name_of(which))
+  if (!case_name_of(asked.which))
     throw UsageError(fmt::format(
         "{}: '{}' is no case's name (allowed: MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE]"
         "[/stop=paper], or a line's number)",
-        shortened(name), shortened(which)));
+        shortened(asked.record), shortened(asked.which)));
   for (const RecordLine& one : lines)
-    if (name_of(one.record).text() == which) return one.record;
-  throw UsageError(fmt::format("{}: no such case (the first is {})", name,
+    if (name_of(one.record).text() == asked.which) return one.record;
+  throw UsageError(fmt::format("{}: no such case (the first is {})", asked.record,
                                lines.empty() ? "missing" : name_of(lines.front().record).text()));
 }
 
@@ -85,14 +81,16 @@ void refuse_what_is_not_at_hand(const Record& record, const std::string& place) 
         fmt::format("{}: a contact problem of --problem (allowed: cases with a mesh)", place));
 }
 
-double setting(const Context& context, const std::string& key, double otherwise) {
+// A missing word leaves the number as it is.
+template <typename Number>
+void take(const Context& context, const std::string& key, Number& number) {
   const std::string word = context_word(context, key);
-  if (word.empty()) return otherwise;
+  if (word.empty()) return;
   const std::optional<double> value = parse_number(word);
   if (!value || !(*value > 0 && *value <= 1e18))
     throw FileError(fmt::format("context: {}: {} (allowed: a number above 0, up to 1e18)", key,
                                 shortened(word)));
-  return *value;
+  number = static_cast<Number>(*value);
 }
 
 // Of the run of a scaling study: "1,2,4".
@@ -113,30 +111,27 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   options.out = std::move(out);
   options.threads = static_cast<int>(record.threads.value_or(1));
   options.target_error = record.target_error.value_or(options.target_error);
-  if (record.study == name_of(Study::error))
-    options.study = Study::error;  // whose points have stops of their own
-  else
-    options.stop = record.stop;
-  if (record.study != name_of(Study::error)) options.study = study_of(record.study);
-  if (options.study == Study::scaling) {
+  options.study = study_named(record.study).value_or(Study());
+  // The points of an accuracy knob have their own stops.
+  if (options.study.points != Study::Points::accuracy) options.stop = record.stop;
+  if (options.study.points == Study::Points::threads) {
     options.thread_counts = thread_counts_of(context);
     options.threads = options.thread_counts.back();
   }
-  if (options.study == Study::none && record.contact_solver)
-    options.contact = *record.contact_solver;
-  options.repetitions = static_cast<int>(setting(context, "repetitions", options.repetitions));
+  if (options.study.name.empty()) options.contact = record.contact_solver;
   options.precision = record.precision;
   options.retry_noisy = record.retry_noisy;
   options.tuning_budget_s = record.tuning_budget_s;
-  options.max_repetitions =
-      static_cast<int>(setting(context, "max_repetitions", options.max_repetitions));
-  const auto interleaved = context.find("interleaved");
-  options.interleave = interleaved != context.end() && interleaved->second == "yes";
-  options.timeout_s = setting(context, "timeout_s", options.timeout_s);
-  options.long_case_s = setting(context, "long_case_s", options.long_case_s);
-  if (context_word(context, "memory_limit_bytes") != "none")
-    if (const double limit = setting(context, "memory_limit_bytes", 0); limit > 0)
-      options.memory_limit_bytes = static_cast<std::int64_t>(limit);
+  options.interleave = context_word(context, "interleaved") == "yes";
+  take(context, "repetitions", options.repetitions);
+  take(context, "max_repetitions", options.max_repetitions);
+  take(context, "timeout_s", options.timeout_s);
+  take(context, "long_case_s", options.long_case_s);
+  if (context_word(context, "memory_limit_bytes") != "none") {
+    std::int64_t limit = 0;
+    take(context, "memory_limit_bytes", limit);
+    if (limit > 0) options.memory_limit_bytes = limit;
+  }
   return options;
 }
 
@@ -164,9 +159,7 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
     scene.name = record.scene;
   }
   posed.problem = std::make_shared<const Problem>(pose(scene, std::move(mesh.mesh)));
-  const auto plan = plan_cases({posed}, select_methods(record.method), options.study, options.stop,
-                               options.contact, options.thread_counts);
-  for (const Case& c : plan)
+  for (const Case& c : plan_cases({posed}, select_methods(record.method), options))
     if (c.knob.name == record.knob && c.knob.value == record.knob_value && c.stop == record.stop &&
         (!record.contact_solver || c.contact == record.contact_solver))
       return c;
@@ -180,34 +173,34 @@ std::string text_of(const Record& record, const char* key) {
   return value.is_string() ? value.get<std::string>() : json_text(value);
 }
 
-// What must be the same, and what may differ.
-constexpr std::array<const char*, 8> exact = {"status",
-                                              "linear_iterations",
-                                              "contact_iterations",
-                                              "uzawa_iterations",
-                                              "parameters",
-                                              "n_open",
-                                              "n_stick",
-                                              "n_slip"};
-constexpr std::array<const char*, 4> measured = {"time_s", "peak_heap_bytes", "error_stress",
-                                                 "error_force"};
+// What is shown of both, and whether it must be the same.
+constexpr std::pair<const char*, bool> compared[] = {{"time_s", false},
+                                                     {"peak_heap_bytes", false},
+                                                     {"error_stress", false},
+                                                     {"error_force", false},
+                                                     {"status", true},
+                                                     {"linear_iterations", true},
+                                                     {"contact_iterations", true},
+                                                     {"uzawa_iterations", true},
+                                                     {"parameters", true},
+                                                     {"n_open", true},
+                                                     {"n_stick", true},
+                                                     {"n_slip", true}};
 
 }  // namespace
 
 int replay_command(int argc, const char* const* argv) {
   const ReplayOptions asked = parse_replay(argc, argv);
-  const Record record = find_record(asked.record);
+  const Record record = find_record(asked);
   refuse_what_is_not_at_hand(record, asked.record);
   const Context& recorded = record.context;
   const Options options = options_of(record, recorded, asked.out);
   require_threads(options.threads);
   set_threads(options.threads);
   Context context = context_of_run(options);
-  for (const auto& [key, value] : recorded)  // what that run said of itself
-    if (context.count(key) == 0) context[key] = value;
-  const std::filesystem::path folder = folder_and_case(asked.record).folder;
+  context.insert(recorded.begin(), recorded.end());  // what that run said of itself
   std::error_code error;
-  if (std::filesystem::equivalent(folder, asked.out, error))
+  if (std::filesystem::equivalent(asked.folder, asked.out, error))
     throw UsageError(
         fmt::format("--out: {} (allowed: another folder than the record's)", asked.out.string()));
   if (record.scene_definition.is_null() && record.scene != Scene().name)
@@ -219,19 +212,17 @@ int replay_command(int argc, const char* const* argv) {
         fmt::format("{}: was not measured by this program, or not so (recorded and "
                     "now): {} (--other-program runs it all the same)",
                     asked.record, differs));
-  const Case planned = case_of(record, asked.record, folder, options);
+  const Case planned = case_of(record, asked.record, asked.folder, options);
   catch_interrupts();
   const RunResult result = run_cases({planned}, options, context);
   const Record& now = result.records.front();
   bool same = true;
   fmt::print("{:<20}  {:>14}  {:>14}\n", name_of(record).text(), "recorded", "now");
-  for (const char* key : measured)
-    fmt::print("{:<20}  {:>14}  {:>14}\n", key, text_of(record, key), text_of(now, key));
-  for (const char* key : exact) {
+  for (const auto& [key, must_be_same] : compared) {
     const std::string before = text_of(record, key), after = text_of(now, key);
-    same = same && before == after;
-    fmt::print("{:<20}  {:>14}  {:>14}{}\n", key, before, after,
-               before == after ? "" : "  differs");
+    const bool is_other = must_be_same && before != after;
+    same = same && !is_other;
+    fmt::print("{:<20}  {:>14}  {:>14}{}\n", key, before, after, is_other ? "  differs" : "");
   }
   return same ? all_ok : some_case_failed;
 }

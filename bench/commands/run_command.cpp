@@ -1,18 +1,14 @@
-#include "bench/commands/run_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
 #include <iostream>
 #include <iterator>
-#include <sstream>
+#include <map>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/commands/command_options.hpp"
-#include "bench/commands/own_bodies.hpp"
-#include "bench/commands/posed_scenes.hpp"
+#include "bench/commands/run_parts.hpp"
 #include "bench/external/external_method.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/plan/blank_record.hpp"
@@ -21,6 +17,8 @@
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
 #include "bench/report/prediction.hpp"
+#include "bench/run/adapted_scenes.hpp"
+#include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
@@ -93,8 +91,7 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
   const PastRecords past = read_committed_records(planned, options.out);
   for (const std::string& why : past.passed_over) std::cerr << fmt::format("{}\n", why);
-  const RunLimits limits = {least_repetitions(options), options.timeout_s, options.long_case_s,
-                            options.memory_limit_bytes, options.study == Study::stability};
+  const RunLimits limits = limits_of(options);
   fmt::print("{}\n", prediction_table(planned, forecast(planned, past.records, limits), limits));
   print_left_out(plan, options);
 }
@@ -123,17 +120,28 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
   if (!options.methods.empty()) return select_methods(options.methods, others);
   std::string names = default_methods(options.study);
   const auto has_holes = [](const PosedScene& s) { return hole_count(s.problem->mesh) > 0; };
-  if (options.study == Study::none && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
+  if (options.study.name.empty() && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
   if (!others.empty()) names += ",EXTERNAL:*";
   return select_methods(names, others);
 }
 
+// The adapted meshes of each. short_of: goals that were not reached, a line each.
+std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const Options& options,
+                                  std::vector<std::string>& short_of) {
+  std::vector<PosedScene> levels;
+  for (const PosedScene& start : scenes) {
+    AdaptedScenes adapted = adapted_scenes(start, options);
+    std::ranges::move(adapted.levels, std::back_inserter(levels));
+    if (!adapted.why_not_reached.empty()) short_of.push_back(adapted.why_not_reached);
+  }
+  return levels;
+}
+
 // The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
-  const std::vector<PosedScene> scenes =
-      options.problems.empty() ? pose_and_adapt(options, short_of) : pose_problems(options);
-  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options.study,
-                                      options.stop, options.contact, options.thread_counts);
+  std::vector<PosedScene> scenes = posed_scenes(options);
+  if (!options.adapt.empty()) scenes = levels_of(scenes, options, short_of);
+  std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options);
   if (!options.filter.empty()) plan = matching(std::move(plan), options.filter, options.interleave);
   if (plan.empty() && short_of.empty())
     throw UsageError("no case is left: the arguments after -- select none");
@@ -155,7 +163,7 @@ int run_command(int argc, const char* const* argv) {
   Options options = parse_options(argc, argv);
   if (options.figure) {
     options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
-    options.methods = *options.figure == 3 ? figure_3_methods : default_methods(Study::none);
+    options.methods = *options.figure == 3 ? figure_3_methods : default_methods(options.study);
   }
   if (options.list) {
     print_list(other_programs(options));
@@ -190,10 +198,7 @@ int run_command(int argc, const char* const* argv) {
   if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
   print_warnings(context, result, options);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
-  run_after(options.then, options.out);
-  if (const std::string line = picture_line(result.records, options.out, options.fields);
-      !line.empty())
-    fmt::print("{}\n", line);
+  end_run(result.records, options.out, options.fields);
   if (result.records.size() != plan.size())
     throw std::logic_error(fmt::format("{} of {} cases have no record",
                                        plan.size() - result.records.size(), plan.size()));

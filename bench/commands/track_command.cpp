@@ -1,4 +1,4 @@
-#include "bench/commands/track_command.hpp"
+#include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include <filesystem>
 
 #include "bench/commands/command_line.hpp"
-#include "bench/commands/run_command.hpp"
 #include "bench/report/track.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
@@ -68,10 +67,8 @@ TrackOptions parse_track(int argc, const char* const* argv) {
   app.add_flag("--judge-only", options.judge_only, "judge the newest night again")->excludes(from);
   add_number(app, "--minimum-effect", Least::zero, 1000, options.minimum_effect_percent,
              "per cent: smaller changes of a time are no change");
-  add_whole(
-      app, "--nights-after", 2, 30, static_cast<std::int64_t>(options.rules.least_after),
-      [&](std::int64_t runs) { options.rules.least_after = static_cast<std::size_t>(runs); },
-      "nights after a change of a time that confirm it");
+  add_whole(app, "--nights-after", 2, 30, options.rules.least_after,
+            "nights after a change of a time that confirm it");
   // What comes after "--" goes on to the run as it is.
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(

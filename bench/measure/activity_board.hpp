@@ -27,7 +27,7 @@ enum class Activity {
 std::string_view name_of(Activity activity);  // "detail run"
 bool is_run(Activity activity);               // of the method itself: tuning and the three runs
 
-// What a run may take: --timeout; tuning --tuning-budget, where there is one.
+// What a run may take: --timeout; tuning its own limit, where there is one.
 double run_limit_s(Activity run, const Options& options);
 
 class ActivityBoard : public StageObserver {

@@ -120,7 +120,7 @@ Context context_of_run(const Options& options) {
   set_if_any("tuning_budget_s", options.tuning_budget_s);
   const auto list = [](const auto& values) { return fmt::format("{}", fmt::join(values, ",")); };
   if (!options.budgets_s.empty()) set("budgets_s", list(options.budgets_s));
-  if (options.study == Study::scaling) set("threads", list(options.thread_counts));
+  if (options.study.points == Study::Points::threads) set("threads", list(options.thread_counts));
   set_if_any("precision", options.precision);
   if (options.precision) set("max_repetitions", options.max_repetitions);
   set_if_any("retry_noisy", options.retry_noisy);

@@ -89,7 +89,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.stop = options_.stop;
   control.contact = options_.contact.value_or(control.contact);
   control.target_error = options_.target_error;
-  control.condition = in_detail && asks_for_condition(options_.study);
+  control.condition = in_detail && options_.study.condition;
   control.tolerance = choice.tolerance;
   control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
@@ -352,8 +352,8 @@ Workbench::Examination Workbench::examine(const Method& method,
       write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
-  const bool once = problem_->later_steps.empty() &&
-                    (run.time_s > options_.long_case_s || options_.study == Study::stability);
+  const bool once =
+      problem_->later_steps.empty() && (run.time_s > options_.long_case_s || options_.study.once);
   if (once && is_measured(record)) {
     record.measured_once = true;
     add_run(timed(run), record);

@@ -26,7 +26,7 @@ class Workbench {
   Workbench(std::shared_ptr<const Problem> problem, const Options& options, LeftOut left_out = {});
 
   // The discretisation error of the reference's stresses against the displacements of P2, or of the
-  // stresses of --adapt-by against displacements recovered from them.
+  // stresses of adapt_by against displacements recovered from them.
   enum class Bound { p2, recovery };
 
   void show_on(ActivityBoard* board) { board_ = board; }  // what it does from now on

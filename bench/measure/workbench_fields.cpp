@@ -12,8 +12,9 @@ namespace airybench {
 
 std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // its own are at hand
-  if (options_.study == Study::error || method.in_displacements) return Workbench::Bound::p2;
-  if (!options_.adapt.empty() || options_.fields || options_.study == Study::adapted)
+  if (options_.study.points == Study::Points::accuracy || method.in_displacements)
+    return Workbench::Bound::p2;
+  if (!options_.adapt.empty() || options_.fields || options_.study.bounds)
     return Workbench::Bound::recovery;
   return {};
 }

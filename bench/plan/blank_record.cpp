@@ -25,7 +25,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   if (!problem.given) take_over(extent_of(problem.mesh), record);  // tells bodies apart
   describe(method, record);
   take_over(options, record);
-  record.study = name_of(options.study);
+  record.study = options.study.name;
   if (!problem.given) {
     record.n_phi = sizes.n_phi;
     record.n_f = sizes.n_f;
@@ -64,7 +64,7 @@ void identify(const Case& planned, Record& record) {
   record.knob = planned.knob.name;
   record.knob_value = planned.knob.value;
   if (planned.knob.threads) record.threads = *planned.knob.threads;
-  record.study = name_of(planned.study);
+  record.study = planned.study;
   record.stop = planned.stop;
   record.contact_solver = planned.contact;
 }

@@ -1,11 +1,14 @@
 #include "bench/plan/mesh_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
+#include <iostream>
 #include <sstream>
 #include <stdexcept>
 
-#include "bench/plan/model_files.hpp"
 #include "bench/records/case_name.hpp"
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
@@ -13,6 +16,8 @@
 #include "mesh/selection.hpp"
 #include "support/atomic_file.hpp"
 #include "support/data_folder.hpp"
+#include "support/errors.hpp"
+#include "support/process.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
 
@@ -32,15 +37,56 @@ void check_name(const Mesh& mesh, const std::filesystem::path& path) {
         ": a mesh is named as its file (allowed: UTF-8 without control characters)");
 }
 
-MeshFile converted(const std::filesystem::path& model, const MeshChoice& choice) {
+constexpr const char* converter = "meshgen";
+constexpr double time_limit_s = 900;
+
+// What it says last, without its name.
+std::string complaint_of(const ProgramEnd& end) {
+  if (end.signal != 0)
+    return fmt::format("{} was ended by a signal: {}", converter, strsignal(end.signal));
+  std::istringstream lines(end.err);
+  std::string last;
+  for (std::string line; std::getline(lines, line);)
+    if (!line.empty()) last = line;
+  const std::string prefix = fmt::format("{}: ", converter);
+  if (last.starts_with(prefix)) return last.substr(prefix.size());
+  return fmt::format("{} ended with exit code {}: {}", converter, end.exit_code, last);
+}
+
+bool can_convert_models() { return program_of_ours(converter).has_value(); }
+
+// Made by `meshgen`, a process of its own, because bench does not link Gmsh. settings: options of
+// `meshgen --convert`, "--role=clamped=displacement". Notes go to standard error. Throws FileError:
+// what is wrong with model or settings, or what to install.
+std::string mesh_text_of_model(const std::filesystem::path& model,
+                               const std::vector<std::string>& settings) {
+  const auto program = program_of_ours(converter);
+  if (!program)
+    throw FileError(
+        fmt::format("{}: a Gmsh model, but there is no {} beside this program (Debian: "
+                    "install libgmsh-dev and build again, as ./run bench does)",
+                    model.string(), converter));
+  std::vector<std::string> arguments = {"--convert=" + model.string(), "--out=-"};
+  arguments.insert(arguments.end(), settings.begin(), settings.end());
+  ProgramEnd end = run_program(*program, arguments, time_limit_s);
+  if (end.timed_out)
+    throw FileError(fmt::format(
+        "{}: {} was ended after {} s (allowed: that long; {} --convert by itself has no limit)",
+        model.string(), converter, time_limit_s, converter));
+  if (end.exit_code != 0) throw FileError(complaint_of(end));
+  std::cerr << end.err;
+  return std::move(end.out);
+}
+
+MeshFile converted(const std::filesystem::path& model, const Options& options) {
   constexpr std::size_t digits = 8;
-  std::istringstream in(mesh_text_of_model(model, choice.model_settings));
+  std::istringstream in(mesh_text_of_model(model, options.model_settings));
   MeshFile file{{}, "", read_msh(in, model.string()), true};
   check_name(file.mesh, model);
   file.sha256 = sha256_hex(msh_text(file.mesh));
   const std::string& name = file.mesh.name;
   file.path =
-      choice.out / "meshes" / (name + "." + file.sha256.substr(0, digits)) / (name + ".msh");
+      options.out / "meshes" / (name + "." + file.sha256.substr(0, digits)) / (name + ".msh");
   return file;
 }
 
@@ -53,15 +99,15 @@ MeshFile refined_mesh(const std::filesystem::path& path, const RefinedName& refi
   return file;
 }
 
-MeshFile read_or_convert(const std::filesystem::path& path, const MeshChoice& choice) {
+MeshFile read_or_convert(const std::filesystem::path& path, const Options& options) {
   const ModelFormat format = format_of(path);
-  if (format == ModelFormat::geo || format == ModelFormat::cad) return converted(path, choice);
+  if (format == ModelFormat::geo || format == ModelFormat::cad) return converted(path, options);
   try {
     return read_mesh_file(path);
   } catch (const ForeignMeshError&) {
     if (!can_convert_models()) throw;
   }
-  return converted(path, choice);
+  return converted(path, options);
 }
 
 }  // namespace
@@ -75,12 +121,12 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   return {path, sha256_of_file(path), std::move(mesh)};
 }
 
-std::vector<MeshFile> read_meshes(const MeshChoice& choice) {
+std::vector<MeshFile> read_meshes(const Options& options) {
   std::vector<MeshFile> files;
-  for (const std::string& item : expand_mesh_selection(choice.selection)) {
+  for (const std::string& item : expand_mesh_selection(options.meshes)) {
     const std::filesystem::path path =
         is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
-    MeshFile file = read_or_convert(path, choice);
+    MeshFile file = read_or_convert(path, options);
     for (const MeshFile& earlier : files)
       if (earlier.mesh.name == file.mesh.name)
         throw std::invalid_argument("two meshes are named " + file.mesh.name + ": " +
@@ -88,8 +134,8 @@ std::vector<MeshFile> read_meshes(const MeshChoice& choice) {
                                     "; records could not tell them apart");
     files.push_back(std::move(file));
   }
-  if (!choice.model_settings.empty() && std::ranges::none_of(files, &MeshFile::is_of_model))
-    throw std::invalid_argument(shortened(choice.model_settings.front()) +
+  if (!options.model_settings.empty() && std::ranges::none_of(files, &MeshFile::is_of_model))
+    throw std::invalid_argument(shortened(options.model_settings.front()) +
                                 ": no Gmsh model is among the meshes (allowed: with --mesh=" +
                                 std::string(model_extensions) + ")");
   return files;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/plan/options.hpp"
 #include "mesh/mesh.hpp"
 
 namespace airybench {
@@ -24,19 +25,12 @@ std::filesystem::path mesh_directory();
 // of a mesh.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-// What the command line says of meshes.
-struct MeshChoice {
-  std::string selection;                    // as mesh/selection.hpp reads it
-  std::vector<std::string> model_settings;  // of models: options of `meshgen --convert`
-  std::filesystem::path out;                // the results folder, for the meshes of models
-};
-
-// Reads all that is selected. Models (model_format.hpp, and MSH files that are not of our form) are
-// converted (model_files.hpp); keep_models() writes what is made of them to
+// Reads options.meshes. Models (model_format.hpp, and MSH files that are not of our form) are
+// converted by meshgen; keep_models() writes what is made of them to
 //   OUT/meshes/NAME.HASH/NAME.msh      HASH: the start of the file's SHA-256
 // a file as any other, which records name and nothing else overwrites. Throws MeshError, FileError,
 // std::invalid_argument; two files of the same name are refused, and settings without a model.
-std::vector<MeshFile> read_meshes(const MeshChoice& choice);
+std::vector<MeshFile> read_meshes(const Options& options);
 void keep_models(const std::vector<MeshFile>& files);
 
 bool is_of_catalogue(const std::filesystem::path& file);

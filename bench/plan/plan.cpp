@@ -2,45 +2,47 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
-#include <limits>
-
-#include "support/numbers.hpp"
+#include "bench/plan/stages.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
 
+namespace {
+
+std::vector<TurnedMethod> points_of(const Method& method, bool is_given, const Options& options) {
+  using enum Study::Points;
+  if (options.study.points == accuracy) return error_points(method);
+  if (options.study.points == threads) return scaling_points(method, options.thread_counts);
+  if (options.study.points == contact || (is_given && !options.contact))
+    return contact_points(method);
+  return {{method, {}}};
+}
+
+std::optional<ContactSolver> contact_solver(const Case& planned, const Options& options) {
+  const Problem& problem = *planned.posed.problem;
+  const Method& method = planned.method;
+  if (!(method.condenses_contact() || problem.given) || !method.program.empty() ||
+      solved_sizes(problem).n_c == 0)
+    return {};
+  const ContactSolver implied = implied_contact_solver(planned.stop, planned.knob.name);
+  if (implied != ContactSolver::newton) return implied;
+  return planned.knob.contact.value_or(options.contact.value_or(implied));
+}
+
+}  // namespace
+
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study, Stop stop,
-                             std::optional<ContactSolver> contact,
-                             const std::vector<int>& thread_counts) {
+                             const std::vector<Method>& methods, const Options& options) {
   std::vector<Case> cases;
-  const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
-    const Stop own_stop = knob.stop.value_or(stop);
-    std::optional<ContactSolver> solver;
-    if ((method.condenses_contact() || scene.problem->given) && method.program.empty() &&
-        solved_sizes(*scene.problem).n_c > 0) {
-      solver = implied_contact_solver(own_stop, knob.name);
-      if (*solver == ContactSolver::newton)
-        solver = knob.contact.value_or(contact.value_or(ContactSolver::newton));
-    }
-    cases.push_back({scene, std::move(method), std::move(knob), static_cast<int>(cases.size()) + 1,
-                     study, own_stop, solver});
-  };
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
-      if (study == Study::error)
-        for (TurnedMethod& point : error_points(method))
-          add(scene, std::move(point.method), std::move(point.knob));
-      else if (study == Study::contact || (scene.problem->given && !contact))
-        for (TurnedMethod& point : contact_points(method))
-          add(scene, std::move(point.method), std::move(point.knob));
-      else if (study == Study::scaling)
-        for (TurnedMethod& point : scaling_points(method, thread_counts))
-          add(scene, std::move(point.method), std::move(point.knob));
-      else
-        add(scene, method, {});
+      for (TurnedMethod& point : points_of(method, scene.problem->given != nullptr, options)) {
+        Case& added = cases.emplace_back(Case{scene, std::move(point.method), std::move(point.knob),
+                                              static_cast<int>(cases.size()) + 1,
+                                              options.study.name, options.stop});
+        added.stop = added.knob.stop.value_or(options.stop);
+        added.contact = contact_solver(added, options);
+      }
   return cases;
 }
 
@@ -48,7 +50,7 @@ CaseName Case::name() const {
   return {posed.problem->mesh.name,
           posed.scene_name,
           method.name,
-          name_of(study),
+          study,
           knob.name,
           knob.value,
           stop,
@@ -61,18 +63,6 @@ std::string fingerprint(const std::vector<Case>& plan) {
     text +=
         fmt::format("{} {} {}\n", c.name().text(), c.posed.mesh_sha256, c.posed.scene_definition);
   return sha256_hex(text);
-}
-
-std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
-
-std::optional<Shard> shard_of(const std::string& text) {
-  const std::size_t slash = std::min(text.find('/'), text.size());
-  const std::optional<std::int64_t> index = parse_whole(text.substr(0, slash));
-  const std::optional<std::int64_t> count =
-      parse_whole(text.substr(std::min(slash + 1, text.size())));
-  if (!index || !count || *index < 1 || *index > *count || *count > std::numeric_limits<int>::max())
-    return {};
-  return Shard{static_cast<int>(*index), static_cast<int>(*count)};
 }
 
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard) {

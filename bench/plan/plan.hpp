@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "assembly/problem.hpp"
-#include "bench/plan/study.hpp"
+#include "bench/plan/options.hpp"
 #include "bench/records/case_name.hpp"
 #include "solvers/base/method.hpp"
 
@@ -32,32 +32,24 @@ struct PosedScene {
 struct Case {
   PosedScene posed;
   Method method;
-  Knob knob = {};  // of a study
-  int number = 0;  // in the whole plan, from 1, whatever part of it is run
-  Study study = Study::none;
+  Knob knob = {};            // of a study
+  int number = 0;            // in the whole plan, from 1, whatever part of it is run
+  std::string study;         // its name
   Stop stop = Stop::target;  // the knob's, where it has one
   // Of the condensed contact problem; none: there is no such problem.
   std::optional<ContactSolver> contact = {};
   CaseName name() const;
 };
 
-// Scene by scene, so that methods on the same blocks run after one another. contact: none: Newton,
-// and of given contact problems all of them. thread_counts: of the scaling study.
+// Scene by scene, so that methods on the same blocks run after one another. Without --contact:
+// Newton, and of given contact problems all solvers.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
-                             const std::vector<Method>& methods, Study study = Study::none,
-                             Stop stop = Stop::target, std::optional<ContactSolver> contact = {},
-                             const std::vector<int>& thread_counts = {1});
+                             const std::vector<Method>& methods, const Options& options = {});
 
 // SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
 std::string fingerprint(const std::vector<Case>& plan);
 
-// One of `count` parts of a plan, for as many machines: the cases index, index + count, …, so that
-// each has cases of every size.
-struct Shard {
-  int index = 1, count = 1;
-};
-std::string name_of(const Shard& shard);                 // "2/3"
-std::optional<Shard> shard_of(const std::string& text);  // empty: not k/n with 1 ≤ k ≤ n
+// The shard of a plan.
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
 
 }  // namespace airybench

@@ -1,34 +1,35 @@
 #include "bench/plan/study.hpp"
 
 #include <algorithm>
-#include <array>
+#include <map>
 #include <stdexcept>
 
+#include "bench/records/case_name.hpp"
+#include "bench/records/json.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
 
 // A copy of the method that runs under a changed control, once and untightened.
 TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
+  const auto changed = [turn](RunControl control) {
+    turn(control);
+    return control;
+  };
+  const auto under_it = [changed](const Solve& solve) {
+    return [=](const DualSystem& s, const RunControl& c) { return solve(s, changed(c)); };
+  };
   TurnedMethod result{method, std::move(knob)};
   result.method.first_tolerance = 0;
-  result.method.solve = [solve = method.solve, turn](const DualSystem& s, const RunControl& c) {
-    RunControl control = c;
-    turn(control);
-    return solve(s, control);
-  };
+  result.method.solve = under_it(method.solve);
   if (method.tune)
-    result.method.tune = [tune = method.tune, turn](const DualSystem& s, const RunControl& c) {
-      RunControl control = c;
-      turn(control);
-      Tuning tuning = tune(s, control);
-      tuning.solve = [solve = tuning.solve, turn](const DualSystem& s2, const RunControl& c2) {
-        RunControl again = c2;
-        turn(again);
-        return solve(s2, again);
-      };
+    result.method.tune = [=, tune = method.tune](const DualSystem& s, const RunControl& c) {
+      Tuning tuning = tune(s, changed(c));
+      tuning.solve = under_it(tuning.solve);
       return tuning;
     };
   return result;
@@ -39,9 +40,8 @@ TurnedMethod at_paper_stop(const Method& method) {
                 [](RunControl& control) { control.stop = Stop::paper; });
 }
 
-template <std::size_t count>
 std::vector<TurnedMethod> turned_to(const Method& method, const std::string& knob,
-                                    const std::array<double, count>& values,
+                                    const std::vector<double>& values,
                                     void (*turn)(RunControl&, double)) {
   std::vector<TurnedMethod> points;
   for (const double value : values)
@@ -50,31 +50,70 @@ std::vector<TurnedMethod> turned_to(const Method& method, const std::string& kno
   return points;
 }
 
-}  // namespace
+std::vector<std::filesystem::path> json_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".json") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
 
-std::string name_of(Study study) {
-  switch (study) {
-    case Study::error:
-      return "error";
-    case Study::stability:
-      return "stability";
-    case Study::contact:
-      return "contact";
-    case Study::adapted:
-      return "adapted";
-    case Study::load_steps:
-      return "load-steps";
-    case Study::scaling:
-      return "scaling";
-    default:
-      return "";
+Study study_of(const std::filesystem::path& file) {
+  using enum Study::Points;
+  static const std::map<std::string, Study::Points> points = {
+      {"", one}, {"accuracy", accuracy}, {"contact", contact}, {"threads", threads}};
+  try {
+    const Json json = parse_json(file_text(file));
+    Study study;
+    study.name = file.stem().string();
+    study.about = json.at("about").get<std::string>();
+    study.methods = json.value("method", "");
+    study.scenes = json.value("scenes", "");
+    study.points = points.at(json.value("points", ""));
+    const Json options = json.value("options", Json::object());
+    for (const auto& [option, value] : options.items())
+      study.options.emplace_back(option, value.get<std::string>());
+    study.once = json.value("once", false);
+    study.condition = json.value("condition", false);
+    study.bounds = json.value("bounds", false);
+    return study;
+  } catch (const Json::exception& wrong) {
+    throw FileError(file.string() + ": no study: " + without_prefix(wrong));
+  } catch (const std::out_of_range&) {
+    throw FileError(file.string() + ": points (allowed: accuracy, contact, threads)");
   }
 }
 
-Study study_of(std::string_view name) {
-  for (const Study study : all_studies)
-    if (name_of(study) == name) return study;
-  return Study::none;
+}  // namespace
+
+std::vector<Study> all_studies() {
+  std::vector<Study> studies;
+  for (const std::filesystem::path& file : json_files(data_folder("scenes")))
+    studies.push_back(study_of(file));
+  return studies;
+}
+
+std::optional<Study> study_named(const std::string& name) {
+  for (const Study& study : all_studies())
+    if (study.name == name) return study;
+  return {};
+}
+
+std::string default_methods(const Study& study) {
+  if (!study.methods.empty()) return study.methods;
+  std::string names;
+  for (const Method& method : methods())
+    if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
+  return names;
+}
+
+std::vector<std::filesystem::path> scenes_of(const Study& study) {
+  if (study.scenes.empty()) return {};
+  const std::filesystem::path folder = data_folder("scenes") / study.scenes;
+  std::vector<std::filesystem::path> files = json_files(folder);
+  if (files.empty()) throw std::invalid_argument(folder.string() + ": has no scene files");
+  return files;
 }
 
 std::vector<TurnedMethod> contact_points(const Method& method) {
@@ -97,88 +136,32 @@ std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector
 }
 
 std::vector<TurnedMethod> error_points(const Method& method) {
-  constexpr std::array<double, 6> tolerances = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
-  constexpr std::array<double, 10> iterations = {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000};
-  constexpr std::array<double, 7> sweeps = {1, 3, 10, 30, 100, 300, 1000};
+  std::vector<TurnedMethod> points;
   switch (method.knob) {
     case AccuracyKnob::krylov_tolerance:
-      return turned_to(method, "tolerance", tolerances,
+      return turned_to(method, "tolerance", {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12},
                        [](RunControl& control, double value) { control.tolerance = value; });
-    case AccuracyKnob::uzawa_iterations: {
-      auto points =
-          turned_to(method, "uzawa iterations", iterations, [](RunControl& control, double value) {
-            control.tolerance = 0;
-            control.uzawa_iterations = static_cast<int>(value);
-          });
+    case AccuracyKnob::uzawa_iterations:
+      points = turned_to(method, "uzawa iterations", {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000},
+                         [](RunControl& control, double value) {
+                           control.tolerance = 0;
+                           control.uzawa_iterations = static_cast<int>(value);
+                         });
       points.push_back(at_paper_stop(method));
       return points;
-    }
-    case AccuracyKnob::stop:
-      return {{method, {}}, at_paper_stop(method)};
-    case AccuracyKnob::contact_sweeps: {
-      auto points = turned_to(method, std::string(sweeps_knob), sweeps,
-                              [](RunControl& control, double value) {
-                                control.contact_sweeps = static_cast<int>(value);
-                                control.contact = ContactSolver::gauss_seidel;
-                              });
+    case AccuracyKnob::contact_sweeps:
+      points = turned_to(method, std::string(sweeps_knob), {1, 3, 10, 30, 100, 300, 1000},
+                         [](RunControl& control, double value) {
+                           control.contact_sweeps = static_cast<int>(value);
+                           control.contact = ContactSolver::gauss_seidel;
+                         });
       points.push_back({method, {}});
       return points;
-    }
+    case AccuracyKnob::stop:
+      return {{method, {}}, at_paper_stop(method)};
     default:
       return {{method, {}}};
   }
-}
-
-std::optional<StudyDefaults> defaults_of(Study study) {
-  switch (study) {
-    case Study::stability:
-      return StudyDefaults{"Mesh0", 60};
-    case Study::contact:
-      return StudyDefaults{"Mesh0..Mesh7", 60};
-    case Study::adapted:
-      return StudyDefaults{"Mesh0,Mesh4", 60};
-    case Study::load_steps:
-      return StudyDefaults{"Mesh3", 120};
-    case Study::scaling:
-      return StudyDefaults{"Mesh4..Mesh7", 120};
-    default:
-      return {};
-  }
-}
-
-std::string default_methods(Study study) {
-  if (study == Study::error)
-    return "SDTIC3,SDTIC6,SSKY,3STEPCG3,3STEPCG6,3STEPD,ALM,ALM:r=1,rho=1,ALM:r=20,rho=20,"
-           "ALM:r=100,rho=100,ALM:r=300,rho=300,BLIND,BLIND:SCHUR,HYBRID,P2";
-  if (study == Study::contact) return "HYBRID";
-  if (study == Study::adapted)
-    return "SDTIC3,SDTIC6,SSKY,SYMMLQ:FLIC3,SYMMLQ:SSOR1.0,3STEPCG3,3STEPCG6,3STEPCG:FLIC3,"
-           "3STEPCG:SSOR1.0,3STEPD,3STEPD:REFINED,ALM:r=20,rho=20,BLIND,BLIND:SCHUR,"
-           "BLIND:SCHUR:REFINED,HYBRID,P2";
-  if (study == Study::load_steps)
-    return "3STEPD:CHOLMOD,ALM:r=20,rho=20,ALM:AUTO,BLIND:SCHUR,HYBRID,P2";
-  if (study == Study::scaling) return "3STEPD,3STEPD:CHOLMOD,BLIND,BLIND:SCHUR,HYBRID,SDTIC6";
-  if (study == Study::none) {
-    std::string names;
-    for (const Method& method : methods())
-      if (method.in_paper) names += (names.empty() ? "" : ",") + method.name;
-    return names;
-  }
-  // The table, and the augmented Lagrangian far from where its parameters belong.
-  return "*,ALM:r=1e-6,rho=1e-6,ALM:r=1e6,rho=1e6,ALM:r=1e12,rho=1e12,ALM:r=20,rho=40,"
-         "ALM:r=20,rho=44";
-}
-
-std::vector<std::filesystem::path> scenes_of(Study study) {
-  if (study != Study::stability && study != Study::contact && study != Study::load_steps) return {};
-  const std::filesystem::path folder = data_folder("scenes/" + name_of(study));
-  std::vector<std::filesystem::path> files;
-  std::error_code error;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
-    if (entry.path().extension() == ".json") files.push_back(entry.path());
-  if (files.empty()) throw std::invalid_argument(folder.string() + ": has no scene files");
-  std::sort(files.begin(), files.end());
-  return files;
 }
 
 }  // namespace airybench

@@ -61,7 +61,7 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
 
-// Seconds that a case takes: tuning, then the detail run, and for a solve up to --long-case the
+// Seconds that a case takes: tuning, then the detail run, and for a solve up to long_case_s the
 // memory run and repetitions until they add up to that. A solve ends at its --timeout.
 double run_seconds(double time_s, double tuning_s, const RunLimits& limits);
 

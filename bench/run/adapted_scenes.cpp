@@ -26,7 +26,7 @@
 namespace airybench {
 namespace {
 
-// The method of --adapt-by: its stresses balance and it has edge displacements.
+// The method of --adapt=…,by=: its stresses balance and it has edge displacements.
 Method adapting_method(const std::string& name) {
   const auto is_fit = [](const Method& method) {
     return method.blocks == Blocks::contact_points && !method.in_displacements;
@@ -37,7 +37,7 @@ Method adapting_method(const std::string& name) {
     if (method.name == name) return method;
     allowed += (allowed.empty() ? "" : ", ") + method.name;
   }
-  throw UsageError(fmt::format("--adapt-by: {} (allowed: {})", shortened(name), allowed));
+  throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
 }
 
 // The definition on the mesh that the scene has made: layers are bodies there, with materials.

@@ -18,7 +18,7 @@ struct AdaptedScenes {
 };
 
 // Adapts the mesh of a posed scene until options.adapt. Prints a line per level to standard error.
-// Throws UsageError (the method of --adapt-by), FileError, Interrupted.
+// Throws UsageError (the method that adapts), FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
 // Level 0 refined once everywhere, as a mesh file next to it: MESH+refined1.msh.

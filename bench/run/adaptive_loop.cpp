@@ -118,7 +118,7 @@ void AdaptiveLoop::judge_step(const std::string& prefix, const DualSystem& syste
   }
   if (solution.edge_moments.cols() == 0)
     throw UsageError(fmt::format(
-        "--adapt-by: {} (allowed: a method with edge displacements, as HYBRID)", method_.name));
+        "--adapt: by={} (allowed: a method with edge displacements, as HYBRID)", method_.name));
   const auto estimating = std::chrono::steady_clock::now();
   const DisplacementField w =
       recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);

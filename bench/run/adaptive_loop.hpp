@@ -25,7 +25,7 @@
 #include <functional>
 
 #include "assembly/scene.hpp"
-#include "bench/plan/adapt_goal.hpp"
+#include "bench/plan/options.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/expected_parts.hpp"
 #include "solvers/methods.hpp"

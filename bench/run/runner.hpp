@@ -50,8 +50,8 @@ std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bo
 // How often a case is timed that is repeated at all, whatever the samples are.
 int least_repetitions(const Options& options);
 int most_repetitions(const Options& options);
-// Is a case with these samples timed once more? Up to --repetitions, then as long as --precision is
-// not reached; not when the samples add up to --long-case, nor after --max-repetitions.
+// Is a case with these samples timed once more? Up to the least repetitions, then as long as the
+// precision is not reached; not when the samples add up to long_case_s, nor after the most.
 bool is_repeated(const Record& record, const Options& options);
 
 }  // namespace airybench

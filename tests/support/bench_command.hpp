@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <sstream>
 #include <vector>
@@ -33,6 +34,21 @@ class BenchCommand {
     command += " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content("out.txt"), content("err.txt")};
+  }
+  // Exit code 2, nothing on standard output, and one line on standard error that has `named` in it,
+  // or is `named` where that ends with a newline.
+  void expect_refusal(const std::string& arguments, std::string_view named,
+                      const std::string& before = "") const {
+    const CommandResult result = run(arguments, before);
+    SCOPED_TRACE(arguments + ": " + result.err);
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(result.err.starts_with("bench: "));
+    EXPECT_NE(result.err.find(named), std::string::npos) << named;
+    if (named.ends_with('\n')) {
+      EXPECT_EQ(result.err, "bench: " + std::string(named));
+    }
+    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1);
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }

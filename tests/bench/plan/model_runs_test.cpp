@@ -36,9 +36,8 @@ class ModelRuns : public ::testing::Test {
   }
   // Exit code 2, one line, no results folder.
   void expect_refusal(const std::string& arguments, const std::string& line) const {
-    const testing::CommandResult result = run(arguments + " --out=refused");
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(result.err, "bench: " + line + "\n") << arguments;
+    bench_.expect_refusal(arguments + " --out=refused", line + "\n",
+                          "export AIRYBENCH_CACHE_DIR=cache; ");
     EXPECT_FALSE(fs::exists(bench_.path("refused"))) << arguments;
   }
   fs::path kept(const Json& record, const std::string& folder = "o") const {
@@ -92,7 +91,7 @@ TEST_F(ModelRuns, WhereverAMeshIsTaken) {
   EXPECT_EQ(run(part + "--dry-run --out=planned").code, 0);
   EXPECT_FALSE(fs::exists(bench_.path("planned")));
   const testing::CommandResult adapted =
-      run(part + quick + "--adapt=600 --levels=last --out=adapted");
+      run(part + quick + "--adapt=600,levels=last --out=adapted");
   EXPECT_EQ(adapted.code, 0) << adapted.err;
   EXPECT_NE(bench_.records("adapted").front()["mesh"].get<std::string>().find("part+adapt"),
             std::string::npos);
@@ -126,8 +125,13 @@ TEST_F(ModelRuns, NotesAreToldOnStandardError) {
 }
 
 TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
-  const auto last_line = [&](const std::string& arguments) {
-    const std::string out = run(arguments).out;
+  const auto last_line = [&](const std::string& arguments, const std::string& then = "") {
+    const std::string out = bench_
+                                .run(arguments,
+                                     "export AIRYBENCH_CACHE_DIR=cache "
+                                     "AIRYBENCH_THEN='" +
+                                         then + "'; ")
+                                .out;
     const std::size_t before = out.rfind('\n', out.size() - 2);
     return out.substr(before + 1);
   };
@@ -135,9 +139,8 @@ TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
   EXPECT_EQ(last_line(part + quick + "--out=o"), "for a picture of part: --fields\n");
   EXPECT_EQ(last_line(part + quick + "--fields --out=o"),
             "ParaView: " + grid + "  (a picture: ./run figures o)\n");
-  const std::string draws =
-      " --then='f() { mkdir -p $1/figures; touch $1/figures/fields_" + name + ".png; }; f'";
-  EXPECT_EQ(last_line(part + quick + "--fields --out=o" + draws),
+  EXPECT_EQ(last_line(part + quick + "--fields --out=o",
+                      "f() { mkdir -p $1/figures; touch $1/figures/fields_" + name + ".png; }; f"),
             "picture: o/figures/fields_" + name + ".png  (ParaView: " + grid + ")\n");
   // Neither an older picture nor older fields.
   EXPECT_EQ(last_line(part + quick + "--fields --out=o").substr(0, 8), "ParaView");

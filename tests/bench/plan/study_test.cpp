@@ -86,11 +86,24 @@ TEST(Study, ATurnedMethodDoesWhatItsKnobSaysWhateverTheHarnessWants) {
   }
 }
 
+Options options_of(const std::string& study) {
+  Options options;
+  options.study = *study_named(study);
+  options.repetitions = 1;
+  return options;
+}
+
+std::vector<PosedScene> scenes(const std::vector<std::string>& names = {"default"}) {
+  std::vector<PosedScene> result;
+  for (const std::string& name : names) result.push_back({name, "", "", "", "{}", mesh0()});
+  return result;
+}
+
 // Each number of threads is a case that says so; iterative methods are tightened as ever.
 TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
-  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
-  const auto cases = plan_cases(scenes, select_methods("HYBRID,SDTIC6"), Study::scaling,
-                                Stop::target, ContactSolver::newton, {1, 2, 4});
+  Options options = options_of("scaling");
+  options.thread_counts = {1, 2, 4};
+  const auto cases = plan_cases(scenes(), select_methods("HYBRID,SDTIC6"), options);
   ASSERT_EQ(cases.size(), 6u);
   EXPECT_EQ(cases[1].name().text(), "Mesh0/default/SDTIC6/study=scaling/threads=2");
   EXPECT_TRUE(cases[0].method.is_tightened());
@@ -109,40 +122,39 @@ TEST(Study, ScalingHasACaseForEveryNumberOfThreads) {
   }
 }
 
-TEST(Study, NamesOfCasesAreUnique) {
-  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()},
-                                          {"other", "", "", "", "{}", mesh0()}};
-  for (const Study study : all_studies) {
-    const auto cases = plan_cases(scenes, select_methods(default_methods(study)), study);
+// Their files say what they need, and no two cases of a plan have one name.
+TEST(Study, AllCanBePlanned) {
+  std::vector<std::string> studies = {""};
+  for (const Study& study : all_studies()) {
+    studies.push_back(study.name);
+    EXPECT_FALSE(study.about.empty());
+  }
+  for (const char* name : {"adapted", "contact", "error", "load-steps", "scaling", "stability"})
+    EXPECT_EQ(std::ranges::count(studies, name), 1) << name;
+  for (const std::string& name : studies) {
+    Options options;
+    if (!name.empty()) options = options_of(name);
+    const auto methods = select_methods(default_methods(options.study));
+    EXPECT_GE(methods.size(), name == "error" || name == "stability" ? 7u : 1u) << name;
     std::set<std::string> names;
-    for (const Case& c : cases)
+    for (const Case& c : plan_cases(scenes({"default", "other"}), methods, options))
       EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();
     EXPECT_FALSE(names.empty());
   }
 }
 
-TEST(Study, DefaultMethodsCanBeSelected) {
-  for (const Study study : {Study::none, Study::error, Study::stability})
-    EXPECT_GE(select_methods(default_methods(study)).size(), 7u);
-}
-
 TEST(Study, LoadStepsGoByTheScenes) {
   std::vector<std::size_t> steps;
-  for (const std::filesystem::path& file : scenes_of(Study::load_steps))
+  for (const std::filesystem::path& file : scenes_of(options_of("load-steps").study))
     steps.push_back(1 + pose(read_scene(file), testing::small_tooth(4, 4)).later_steps.size());
   EXPECT_EQ(steps, (std::vector<std::size_t>{1, 2, 5, 10, 20, 50}));
-  EXPECT_EQ(select_methods(default_methods(Study::load_steps)).size(), 6u);
 }
 
 // All solvers of the contact study find the same forces, and say who they are.
 TEST(Study, ContactSolversAgree) {
-  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
-  const auto cases =
-      plan_cases(scenes, select_methods(default_methods(Study::contact)), Study::contact);
+  const Options options = options_of("contact");
+  const auto cases = plan_cases(scenes(), select_methods(default_methods(options.study)), options);
   ASSERT_EQ(cases.size(), all_contact_solvers.size());
-  Options options;
-  options.study = Study::contact;
-  options.repetitions = 1;
   Workbench bench(mesh0(), options);
   for (const Case& c : cases) {
     const Record record = bench.examine(c.method, {}).record;
@@ -153,25 +165,25 @@ TEST(Study, ContactSolversAgree) {
 }
 
 TEST(Study, OnlyWhatCondensesHasAContactSolver) {
-  const std::vector<PosedScene> scenes = {{"default", "", "", "", "{}", mesh0()}};
-  const auto cases = plan_cases(scenes, select_methods("3STEPD,ALM"), Study::none, Stop::target,
-                                ContactSolver::admm);
+  Options options;
+  options.contact = ContactSolver::admm;
+  const auto cases = plan_cases(scenes(), select_methods("3STEPD,ALM"), options);
   EXPECT_EQ(cases[0].contact, ContactSolver::admm);
   EXPECT_FALSE(cases[1].contact);
-  EXPECT_EQ(plan_cases(scenes, select_methods("3STEPD"), Study::none, Stop::paper)[0].contact,
+  options = {};
+  options.stop = Stop::paper;
+  EXPECT_EQ(plan_cases(scenes(), select_methods("3STEPD"), options)[0].contact,
             ContactSolver::gauss_seidel);
 }
 
 TEST(Study, ScenesOfTheAtlasAreSorted) {
-  const auto files = scenes_of(Study::stability);
+  const auto files = scenes_of(options_of("stability").study);
   EXPECT_GE(files.size(), 40u);
-  EXPECT_TRUE(std::is_sorted(files.begin(), files.end()));
+  EXPECT_TRUE(std::ranges::is_sorted(files));
 }
 
 TEST(Study, ATruncatedPointHasItsTimeAndItsError) {
-  Options options;
-  options.study = Study::error;
-  options.repetitions = 1;
+  Options options = options_of("error");
   options.long_case_s = 1e-9;  // the detail run is the timed one, too
   Workbench bench(mesh0(), options);
   const TurnedMethod first = error_points(method("ALM:r=20,rho=20")).front();

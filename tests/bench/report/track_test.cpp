@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/commands/track_command.hpp"
+#include "bench/commands/commands.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/temporary_folder.hpp"
 

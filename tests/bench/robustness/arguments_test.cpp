@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "support/numbers.hpp"
 #include "tests/support/bench_command.hpp"
@@ -31,12 +32,14 @@ TEST(Numbers, AreReadWholeOrNotAtAll) {
 
 struct Refusal {
   const char* arguments;
-  const char* named;  // what the line must say
+  std::string_view named;  // what the line must say; all of it where it ends with a newline
 };
 
 TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
   const BenchCommand bench;
-  testing::write_text(bench.path("list.txt"), "");
+  testing::write_text(bench.path("bad.json"), R"({"friction": -2})");
+  testing::write_text(bench.path("four.json"), R"({"teeth": 4})");
+  testing::write_text(bench.path("broken.msh"), "hello\n");
   for (const auto& [arguments, named] : {
            Refusal{"--repetitions=010", "--repetitions: 010 (allowed: a whole number from 1"},
            {"--repetitions=0x10", "--repetitions: 0x10"},
@@ -44,19 +47,24 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--repetitions=3.0", "--repetitions: 3.0"},
            {"--threads=02", "--threads: 02"},
            {"--interleave --study=scaling", "--interleave: not with --study=scaling"},
-           {"--tuning-budget=0", "--tuning-budget: 0 (allowed: a number above 0"},
-           {"--budget=1", "--budget: only with --study=error"},
-           {"--budget=1,x --study=error", "--budget: 1,x (allowed: numbers of seconds above 0"},
-           {"--budget=0 --study=error", "--budget: 0 (allowed: "},
-           {"--precision=2", "--precision: 2 (allowed: above 0% and below 100%, as 2%)"},
-           {"--precision=0%", "--precision: 0% (allowed: "},
-           {"--precision=100%", "--precision: 100% (allowed: "},
-           {"--precision=nan%", "--precision: nan% (allowed: "},
-           {"--precision=2% --max-repetitions=5", "--max-repetitions: 5 (allowed: from 6 on)"},
-           {"--precision=2% --repetitions=9 --max-repetitions=8",
-            "--max-repetitions: 8 (allowed: from 9 on)"},
-           {"--max-repetitions=20", "--max-repetitions requires --precision"},
-           {"--precision=2% --study=stability", "--precision: not with --study=stability"},
+           {"--tuning-budget=9", "--tuning-budget: is now --timeout=SECONDS,tuning=SECONDS"},
+           {"--timeout=9,tuning=0", "--timeout: tuning: 0 (allowed: a number above 0"},
+           {"--timeout=9,tuning=1,tuning=2", "--timeout: tuning=2 (allowed: tuning=, once)"},
+           {"--timeout=9,x=1", "--timeout: x=1 (allowed: tuning=, once)"},
+           {"--timeout=tuning=9", "--timeout: tuning=9 (allowed: one number, and settings)"},
+           {"--study=contact:1", "--study: contact:1 (allowed: seconds with error"},
+           {"--study=error:1,x", "--study=error: x (allowed: a number above 0"},
+           {"--study=error:0", "--study=error: 0 (allowed: "},
+           {"--repetitions=5,precision=2",
+            "--repetitions: precision: 2 (allowed: above 0% and below 100%, as 2%)"},
+           {"--repetitions=5,precision=0%", "--repetitions: precision: 0% (allowed: "},
+           {"--repetitions=5,precision=100%", "--repetitions: precision: 100% (allowed: "},
+           {"--repetitions=5,precision=nan%", "--repetitions: precision: nan% (allowed: "},
+           {"--repetitions=2..5,precision=2%", "--repetitions: at most 5 (allowed: from 6 on)"},
+           {"--repetitions=9..8,precision=2%", "--repetitions: at most 8 (allowed: from 9 on)"},
+           {"--repetitions=5..20", "--repetitions: 5..20 (allowed: a range with a precision"},
+           {"--repetitions=5,precision=2% --study=stability",
+            "--repetitions: precision: not with --study=stability"},
            {"--retry-noisy=5",
             "--retry-noisy: 5 (allowed: above 0% and below 100%, as 5%, or no value)"},
            {"--retry-noisy=0%", "--retry-noisy: 0% (allowed: "},
@@ -66,12 +74,45 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"--figure=03", "--figure: 03 (allowed: a whole number from 3 to 5)"},
            {"--timeout=nan", "--timeout: nan (allowed: a number above 0"},
            {"--timeout=inf", "--timeout: inf"},
-           {"--long-case=nan", "--long-case: nan"},
+           {"--repetitions=5,within=nan", "--repetitions: within: nan"},
            {"--target-error=nan", "--target-error: nan"},
            {"--target-error=+1e-6", "--target-error: +1e-6"},
            {"--shard=01/2", "--shard: 01/2"},
            {"--out= --mesh=Mesh0", "--out=: (allowed: a value behind the sign)"},
            {"--mesh= --out=o", "--mesh=: "},
+           {"--repetitions=0", "--repetitions: 0"},
+           {"--repetitions=x", "--repetitions: x"},
+           {"--timeout=-1", "--timeout: -1"},
+           {"--threads=0", "--threads: 0"},
+           {"--target-error=0", "--target-error: 0"},
+           {"--memory-limit=0", "--memory-limit: 0"},
+           {"--wrong", "--wrong (valid: "},
+           {"extra", "extra (valid: "},
+           {"--mesh=nowhere.msh", "nowhere.msh: cannot be opened: No such file or directory\n"},
+           {"--mesh=Mesh9", "Mesh9"},
+           {"--mesh=broken.msh",
+            "broken.msh:1: not a mesh file: the first line must be $MeshFormat\n"},
+           {"--scene=nowhere.json", "nowhere.json: cannot be opened: No such file or directory\n"},
+           {"--scene=bad.json", "bad.json: friction: -2 (allowed: >= 0)\n"},
+           {"--mesh=Mesh0 --scene=four.json",
+            "four.json: teeth: 4 contradicts the mesh Mesh0, which has 1 contact face(s)\n"},
+           {"--method=4STEP", "no method matches '4STEP' (valid: SDTIC3, "},
+           {"--figure=4 --mesh=Mesh0", "--mesh excludes --figure"},
+           {"--figure=4 --method=3STEPD", "--method excludes --figure"},
+           {"--figure=2", "--figure: 2 (allowed: a whole number from 3 to 5)"},
+           {"--stop=wrong", "--stop: wrong"},
+           {"--method=SYMMLQ:DTIC9", "'DTIC9' is no preconditioner (valid: DTIC3..DTIC6"},
+           {"--method=SYMMLQ:", "'' is no preconditioner"},
+           {"--method=ALM:r=0,rho=1", "r='0' (allowed: a number above 0)"},
+           {"--method=ALM:r=1", "rho='' (allowed: a number above 0)"},
+           {"--method=ALM:r=1,rho=inf", "rho='inf'"},
+           {"--method=ALM:r=1,rho=1,r=2", "'r' is there twice"},
+           {"--method=ALM:r=1,rho=1,s=2", "unknown option 's' (valid: r, rho)"},
+           {"--method=3STEPCG:DTIC3,lanes=3", "lanes=3 (allowed: 1, 16)"},
+           {"--method=3STEPCG:DTIC3,schur=sparse", "unknown option 'schur' (valid: lanes, refine)"},
+           {"--method=SYMMLQ:DTIC3,schur=x", "schur=x (allowed: dense, sparse)"},
+           {"--method=BLIND:DTIC3", "no method matches 'BLIND:DTIC3'"},
+           {"--method=3STEPD,,HYBRID", "no method matches ''"},
            {"-- --benchmark_enable_random_interleaving=banana", "banana (allowed: true, false)"},
            {"-- --benchmark_enable_random_interleavingtrue", "allowed: "},
            {"-- --benchmark_context=cpu=mine", "cpu (allowed: another word; "},
@@ -86,11 +127,7 @@ TEST(Arguments, ThatAreWrongAreRefusedInOneLine) {
            {"track --nights-after=04", "--nights-after: 04"},
            {"track --history= --from=a", "--history=: "},
        }) {
-    const CommandResult result = bench.run(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find(named), std::string::npos) << arguments << ": " << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "") << arguments;
+    bench.expect_refusal(arguments, named);
     for (const char* folder : {"results", "o", "--mesh=Mesh0"})
       EXPECT_FALSE(std::filesystem::exists(bench.path(folder))) << arguments;
   }
@@ -105,6 +142,53 @@ TEST(Arguments, AreQuotedAtMostEightyCharactersLong) {
     EXPECT_EQ(result.code, 2) << option;
     EXPECT_LT(result.err.size(), 1000u) << option;
   }
+}
+
+#ifndef AIRYBENCH_SANITIZED  // which needs more address space than any limit
+TEST(Usage, ALackOfMemoryIsNotWrongUsage) {
+  const BenchCommand bench;
+  std::filesystem::create_directory(
+      bench.path("big"));  // of its one line there is more than one copy
+  testing::write_text(bench.path("big/records.jsonl"),
+                      R"({"mesh":")" + std::string(120'000'000, 'x') + "\"}\n");
+  const CommandResult result = bench.run("export big --format=junit", "ulimit -v 400000; ");
+  EXPECT_EQ(result.code, 3);
+  EXPECT_EQ(result.err, "bench: out of memory\n");
+}
+#endif
+
+TEST(Usage, AnOutputFolderThatCannotBeMadeIsNamed) {
+  const BenchCommand bench;
+  testing::write_text(bench.path("taken"), "a file");
+  bench.expect_refusal("--mesh=Mesh0 --repetitions=1 --out=taken/inside",
+                       "taken/inside: cannot be made a folder: Not a directory\n");
+}
+
+TEST(Usage, ArgumentsThatCannotBeUsedLeaveEarlierResultsAlone) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
+  const auto all = [&] {
+    return bench.content("o/records.jsonl") + bench.content("o/results.csv") +
+           bench.content("o/results.json");
+  };
+  const std::string before = all();
+  for (const char* arguments :
+       {"--no_such_option", "--benchmark_out=x", "--benchmark_report_aggregates_only=true",
+        "--benchmark_filter=NoSuchCase", "--benchmark_list_tests"}) {
+    bench.expect_refusal(std::string("--mesh=Mesh0 --repetitions=1 --out=o -- ") + arguments, "");
+    EXPECT_EQ(all(), before) << arguments;
+  }
+}
+
+TEST(Usage, AppendToAMalformedFileIsRefusedBeforeAnythingIsRun) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=1 --out=o").code, 0);
+  std::ofstream(bench.path("o/records.jsonl"), std::ios::app) << "{\"mesh\": \n";
+  const std::string before = bench.content("o/records.jsonl");
+  bench.expect_refusal("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o --append",
+                       "bench: o/records.jsonl:2: ");
+  EXPECT_EQ(bench.content("o/records.jsonl"), before);
+  EXPECT_EQ(testing::lines_of(bench.content("o/results.csv")).size(), 2u);
 }
 
 // Deep, wrong, long, of another type: one line that names the file's line and the key.
@@ -126,7 +210,7 @@ TEST(Records, ThatAreCorruptAreRefusedByEveryCommand) {
       EXPECT_EQ(result.code, 2) << command << ": " << line.substr(0, 80);
       EXPECT_NE(result.err.find("bad/records.jsonl:1: " + named), std::string::npos)
           << command << ": " << result.err;
-      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
       EXPECT_LT(result.err.size(), 600u);
     }
   };

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <array>
 
 #include "tests/support/bench_command.hpp"
@@ -18,10 +17,7 @@ constexpr const char* patience = "ulimit -t 20; ";
 
 void expect_refused(const BenchCommand& bench, const std::string& arguments,
                     const std::string& named) {
-  const CommandResult result = bench.run(arguments + " --dry-run", patience);
-  EXPECT_EQ(result.code, 2) << arguments;
-  EXPECT_NE(result.err.find(named), std::string::npos) << arguments << ": " << result.err;
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  bench.expect_refusal(arguments + " --dry-run", named, patience);
 }
 
 TEST(HostileScenes, AreRefusedInOneLine) {

@@ -13,7 +13,6 @@ namespace {
 
 using testing::BenchCommand;
 using testing::CommandResult;
-using testing::text_of;
 
 const std::string two = "--mesh=Mesh0 --method=HYBRID,P2 --repetitions=1 --out=o ";
 
@@ -77,7 +76,7 @@ TEST(AddressSpace, ThatIsTooSmallForBlasIsRefused) {
       EXPECT_EQ(result.code, 2) << arguments << limit;
       EXPECT_NE(result.err.find("the address space is limited to 1"), std::string::npos)
           << result.err;
-      EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+      EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
       EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
     }
   EXPECT_EQ(bench.run(two + "--threads=64", "ulimit -v 4000000; ").code, 2);

@@ -3,8 +3,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
-
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/folder_lock.hpp"
@@ -104,12 +102,7 @@ TEST(FolderLock, IsOneProcesssUntilItEnds) {
   fs::create_directories(bench.path("h"));
   const auto refused = [&](const std::string& arguments) {
     const std::string before = bench.content("a/records.jsonl");
-    const CommandResult result = bench.run(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find(": in use by process " + std::to_string(getpid()) + " on "),
-              std::string::npos)
-        << arguments << ": " << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    bench.expect_refusal(arguments, ": in use by process " + std::to_string(getpid()) + " on ");
     EXPECT_EQ(bench.content("a/records.jsonl"), before);
   };
   ASSERT_EQ(bench.run(quick + "--out=part").code, 0);
@@ -134,10 +127,8 @@ TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
   const BenchCommand bench;
   BackgroundRun first(bench, "--mesh=Mesh0,Mesh3 --method=HYBRID,SYMMLQ:NONE --out=o");
   wait_for([&] { return !bench.records().empty(); });
-  const CommandResult second = bench.run(two + "--out=o --append");
-  EXPECT_EQ(second.code, 2);
-  EXPECT_NE(second.err.find("in use by process " + std::to_string(first.pid())), std::string::npos)
-      << second.err;
+  bench.expect_refusal(two + "--out=o --append",
+                       "in use by process " + std::to_string(first.pid()));
   first.end(SIGKILL);
   EXPECT_FALSE(bench.records().empty());
   EXPECT_EQ(bench.run(two + "--out=o").code, 0) << "a killed run holds nothing";
@@ -184,10 +175,8 @@ TEST(Merge, ValidatesAllBeforeItWrites) {
     records[1][key] = value;
     write_text(bench.path("bad/records.jsonl"),
                records[0].dump() + "\n" + records[1].dump() + "\n");
-    const CommandResult result = bench.run("merge bad --out=whole");
-    EXPECT_EQ(result.code, 2) << key << ": " << result.out;
-    EXPECT_NE(result.err.find(std::string("bad/records.jsonl:2: ") + key + ": "), std::string::npos)
-        << result.err;
+    bench.expect_refusal("merge bad --out=whole",
+                         std::string("bad/records.jsonl:2: ") + key + ": ");
     EXPECT_EQ(files(), before) << key;
   }
 }

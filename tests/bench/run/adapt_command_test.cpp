@@ -84,8 +84,7 @@ TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
 }
 
 TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=2500 --marking=1 --repetitions=1 --out=o"),
-            0)
+  ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=2500,marking=1 --repetitions=1 --out=o"), 0)
       << complaint();
   const auto records = bench_.records();
   ASSERT_EQ(records.size(), 2u);
@@ -99,7 +98,7 @@ TEST_F(AdaptCommand, AMarkingOf1RefinesEverywhereUnderANameOfItsOwn) {
 TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
   write("layered.json", R"({"mesh": {"scale": 2}, "layers": {"count": 2,
         "materials": [{"young_MPa": 1000}, {"young_MPa": 3000, "poisson": 0.4}]}})");
-  ASSERT_EQ(bench("--mesh=Mesh0 --scene=layered.json --method=HYBRID --adapt=1000 --levels=last "
+  ASSERT_EQ(bench("--mesh=Mesh0 --scene=layered.json --method=HYBRID --adapt=1000,levels=last "
                   "--repetitions=1 --out=o"),
             0)
       << complaint();
@@ -116,7 +115,7 @@ TEST_F(AdaptCommand, WhatASceneDoesToItsMeshIsInTheLevelsMesh) {
 
 TEST_F(AdaptCommand, WhatOneAsksOfTheContactHasIntervalsAndTheMeanOfBothStressesHalfOfTheError) {
   write("smooth.json", R"({"friction": 0})");
-  ASSERT_EQ(bench("--mesh=Mesh0 --scene=smooth.json --method=HYBRID --adapt=3%,1.5% --levels=last "
+  ASSERT_EQ(bench("--mesh=Mesh0 --scene=smooth.json --method=HYBRID --adapt=3%,1.5%,levels=last "
                   "--repetitions=1 --fields=mean --out=o"),
             0)
       << complaint();
@@ -146,18 +145,18 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
   if (blas_name().find("BLIS") != std::string::npos ||
       blas_name().find("blis") != std::string::npos)
     GTEST_SKIP() << "BLIS ends the process where it is granted no memory";
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
                   "--repetitions=1 --out=o"),
             1);
   EXPECT_NE(complaint().find("note: --adapt=0.01%: not reached for Mesh0/default: HYBRID on "),
             std::string::npos)
       << complaint();
   EXPECT_EQ(bench_.records().size(), 1u);  // what there is is measured
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
                   "--repetitions=1 --out=none -- --benchmark_filter=NoSuchCase"),
             1);
   EXPECT_NE(complaint().find("not reached for Mesh0/default"), std::string::npos) << complaint();
-  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01% --memory-limit=3 --levels=last "
+  EXPECT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=0.01%,levels=last --memory-limit=3 "
                   "--repetitions=1 --out=none -- --benchmark_filter='('"),
             2);
 }
@@ -169,17 +168,17 @@ TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
            {"--adapt=0%", "--adapt: 0% (allowed"},
            {"--adapt=100%", "--adapt: 100% (allowed"},
            {"--adapt=-5", "--adapt: -5 (allowed"},
-           {"--adapt=1% --marking=0", "--marking: 0 (allowed"},
-           {"--adapt=1% --marking=2", "--marking: 2 (allowed"},
+           {"--adapt=1%,marking=0", "--adapt: marking: 0 (allowed"},
+           {"--adapt=1%,marking=2", "--adapt: marking: 2 (allowed"},
            {"--adapt=1%,foo", "--adapt: foo (allowed: a total error"},
            {"--fields=all", "--fields: all (allowed: mean"},
-           {"--marking=0.5", "--marking requires --adapt"},
-           {"--levels=last", "--levels requires --adapt"},
-           {"--adapt=1% --levels=first", "--levels"},
+           {"--adapt=marking=0.5", "--adapt:  (allowed: a total error"},
+           {"--adapt=levels=last", "--adapt:  (allowed: a total error"},
+           {"--adapt=1%,levels=first", "--adapt: levels=first (allowed: all, last)"},
            {"--adapt=1% --dry-run", "--adapt: not with --dry-run"},
-           {"--adapt=1% --adapt-by=P2", "--adapt-by: P2 (allowed: HYBRID"},
-           {"--adapt=1% --adapt-by=3STEPD", "--adapt-by: 3STEPD (allowed: HYBRID"},
-           {"--adapt=1% --adapt-by=FOO", "--adapt-by: FOO (allowed: HYBRID"}}) {
+           {"--adapt=1%,by=P2", "--adapt: by=P2 (allowed: HYBRID"},
+           {"--adapt=1%,by=3STEPD", "--adapt: by=3STEPD (allowed: HYBRID"},
+           {"--adapt=1%,by=FOO", "--adapt: by=FOO (allowed: HYBRID"}}) {
     EXPECT_EQ(bench(arguments + " --mesh=Mesh0 --method=HYBRID --out=o"), 2) << arguments;
     EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
     EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();

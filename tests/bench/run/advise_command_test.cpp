@@ -24,7 +24,7 @@ TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
   EXPECT_EQ(
       header,
       "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
-  EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2% --levels=last --method="),
+  EXPECT_NE(best.find(",measured,ok,\"bench --mesh=Mesh0 --adapt=2%,levels=last --method="),
             std::string::npos)
       << best;
   EXPECT_NE(bench_.content("o/advice.csv").find("Mesh0+refined1"), std::string::npos);
@@ -51,7 +51,7 @@ TEST_F(AdviseCommand, RefusesWhatItCannotAdviseOn) {
            {"--mesh=Mesh0 --error=5000", "--error: 5000 (allowed"},
            {"--mesh=Mesh0 --error=0%", "--error: 0% (allowed"},
            {"--mesh=Mesh0 --error=1% --budget=0", "--budget: 0 (allowed"},
-           {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3 (allowed: one mesh)"}}) {
+           {"--mesh=Mesh0..Mesh3 --error=1%", "--mesh: Mesh0..Mesh3: 4 meshes (allowed: one)"}}) {
     EXPECT_EQ(bench(arguments + " --out=o"), 2) << arguments;
     EXPECT_NE(complaint().find(said), std::string::npos) << complaint();
     EXPECT_EQ(std::ranges::count(complaint(), '\n'), 1) << complaint();

@@ -1,4 +1,5 @@
-// --precision: how often a case is timed, decided from made-up samples; what the record then says.
+// --repetitions: how often a case is timed, decided from made-up samples; what the record then
+// says.
 #include <gtest/gtest.h>
 
 #include "bench/records/summary.hpp"
@@ -77,8 +78,8 @@ TEST(Precision, IsJudgedInTheRecord) {
 // However quiet or noisy the machine is.
 TEST(Precision, EndsARunAndSaysWhatWasReached) {
   const testing::BenchCommand bench;
-  const std::string run = "--mesh=Mesh0 --method=HYBRID,3STEPD --max-repetitions=12 ";
-  ASSERT_EQ(bench.run(run + "--precision=0.001% --out=hard").code, 0);
+  const std::string run = "--mesh=Mesh0 --method=HYBRID,3STEPD ";
+  ASSERT_EQ(bench.run(run + "--repetitions=5..12,precision=0.001% --out=hard").code, 0);
   for (const Json& record : bench.records("hard")) {
     const std::size_t samples = record.at("samples_s").size();
     EXPECT_EQ(record.at("repetitions"), samples);
@@ -88,7 +89,7 @@ TEST(Precision, EndsARunAndSaysWhatWasReached) {
     EXPECT_EQ(record.at("context").at("precision"), "1e-05");
     EXPECT_TRUE(record.at("precision_reached") || samples == 12) << samples;
   }
-  ASSERT_EQ(bench.run(run + "--precision=99% --interleave --out=easy").code, 0);
+  ASSERT_EQ(bench.run(run + "--repetitions=5..12,precision=99% --interleave --out=easy").code, 0);
   for (const Json& record : bench.records("easy")) {
     const std::size_t samples = record.at("samples_s").size();
     EXPECT_GE(samples, 6u);

@@ -67,7 +67,7 @@ class ErrorPoints : public ::testing::TestWithParam<std::string> {};
 TEST_P(ErrorPoints, AreNoWorseThanCommitted) {
   const std::string mesh = GetParam();
   Options options;
-  options.study = Study::error;
+  options.study = *study_named("error");
   options.repetitions = 1;
   Workbench bench(testing::posed(Scene(), testing::catalogue_mesh(mesh)), options);
   const Update update = testing::update();

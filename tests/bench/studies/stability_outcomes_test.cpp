@@ -47,7 +47,7 @@ std::vector<std::string> scene_names() {
   if (testing::sanitized)
     return {"default", "boundary_no_contact", "friction_0", "load_none", "slivers_10"};
   std::vector<std::string> names;
-  for (const auto& file : scenes_of(Study::stability))
+  for (const auto& file : scenes_of(*study_named("stability")))
     if (file.stem() != left_out_scene) names.push_back(file.stem());
   return names;
 }
@@ -140,11 +140,10 @@ class StabilityOutcomes : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(StabilityOutcomes, AreNoWorseThanCommitted) {
   const std::string scene_name = GetParam();
-  const Scene scene =
-      read_scene(scenes_of(Study::stability).front().parent_path() / (scene_name + ".json"));
+  const Scene scene = read_scene(testing::stability_scenes_folder() / (scene_name + ".json"));
   const auto problem = testing::posed(scene, testing::catalogue_mesh("Mesh0"));
   Options options;
-  options.study = Study::stability;
+  options.study = *study_named("stability");
   options.repetitions = 1;
   // No outcome shall depend on time: while testing only a hang meets the limit.
   const Update update = testing::update();
@@ -186,8 +185,8 @@ INSTANTIATE_TEST_SUITE_P(Atlas, StabilityOutcomes, ::testing::ValuesIn(scene_nam
 
 TEST(StabilityOutcomesTable, HasOnlyScenesThatExist) {
   for (const auto& [key, values] : table().rows())
-    EXPECT_TRUE(std::filesystem::exists(scenes_of(Study::stability).front().parent_path() /
-                                        (key.front() + ".json")))
+    EXPECT_TRUE(
+        std::filesystem::exists(testing::stability_scenes_folder() / (key.front() + ".json")))
         << key.front();
 }
 

@@ -109,7 +109,7 @@ TEST(RandomScenes, NoMethodIsWrongAndSaysOk) {
       continue;
     }
     Options options;
-    options.study = Study::stability;
+    options.study = *study_named("stability");
     options.repetitions = 1;
     options.timeout_s = wanted.timeout_s;
     Workbench bench(problem, options);

@@ -5,7 +5,6 @@
 #include <array>
 
 #include "bench/plan/scene_file.hpp"
-#include "bench/plan/study.hpp"
 #include "bench/verify/reference.hpp"
 #include "bench/verify/verifier.hpp"
 #include "mesh/msh_format.hpp"
@@ -55,8 +54,7 @@ TEST(Refinement, ReachesRoundingOnMesh3) {
 
 TEST(Refinement, GivesBackTheDigitsThatConditioningTook) {
   for (const char* scene : {"slivers_1e3", "grading_1e4"}) {
-    const auto file =
-        scenes_of(Study::stability).front().parent_path() / (std::string(scene) + ".json");
+    const auto file = testing::stability_scenes_folder() / (std::string(scene) + ".json");
     const Posed p = posed("Mesh0", read_scene(file));
     for (const std::string method : {"3STEPD", "BLIND:SCHUR"})
       EXPECT_LE(p.error_of(method + ":REFINED"), 1e-4 * p.error_of(method, true))

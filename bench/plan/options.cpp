@@ -1,6 +1,9 @@
-#include "bench/plan/adapt_goal.hpp"
+#include "bench/plan/options.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
 
 #include "support/numbers.hpp"
 
@@ -20,6 +23,18 @@ std::string text_of(const std::vector<AdaptGoal>& goals) {
     text += (text.empty() ? "" : ",") +
             (goal.error ? fmt::format("{:g}%", 100 * *goal.error) : std::to_string(*goal.unknowns));
   return text;
+}
+
+std::string name_of(const Shard& shard) { return fmt::format("{}/{}", shard.index, shard.count); }
+
+std::optional<Shard> shard_of(const std::string& text) {
+  const std::size_t slash = std::min(text.find('/'), text.size());
+  const std::optional<std::int64_t> index = parse_whole(text.substr(0, slash));
+  const std::optional<std::int64_t> count =
+      parse_whole(text.substr(std::min(slash + 1, text.size())));
+  if (!index || !count || *index < 1 || *index > *count || *count > std::numeric_limits<int>::max())
+    return {};
+  return Shard{static_cast<int>(*index), static_cast<int>(*count)};
 }
 
 }  // namespace airybench

@@ -1,0 +1,408 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstring>
+#include <set>
+
+#include "bench/commands/command_line.hpp"
+#include "bench/measure/build_info.hpp"
+#include "bench/records/json.hpp"
+#include "bench/run/runner.hpp"
+#include "bench/run/threads_at_hand.hpp"
+#include "support/lists.hpp"
+#include "support/numbers.hpp"
+#include "support/shortened.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr const char* run_footer = R"(
+Other commands (each has --help)
+  bench advise           which mesh and which method give the error that you choose
+  bench claims DIR       the paper's sentences, checked against a results folder
+  bench compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
+  bench track            a run that is added to a history and judged
+  bench export DIR       records for Google Benchmark's tools, trackers, JUnit
+  bench export-problem   a problem's matrices, for your own solvers
+  bench merge DIR...     the shards of a run, joined
+  bench replay RECORD    one recorded case, run again
+
+Everything after "--" goes to Google Benchmark.
+
+Exit status  0  every case is ok, or skipped with a reason
+             1  some case is not, or a mesh could not be adapted as far as --adapt says
+             2  wrong usage, or a file that cannot be used or written: one line on standard error
+             3  out of memory, or a defect of bench itself: one line on standard error (so with every
+                command)
+         128+n  ended by signal n (Ctrl-C: 130); what was measured is in the folder
+
+Examples
+  bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
+  bench --figure=3 --out=results/figure3
+  bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
+  bench --study=stability --out=results/stability
+  bench --study=adapted --out=results/adapted
+  bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
+  bench --mesh=Mesh0..Mesh7 --out=results/long --resume
+  bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
+  bench --mesh=part.geo --role=clamped=displacement --mesh-size=50%
+  bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
+)";
+
+std::string footer() {
+  std::string text = "\nStudies\n";
+  for (const Study& study : all_studies())
+    text += fmt::format("  {:<10}  {}\n", study.name, study.about);
+  return text + run_footer;
+}
+
+// Options of earlier versions, and what says it now.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> replaced = {{
+    {"--adapt-by", "--adapt=GOAL,by=METHOD"},
+    {"--budget", "--study=error:SECONDS"},
+    {"--histories", "--fields=histories"},
+    {"--levels", "--adapt=GOAL,levels=last"},
+    {"--long-case", "--repetitions=N,within=SECONDS"},
+    {"--marking", "--adapt=GOAL,marking=SHARE"},
+    {"--max-repetitions", "--repetitions=N..MOST,precision=2%"},
+    {"--precision", "--repetitions=N,precision=2%"},
+    {"--then", "the environment variable AIRYBENCH_THEN"},
+    {"--tuning-budget", "--timeout=SECONDS,tuning=SECONDS"},
+}};
+
+void refuse_replaced(int argc, const char* const* argv) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i], name = word.substr(0, word.find('='));
+    for (const auto& [before, now] : replaced)
+      if (name == before) throw UsageError(fmt::format("{}: is now {}", before, now));
+  }
+}
+
+// What Google Benchmark is told, kept as options: the plan and the records must show it.
+void take_benchmark_argument(const std::string& argument, Options& options) {
+  const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
+    if (!argument.starts_with(option)) return {};
+    return argument.substr(option.size());
+  };
+  if (const auto filter = value_of("--benchmark_filter=")) {
+    options.filter = *filter;
+  } else if (const auto pair = value_of("--benchmark_context=")) {
+    const std::size_t equals = pair->find('=');
+    if (equals == pair->npos || equals == 0 || !is_utf8(*pair))
+      throw UsageError(fmt::format("-- --benchmark_context={}: (allowed: key=value in UTF-8)",
+                                   is_utf8(*pair) ? shortened(*pair) : "…"));
+    options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
+  } else if (const auto word = value_of("--benchmark_enable_random_interleaving=")) {
+    if (*word != "true" && *word != "false")
+      throw UsageError(fmt::format(
+          "-- --benchmark_enable_random_interleaving={} (allowed: true, false)", shortened(*word)));
+    options.interleave = *word == "true";
+  } else {
+    throw UsageError(
+        fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
+                    "--benchmark_enable_random_interleaving=, --benchmark_context=)",
+                    shortened(argument)));
+  }
+}
+
+// Values that are more than a word or a number, as they are written.
+struct Texts {
+  std::string study, stop = "target", contact = "newton", repetitions = "5", noise, threads = "1",
+                     timeout = "900", adapt, shard, fields;
+};
+
+void add_cases(CLI::App& app, Options& options, Texts& texts) {
+  app.option_defaults()->group("What is solved");
+  app.add_option("--mesh", options.meshes,
+                 "range, list (Mesh0,Mesh3), glob, or files: meshes (*.msh), Gmsh models (*.geo, "
+                 "*.step, *.brep, *.iges)")
+      ->capture_default_str();
+  add_model_settings(app, options.model_settings);
+  add_files(app, "--scene", options.scenes,
+            "scene files or globs; default: the documented tooth or rack");
+  add_files(app, "--problem", options.problems,
+            "instead of meshes and scenes: condensed contact problems, FCLIB files or globs");
+  app.add_option("--adapt", texts.adapt,
+                 "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
+                 "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
+  app.option_defaults()->group("By which methods");
+  app.add_option("--method", options.methods,
+                 "names or globs; default: the paper's, for bodies with holes also HYBRID and P2");
+  add_files(app, "--external", options.externals,
+            "declarations of other programs, files or globs: methods EXTERNAL:name "
+            "(docs/external-solvers.md)");
+  app.add_option("--contact", texts.contact,
+                 "what solves the condensed contact problem (docs/methods.md); gauss-seidel is the "
+                 "paper's")
+      ->check(CLI::IsMember(names_of(all_contact_solvers)))
+      ->capture_default_str();
+  add_whole(app, "--figure", 3, 5, options.figure,
+            "meshes and methods of the paper's figure, and those that we set next to them")
+      ->excludes(app.get_option("--mesh"))
+      ->excludes(app.get_option("--method"));
+  app.add_option("--study", texts.study,
+                 "of those below; error:0.01,0.1 also finds the least error within these seconds")
+      ->excludes(app.get_option("--figure"));
+}
+
+void add_measuring(CLI::App& app, Options& options, Texts& texts) {
+  app.option_defaults()->group("How it is measured");
+  add_number(app, "--target-error", Least::above_zero, most_of_a_limit, options.target_error,
+             "iterative methods are tightened until their own estimate is below this; a case with "
+             "larger errors is inaccurate");
+  app.add_option("--stop", texts.stop,
+                 "when iterative methods stop: at the target error, or as the paper's do, whatever "
+                 "error they leave")
+      ->check(CLI::IsMember({"target", "paper"}))
+      ->capture_default_str();
+  app.add_option("--repetitions", texts.repetitions,
+                 "LEAST[..MOST][,precision=2%][,within=30]: timed runs of each case, until its "
+                 "median is known so well, or solves took so many seconds (docs/measuring.md)")
+      ->capture_default_str();
+  app.add_flag("--retry-noisy", texts.noise,
+               "measure a case again, up to three times, where the calibration loop next to it was "
+               "off by more than 5 %, or --retry-noisy=7%");
+  app.add_flag("--interleave", options.interleave,
+               "the repetitions of a scene's cases in random turn; records are written at its end");
+  app.add_option("--threads", texts.threads,
+                 "of BLAS and for right-hand sides; with --study=scaling a list, by default 1, 2, "
+                 "4, ... up to the processors")
+      ->capture_default_str();
+  app.add_option("--timeout", texts.timeout,
+                 "SECONDS[,tuning=SECONDS]: of one solve, and of a case's search for parameters "
+                 "and tolerances")
+      ->capture_default_str();
+  add_memory_limit(app, options);
+}
+
+void add_output(CLI::App& app, Options& options, Texts& texts) {
+  app.option_defaults()->group("What is kept");
+  app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
+  app.add_flag("--append", options.append,
+               "keep the records in the folder, but those of the cases that are run");
+  app.add_flag("--resume", options.resume,
+               "go on with the run in the folder, of the same machine, program and options: run "
+               "only the cases without a record")
+      ->excludes(app.get_option("--append"));
+  app.add_option("--shard", texts.shard,
+                 "k/n: the k-th of n parts of the cases, for n machines (bench merge joins them)");
+  app.add_flag("--fields", texts.fields,
+               "stresses, displacements, contact points (*.csv, *.vtu), total errors; =mean: the "
+               "mean with admissible stresses, too; =histories: of iterations, too");
+  app.option_defaults()->group("Instead of a run");
+  app.add_flag("--list", options.list, "print meshes and methods");
+  app.add_flag("--dry-run", options.dry_run,
+               "print the cases, what they will take (from earlier records) and what is left out");
+  app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
+}
+
+double share_of(const std::string& option, const std::string& text, const char* allowed) {
+  const std::optional<double> share = parse_percent(text);
+  if (!share)
+    throw UsageError(fmt::format("{}: {} (allowed: above 0% and below 100%, {})", option,
+                                 shortened(text), allowed));
+  return *share;
+}
+
+void read_study(const std::string& text, Options& options) {
+  if (text.empty()) return;
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const std::optional<Study> study = study_named(text.substr(0, colon));
+  if (!study) {
+    std::vector<std::string> names;
+    for (const Study& known : all_studies()) names.push_back(known.name);
+    throw UsageError(
+        fmt::format("--study: {} (allowed: {})", shortened(text), fmt::join(names, ", ")));
+  }
+  options.study = *study;
+  if (colon == text.size()) return;
+  if (study->points != Study::Points::accuracy)
+    throw UsageError(
+        fmt::format("--study: {} (allowed: seconds with error, which chooses from "
+                    "points)",
+                    shortened(text)));
+  for (const std::string& word : split_list(text.substr(colon + 1)))
+    options.budgets_s.push_back(
+        read_number("--study=" + study->name, word, Least::above_zero, most_of_a_limit));
+  std::ranges::sort(options.budgets_s);
+}
+
+void read_repetitions(const std::string& text, Options& options) {
+  constexpr int most = 100000;
+  const std::string option = "--repetitions";
+  const ValueParts parts(option, text, {"precision", "within"});
+  const std::string& range = parts.only_item();
+  const std::size_t dots = std::min(range.find(".."), range.size());
+  options.repetitions = static_cast<int>(read_whole(option, range.substr(0, dots), 1, most));
+  options.long_case_s = parts.number("within", most_of_a_limit).value_or(options.long_case_s);
+  if (const auto share = parts.setting("precision"))
+    options.precision = share_of(option + ": precision", *share, "as 2%");
+  if (dots < range.size()) {
+    options.max_repetitions = static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
+    if (!options.precision)
+      throw UsageError(fmt::format("{}: {} (allowed: a range with a precision, {},precision=2%)",
+                                   option, shortened(text), shortened(range)));
+  }
+  if (options.precision && options.max_repetitions < least_repetitions(options))
+    throw UsageError(fmt::format("{}: at most {} (allowed: from {} on)", option,
+                                 options.max_repetitions, least_repetitions(options)));
+}
+
+// Runs may take twice a budget: a detail run takes longer than a timed one. The search for
+// parameters, which is in no time, keeps the limit that it had.
+void read_timeout(const std::string& text, bool is_given, Options& options) {
+  const ValueParts parts("--timeout", text, {"tuning"});
+  options.timeout_s =
+      read_number("--timeout", parts.only_item(), Least::above_zero, most_of_a_limit);
+  options.tuning_budget_s = parts.number("tuning", most_of_a_limit);
+  if (options.budgets_s.empty() || is_given) return;
+  if (!options.tuning_budget_s) options.tuning_budget_s = options.timeout_s;
+  options.timeout_s = 2 * options.budgets_s.back();
+}
+
+void read_adapt(const std::string& text, Options& options) {
+  const ValueParts parts("--adapt", text, {"by", "levels", "marking"});
+  const std::vector<std::string> none = {""};
+  for (const std::string& item : parts.items.empty() ? none : parts.items) {
+    const std::optional<AdaptGoal> goal = adapt_goal_of(item);
+    if (!goal)
+      throw UsageError(
+          fmt::format("--adapt: {} (allowed: a total error above 0% and below 100%, as "
+                      "1%, or a number of unknowns from 1 to 5000000)",
+                      shortened(item)));
+    options.adapt.push_back(*goal);
+  }
+  options.adapt_by = parts.setting("by").value_or(options.adapt_by);
+  options.marking = parts.number("marking", 1);
+  const std::string levels = parts.setting("levels").value_or("all");
+  if (levels != "all" && levels != "last")
+    throw UsageError(fmt::format("--adapt: levels={} (allowed: all, last)", shortened(levels)));
+  options.goals_only = levels == "last";
+}
+
+void read_fields(const std::string& text, Options& options) {
+  options.fields = true;
+  for (const std::string& word : split_list(text))
+    if (word == "mean")
+      options.mean_fields = true;
+    else if (word == "histories")
+      options.histories = true;
+    else if (word != "true")
+      throw UsageError(
+          fmt::format("--fields: {} (allowed: mean, histories, or no value)", shortened(word)));
+}
+
+// One number; of the scaling study several, no more than there are processors: what runs on fewer
+// has no efficiency.
+void read_threads(const std::string& text, bool is_given, Options& options) {
+  const bool scaling = options.study.points == Study::Points::threads;
+  const int processors = processors_at_hand();
+  std::set<int> counts = {1};
+  if (scaling && !is_given) {
+    for (int count = 2; count < processors; count *= 2) counts.insert(count);
+    counts.insert(processors);
+  }
+  const std::vector<std::string> words =
+      scaling ? split_list(text) : std::vector<std::string>{text};
+  for (const std::string& word : words) {
+    const std::optional<std::int64_t> count = parse_whole(word);
+    if (!count || *count < 1 || *count > (scaling ? processors : most_threads))
+      throw UsageError(fmt::format(
+          "--threads: {} (allowed: {})", shortened(text),
+          scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
+                                processors)
+                  : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
+                                most_threads)));
+    counts.insert(static_cast<int>(*count));
+    options.threads = static_cast<int>(*count);
+  }
+  if (!scaling) return;
+  options.thread_counts.assign(counts.begin(), counts.end());
+  options.threads = options.thread_counts.back();
+}
+
+void refuse_contradictions(const CLI::App& app, const Options& options) {
+  using enum Study::Points;
+  const auto given = [&](const char* option) { return app.get_option(option)->count() > 0; };
+  const bool paper = options.stop == Stop::paper;
+  const Study& study = options.study;
+  const std::string chosen = "not with --study=" + study.name;
+  const std::pair<bool, std::string> rules[] = {
+      {!options.adapt.empty() && (options.dry_run || options.explain),
+       "--adapt: not with --dry-run or --explain: the meshes are not there yet"},
+      {given("--contact") && paper,
+       "--contact: not with --stop=paper, whose contact law is gauss-seidel"},
+      {given("--contact") && study.points == contact,
+       "--contact: " + chosen + ", which has all of them"},
+      {paper && study.points == accuracy,
+       "--stop=paper: " + chosen + ", which has the paper's stop as a point"},
+      {paper && study.points == contact,
+       "--stop=paper: " + chosen + ", whose solvers are not the paper's"},
+      {options.precision && study.once,
+       "--repetitions: precision: " + chosen + ", which times each case once"},
+      {options.interleave && study.points == threads,
+       "--interleave: " + chosen +
+           ": BLAS's idle threads of one case are awake in another's time"}};
+  for (const auto& [is_broken, message] : rules)
+    if (is_broken) throw UsageError(message);
+}
+
+}  // namespace
+
+Options parse_options(int argc, const char* const* argv) {
+  Options options;
+  Texts texts;
+  CLI::App app(
+      "Time, memory and error of methods for stress-formulated contact with friction, for every "
+      "mesh, scene and method chosen.",
+      "bench");
+  app.footer(footer);
+  app.set_version_flag("--version", std::string("airybench ") + build_info.version);
+  add_cases(app, options, texts);
+  add_measuring(app, options, texts);
+  add_output(app, options, texts);
+  const char* const* const end = argv + argc;
+  const char* const* const separator = std::find_if(
+      argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
+  const int own = static_cast<int>(separator - argv);
+  for (int k = own + 1; k < argc; ++k) take_benchmark_argument(argv[k], options);
+  refuse_replaced(own, argv);
+  parse_command_line(app, own, argv);
+
+  const auto given = [&](const char* option) { return app.get_option(option)->count() > 0; };
+  for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--study", "--adapt", "--fields"})
+    if (!options.problems.empty() && given(of_bodies))
+      throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
+  read_study(texts.study, options);
+  for (const auto& [name, value] : options.study.options)
+    if (!given(name.c_str())) {
+      app.get_option(name)->add_result(value);
+      app.get_option(name)->run_callback();
+    }
+  options.stop = *stop_of(texts.stop);
+  if (given("--contact")) options.contact = contact_solver_of(texts.contact);
+  read_repetitions(texts.repetitions, options);
+  if (given("--retry-noisy")) {
+    constexpr double most_noise = 0.05;  // as in machine_warnings()
+    options.retry_noisy = texts.noise == "true"
+                              ? most_noise
+                              : share_of("--retry-noisy", texts.noise, "as 5%, or no value");
+  }
+  read_threads(texts.threads, given("--threads"), options);
+  read_timeout(texts.timeout, given("--timeout"), options);
+  if (given("--adapt")) read_adapt(texts.adapt, options);
+  if (!texts.shard.empty()) {
+    const std::optional<Shard> part = shard_of(texts.shard);
+    if (!part)
+      throw UsageError(
+          fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(texts.shard)));
+    options.shard = *part;
+  }
+  if (given("--fields")) read_fields(texts.fields, options);
+  refuse_contradictions(app, options);
+  if (options.study.once) options.repetitions = 1;
+  return options;
+}
+
+}  // namespace airybench

@@ -1,0 +1,153 @@
+#include "bench/commands/run_parts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+#include "bench/plan/mesh_files.hpp"
+#include "bench/plan/scene_file.hpp"
+#include "bench/plan/stages.hpp"
+#include "bench/problems/problem_files.hpp"
+#include "bench/run/runner.hpp"
+#include "mesh/selection.hpp"
+#include "support/errors.hpp"
+#include "support/sha256.hpp"
+#include "support/shortened.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<SceneFile> read_scenes(const Options& options) {
+  std::vector<SceneFile> scenes;
+  for (const fs::path& file : options.scenes.empty() ? scenes_of(options.study) : options.scenes) {
+    SceneFile added = read_scene_file(file);
+    const Scene& scene = added.scene;
+    for (const SceneFile& other : scenes)
+      if (other.scene.name == scene.name)
+        throw UsageError(fmt::format("--scene: two scenes are named {}: {} and {}", scene.name,
+                                     other.scene.source, scene.source));
+    scenes.push_back(std::move(added));
+  }
+  if (scenes.empty()) scenes.emplace_back();
+  return scenes;
+}
+
+void note_out_of_reach(const PosedScene& posed) {
+  const Mesh& mesh = posed.problem->mesh;
+  if (const int free = edges_out_of_reach(*posed.problem); free > 0)
+    std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet no wall, and are free\n",
+                             mesh.name, posed.scene_name, free,
+                             free + mesh_sizes(mesh).contact_edges);
+}
+
+std::vector<PosedScene> posed_problems(const Options& options) {
+  std::vector<PosedScene> posed;
+  for (const fs::path& file : options.problems) {
+    Problem problem;
+    problem.mesh.name = file.stem().string();
+    const auto same = [&](const PosedScene& p) {
+      return p.problem->mesh.name == problem.mesh.name;
+    };
+    if (!is_name(problem.mesh.name) || std::ranges::any_of(posed, same))
+      throw UsageError(
+          fmt::format("--problem: {} (allowed: file names that differ, in UTF-8 without "
+                      "control characters)",
+                      shortened(file.string())));
+    problem.given = read_contact_problem(file);
+    posed.push_back({"fclib", "", recorded_path(file, options.out), sha256_of_file(file), "{}",
+                     std::make_shared<const Problem>(std::move(problem))});
+  }
+  return posed;
+}
+
+// Also when adapted or refined: Mesh0+adapt3.
+bool is_named_after_catalogue(const std::string& mesh) {
+  const std::string body = mesh.substr(0, mesh.find('+'));
+  return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
+}
+
+bool is_newer(const fs::path& file, const fs::path& than) {
+  std::error_code error;
+  return fs::exists(file, error) &&
+         fs::last_write_time(file, error) >= fs::last_write_time(than, error);
+}
+
+// Empty: all meshes are of the catalogue.
+std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
+  const auto last = std::find_if(records.rbegin(), records.rend(), [](const Record& r) {
+    return r.n_phi && !is_named_after_catalogue(r.mesh);
+  });
+  if (last == records.rend()) return "";
+  for (const Record& record : records) {
+    if (!has_fields || record.mesh != last->mesh) continue;
+    const std::string name = name_of(record).file();
+    const fs::path grid = out / "fields" / (name + ".vtu"),
+                   picture = out / "figures" / ("fields_" + name + ".png");
+    std::error_code error;
+    if (!fs::exists(grid, error)) continue;
+    if (is_newer(picture, grid))
+      return fmt::format("picture: {}  (ParaView: {})\n", picture.string(), grid.string());
+    return fmt::format("ParaView: {}  (a picture: ./run figures {})\n", grid.string(),
+                       out.string());
+  }
+  return fmt::format("for a picture of {}: --fields\n", last->mesh);
+}
+
+}  // namespace
+
+std::vector<PosedScene> posed_scenes(const Options& options) {
+  if (!options.problems.empty()) return posed_problems(options);
+  const std::vector<SceneFile> scenes = read_scenes(options);
+  std::vector<PosedScene> posed;
+  const std::vector<MeshFile> files = read_meshes(options);
+  for (const MeshFile& file : files)
+    for (const SceneFile& given : scenes) {
+      const auto& [scene, definition] = is_of_catalogue(file.path) ? given : on_other_bodies(given);
+      posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
+                       definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
+      note_out_of_reach(posed.back());
+    }
+  if (!options.dry_run && !options.explain) keep_models(files);
+  return posed;
+}
+
+PosedScene one_posed_scene(const Options& options) {
+  std::vector<PosedScene> posed = posed_scenes(options);
+  if (posed.size() != 1)
+    throw UsageError(fmt::format("--mesh: {}: {} meshes (allowed: one)", shortened(options.meshes),
+                                 posed.size()));
+  return std::move(posed.front());
+}
+
+RunLimits limits_of(const Options& options) {
+  return {least_repetitions(options), options.timeout_s, options.long_case_s,
+          options.memory_limit_bytes, options.study.once};
+}
+
+std::string shell_word(const std::string& word) {
+  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_./+-=%@", c) != nullptr;
+  });
+  if (is_plain) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+void end_run(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
+  std::fflush(stdout);
+  const char* const then = std::getenv("AIRYBENCH_THEN");
+  if (then != nullptr && *then != '\0' &&
+      std::system(fmt::format("{} {}", then, shell_word(out.string())).c_str()) != 0)
+    std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
+  fmt::print("{}", picture_line(records, out, has_fields));
+}
+
+}  // namespace airybench

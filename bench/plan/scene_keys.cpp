@@ -1,0 +1,186 @@
+// The keys of a scene file, each a line of a table: its name, the member that it sets, its range.
+// Ranges that hold for any scene are in check_values() (assembly/scene.hpp).
+#include "bench/plan/scene_value.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr int most = 1'000'000;  // of things that are counted
+
+// "bodies" is of an obstacle alone: a face is the body's own.
+enum class Curve { obstacle, face };
+
+}  // namespace
+
+// Overloads of read() are found by their argument, so none is in the unnamed namespace.
+
+static void read(const SceneValue& value, Material& material) {
+  value.object({key("young_MPa", material.young_MPa), key("poisson", material.poisson)});
+}
+
+// A constant, or linear between two points.
+template <typename Value>
+void read(const SceneValue& value, LinearValue<Value>& linear) {
+  if (value.json.is_object()) {
+    value.object({key("at_mm", linear.at_mm), key("values", linear.values)},
+                 "{\"at_mm\": [[x, y], [x, y]], \"values\": [..., ...]}, both given");
+    return;
+  }
+  Value constant{};
+  read(value, constant);
+  linear.values.fill(constant);
+}
+
+static void read(const SceneValue& value, FlatWall& wall) {
+  value.object({key("point_mm", wall.point_mm), key("normal", wall.normal)},
+               "{\"point_mm\": [x, y], \"normal\": [x, y]}, both given");
+}
+
+static void read(const SceneValue& value, PolylineWall& wall) {
+  if (!value.json.is_array()) value.fail("a list of points [x, y], or in a file a file's name");
+  wall.points_mm.resize(value.json.size());
+  for (std::size_t k = 0; k < wall.points_mm.size(); ++k) read(value.item(k), wall.points_mm[k]);
+}
+
+static void read_circle(const SceneValue& value, Curve curve, CircularWall& wall) {
+  using enum CircularWall::Bodies;
+  std::vector<SceneKey> keys = {key("centre_mm", wall.centre_mm),
+                                positive("radius_mm", wall.radius_mm)};
+  if (curve == Curve::face) {
+    value.object(keys, "{\"centre_mm\": [x, y], \"radius_mm\": ...}, both given");
+    return;
+  }
+  keys.push_back(either("bodies", wall.bodies, "inside", inside, "outside", outside));
+  value.object(keys,
+               "{\"centre_mm\": [x, y], \"radius_mm\": ..., \"bodies\": \"inside\" or "
+               "\"outside\"}, all given");
+}
+
+static SceneKey curve_key(const char* name, std::optional<Wall>& target, Curve curve) {
+  return {
+      name, [&target, curve](const SceneValue& value) {
+        Wall wall;
+        value.object(
+            {{"flat", [&](const SceneValue& v) { read(v, wall.emplace<FlatWall>()); }},
+             {"circle",
+              [&](const SceneValue& v) { read_circle(v, curve, wall.emplace<CircularWall>()); }},
+             {"polyline", [&](const SceneValue& v) { read(v, wall.emplace<PolylineWall>()); }}});
+        if (value.json.size() != 1) value.fail("one of flat, circle, polyline");
+        target = std::move(wall);
+      }};
+}
+
+static void read(const SceneValue& value, BoundaryConditions& conditions) {
+  using enum BoundaryValues::Support;
+  value.each("an object with a boundary group as each key", [&](const std::string& label,
+                                                                const SceneValue& of_group) {
+    BoundaryValues& values = conditions[label];
+    ContactValues& contact = values.contact;
+    of_group.object({key("traction_MPa", values.traction_MPa),
+                     key("pressure_MPa", values.pressure_MPa),
+                     key("displacement_mm", values.displacement_mm),
+                     either("support", values.support, "full", full, "normal", normal),
+                     key("friction", contact.friction), key("clearance_mm", contact.clearance_mm),
+                     curve_key("wall", contact.wall, Curve::obstacle),
+                     curve_key("face", contact.face, Curve::face)});
+  });
+}
+
+static void read(const SceneValue& value, Grading& grading) {
+  value.object({key("at_mm", grading.at_mm), key("ratio", grading.ratio)},
+               "{\"at_mm\": [x, y], \"ratio\": ...}, both given");
+}
+
+static void read(const SceneValue& value, Slivers& slivers) {
+  value.object({key("aspect", slivers.aspect), whole("count", slivers.count, 1, most)},
+               "{\"aspect\": ..., \"count\": ...}, both given");
+}
+
+static void read(const SceneValue& value, MeshTransform& mesh) {
+  value.object({whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
+                key("slivers", mesh.slivers), positive("scale", mesh.scale),
+                key("stretch", mesh.stretch), key("move_mm", mesh.move_mm),
+                whole("keep_contact_edges", mesh.keep_contact_edges, 0, most),
+                whole("keep_displacement_edges", mesh.keep_displacement_edges, 1, most),
+                whole("keep_force_edges", mesh.keep_force_edges, 0, most)});
+}
+
+// A list of at least one.
+template <typename Item>
+static SceneKey list(const char* name, std::vector<Item>& items, const Item& preset,
+                     const char* allowed) {
+  return {name, [&items, preset, allowed](const SceneValue& value) {
+            if (!value.json.is_array() || value.json.empty()) value.fail(allowed);
+            items.assign(value.json.size(), preset);
+            for (std::size_t k = 0; k < items.size(); ++k) read(value.item(k), items[k]);
+          }};
+}
+
+static void read_layers(const SceneValue& value, Scene& scene) {
+  Layers& layers = scene.layers;
+  value.object({key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
+                list("interfaces_mm", layers.interfaces_mm, 0., "a list of numbers, ascending"),
+                list("materials", scene.layer_materials, scene.material, "a list of materials")});
+  if (value.json.contains("count") == value.json.contains("interfaces_mm"))
+    value.fail("either count or interfaces_mm");
+}
+
+static void read(const SceneValue& value, LoadStep& step) {
+  value.object({key("displacement_mm", step.displacement_mm),
+                key("body_force_N_per_mm3", step.body_force_N_per_mm3),
+                key("clearance_mm", step.clearance_mm), key("boundary", step.boundary)});
+}
+
+static void read_load_steps(const SceneValue& value, Scene& scene) {
+  const Json& json = value.json;
+  if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
+    scene.equal_steps = json.get<int>();
+    return;
+  }
+  if (!json.is_array() || json.empty() || json.size() >= most_load_steps)
+    value.fail(fmt::format("a whole number from 1 to {}, or a list of 1 to {} steps",
+                           most_load_steps, most_load_steps - 1));
+  scene.later_steps.resize(json.size());
+  for (std::size_t k = 0; k < json.size(); ++k)
+    read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
+}
+
+void read(const SceneValue& value, Scene& scene) {
+  Material& material = scene.material;
+  // What others take their defaults from comes first.
+  value.object({whole("teeth", scene.teeth, 1, most),
+                positive("root_half_height_mm", scene.root_half_height_mm),
+                positive("length_mm", scene.length_mm),
+                positive("tip_half_height_mm", scene.tip_half_height_mm),
+                key("young_MPa", material.young_MPa),
+                key("poisson", material.poisson),
+                either("plane", scene.plane, "strain", Plane::strain, "stress", Plane::stress),
+                key("friction", scene.friction),
+                {"crown_radius_mm",
+                 [&](const SceneValue& v) {
+                   if (v.json.is_null())
+                     scene.crown_radius_mm.reset();
+                   else
+                     read(v, scene.crown_radius_mm);
+                 }},
+                curve_key("wall", scene.wall, Curve::obstacle),
+                curve_key("face", scene.face, Curve::face),
+                key("clearance_mm", scene.clearance_mm),
+                key("displacement_mm", scene.displacement_mm),
+                key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
+                {"load_steps", [&](const SceneValue& v) { read_load_steps(v, scene); }},
+                {"materials",
+                 [&](const SceneValue& v) {
+                   v.each("an object with a body's name as each key",
+                          [&](const std::string& region, const SceneValue& of_region) {
+                            read(of_region, scene.materials[region] = material);
+                          });
+                 }},
+                key("boundary", scene.boundary),
+                key("mesh", scene.mesh),
+                {"layers", [&](const SceneValue& v) { read_layers(v, scene); }},
+                key("group", scene.group),
+                key("about", scene.about)});
+}
+
+}  // namespace airybench
