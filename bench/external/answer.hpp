@@ -11,7 +11,7 @@
 //   edge_displacements_mm.mtx, F_C.mtx  the same, returning edge_displacements: per edge the
 //                        moments (edge_forces.hpp) x, y at its low vertex, x, y at its high one;
 //                        contact forces in the rows of contact_points(), in N
-//   log.txt              if it is there, its first MiB is kept beside the records
+//   log.txt              if it is there, its first MiB is kept with the records
 //
 // Vectors are Matrix Market files, dense: "%%MatrixMarket matrix array real general", its comments,
 // "rows columns", then one number per line, column by column. NAME.npy, NumPy's of doubles, goes

@@ -1,6 +1,6 @@
 // The levels of an adaptive loop as scenes of a plan.
 //
-// The loop runs in a process of its own: a crash, a hang or a lack of memory ends the loop and not
+// The loop runs in a separate process: a crash, a hang or a lack of memory ends the loop and not
 // the run, which has the levels before. Each level's mesh is a file
 //   OUT/meshes/SCENE/MESH+adaptK.msh      (refined everywhere: MESH+refinedK.msh)
 // and the scene on it is OUT/meshes/SCENE/SCENE.json: the scene's file without what it did to the

@@ -1,4 +1,4 @@
-// The cases of one posed scene, each in a process of its own.
+// The cases of one posed scene, each in a separate process.
 //
 //   bench ──fork──► the scene's process ──fork──► a process per case
 //

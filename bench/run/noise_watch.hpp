@@ -3,7 +3,7 @@
 // The calibration loop (bench/measure/noise_kernel.hpp) does the same work every time. On one
 // machine its times are bounded from below, and whatever else the machine does makes them longer:
 // so what is quiet is the smallest level that lasts, q = the smallest median of 12 consecutive
-// passes of the run. Of the passes beside an attempt, with mean x and median m,
+// passes of the run. Of the passes around an attempt, with mean x and median m,
 //
 //   noise = max( x/q − 1,  MAD/m ),
 //
@@ -47,7 +47,7 @@ class QuietLevel {
 
 double noise_of(const std::vector<double>& passes_s, double quiet_s);
 
-// Swaps what was measured in an attempt, and beside it.
+// Swaps what was measured in an attempt, and around it.
 void swap_samples(Record& a, Record& b);
 
 // Of a whole run.
@@ -58,7 +58,7 @@ class NoiseWatch {
 
   // From a record that is there already.
   void learn(const Record& record) { level_.add(record.noise_kernel_samples_s); }
-  // Times the loop beside a case, on one thread and on the case's where these are more.
+  // Times the loop around a case, on one thread and on the case's where these are more.
   void add_passes(int count, int threads, Record& record);
   // The last pass was a second ago or more.
   bool is_due() const;

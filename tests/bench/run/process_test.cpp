@@ -18,7 +18,7 @@ namespace {
 
 constexpr double patience_s = 600;  // of what is to end by itself
 
-// Three that stay: a child, one in a session of its own whose parent has ended, the program.
+// Three that stay: a child, one in another session whose parent has ended, the program.
 constexpr const char* three = R"(
 sleep 1000 & echo $! > child
 ( setsid sh -c 'echo $$ > orphan; exec sleep 1000' & )
@@ -192,13 +192,13 @@ TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
 TEST(OomKills, AreTheKernelsCount) {
   const testing::TemporaryFolder root;
   EXPECT_EQ(oom_kills(root.path()), std::nullopt);
-  for (const char* folder : {"proc/self", "sys/fs/cgroup/night/run"})
+  for (const char* folder : {"proc/self", "sys/fs/cgroup/job/run"})
     std::filesystem::create_directories(root / folder);
   testing::write_text(root / "proc/vmstat", "nr_free_pages 81\noom_kill 4\nswap_ra 0\n");
   EXPECT_EQ(oom_kills(root.path()), 4);
-  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/night/run\n");
+  testing::write_text(root / "proc/self/cgroup", "1:cpu:/\n0::/job/run\n");
   EXPECT_EQ(oom_kills(root.path()), 4) << "the group has no count";
-  testing::write_text(root / "sys/fs/cgroup/night/run/memory.events",
+  testing::write_text(root / "sys/fs/cgroup/job/run/memory.events",
                       "low 0\nhigh 7\nmax 9\noom 3\noom_kill 2\noom_group_kill 1\n");
   EXPECT_EQ(oom_kills(root.path()), 2);
 }
