@@ -1,5 +1,5 @@
-// The body of a part as a Problem of its own, and the whole boundary, which every rank has: it is
-// the square root of the body.
+// A part of the body as a Problem, and the whole boundary, which every rank has: its size is about
+// the square root of the body's.
 //
 // The part's vertices keep the order of their numbers in the file, so that edges keep their
 // direction. Its boundary has rows for those edges of the whole boundary that the part has, and

@@ -152,7 +152,7 @@ bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
   fill_prolongation(at_boundary_);
   assemble(P_);
 
-  // The matrix may hold a few nodes too many or too few: that costs an iteration, it anew several.
+  // A matrix that holds a few nodes too many or too few costs an iteration, setting it up several.
   std::size_t changes = 0;
   for (std::size_t node = 0; node < held_.size(); ++node)
     for (int k = 0; k < 2; ++k) changes += held_[node][k] != held_by_matrix_[node][k];

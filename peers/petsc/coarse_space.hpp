@@ -47,7 +47,7 @@ class CoarseSpace {
   Components prescribed_, held_, held_by_matrix_;  // of nodes of the whole boundary
   parallel::OwnedMat matrix_, held_matrix_, P_;
   bool matrix_is_held_ = false;
-  PetscReal share_of_changes_ = 0.01;  // of the contact rows, that the matrix is not made anew for
+  PetscReal share_of_changes_ = 0.01;  // of the contact rows: fewer leave the matrix as it is
 };
 
 }  // namespace airybench

@@ -118,22 +118,22 @@ MeshSlices read_slices(const NpzSlices& file) {
     const auto slice_of = [&](const char* name, PetscInt rows) {
       return file.read<int>(name, first_row(rows), slice_begin(rows, rank_here() + 1));
     };
-    const PetscInt vertices = slices.vertices = total("vertices_mm");
+    slices.vertices = total("vertices_mm");
     slices.triangles = total("triangles");
     slices.edges = total("edges");
-    slices.vertices_mm = file.read<double>("vertices_mm", first_row(vertices),
-                                           slice_begin(vertices, rank_here() + 1));
+    slices.vertices_mm = file.read<double>("vertices_mm", first_row(slices.vertices),
+                                           slice_begin(slices.vertices, rank_here() + 1));
     const Eigen::MatrixXi triangles = slice_of("triangles", slices.triangles),
                           edges = slice_of("edges", slices.edges),
                           body = slice_of("triangle_body", slices.triangles);
     const int first = first_row(slices.triangles), first_edge = first_row(slices.edges);
     const auto send = [&](int a, int b, int triangle, int side_or_edge) {
       for (const int vertex : {a, b})
-        if (vertex < 0 || vertex >= vertices)
+        if (vertex < 0 || vertex >= slices.vertices)
           throw FileError("problem.npz: vertex " + std::to_string(vertex) + " (allowed: 0 to " +
-                          std::to_string(vertices - 1) + ")");
+                          std::to_string(slices.vertices - 1) + ")");
       sides.push_back({std::min(a, b), std::max(a, b), triangle, side_or_edge});
-      to.push_back(slice_owner(vertices, std::min(a, b)));
+      to.push_back(slice_owner(slices.vertices, std::min(a, b)));
     };
     for (int t = 0; t < static_cast<int>(triangles.rows()); ++t) {
       const std::array<int, 3> v = {triangles(t, 0), triangles(t, 1), triangles(t, 2)};

@@ -1,5 +1,4 @@
-// The mesh of an exported body, spread over the ranks: nobody has more of it than his own
-// triangles.
+// The mesh of an exported body, spread over the ranks: each has its own triangles only.
 //
 //   slices    every rank reads as many rows of triangles, edges and vertices; who meets whom at an
 //             edge is found at the rank that has the edge's low vertex in its slice

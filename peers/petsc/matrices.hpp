@@ -1,4 +1,4 @@
-// What a matrix over the ranks needs besides its entries: room for them, and near-nullspaces.
+// Matrices over the ranks: room for their entries, and near-nullspaces.
 #pragma once
 
 #include "peers/petsc/distributed_mesh.hpp"

@@ -16,7 +16,7 @@
 
 namespace airybench::parallel {
 
-// What PETSc said first of what went wrong on this rank.
+// PETSc's first message about an error on this rank.
 inline std::string& said_by_petsc() {
   static std::string said;
   return said;
@@ -89,15 +89,12 @@ inline int rank_count() {
   return count;
 }
 
-// Rows [begin, end) of `total` that a rank has, and who has one of them.
+// Rank r has the rows from ⌊total r / ranks⌋ on; and who has a row.
 inline PetscInt slice_begin(PetscInt total, int rank) {
   return static_cast<PetscInt>(static_cast<std::int64_t>(total) * rank / rank_count());
 }
 inline int slice_owner(PetscInt total, PetscInt row) {
-  int rank = static_cast<int>(static_cast<std::int64_t>(row) * rank_count() / total);
-  while (row < slice_begin(total, rank)) --rank;
-  while (row >= slice_begin(total, rank + 1)) ++rank;
-  return rank;
+  return static_cast<int>(((static_cast<std::int64_t>(row) + 1) * rank_count() - 1) / total);
 }
 
 // Record k goes to rank to[k]; what comes is ordered by its sender, then as it was there.

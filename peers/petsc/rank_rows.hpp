@@ -6,8 +6,8 @@
 //       a slipping point has ratio × its normal row taken from it
 //   K   all of it, but for the slots prescribed on Γ_D: these are in b
 //
-// The two differ in the blocks of edges on Γ_C only, each of which is in one triangle. What the two
-// are of these triangles is kept; when laws change, their blocks are put into A anew.
+// The two differ in the blocks of edges on Γ_C only, each of which is in one triangle. Both
+// are kept for these triangles; when laws change, their blocks of A are replaced.
 //
 // A x = r by the Krylov method and the preconditioner of the options: KSP without a prefix where A
 // is symmetric, -slip_ksp_type where points slip. With -pc_type mg it has two levels, A and the

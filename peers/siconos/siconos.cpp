@@ -4,7 +4,7 @@
 //
 //   u = W r + q,  r_n ≥ 0,  u_n ≥ 0,  r_n u_n = 0,  |r_t| ≤ μ r_n,  r_t against u_t when it slips
 //
-// Status and error_estimate are Siconos' own word, right or not. Its measure of the error is
+// Status and error_estimate are what Siconos reports, right or not. Its measure of the error is
 // ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖) with û_n = u_n + μ |u_t|.
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
