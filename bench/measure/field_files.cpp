@@ -243,7 +243,8 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
       picture.gap_mm.push_back(-r.x());
       picture.slip_mm.push_back(r.y());
     }
-  if (!has_own_points || contact.count == 0) return picture;
+  // A program that answers by its Airy function has none.
+  if (!has_own_points || solution.contact_displacement.size() == 0) return picture;
   const Eigen::VectorXd r = relative_to_gap(contact, solution.contact_displacement);
   const int m = contact.components;
   picture.gap_mm.clear();
