@@ -203,15 +203,12 @@ TEST(BoundaryChains, TwoChainsFollowTheBoundaryCounterClockwise) {
   EXPECT_TRUE(boundary_chains(grid_without({}), contact).empty());
 }
 
-TEST(BoundaryChains, RowsInAnyOrder) {
+TEST(BoundaryChains, RowsInAnyOrderAndAClosedChainStartsAtTheLowest) {
   Mesh mesh = two_squares();
   std::reverse(mesh.boundary.begin(), mesh.boundary.end());
   // The rows are now 5: 0→1, 4: 1→2, 2: 5→4, 1: 4→3.
   EXPECT_EQ(boundary_chains(mesh, force), (Chains{{2, 1}, {5, 4}}));
-}
-
-TEST(BoundaryChains, ClosedChainStartsAtTheLowestRow) {
-  Mesh mesh = two_squares();
+  mesh = two_squares();
   for (auto& edge : mesh.boundary) edge.role = displacement;
   std::swap(mesh.boundary[0], mesh.boundary[4]);
   EXPECT_EQ(boundary_chains(mesh, displacement), (Chains{{0, 5, 4, 1, 2, 3}}));

@@ -198,14 +198,10 @@ TEST(Skyline, DiagonalIsThatOfLDLT) {
   for (int i = 0; i < 9; ++i) EXPECT_NEAR(factor.diagonal(i), L(i, i) * L(i, i), 1e-13);
 }
 
-TEST(Skyline, IndefiniteButRegularLeadingBlocksAreFine) {
-  Eigen::MatrixXd A(3, 3);
+TEST(Skyline, TakesRegularLeadingBlocksThatAreIndefiniteAndLeadingZerosOfTheRightHandSide) {
+  Eigen::MatrixXd A(3, 3), b = Eigen::MatrixXd::Zero(300, 3);
   A << 1, 2, 0, 2, 1, 3, 0, 3, 5;  // leading minors 1, −3, −24
   expect_solved(A, 1, Eigen::Vector3d(1, 2, 3), 1e-15);
-}
-
-TEST(Skyline, LeadingZerosOfTheRightHandSideChangeNothing) {
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(300, 3);
   b.bottomRows(40).setRandom();
   expect_solved(random_skyline(300, [](int i) { return std::max(0, i - 30); }), 16, b, 1e-15);
 }
@@ -273,26 +269,22 @@ TEST(Mumps, SchurComplementReductionAndExpansionAreThoseOfDenseAlgebra) {
   }
 }
 
-TEST(Mumps, SingularOrNotFiniteWithMultipliersOrASchurComplementIsABreakdown) {
-  for (const double poison : {0.0, std::nan(""), std::numeric_limits<double>::infinity()})
-    for (const int trailing : {0, 3}) {
-      if (poison == 0 && trailing > 0) continue;
-      Eigen::MatrixXd M = grid_saddle(4, 5);
-      if (poison == 0) {
-        M.row(17).setZero();
-        M.col(17).setZero();
-      } else {
-        M(9, 8) = M(8, 9) = poison;
-      }
-      MumpsFactor factor;
-      EXPECT_THROW(
-          {
-            factor.analyse(lower_of(M), trailing);
-            factor.factor(lower_of(M));
-          },
-          Breakdown)
-          << poison << ", " << trailing << " trailing";
+TEST(Mumps, ASingularOrNotFiniteSaddleIsABreakdown) {
+  const auto factorise = [](double poison, int trailing) {
+    Eigen::MatrixXd M = grid_saddle(4, 5);
+    M(9, 8) = M(8, 9) = poison;
+    if (poison == 0) {
+      M.row(17).setZero();
+      M.col(17).setZero();
     }
+    MumpsFactor factor;
+    factor.analyse(lower_of(M), trailing);
+    factor.factor(lower_of(M));
+  };
+  EXPECT_THROW(factorise(0, 0), Breakdown);
+  for (const double poison : {std::nan(""), std::numeric_limits<double>::infinity()})
+    for (const int trailing : {0, 3})
+      EXPECT_THROW(factorise(poison, trailing), Breakdown) << poison << ", " << trailing;
 }
 
 // Of the star c–p, a–p, a–s, p–s with C = {c, p, s} the factor has c before a, and small supernodes

@@ -123,24 +123,17 @@ TEST_P(Krylov, TheAbsoluteValueOfTheMatrixIsPreconditionerForAnIterationPerSign)
   EXPECT_LT(testing::distance(X, A.inverse() * B), 1e-9 * X.norm());
 }
 
-TEST_P(Krylov, AZeroRightHandSideTakesNoIterations) {
-  Eigen::MatrixXd X = Eigen::MatrixXd::Zero(10, 3);
-  const KrylovSummary summary =
-      solve(random_spectral(10).matrix(), no_preconditioner(), X, with(1e-10));
-  EXPECT_TRUE(summary.converged);
-  EXPECT_EQ(summary.iterations, 0);
-  EXPECT_EQ(summary.residual, 0);
-  EXPECT_TRUE(X.isZero(0));
-}
-
-TEST_P(Krylov, NoRightHandSidesAreSolvedAtOnce) {
-  Eigen::MatrixXd X(3, 0);
-  for (const int threads : {1, 2}) {
-    const KrylovSummary summary =
-        solve(Eigen::MatrixXd::Identity(3, 3), no_preconditioner(), X, with(1e-10, 1, threads));
-    EXPECT_TRUE(summary.converged);
-    EXPECT_EQ(summary.iterations, 0);
-  }
+TEST_P(Krylov, NoRightHandSidesAndZeroOnesTakeNoIterations) {
+  for (const int columns : {0, 3})
+    for (const int threads : {1, 2}) {
+      Eigen::MatrixXd X = Eigen::MatrixXd::Zero(10, columns);
+      const KrylovSummary summary =
+          solve(random_spectral(10).matrix(), no_preconditioner(), X, with(1e-10, 1, threads));
+      EXPECT_TRUE(summary.converged);
+      EXPECT_EQ(summary.iterations, 0);
+      EXPECT_EQ(summary.residual, 0);
+      EXPECT_TRUE(X.isZero(0));
+    }
 }
 
 // On right-hand sides that take from none to many iterations.

@@ -81,26 +81,19 @@ TEST_P(EveryKindOfMethod, StressIsStrictlyAdmissibleOnWholeContactEdges) {
   const auto problem = posed({});
   const Solution solution = solve(problem);
   const double largest = solution.F_C.cwiseAbs().maxCoeff();
-  for (std::size_t row = 0; row < problem->mesh.boundary.size(); ++row) {
-    if (problem->mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const int edge = problem->edges.of_boundary[row];
-    const double mu = problem->friction_at(static_cast<int>(row));
-    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t) {
-      for (int k = 0; k < 3; ++k) {
-        if (problem->edges.of_triangle[t][k] != edge) continue;
-        const TriangleVertices v = problem->vertices_of(t);
-        const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
-        for (int i = 0; i <= 10; ++i) {  // the stress is linear along the edge
-          const Eigen::Vector3d stress = (1 - i / 10.) * solution.stress[t].col(3 * k) +
-                                         i / 10. * solution.stress[t].col(3 * k + 1);
-          const Eigen::Vector2d force = frame.length_mm / 2 * traction(stress, frame.normal);
-          const double normal = force.dot(frame.normal), tangential = force.dot(frame.tangent);
-          EXPECT_LE(normal, 1e-9 * largest);
-          EXPECT_LE(std::abs(tangential), -mu * normal + 1e-9 * largest);
-        }
-      }
+  testing::visit_boundary(*problem, [&](int row, int t, int k) {
+    if (problem->mesh.boundary[row].role != BoundaryRole::contact) return;
+    const TriangleVertices v = problem->vertices_of(t);
+    const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
+    for (int i = 0; i <= 10; ++i) {  // the stress is linear along the edge
+      const Eigen::Vector3d stress = (1 - i / 10.) * solution.stress[t].col(3 * k) +
+                                     i / 10. * solution.stress[t].col(3 * k + 1);
+      const Eigen::Vector2d force = frame.length_mm / 2 * traction(stress, frame.normal);
+      const double normal = force.dot(frame.normal), tangential = force.dot(frame.tangent);
+      EXPECT_LE(normal, 1e-9 * largest);
+      EXPECT_LE(std::abs(tangential), -problem->friction_at(row) * normal + 1e-9 * largest);
     }
-  }
+  });
 }
 
 TEST_P(EveryKindOfMethod, TwoMaterialsAndStiffContrastAgreeWithAnotherKindOfMethod) {
@@ -126,13 +119,11 @@ TEST_P(EveryKindOfMethod, ReactionsAndContactForcesBalanceTheBodyForce) {
     const Solution solution = solve(problem);
     ASSERT_EQ(solution.status, Status::ok) << solution.message;
     Eigen::Vector2d reactions = Eigen::Vector2d::Zero(), contact = Eigen::Vector2d::Zero();
-    for (int t = 0; t < static_cast<int>(problem->mesh.triangles.size()); ++t)
-      for (int k = 0; k < 3; ++k)
-        for (std::size_t row = 0; row < problem->mesh.boundary.size(); ++row)
-          if (problem->edges.of_boundary[row] == problem->edges.of_triangle[t][k] &&
-              problem->mesh.boundary[row].role == BoundaryRole::displacement)
-            reactions +=
-                element_edge_forces(problem->vertices_of(t), solution.stress[t], k).rowwise().sum();
+    testing::visit_boundary(*problem, [&](int row, int t, int k) {
+      if (problem->mesh.boundary[row].role == BoundaryRole::displacement)
+        reactions +=
+            element_edge_forces(problem->vertices_of(t), solution.stress[t], k).rowwise().sum();
+    });
     for (int p = 0; p < system_.contact.count; ++p)  // n = x, s = y on the tip
       for (int k = 0; k < system_.contact.components; ++k)
         contact(k) += solution.F_C(system_.contact.components * p + k);

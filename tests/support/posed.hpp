@@ -15,4 +15,13 @@ inline DualSystem system_of(const Scene& scene = {}, Mesh mesh = small_tooth(6, 
   return assemble(posed(scene, std::move(mesh)));
 }
 
+// Calls visit(row, t, k) for every edge of the boundary: it is side k of triangle t.
+template <typename Visit>
+void visit_boundary(const Problem& problem, const Visit& visit) {
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row)
+    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t)
+      for (int k = 0; k < 3; ++k)
+        if (problem.edges.of_triangle[t][k] == problem.edges.of_boundary[row]) visit(row, t, k);
+}
+
 }  // namespace airybench::testing

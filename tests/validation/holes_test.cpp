@@ -14,7 +14,7 @@
 #include "bench/verify/verifier.hpp"
 #include "mesh/refinement.hpp"
 #include "tests/support/exact_fields.hpp"
-#include "tests/support/small_meshes.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/solved.hpp"
 
 namespace airybench::holes_test {
@@ -297,7 +297,7 @@ TEST(Plate, BothSolutionsCloseInOnOneEnergyInContact) {
   }
 }
 
-// Σ of the edges' forces, and their couple about the origin, on boundary edges that are `in`.
+// Σ of the edges' forces, and their couple about the origin, on a group of the boundary.
 struct Resultant {
   V2 force = V2::Zero();
   double couple = 0;
@@ -305,22 +305,18 @@ struct Resultant {
 Resultant resultant(const Solved& s, const std::string& group) {
   const Problem& problem = s.problem();
   Resultant sum;
-  std::vector<bool> is_in(static_cast<std::size_t>(problem.edges.count()), false);
-  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row)
-    if (const int own = problem.mesh.boundary[row].group; own >= 0)
-      is_in[problem.edges.of_boundary[row]] = problem.mesh.boundary_groups[own] == group;
-  for (int t = 0; t < static_cast<int>(s.hybrid.stress.size()); ++t)
-    for (int k = 0; k < 3; ++k) {
-      if (!is_in[problem.edges.of_triangle[t][k]]) continue;
-      const TriangleVertices v = problem.vertices_of(t);
-      const Eigen::Matrix2d F = element_edge_forces(v, s.hybrid.stress[t], k);
-      const V2 a = v.col(k), b = v.col((k + 1) % 3);
-      for (const auto& [at, f] : {std::pair<V2, V2>((2 * a + b) / 3, F.col(0)),
-                                  std::pair<V2, V2>((a + 2 * b) / 3, F.col(1))}) {
-        sum.force += f;
-        sum.couple += at.x() * f.y() - at.y() * f.x();
-      }
+  testing::visit_boundary(problem, [&](int row, int t, int k) {
+    const int own = problem.mesh.boundary[row].group;
+    if (own < 0 || problem.mesh.boundary_groups[own] != group) return;
+    const TriangleVertices v = problem.vertices_of(t);
+    const Eigen::Matrix2d F = element_edge_forces(v, s.hybrid.stress[t], k);
+    const V2 a = v.col(k), b = v.col((k + 1) % 3);
+    for (const auto& [at, f] : {std::pair<V2, V2>((2 * a + b) / 3, F.col(0)),
+                                std::pair<V2, V2>((a + 2 * b) / 3, F.col(1))}) {
+      sum.force += f;
+      sum.couple += at.x() * f.y() - at.y() * f.x();
     }
+  });
   return sum;
 }
 
