@@ -78,7 +78,7 @@ class Convert : public ::testing::Test {
     return what.substr(std::min(prefix.size(), what.size()));
   }
 
-  const TemporaryFolder folder_;
+  const testing::TemporaryFolder folder_;
   ModelOptions options_;
 };
 
