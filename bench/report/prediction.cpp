@@ -56,7 +56,7 @@ struct Variant {
   }
 };
 
-Variant variant_of(const Record& r) {
+Variant forecast_variant(const Record& r) {
   return {r.family, r.general_name, r.iterative ? std::string(name_of(r.stop)) : "",
           r.knob_value ? fmt::format("{} {}", r.knob, *r.knob_value) : r.knob, r.iterative};
 }
@@ -98,14 +98,14 @@ class Past {
     for (const bool of_studies : {true, false})  // the second replaces the first
       for (const Record& r : records)
         if (r.n_phi > 0 && r.study.empty() != of_studies)
-          latest[{variant_of(r), r.scene, r.mesh, *r.n_phi}] = &r;
+          latest[{forecast_variant(r), r.scene, r.mesh, *r.n_phi}] = &r;
     for (const auto& [key, record] : latest) variants_[std::get<Variant>(key)].push_back(record);
   }
 
   std::optional<Grounded> estimate(const Record& c, Quantity quantity,
                                    const Scatter& scatter) const {
     if (!c.n_phi) return {};  // no body whose size would tell
-    const Variant own = variant_of(c);
+    const Variant own = forecast_variant(c);
     if (auto result = from(own, c, quantity, scatter)) return result;
     const Variant* closest = nullptr;
     for (const auto& [variant, records] : variants_)
