@@ -270,7 +270,8 @@ int advise_command(int argc, const char* const* argv) {
              rows.front().command, (options.out / "advice.csv").string());
 
   const auto best = std::ranges::find_if(plan, [&](const Case& c) {
-    return c.method.name == rows.front().method && c.posed.problem->mesh.name == rows.front().mesh;
+    return c.method.name == rows.front().method &&
+           mesh_name_of(c.posed.problem) == rows.front().mesh;
   });
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;

@@ -17,7 +17,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
+    if (problem) blocks.system.reset(new DualSystem(assemble(problem, which)));  // no copy
     blocks.samples_s.push_back(seconds_since(start));
     blocks.heap_bytes = if_probed(heap::live_bytes() - before);
     blocks.peak_heap_bytes = if_probed(heap::peak_bytes() - before);

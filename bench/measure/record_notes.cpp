@@ -69,7 +69,6 @@ void note(const Verification& v, Record& record) {
 
 void note_what_is_idle(const Problem& problem, Record& record) {
   const MeshSizes sizes = mesh_sizes(problem.mesh);
-  if (problem.given) return;
   if (sizes.contact_edges + sizes.force_edges == 0) {
     record.status_reason = "the whole boundary is prescribed";
   } else if (sizes.contact_edges == 0) {

@@ -14,6 +14,7 @@
 #include "bench/measure/memory_split.hpp"
 #include "bench/measure/timed_run.hpp"
 #include "bench/plan/options.hpp"
+#include "bench/plan/plan.hpp"
 #include "bench/records/record.hpp"
 #include "bench/verify/contact_intervals.hpp"
 #include "bench/verify/discretisation_error.hpp"
@@ -31,7 +32,7 @@ struct LeftOut {
 
 class Workbench {
  public:
-  Workbench(std::shared_ptr<const Problem> problem, const Options& options, LeftOut left_out = {});
+  Workbench(PosedProblem problem, const Options& options, LeftOut left_out = {});
 
   // The discretisation error of the reference's stresses against the displacements of P2, or of the
   // stresses of --adapt-by against displacements recovered from them.
@@ -45,6 +46,7 @@ class Workbench {
   struct Choice {
     Solve solve;
     double tolerance = 0;
+    SolveContact solve_contact = {};
   };
   struct Examination {
     Record record;
@@ -120,7 +122,11 @@ class Workbench {
                                                        const Solution& solution,
                                                        const Verification& v);
 
-  std::shared_ptr<const Problem> problem_;
+  std::string prefix_of(std::size_t step) const;  // step_prefix()
+
+  PosedProblem posed_;
+  std::shared_ptr<const Problem> problem_;                   // null: there is no body
+  std::shared_ptr<const contact::Problem> contact_problem_;  // null: there is one
   const Options& options_;
   LeftOut left_out_;
   ActivityBoard* board_ = nullptr;

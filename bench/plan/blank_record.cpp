@@ -29,7 +29,8 @@ void describe(const Method& method, Record& record) {
   record.in_displacements = method.in_displacements;
 }
 
-Record blank_record(const Problem& problem, const Method& method, const Options& options) {
+Record blank_record(const PosedProblem& problem, const Method& method, const Options& options) {
+  const Problem* const body = body_of(problem);
   const MeshSizes sizes = solved_sizes(problem);
   Record record;
   record.status_reason = "the case did not run";
@@ -37,8 +38,8 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
     record.status = Status::skipped;
     record.status_reason = std::move(why);
   }
-  record.mesh = problem.mesh.name;
-  if (!problem.given) note(problem.mesh, record);
+  record.mesh = mesh_name_of(problem);
+  if (body != nullptr) note(body->mesh, record);
   describe(method, record);
   record.threads = options.threads;
   record.precision = options.precision;
@@ -47,12 +48,12 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
   record.stop = options.stop;
   record.study = name_of(options.study);
   record.target_error = options.target_error;
-  if (!problem.given) {
+  if (body != nullptr) {
     record.n_phi = sizes.n_phi;
     record.n_f = sizes.n_f;
   }
   record.n_c = sizes.n_c;
-  record.load_steps = 1 + std::ssize(problem.later_steps);
+  record.load_steps = body != nullptr ? 1 + std::ssize(body->later_steps) : 1;
   record.stages_left_out = Json::object();
   for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {
     if (decision.run)
@@ -64,7 +65,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
 }
 
 Record blank_record(const Case& planned, const Options& options) {
-  Record record = blank_record(*planned.posed.problem, planned.method, options);
+  Record record = blank_record(planned.posed.problem, planned.method, options);
   identify(planned, record);
   return record;
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <limits>
 
+#include "bench/plan/stages.hpp"
 #include "support/numbers.hpp"
 #include "support/sha256.hpp"
 
@@ -19,8 +20,8 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   const auto add = [&](const PosedScene& scene, Method method, Knob knob) {
     const Stop own_stop = knob.stop.value_or(stop);
     std::optional<ContactSolver> solver;
-    if ((method.condenses_contact() || scene.problem->given) && method.program.empty() &&
-        solved_sizes(*scene.problem).n_c > 0) {
+    if ((method.condenses_contact() || !body_of(scene.problem)) && method.program.empty() &&
+        solved_sizes(scene.problem).n_c > 0) {
       solver = implied_contact_solver(own_stop, knob.name);
       if (*solver == ContactSolver::newton)
         solver = knob.contact.value_or(contact.value_or(ContactSolver::newton));
@@ -33,7 +34,7 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
       if (study == Study::error)
         for (TurnedMethod& point : error_points(method))
           add(scene, std::move(point.method), std::move(point.knob));
-      else if (study == Study::contact || (scene.problem->given && !contact))
+      else if (study == Study::contact || (!body_of(scene.problem) && !contact))
         for (TurnedMethod& point : contact_points(method))
           add(scene, std::move(point.method), std::move(point.knob));
       else if (study == Study::scaling)
@@ -44,8 +45,18 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   return cases;
 }
 
+const Problem* body_of(const PosedProblem& problem) {
+  const auto* const body = std::get_if<std::shared_ptr<const Problem>>(&problem);
+  return body != nullptr ? body->get() : nullptr;
+}
+
+std::string mesh_name_of(const PosedProblem& problem) {
+  const Problem* const body = body_of(problem);
+  return body != nullptr ? body->mesh.name : std::get<1>(problem)->name;
+}
+
 CaseName Case::name() const {
-  return {posed.problem->mesh.name,
+  return {mesh_name_of(posed.problem),
           posed.scene_name,
           method.name,
           name_of(study),

@@ -10,25 +10,27 @@
 namespace airybench {
 namespace {
 
+// `solve` under a changed control; none: none.
+template <typename AnySolve>
+AnySolve under(const std::function<void(RunControl&)>& turn, AnySolve solve) {
+  if (!solve) return nullptr;
+  return [solve = std::move(solve), turn](const auto& problem, RunControl control) {
+    turn(control);
+    return solve(problem, control);
+  };
+}
+
 // A copy of the method that runs under a changed control, once and untightened.
 TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
   TurnedMethod result{method, std::move(knob)};
   result.method.first_tolerance = 0;
-  result.method.solve = [solve = method.solve, turn](const DualSystem& s, const RunControl& c) {
-    RunControl control = c;
-    turn(control);
-    return solve(s, control);
-  };
+  result.method.solve = under(turn, method.solve);
+  result.method.solve_contact = under(turn, method.solve_contact);
   if (method.tune)
-    result.method.tune = [tune = method.tune, turn](const DualSystem& s, const RunControl& c) {
-      RunControl control = c;
+    result.method.tune = [tune = method.tune, turn](const DualSystem& system, RunControl control) {
       turn(control);
-      Tuning tuning = tune(s, control);
-      tuning.solve = [solve = tuning.solve, turn](const DualSystem& s2, const RunControl& c2) {
-        RunControl again = c2;
-        turn(again);
-        return solve(s2, again);
-      };
+      Tuning tuning = tune(system, control);
+      tuning.solve = under(turn, tuning.solve);
       return tuning;
     };
   return result;

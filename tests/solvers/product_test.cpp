@@ -134,7 +134,7 @@ class KernelsOnARack : public ::testing::TestWithParam<PreconditionerOnMesh> {
   // What a direct solver makes of the system, computed once.
   struct Exact {
     SkylineFactor factor;
-    CondensedSystem condensed;
+    contact::Problem condensed;
   };
   static const Exact& exact() {
     static std::map<std::string, Exact> all;

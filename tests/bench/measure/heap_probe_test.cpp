@@ -112,11 +112,11 @@ TEST(RssProbe, PeakFollowsTouchedMemoryAndCanBeReset) {
   EXPECT_LT(rss::peak_bytes().value() - before, 30 * MiB);
 }
 
-CondensedSystem condensed(int size) {
+contact::Problem condensed(int size, ContactPoints points) {
   std::srand(1);
   const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
   return {root * root.transpose() + Eigen::MatrixXd::Identity(size, size),
-          -size * Eigen::VectorXd::Random(size).cwiseAbs()};
+          -size * Eigen::VectorXd::Random(size).cwiseAbs(), std::move(points)};
 }
 
 TEST(Allocations, NoneInsideAContactSweep) {
@@ -125,13 +125,13 @@ TEST(Allocations, NoneInsideAContactSweep) {
     contact.components = components;
     contact.count = 40 / components;
     if (components == 2) contact.friction.assign(static_cast<std::size_t>(contact.count), 0.3);
-    const CondensedSystem system = condensed(40);
+    const contact::Problem problem = condensed(40, contact);
     const auto allocations = [&](int sweeps) {
       RunControl control;
       control.contact_tolerance = 0;  // never met: all sweeps are made
       control.contact_sweeps = sweeps;
       const std::int64_t before = heap::allocations();
-      const ContactResult result = solve_contact_by_gauss_seidel(system, contact, control);
+      const ContactResult result = solve_contact_by_gauss_seidel(problem, control);
       EXPECT_EQ(result.iterations, sweeps);
       return heap::allocations() - before;
     };

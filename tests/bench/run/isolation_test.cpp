@@ -203,7 +203,7 @@ TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   Method patient = method_;
   patient.solve = [this](const DualSystem& system, const RunControl& control) {
     Solution solution = method_.solve(system, control);
-    while (system.problem == large_.problem && solution.status == Status::ok)
+    while (system.problem == large_.body() && solution.status == Status::ok)
       solution = method_.solve(system, control);
     return solution;
   };
@@ -225,7 +225,7 @@ TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
   late.solve = [this](const DualSystem& system, const RunControl& control) {
     RunControl own = control;
     EndsTheTime ender(own);
-    const bool is_large = system.problem == large_.problem;
+    const bool is_large = system.problem == large_.body();
     const ObservedStages scope(is_large ? &ender : nullptr);
     return method_.solve(system, own);
   };
@@ -247,7 +247,7 @@ TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
     Method killed = method_;
     killed.solve = [this, stage](const DualSystem& system, const RunControl& control) {
       KillsAtTheEnd killer(stage);
-      const bool is_large = system.problem == large_.problem;
+      const bool is_large = system.problem == large_.body();
       const ObservedStages scope(is_large ? &killer : nullptr);
       return method_.solve(system, control);
     };
@@ -273,7 +273,7 @@ TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
 }
 
 TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {
-  auto problem = std::make_shared<Problem>(*posed_.problem);
+  auto problem = std::make_shared<Problem>(*posed_.body());
   problem->loads.displacement_mm = [](const Eigen::Vector2d&, int) -> Eigen::Vector2d {
     die_of(SIGSEGV);
     return Eigen::Vector2d::Zero();
