@@ -18,14 +18,12 @@ struct EdgeValues {
   const std::optional<Wall>&wall, &face;
 };
 
-EdgeValues values_of(const Mesh& mesh, int row, const BoundaryConditions& conditions,
-                     const ContactDefaults& defaults) {
+EdgeValues values_of(const Mesh& mesh, int row, const Scene& scene) {
   static const ContactValues none;
-  const auto given = conditions.find(boundary_label(mesh, mesh.boundary[row]));
-  const ContactValues& own = given == conditions.end() ? none : given->second.contact;
-  return {own.friction.value_or(defaults.friction),
-          own.clearance_mm.value_or(defaults.clearance_mm), own.wall ? own.wall : defaults.wall,
-          own.face ? own.face : defaults.face};
+  const auto given = scene.boundary.find(boundary_label(mesh, mesh.boundary[row]));
+  const ContactValues& own = given == scene.boundary.end() ? none : given->second.contact;
+  return {own.friction.value_or(scene.friction), own.clearance_mm.value_or(scene.clearance_mm),
+          own.wall ? own.wall : scene.wall, own.face ? own.face : scene.face};
 }
 
 std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
@@ -103,9 +101,9 @@ struct EdgeGap {
 
 }  // namespace
 
-Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
-                            const ContactDefaults& defaults) {
+ReachableContact with_reachable_contact(Mesh mesh, const Scene& scene) {
   constexpr double farthest = 100, face_share = 0.05;
+  std::vector<std::vector<GapPiece>> pieces_of_row(mesh.boundary.size());
   const MeshExtent extent = extent_of(mesh);
   const double diameter = std::hypot(extent.width_mm, extent.height_mm);
   std::vector<int> free;
@@ -113,10 +111,11 @@ Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
     const std::string label = boundary_label(mesh, mesh.boundary[row]);
-    const EdgeValues values = values_of(mesh, row, conditions, defaults);
+    const EdgeValues values = values_of(mesh, row, scene);
     if (!values.wall) continue;
     const FacingEdge edge = facing(mesh, row, values);
-    const std::vector<GapPiece> pieces = gap_pieces(edge);
+    std::vector<GapPiece>& pieces = pieces_of_row[static_cast<std::size_t>(row)];
+    pieces = gap_pieces(edge);
     const bool reached = is_reached(pieces, farthest * diameter);
     met[label] += reached ? 1 : 0;
     if (!reached) {
@@ -138,30 +137,29 @@ Mesh with_reachable_contact(Mesh mesh, const BoundaryConditions& conditions,
   for (const int row : free)
     mesh.boundary[row] = {mesh.boundary[row].vertices, BoundaryRole::force,
                           boundary_group(mesh, out_of_reach)};
-  return mesh;
+  return {std::move(mesh), std::move(pieces_of_row)};
 }
 
-ContactGap contact_gap(const Mesh& mesh, const BoundaryConditions& conditions,
-                       const ContactDefaults& defaults) {
+ContactGap contact_gap(const ReachableContact& contact, const Scene& scene) {
   constexpr double rounding = 1e-12;
+  const Mesh& mesh = contact.mesh;
   std::vector<EdgeGap> gaps(mesh.boundary.size());
   ContactGap result;
   result.detail.resize(mesh.boundary.size());
-  const double curvature = defaults.crown_radius_mm ? 1 / *defaults.crown_radius_mm : 0;
+  const double curvature = scene.crown_radius_mm ? 1 / *scene.crown_radius_mm : 0;
   for (const std::vector<int>& chain : boundary_chains(mesh, BoundaryRole::contact)) {
     const Eigen::Vector2d middle =
         (points_of(mesh, chain.front())[0] + points_of(mesh, chain.back())[2]) / 2;
     for (const int row : chain) {
-      const EdgeValues values = values_of(mesh, row, conditions, defaults);
+      const EdgeValues values = values_of(mesh, row, scene);
       EdgeGap& gap = gaps[static_cast<std::size_t>(row)];
       gap.clearance_mm = values.clearance_mm;
       gap.middle = middle;
       gap.curvature = curvature;
       if (!values.wall) continue;
       const auto [a, m, b] = points_of(mesh, row);
-      const FacingEdge edge = facing(mesh, row, values);
-      const std::vector<GapPiece> pieces = gap_pieces(edge);
-      gap.wall = wall_distances(edge, pieces);
+      const std::vector<GapPiece>& pieces = contact.pieces[static_cast<std::size_t>(row)];
+      gap.wall = wall_distances(facing(mesh, row, values), pieces);
       gap.start = a;
       gap.along = (b - a) / (b - a).squaredNorm();
       const WallDetail detail = wall_detail(pieces, *gap.wall);
@@ -178,13 +176,12 @@ ContactGap contact_gap(const Mesh& mesh, const BoundaryConditions& conditions,
   return result;
 }
 
-std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryConditions& conditions,
-                                            const ContactDefaults& defaults) {
+std::vector<ContactNormals> contact_normals(const Mesh& mesh, const Scene& scene) {
   std::vector<ContactNormals> normals(mesh.boundary.size());
   bool own = true;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const EdgeValues values = values_of(mesh, row, conditions, defaults);
+    const EdgeValues values = values_of(mesh, row, scene);
     const auto [a, middle, b] = points_of(mesh, row);
     const Eigen::Vector2d m = edge_frame(a, b).normal;
     const auto at = [&](const Eigen::Vector2d& x) {
@@ -200,12 +197,11 @@ std::vector<ContactNormals> contact_normals(const Mesh& mesh, const BoundaryCond
   return normals;
 }
 
-std::vector<double> contact_friction(const Mesh& mesh, const BoundaryConditions& conditions,
-                                     const ContactDefaults& defaults) {
+std::vector<double> contact_friction(const Mesh& mesh, const Scene& scene) {
   std::vector<double> friction(mesh.boundary.size(), 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row)
     if (mesh.boundary[row].role == BoundaryRole::contact)
-      friction[static_cast<std::size_t>(row)] = values_of(mesh, row, conditions, defaults).friction;
+      friction[static_cast<std::size_t>(row)] = values_of(mesh, row, scene).friction;
   return friction;
 }
 

@@ -39,7 +39,4 @@ ControlPoints control_points(const Problem& problem);
 // forces there differ from the loads. Per point normal, tangential (μ = 0: normal).
 Eigen::VectorXd contact_reactions(const Problem& problem, const StressField& stress);
 
-// The coefficients of g0 along an edge of Γ_C: start, edge, end.
-std::array<double, 3> gap_coefficients(const Problem& problem, int boundary_row);
-
 }  // namespace airybench

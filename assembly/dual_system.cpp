@@ -71,11 +71,6 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
 
 ContactPoints contact_points(const Problem& problem) {
   ContactPoints contact;
-  if (problem.given) {
-    contact.friction = problem.given->friction;
-    contact.count = static_cast<int>(contact.friction.size());
-    return contact;
-  }
   contact.components = problem.has_friction() ? 2 : 1;
   std::vector<double> gap;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
@@ -88,11 +83,11 @@ ContactPoints contact_points(const Problem& problem) {
     const auto &a = problem.mesh.vertices[edge.vertices[0]],
                &b = problem.mesh.vertices[edge.vertices[1]];
     for (const int end : {0, 1}) {
-      const EdgeFrame frame = problem.frame_of_moment(row, end);
-      const auto distance = [&](const Eigen::Vector2d& x) {
-        return problem.wall_distance(x, row, frame);
+      const Eigen::Vector2d normal = problem.frame_of_moment(row, end).normal;
+      const auto offset = [&](const Eigen::Vector2d& x) {
+        return problem.offset_at(x, row).along(normal);
       };
-      const auto [first, second] = edge_moments(distance(a), distance((a + b) / 2), distance(b));
+      const auto [first, second] = edge_moments(offset(a), offset((a + b) / 2), offset(b));
       const Eigen::Vector2d& moment = end == 0 ? first : second;
       gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
     }

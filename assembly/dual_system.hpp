@@ -5,9 +5,8 @@
 //   ⎢ C_C  0    0   −I ⎥ ⎢ λ' ⎥   ⎢ −F0 ⎥     C_C  n_c×n    forces on Γ_C, normal and tangential
 //   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
 //
-// with the contact law between F_C and r = ū_C − ḡ at every contact point (two per edge, its ends):
-//   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;   |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n.
-// ū_C belongs to w, ḡ has g0 and the rigid motion in it (problem.hpp).
+// with the contact law (contact_problem.hpp) between F_C and r = ū_C − ḡ at every contact point,
+// two per edge, its ends. ū_C belongs to w, ḡ has g0 and the rigid motion in it (problem.hpp).
 //
 // Forces and displacements on edges are those of edge_forces.hpp. As an unknown the φ here is
 // x = φ/scale: S is equilibrated, its diagonal is 1, and q, C_F, C_C are scaled alike. Rows are
@@ -22,6 +21,7 @@
 #include <Eigen/SparseCore>
 #include <memory>
 
+#include "assembly/contact_problem.hpp"
 #include "assembly/dof_numbering.hpp"
 #include "assembly/problem.hpp"
 
@@ -31,20 +31,7 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
-struct ContactPoints {
-  int count = 0;                 // two per contact edge: its start, its end
-  int components = 2;            // per point: normal and tangential, or with μ = 0 normal only
-  std::vector<double> friction;  // μ per point; empty with one component
-  Eigen::VectorXd gap;  // ḡ, mm: the normal and, where the body is moved along the wall, the
-                        // tangential one of every point, in the order of F_C; empty: zero
-  std::vector<int> boundary;  // per point: row of Mesh::boundary
-  double friction_at(int point) const {
-    return friction.empty() ? 0 : friction[static_cast<std::size_t>(point)];
-  }
-  int size() const { return count * components; }  // n_c
-};
-
-// Both components where there is friction anywhere; ḡ by the moments of the wall's distance.
+// Both components where there is friction anywhere; ḡ by the moments of the offset.
 ContactPoints contact_points(const Problem& problem);
 
 struct DualSystem {

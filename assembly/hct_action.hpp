@@ -64,7 +64,6 @@ class HctAction {
   // The product of hct_coefficients() with φ.
   Coefficients coefficients(const Dofs& phi) const {
     using namespace hct_formulas;
-    const Scalar two = 2, three = 3;
     Coefficients c;
     const auto extrapolated = [&](int i, const Eigen::Vector2<Scalar>& by) {
       return phi(3 * i) + phi(3 * i + 1) * by.x() + phi(3 * i + 2) * by.y();
@@ -74,16 +73,12 @@ class HctAction {
       c(9 + i) = extrapolated(i, to_centroid_[i]);
     }
     for (int t = 0; t < 3; ++t) {
-      const int i = t, j = next(t);
-      const Scalar near_i = c(3 + 2 * t) = extrapolated(i, edge_[t]);
-      const Scalar near_j = c(4 + 2 * t) = extrapolated(j, -edge_[t]);
-      const Eigen::Vector3<Scalar>& alpha = alpha_[t];
-      c(12 + t) = (phi(9 + t) * outward_[t] - alpha(0) * (c(i) + two * near_i + near_j) -
-                   alpha(1) * (near_i + two * near_j + c(j)) - alpha(2) * (c(9 + i) + c(9 + j))) /
-                  (two * alpha(2));
+      c(3 + 2 * t) = extrapolated(t, edge_[t]);
+      c(4 + 2 * t) = extrapolated(next(t), -edge_[t]);
     }
-    for (int i = 0; i < 3; ++i) c(15 + i) = (c(9 + i) + c(12 + i) + c(12 + next(next(i)))) / three;
-    c(18) = (c(15) + c(16) + c(17)) / three;
+    complete_coefficients<Scalar>(
+        alpha_, [&](int row) -> Scalar& { return c(row); },
+        [&](int t) -> Scalar { return phi(9 + t) * outward_[t]; });
     return c;
   }
 

@@ -81,6 +81,26 @@ Eigen::Matrix<Scalar, 3, 6> stress_weights(const Corners<Scalar>& gradients) {
   return weights * Scalar(6);
 }
 
+// The coefficients in rows 12 to 18, from those before them. at(row) is one; normal(t) is 4/3 of
+// the outward derivative at the middle of edge t.
+template <typename Scalar, typename At, typename Normal>
+void complete_coefficients(const std::array<Eigen::Vector3<Scalar>, 3>& alpha, At at,
+                           Normal normal) {
+  const Scalar two = 2, three = 3;
+  for (int t = 0; t < 3; ++t) {
+    const int i = t, j = next(t), near_i = 3 + 2 * t, near_j = 4 + 2 * t;
+    // Solved for c_111, which comes with α_2.
+    Scalar inner = normal(t);
+    inner -= alpha[t](0) * (at(i) + two * at(near_i) + at(near_j));
+    inner -= alpha[t](1) * (at(near_i) + two * at(near_j) + at(j));
+    inner -= alpha[t](2) * (at(9 + i) + at(9 + j));
+    at(12 + t) = inner / (two * alpha[t](2));
+  }
+  for (int i = 0; i < 3; ++i)
+    at(15 + i) = (at(9 + i) + at(12 + i) + at(12 + next(next(i)))) / three;
+  at(18) = (at(15) + at(16) + at(17)) / three;
+}
+
 }  // namespace hct_formulas
 
 template <typename Scalar>
@@ -88,9 +108,10 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& ve
                                            const EdgeSignsFor<Scalar>& outward) {
   using namespace hct_formulas;
   using Vector = Eigen::Vector2<Scalar>;
-  const Scalar two = 2, three = 3;
+  const Scalar three = 3;
   const Corners<Scalar> v = at_origin<Scalar>(vertices);
   const Vector centroid = mean(v);
+  std::array<Eigen::Vector3<Scalar>, 3> alpha;
   HctCoefficientsIn<Scalar> c = HctCoefficientsIn<Scalar>::Zero();
   for (int i = 0; i < 3; ++i) {
     c(i, 3 * i) = 1;
@@ -101,24 +122,12 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& ve
     const Vector edge = v.col(j) - v.col(i);
     extrapolate<Scalar>(c, 3 + 2 * t, i, edge / three);
     extrapolate<Scalar>(c, 4 + 2 * t, j, edge / -three);
-
-    // Solved for c_111, which comes with α_2.
-    const Eigen::Vector3<Scalar> alpha = normal_direction<Scalar>(v.col(i), v.col(j), centroid);
-    for (int dof = 0; dof < 12; ++dof) {
-      const auto at = [&](int row) { return c(row, dof); };
-      Scalar inner = dof == 9 + t ? Scalar(outward[t] * 4) / three : Scalar(0);
-      inner -= alpha(0) * (at(i) + two * at(3 + 2 * t) + at(4 + 2 * t));
-      inner -= alpha(1) * (at(3 + 2 * t) + two * at(4 + 2 * t) + at(j));
-      inner -= alpha(2) * (at(9 + i) + at(9 + j));
-      c(12 + t, dof) = inner / (two * alpha(2));
-    }
+    alpha[t] = normal_direction<Scalar>(v.col(i), v.col(j), centroid);
   }
-  for (int dof = 0; dof < 12; ++dof) {
-    const auto at = [&](int row) { return c(row, dof); };
-    for (int i = 0; i < 3; ++i)
-      c(15 + i, dof) = (at(9 + i) + at(12 + i) + at(12 + next(next(i)))) / three;
-    c(18, dof) = (at(15) + at(16) + at(17)) / three;
-  }
+  for (int dof = 0; dof < 12; ++dof)
+    complete_coefficients<Scalar>(
+        alpha, [&](int row) -> Scalar& { return c(row, dof); },
+        [&](int t) { return dof == 9 + t ? Scalar(outward[t] * 4) / three : Scalar(0); });
   return c;
 }
 

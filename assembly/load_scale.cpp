@@ -27,8 +27,8 @@ LoadScale load_scale(const Problem& problem) {
             std::max(displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.norm());
       }
       // An interference is a displacement.
-      if (edge.role == BoundaryRole::contact && loads.gap_mm)
-        displacement = std::max(displacement, -loads.gap_mm(x, row));
+      if (edge.role == BoundaryRole::contact)
+        displacement = std::max(displacement, -problem.offset_at(x, row).gap_mm);
       if (edge.role == BoundaryRole::force && loads.traction_MPa)
         stress = std::max(stress, loads.traction_MPa(x, normal, row).norm());
     }

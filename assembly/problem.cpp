@@ -4,6 +4,7 @@
 #include <cassert>
 #include <limits>
 
+#include "assembly/displacement_field.hpp"
 #include "assembly/edge_forces.hpp"
 
 namespace airybench {
@@ -37,15 +38,32 @@ EdgeSigns Problem::edge_signs(int triangle) const {
   return {a < b ? 1. : -1., b < c ? 1. : -1., c < a ? 1. : -1.};
 }
 
-Eigen::Vector2d Problem::wall_distance(const Eigen::Vector2d& x, int boundary_row,
-                                       const EdgeFrame& frame) const {
-  const Eigen::Vector2d rho = motion.at(x);
-  const double gap = loads.gap_mm ? loads.gap_mm(x, boundary_row) : 0;
-  const auto [a, m, b] = slid_at(boundary_row);
+ContactOffset Problem::offset_at(const Eigen::Vector2d& x, int boundary_row) const {
+  ContactOffset offset{.motion_mm = motion.at(x)};
+  if (loads.gap_mm) offset.gap_mm = loads.gap_mm(x, boundary_row);
+  if (loads.slid_mm.empty()) return offset;
+  const auto [a, m, b] = loads.slid_mm[static_cast<std::size_t>(boundary_row)];
   const Eigen::Vector2d& start = mesh.vertices[mesh.boundary[boundary_row].vertices[0]];
-  const double s = (x - start).norm() / frame.length_mm;
-  const double slid = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
-  return {gap - frame.normal.dot(rho), slid - frame.tangent.dot(rho)};
+  const double s = (x - start).norm() / own_frame(boundary_row).length_mm;
+  offset.slid_mm = a * (1 - s) * (1 - s) + 2 * m * s * (1 - s) + b * s * s;
+  return offset;
+}
+
+std::array<ContactOffset, 3> Problem::offset_coefficients(int boundary_row) const {
+  const auto [start, end] = mesh.boundary[boundary_row].vertices;
+  const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+  std::array<ContactOffset, 3> offsets;
+  std::array<double, 3> gap{};
+  if (const auto& g0 = loads.gap_mm)
+    gap =
+        edge_coefficients(g0(a, boundary_row), g0((a + b) / 2, boundary_row), g0(b, boundary_row));
+  for (std::size_t k = 0; k < 3; ++k) {
+    offsets[k].gap_mm = gap[k];
+    offsets[k].motion_mm = motion.at(a + static_cast<double>(k) * (b - a) / 2);  // ρ is linear
+    if (!loads.slid_mm.empty())
+      offsets[k].slid_mm = loads.slid_mm[static_cast<std::size_t>(boundary_row)][k];
+  }
+  return offsets;
 }
 
 bool Problem::contact_turns() const {

@@ -6,7 +6,7 @@
 // Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0.
 //
 // The rigid motion ρ that is nearest to u0 is taken out: unknown is w = u − ρ, with u0 − ρ on Γ_D;
-// on Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (wall_distance). Energies are those
+// on Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those
 // of w: with b or f they differ from those of u by the constant work of these on ρ.
 //
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
@@ -69,12 +69,18 @@ struct ContactNormals {
 // Rollers are parallel when their directions differ by a smaller sine than this.
 inline constexpr double straight_roller = 1e-6;
 
-// A contact problem that came without a body: r = D F − b, with D and b as they came, and μ per
-// point; normal and tangential component at each. Units are whoever wrote it's.
-struct GivenContact {
-  Eigen::MatrixXd D;
-  Eigen::VectorXd b;
-  std::vector<double> friction;
+// How far the body may go at a point of Γ_C before the contact law acts: wall, crown and clearance,
+// the load step's rigid motion, and the slip of earlier steps.
+struct ContactOffset {
+  double gap_mm = 0;                   // g0
+  double slid_mm = 0;                  // s0: u_t that slip is measured from
+  Eigen::Vector2d motion_mm = {0, 0};  // ρ
+
+  // Of w, along an outward normal and, without slipping, its tangent: (g0 − ρ_n, s0 − ρ_t).
+  Eigen::Vector2d along(const Eigen::Vector2d& n) const {
+    const Eigen::Vector2d t(-n.y(), n.x());
+    return {gap_mm - n.dot(motion_mm), slid_mm - t.dot(motion_mm)};
+  }
 };
 
 struct Problem {
@@ -88,7 +94,6 @@ struct Problem {
   // Load steps after this one, each with all of u0. Slip is measured from the step before: they are
   // posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};
-  std::shared_ptr<const GivenContact> given = {};  // instead of all the others but the mesh's name
   int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
@@ -112,15 +117,9 @@ struct Problem {
     return loads.wall_detail.empty() ? WallDetail{}
                                      : loads.wall_detail[static_cast<std::size_t>(boundary_row)];
   }
-  // Bernstein coefficients of u_t on an edge of Γ_C that slip is measured from.
-  std::array<double, 3> slid_at(int boundary_row) const {
-    return loads.slid_mm.empty() ? std::array<double, 3>{0, 0, 0}
-                                 : loads.slid_mm[static_cast<std::size_t>(boundary_row)];
-  }
-  // How far w may go at x on an edge of Γ_C, along its outward normal and, without slipping, its
-  // tangent: (g0 − ρ_n, s0 − ρ_t), s0 the tangential displacement that slip is measured from.
-  Eigen::Vector2d wall_distance(const Eigen::Vector2d& x, int boundary_row,
-                                const EdgeFrame& frame) const;
+  // On an edge of Γ_C: at x, and the Bernstein coefficients at its start, middle and end.
+  ContactOffset offset_at(const Eigen::Vector2d& x, int boundary_row) const;
+  std::array<ContactOffset, 3> offset_coefficients(int boundary_row) const;
 
   // Whether the law's normal changes along an edge. Stresses and displacements are admissible then
   // but for the square of that angle.

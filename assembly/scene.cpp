@@ -38,16 +38,11 @@ auto of_scene(const Scene& scene, const std::string& key, auto change) {
   }
 }
 
-ContactDefaults contact_defaults(const Scene& scene) {
-  return {scene.friction, scene.clearance_mm, scene.crown_radius_mm, scene.wall, scene.face};
-}
-
-Mesh mesh_of(const Scene& scene, Mesh mesh) {
+ReachableContact contact_of(const Scene& scene, Mesh mesh) {
   mesh = of_scene(scene, "mesh", [&] { return transformed(std::move(mesh), scene.mesh); });
   mesh = of_scene(scene, "layers", [&] { return layered(std::move(mesh), scene.layers); });
-  return of_scene(scene, "boundary", [&] {
-    return with_reachable_contact(std::move(mesh), scene.boundary, contact_defaults(scene));
-  });
+  return of_scene(scene, "boundary",
+                  [&] { return with_reachable_contact(std::move(mesh), scene); });
 }
 
 struct Face {
@@ -226,12 +221,10 @@ Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
 }
 
 // Of every step, the first included.
-std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh) {
+std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& contact) {
   std::vector<Loads> steps;
-  const auto gap_of = [&](const Scene& at) {
-    return contact_gap(mesh, at.boundary, contact_defaults(at));
-  };
-  ContactGap gap = gap_of(scene);
+  const Mesh& mesh = contact.mesh;
+  ContactGap gap = contact_gap(contact, scene);
   for (int k = 1; k < scene.equal_steps; ++k)
     steps.push_back(
         loads_of(part_of(scene, static_cast<double>(k) / scene.equal_steps), "", mesh, gap));
@@ -239,7 +232,7 @@ std::vector<Loads> loads_of_steps(const Scene& scene, const Mesh& mesh) {
   Scene at = scene;
   for (std::size_t k = 0; k < scene.later_steps.size(); ++k) {
     change(at, scene.later_steps[k]);
-    if (changes_gap(scene.later_steps[k])) gap = gap_of(at);
+    if (changes_gap(scene.later_steps[k])) gap = contact_gap(contact, at);
     steps.push_back(loads_of(at, step_prefix(k), mesh, gap));
   }
   return steps;
@@ -271,15 +264,14 @@ void check_values(const Scene& scene) {
 
 Problem pose(const Scene& scene, Mesh given_mesh) {
   check_values(scene);
-  Mesh mesh = mesh_of(scene, std::move(given_mesh));
+  ReachableContact contact = contact_of(scene, std::move(given_mesh));
+  Mesh& mesh = contact.mesh;
   check_geometry(scene, mesh, contact_faces(mesh));
 
-  std::vector<Loads> steps = loads_of_steps(scene, mesh);
+  std::vector<Loads> steps = loads_of_steps(scene, contact);
   std::vector<Eigen::Matrix3d> by_body = compliances(scene, mesh);
-  const std::vector<double> friction =
-      contact_friction(mesh, scene.boundary, contact_defaults(scene));
-  std::vector<ContactNormals> normals =
-      contact_normals(mesh, scene.boundary, contact_defaults(scene));
+  const std::vector<double> friction = contact_friction(mesh, scene);
+  std::vector<ContactNormals> normals = contact_normals(mesh, scene);
   Problem problem =
       make_problem(std::move(mesh), std::move(by_body), std::move(steps.front()), friction);
   problem.contact_normals = std::move(normals);

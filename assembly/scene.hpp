@@ -25,35 +25,35 @@ struct LoadStep {
 struct Scene {
   std::string name = "default";
   std::string source = "default scene";  // where it comes from; for messages
-  std::string group, about;              // of an atlas of scenes; they change nothing
+  std::string group = {}, about = {};    // of an atlas of scenes; they change nothing
 
   // What is done to the mesh before anything else; layers then are its bodies.
-  MeshTransform mesh;
-  Layers layers;
+  MeshTransform mesh = {};
+  Layers layers = {};
 
   // Geometry belongs to the transformed mesh. What is given here is compared with it, and a
   // contradiction is refused.
-  std::optional<int> teeth;  // separate contact faces
-  std::optional<double> root_half_height_mm, length_mm, tip_half_height_mm;
+  std::optional<int> teeth = {};  // separate contact faces
+  std::optional<double> root_half_height_mm = {}, length_mm = {}, tip_half_height_mm = {};
 
-  Material material;                      // every body …
-  std::vector<Material> layer_materials;  // … but layers: "layer k+1" has the k-th, cycled …
-  std::map<std::string, Material> materials;  // … and bodies named here
+  Material material = {};                      // every body …
+  std::vector<Material> layer_materials = {};  // … but layers: "layer k+1" has the k-th, cycled …
+  std::map<std::string, Material> materials = {};  // … and bodies named here
   Plane plane = Plane::strain;
 
   // On Γ_C, but for groups with values of their own (contact_conditions.hpp).
   double friction = 0.2;                            // μ ≥ 0
   std::optional<double> crown_radius_mm = 400;      // of a wall at the faces; none: flat
-  std::optional<Wall> wall, face;                   // instead of a crown
+  std::optional<Wall> wall = {}, face = {};         // instead of a crown
   double clearance_mm = 0;                          // added to the gap, ≥ 0
   Eigen::Vector2d displacement_mm = {0.02, 0.006};  // of Γ_D …
-  BoundaryConditions boundary;                      // … but groups with a value of their own
+  BoundaryConditions boundary = {};                 // … but groups with a value of their own
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};
 
   // A path: displacements, tractions and body force in so many equal parts (the gap stays), or from
   // the loads above through further steps. Not both.
   int equal_steps = 1;
-  std::vector<LoadStep> later_steps;
+  std::vector<LoadStep> later_steps = {};
 };
 inline constexpr int most_load_steps = 1000;
 

@@ -37,8 +37,9 @@ int complain(std::string_view what, int exit_code) {
   return exit_code;
 }
 
-int run(int argc, const char* const* argv) {
+int run(int argc, char** argv) {
   try {
+    airybench::restart_with_better_blas_core(argv);
     const auto found = argc > 1 ? commands.find(argv[1]) : commands.end();
     return found == commands.end() ? airybench::run_command(argc, argv)
                                    : found->second(argc - 1, argv + 1);
@@ -74,7 +75,6 @@ int run(int argc, const char* const* argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  airybench::restart_with_better_blas_core(argv);
   airybench::open_standard_streams();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
   if (const std::string lack = airybench::lack_of_address_space(1); !lack.empty())

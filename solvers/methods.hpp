@@ -16,7 +16,7 @@ namespace airybench {
 // name.
 const std::vector<Method>& methods();
 
-// What solves problems that come without a body (GivenContact); it is not in the table.
+// What solves contact problems that come without a body; it is not in the table.
 Method condensed_contact();
 
 // The methods that a comma-separated list selects: names of the table and globs, in the table's

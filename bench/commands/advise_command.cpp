@@ -250,7 +250,7 @@ int advise_command(int argc, const char* const* argv) {
              (options.out / "advice.csv").string());
 
   const auto planned = std::ranges::find_if(plan, [&](const Case& c) {
-    return c.method.name == best.method && c.posed.problem->mesh.name == best.mesh;
+    return c.method.name == best.method && mesh_name_of(c.posed.problem) == best.mesh;
   });
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;

@@ -152,7 +152,7 @@ Case case_of(const Record& record, const std::string& place, const std::filesyst
   MeshFile mesh = mesh_of(record, folder);
   const std::string definition = json_text(record.scene_definition);
   PosedScene posed{record.scene, record.scene_group, recorded_path(mesh.path, options.out),
-                   mesh.sha256,  definition,         nullptr};
+                   mesh.sha256,  definition,         {}};
   Scene scene;
   if (definition != "{}") {
     scene = scene_of(definition, place + ": scene_definition");

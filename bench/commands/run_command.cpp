@@ -65,12 +65,13 @@ void print_list(const std::vector<Method>& others) {
 
 void print_stages(const std::vector<Case>& plan) {
   for (const Case& c : plan) {
-    const MeshSizes sizes = solved_sizes(*c.posed.problem);
-    const std::string of_body =
-        c.posed.problem->given ? "" : fmt::format("n_phi {}, n_f {}, ", sizes.n_phi, sizes.n_f);
+    const MeshSizes sizes = solved_sizes(c.posed.problem);
+    const std::string of_body = body_of(c.posed.problem) == nullptr
+                                    ? ""
+                                    : fmt::format("n_phi {}, n_f {}, ", sizes.n_phi, sizes.n_f);
     fmt::print("[{}/{}] {}  {}n_c {}\n", c.number, plan.size(), c.name().text(), of_body,
                sizes.n_c);
-    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, false))
+    for (const StageDecision& decision : decide_stages(c.posed.problem, c.method, false))
       fmt::print("    {:<9} {}{}{}\n", decision.run ? "run" : "left out", decision.stage,
                  decision.run ? "" : ": ", decision.reason);
   }
@@ -79,7 +80,7 @@ void print_stages(const std::vector<Case>& plan) {
 void print_left_out(const std::vector<Case>& plan, const Options& options) {
   std::map<std::pair<std::string, std::string>, int> cases_without;  // stage, reason
   for (const Case& c : plan)
-    for (const StageDecision& decision : decide_stages(*c.posed.problem, c.method, options.fields))
+    for (const StageDecision& decision : decide_stages(c.posed.problem, c.method, options.fields))
       if (!decision.run) ++cases_without[{decision.stage, decision.reason}];
   fmt::print("left out:\n");
   for (const auto& [what, count] : cases_without)
@@ -119,7 +120,7 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
   }
   if (!options.methods.empty()) return select_methods(options.methods, others);
   std::string names = default_methods(options.study);
-  const auto has_holes = [](const PosedScene& s) { return hole_count(s.problem->mesh) > 0; };
+  const auto has_holes = [](const PosedScene& s) { return hole_count(s.body()->mesh) > 0; };
   if (options.study.name.empty() && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
   if (!others.empty()) names += ",EXTERNAL:*";
   return select_methods(names, others);

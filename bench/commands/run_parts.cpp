@@ -40,8 +40,8 @@ std::vector<SceneFile> read_scenes(const Options& options) {
 }
 
 void note_out_of_reach(const PosedScene& posed) {
-  const Mesh& mesh = posed.problem->mesh;
-  if (const int free = edges_out_of_reach(*posed.problem); free > 0)
+  const Mesh& mesh = posed.body()->mesh;
+  if (const int free = edges_out_of_reach(*posed.body()); free > 0)
     std::cerr << fmt::format("note: {}/{}: {} of {} contact edges meet no wall, and are free\n",
                              mesh.name, posed.scene_name, free,
                              free + mesh_sizes(mesh).contact_edges);
@@ -50,19 +50,16 @@ void note_out_of_reach(const PosedScene& posed) {
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
   for (const fs::path& file : options.problems) {
-    Problem problem;
-    problem.mesh.name = file.stem().string();
-    const auto same = [&](const PosedScene& p) {
-      return p.problem->mesh.name == problem.mesh.name;
-    };
-    if (!is_name(problem.mesh.name) || std::ranges::any_of(posed, same))
+    const std::string name = file.stem().string();
+    const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == name; };
+    if (!is_name(name) || std::ranges::any_of(posed, same))
       throw UsageError(
           fmt::format("--problem: {} (allowed: file names that differ, in UTF-8 without "
                       "control characters)",
                       shortened(file.string())));
-    problem.given = read_contact_problem(file);
+    auto problem = std::make_shared<const contact::Problem>(read_contact_problem(file));
     posed.push_back({"fclib", "", recorded_path(file, options.out), sha256_of_file(file), "{}",
-                     std::make_shared<const Problem>(std::move(problem))});
+                     std::move(problem)});
   }
   return posed;
 }

@@ -13,7 +13,7 @@
 #include "assembly/control_points.hpp"
 #include "bench/external/answer.hpp"
 #include "bench/problems/problem_files.hpp"
-#include "bench/verify/moments_check.hpp"
+#include "bench/verify/verifier.hpp"
 #include "solvers/contact/contact_result.hpp"
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
@@ -233,28 +233,24 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
   return F(Eigen::seqN(0, contact.count, 2));
 }
 
-// solve: of the method whose contact law it is.
-Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualSystem& system,
-                           const RunControl& given) {
+// solve: of the method whose contact law it is; of `body`, or null.
+Solution solve_contact_law(const Caller& caller,
+                           const std::function<Solution(const RunControl&)>& solve,
+                           const Problem* body, const RunControl& given) {
   std::optional<ProgramSolve> program;
   RunControl control = given;
-  control.contact_by = [&](const CondensedSystem& condensed, const ContactPoints& contact,
-                           const RunControl&) {
+  control.contact_by = [&](const contact::Problem& problem, const RunControl&) {
     const std::string& format = caller.declaration.format;
     program.emplace(
-        caller,
-        [&] {
-          return condensed_files(*system.problem, {contact, condensed}, format);
-        },
-        given);
+        caller, [&] { return contact_files(problem, body, format); }, given);
     ContactResult result;
-    result.F_C = forces_of(*program, contact, format);
+    result.F_C = forces_of(*program, problem.points, format);
     result.converged = true;  // its own word
     result.iterations = program->answer().contact_iterations.value_or(0);
     program->end_handing_over();
     return result;
   };
-  Solution solution = solve(system, control);
+  Solution solution = solve(control);
   if (!program) return solution;
   const std::optional<std::int64_t> linear = solution.linear_iterations;
   if (has_answer(solution.status)) program->note(given, solution);
@@ -264,10 +260,31 @@ Solution solve_contact_law(const Caller& caller, const Solve& solve, const DualS
   return solution;
 }
 
+// `solve`, whose program may give no answer.
+template <typename AnySolve>
+auto with_no_answer(AnySolve solve) {
+  return [solve = std::move(solve)](const auto& problem, const RunControl& control) {
+    const auto failed = [](Status status, const std::string& message) {
+      Solution solution;
+      solution.status = status;
+      solution.message = message;
+      return solution;
+    };
+    try {
+      return solve(problem, control);
+    } catch (const NoAnswer& why) {
+      return failed(why.status, why.what());
+    } catch (const FileError& why) {
+      return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
+    }
+  };
+}
+
 }  // namespace
 
 Method external_method(const Declaration& declaration,
                        std::optional<std::int64_t> memory_limit_bytes) {
+  const Caller caller = {declaration, memory_limit_bytes};
   Method method;
   std::function<Solution(const Caller&, const DualSystem&, const RunControl&)> solve;
   switch (declaration.returns) {
@@ -285,11 +302,17 @@ Method external_method(const Declaration& declaration,
       break;
     case Declaration::Returns::contact_forces:
       method = select_methods("HYBRID").front();
-      method.takes = Method::Takes::both;
-      solve = [of_body = method.solve, of_given = condensed_contact().solve](
-                  const Caller& caller, const DualSystem& s, const RunControl& c) {
-        return solve_contact_law(caller, s.problem->given ? of_given : of_body, s, c);
+      solve = [of_body = method.solve](const Caller& caller, const DualSystem& s,
+                                       const RunControl& given) {
+        return solve_contact_law(
+            caller, [&](const RunControl& c) { return of_body(s, c); }, s.problem.get(), given);
       };
+      method.solve_contact =
+          with_no_answer([caller, own = condensed_contact().solve_contact](
+                             const contact::Problem& problem, const RunControl& given) {
+            return solve_contact_law(
+                caller, [&](const RunControl& c) { return own(problem, c); }, nullptr, given);
+          });
       break;
   }
   if (declaration.returns != Declaration::Returns::contact_forces) method.stages = {Stage::recover};
@@ -300,20 +323,8 @@ Method external_method(const Declaration& declaration,
   method.knob =
       declaration.first_tolerance > 0 ? AccuracyKnob::krylov_tolerance : AccuracyKnob::none;
   method.first_tolerance = declaration.first_tolerance;
-  method.solve = [solve, caller = Caller{declaration, memory_limit_bytes}](
-                     const DualSystem& system, const RunControl& control) {
-    Solution failed;
-    try {
-      return solve(caller, system, control);
-    } catch (const NoAnswer& why) {
-      failed.status = why.status;
-      failed.message = why.what();
-    } catch (const FileError& why) {
-      failed.status = Status::breakdown;
-      failed.message = fmt::format("its answer: {}", why.what());
-    }
-    return failed;
-  };
+  method.solve = with_no_answer(
+      [solve, caller](const DualSystem& s, const RunControl& c) { return solve(caller, s, c); });
   return method;
 }
 

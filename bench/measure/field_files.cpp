@@ -211,7 +211,7 @@ std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const Displace
     const EdgeFrame& frame = frames[p];
     const auto r = [&](const Eigen::Vector2d& x, const Eigen::Vector2d& u) -> Eigen::Vector2d {
       return Eigen::Vector2d(frame.normal.dot(u), frame.tangent.dot(u)) -
-             problem.wall_distance(x, row, frame);
+             problem.offset_at(x, row).along(frame.normal);
     };
     const Eigen::Vector2d at_a = w.col(nodes[0]), at_b = w.col(nodes[2]),
                           middle = (at_a + 2 * w.col(nodes[1]) + at_b) / 4;

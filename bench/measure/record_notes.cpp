@@ -34,7 +34,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    blocks.system.reset(new DualSystem(assemble(problem, which)));  // in place: no copy
+    if (problem) blocks.system.reset(new DualSystem(assemble(problem, which)));  // no copy
     blocks.assembly_samples_s.push_back(seconds_since(start));
     blocks.blocks_heap_bytes = if_probed(heap::live_bytes() - before);
     blocks.assembly_peak_heap_bytes = if_probed(heap::peak_bytes() - before);
@@ -101,7 +101,6 @@ void note(const Solution& solution, Record& record) {
 
 void note_what_is_idle(const Problem& problem, Record& record) {
   const MeshSizes sizes = mesh_sizes(problem.mesh);
-  if (problem.given) return;
   if (sizes.contact_edges + sizes.force_edges == 0) {
     record.status_reason = "the whole boundary is prescribed";
   } else if (sizes.contact_edges == 0) {

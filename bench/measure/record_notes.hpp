@@ -16,11 +16,13 @@ namespace airybench {
 
 // The blocks that methods share, and what assembling them takes.
 struct AssembledBlocks {
-  std::unique_ptr<DualSystem> system;  // with the first step's loads, or those of the path's end
+  // With the first step's loads, or those of the path's end; null: there is no body.
+  std::unique_ptr<DualSystem> system;
   std::vector<double> assembly_samples_s;
   std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
   std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during it
 };
+// problem: null where there is no body, and nothing to assemble.
 AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
                                      int repetitions);
 

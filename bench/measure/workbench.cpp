@@ -11,7 +11,6 @@
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/blank_record.hpp"
 #include "bench/verify/answer_hash.hpp"
-#include "bench/verify/moments_check.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -23,14 +22,21 @@ bool is_zero(const StressField& stress) {
   return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
 }
 
+template <typename Wanted>
+std::shared_ptr<const Wanted> held(const PosedProblem& posed) {
+  const auto* const found = std::get_if<std::shared_ptr<const Wanted>>(&posed);
+  return found != nullptr ? *found : nullptr;
+}
+
 }  // namespace
 
-Workbench::Workbench(std::shared_ptr<const Problem> problem, const Options& options,
-                     LeftOut left_out)
-    : problem_(std::move(problem)),
+Workbench::Workbench(PosedProblem problem, const Options& options, LeftOut left_out)
+    : posed_(std::move(problem)),
+      problem_(held<Problem>(posed_)),
+      contact_problem_(held<contact::Problem>(posed_)),
       options_(options),
       left_out_(std::move(left_out)),
-      no_reference_(problem_->given ? "a problem without a body" : left_out_.reference) {}
+      no_reference_(problem_ ? left_out_.reference : "a problem without a body") {}
 
 void Workbench::prepare(const Method& method) {
   try {
@@ -80,7 +86,7 @@ const Reference* Workbench::reference(int step) {
 Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
                                 Activity what) {
   const bool in_detail = what == Activity::detail_run;
-  if (blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
+  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
   const ActivityScope scope(board_, what);
   RunControl control;
   control.deadline = Deadline::after(run_limit_s(what, options_));
@@ -110,7 +116,8 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   try {
     std::optional<heap::Limit> limit;
     if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
-    result.solution = what == Activity::tuning
+    result.solution = contact_problem_ ? run(choice.solve_contact, *contact_problem_, control)
+                      : what == Activity::tuning
                           ? run(choice.solve, *blocks.system, control)
                           : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
     refused = limit && limit->exceeded();
@@ -126,7 +133,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   if (counter) result.instructions = counter->count();
   if (heap::is_active()) {
     result.peak_heap_bytes = watch.peak_bytes();
-    result.memory = watch.split(result.solution, blocks.system->bytes());
+    result.memory = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);
   }
   if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
   if (refused) {
@@ -139,7 +146,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
 
 Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
                                     Record& record) {
-  Choice choice{method.solve, 0};
+  Choice choice{method.solve, 0, method.solve_contact};
   if (method.is_tightened()) {
     choice.tolerance = options_.stop == Stop::paper
                            ? method.paper_tolerance
@@ -183,7 +190,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   Json attempt = {{"tolerance", choice.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (is_answered(run.solution) && (problem_->given || reference() != nullptr)) {
+  if (is_answered(run.solution) && (contact_problem_ || reference() != nullptr)) {
     verify_run(blocks, run);
     attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
   }
@@ -227,7 +234,6 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
 
 JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
   const ActivityScope scope(board_, Activity::verification);
-  if (problem_->given) return {solution.status, verify_given_contact(system, solution)};
   const double dissipation = dissipation_Nmm(system, solution);
   if (solution.displacement.cols() == 0) {
     const Verification v = verify(system, solution, reference(step));
@@ -244,7 +250,13 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (run.judged.empty()) run.judged.push_back(judged(0, *blocks.system, run.solution));
+  if (!run.judged.empty()) return;
+  if (problem_) {
+    run.judged.push_back(judged(0, *blocks.system, run.solution));
+  } else {
+    const ActivityScope scope(board_, Activity::verification);
+    run.judged.push_back({run.solution.status, verify(*contact_problem_, run.solution.F_C)});
+  }
 }
 
 std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem& system,
@@ -257,13 +269,17 @@ std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem
     return {};
   try {
     const DualSystem posed = assemble(system.problem, Blocks::contact_points);
-    const Reference other = compute_reference(posed, solution.F_C);
+    const Reference other = compute_reference(posed, solution.F_C, StartIs::solution);
     if (!(other.error_estimate <= reference_error_at_most())) return {};
     const Verification seen = verify(system, solution, &other);
     return is_small(worst_measure(seen).value) ? std::optional(seen) : std::nullopt;
   } catch (const Breakdown&) {
     return {};
   }
+}
+
+std::string Workbench::prefix_of(std::size_t step) const {
+  return problem_ ? step_prefix(step, *problem_) : "";
 }
 
 void Workbench::judge(const Method& method, const Run& run, Record& record) {
@@ -280,19 +296,18 @@ void Workbench::judge(const Method& method, const Run& run, Record& record) {
     record.status_reason = fmt::format(
         "{}another solution than the reference's, {:.1e} of its stress away; errors are to this "
         "one",
-        step_prefix(other - run.judged.begin(), *problem_),
+        prefix_of(static_cast<std::size_t>(other - run.judged.begin())),
         other->verification.error_stress.value_or(0));
   } else if (!(worst.value <= options_.target_error)) {
     record.status = Status::inaccurate;
-    record.status_reason =
-        fmt::format("{}{} {:.2e} is above the target {:.0e}", step_prefix(at, *problem_),
-                    worst.name, worst.value, options_.target_error);
+    record.status_reason = fmt::format("{}{} {:.2e} is above the target {:.0e}", prefix_of(at),
+                                       worst.name, worst.value, options_.target_error);
   } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
     record.status_reason = fmt::format(
         "{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law and that its "
         "stresses are those of its displacements are checked",
         no_reference_, *record.error_estimate);
-  } else if (!v.error_stress && !method.in_displacements && !problem_->given) {
+  } else if (!v.error_stress && !method.in_displacements && problem_) {
     record.status = Status::inaccurate;
     record.status_reason = "its error is not known: " + no_reference_;
   } else if (v.unstressed) {
@@ -301,9 +316,9 @@ void Workbench::judge(const Method& method, const Run& run, Record& record) {
                                ? "its displacements have no stress: nothing touches or loads what "
                                  "is free of them"
                                : "the body has no stress: nothing touches or loads it";
-  } else {
+  } else if (problem_) {
     note_what_is_idle(*problem_, record);
-    if (!problem_->given) note_large_strains(*problem_, run.solution.stress, record);
+    note_large_strains(*problem_, run.solution.stress, record);
   }
 }
 
@@ -311,7 +326,7 @@ Workbench::Examination Workbench::examine(const Method& method,
                                           const std::filesystem::path& fields) {
   Examination examination;
   Record& record = examination.record;
-  record = blank_record(*problem_, method, options_);
+  record = blank_record(posed_, method, options_);
   try {
     blocks(method.blocks);
   } catch (const std::exception& error) {
@@ -340,20 +355,20 @@ Workbench::Examination Workbench::examine(const Method& method,
     if (*solution.done_fraction > 0)
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
-  if (count_of_steps(*problem_) > 1) record.steps = steps_of(run.judged);
+  if (record.load_steps > 1) record.steps = steps_of(run.judged);
   if (is_answered(solution)) {
     verify_run(assembled, run);
     judge(method, run, record);
-    if (!problem_->given) {
+    if (problem_) {
       note_discretisation(method, solution, record);
       note_half_steps(record);
     }
-    if (!fields.empty() && !problem_->given)
+    if (!fields.empty() && problem_)
       write_fields_of(method, *assembled.system, solution, record, fields);
   }
   // The detail run of a path judges between its steps, which takes memory.
   const bool once =
-      problem_->later_steps.empty() && (run.time_s > options_.long_case_s || options_.study.once);
+      record.load_steps == 1 && (run.time_s > options_.long_case_s || options_.study.once);
   if (once && is_measured(record)) {
     record.measured_once = true;
     add_run(timed(run), record);
@@ -363,7 +378,7 @@ Workbench::Examination Workbench::examine(const Method& method,
 }
 
 bool Workbench::is_answered(const Solution& solution) const {
-  return problem_->given ? solution.F_C.size() > 0 : !solution.stress.empty();
+  return problem_ ? !solution.stress.empty() : solution.F_C.size() > 0;
 }
 
 void Workbench::note_memory(const Run& run, Record& record) {

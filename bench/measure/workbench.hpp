@@ -11,6 +11,7 @@
 #include "bench/measure/load_step_runs.hpp"
 #include "bench/measure/record_notes.hpp"
 #include "bench/plan/options.hpp"
+#include "bench/plan/plan.hpp"
 #include "solvers/methods.hpp"
 
 namespace airybench {
@@ -23,7 +24,7 @@ struct LeftOut {
 
 class Workbench {
  public:
-  Workbench(std::shared_ptr<const Problem> problem, const Options& options, LeftOut left_out = {});
+  Workbench(PosedProblem problem, const Options& options, LeftOut left_out = {});
 
   // The discretisation error of the reference's stresses against the displacements of P2, or of the
   // stresses of adapt_by against displacements recovered from them.
@@ -37,6 +38,7 @@ class Workbench {
   struct Choice {
     Solve solve;
     double tolerance = 0;
+    SolveContact solve_contact = {};
   };
   struct Examination {
     Record record;
@@ -106,7 +108,11 @@ class Workbench {
   void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
                        const Record& record, const std::filesystem::path& file);
 
-  std::shared_ptr<const Problem> problem_;
+  std::string prefix_of(std::size_t step) const;  // step_prefix()
+
+  PosedProblem posed_;
+  std::shared_ptr<const Problem> problem_;                   // null: there is no body
+  std::shared_ptr<const contact::Problem> contact_problem_;  // null: there is one
   const Options& options_;
   LeftOut left_out_;
   ActivityBoard* board_ = nullptr;

@@ -138,7 +138,7 @@ void Workbench::note_discretisation(const Method& method, const Solution& soluti
 }
 
 const Json* Workbench::half_steps() {
-  if (problem_->given || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
+  if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
       reference() == nullptr || !left_out_.discretisation.empty())
     return nullptr;
   if (!steps_in_halves_) {

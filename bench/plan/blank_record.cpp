@@ -13,7 +13,8 @@ void describe(const Method& method, Record& record) {
   record.iterative = method.is_iterative();
 }
 
-Record blank_record(const Problem& problem, const Method& method, const Options& options) {
+Record blank_record(const PosedProblem& problem, const Method& method, const Options& options) {
+  const Problem* const body = body_of(problem);
   const MeshSizes sizes = solved_sizes(problem);
   Record record;
   record.status_reason = "the case did not run";
@@ -21,17 +22,17 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
     record.status = Status::skipped;
     record.status_reason = std::move(why);
   }
-  record.mesh = problem.mesh.name;
-  if (!problem.given) take_over(extent_of(problem.mesh), record);  // tells bodies apart
+  record.mesh = mesh_name_of(problem);
+  if (body != nullptr) take_over(extent_of(body->mesh), record);  // tells bodies apart
   describe(method, record);
   take_over(options, record);
   record.study = options.study.name;
-  if (!problem.given) {
+  if (body != nullptr) {
     record.n_phi = sizes.n_phi;
     record.n_f = sizes.n_f;
   }
   record.n_c = sizes.n_c;
-  record.load_steps = 1 + std::ssize(problem.later_steps);
+  record.load_steps = body != nullptr ? 1 + std::ssize(body->later_steps) : 1;
   record.stages_left_out = Json::object();
   for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {
     if (decision.run)
@@ -43,7 +44,7 @@ Record blank_record(const Problem& problem, const Method& method, const Options&
 }
 
 Record blank_record(const Case& planned, const Options& options) {
-  Record record = blank_record(*planned.posed.problem, planned.method, options);
+  Record record = blank_record(planned.posed.problem, planned.method, options);
   identify(planned, record);
   return record;
 }

@@ -7,7 +7,7 @@
 
 namespace airybench {
 
-Record blank_record(const Problem& problem, const Method& method, const Options& options);
+Record blank_record(const PosedProblem& problem, const Method& method, const Options& options);
 Record blank_record(const Case& planned, const Options& options);
 
 // Its name, family and parts.

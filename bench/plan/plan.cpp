@@ -9,19 +9,20 @@ namespace airybench {
 
 namespace {
 
-std::vector<TurnedMethod> points_of(const Method& method, bool is_given, const Options& options) {
+std::vector<TurnedMethod> points_of(const Method& method, bool has_no_body,
+                                    const Options& options) {
   using enum Study::Points;
   if (options.study.points == accuracy) return error_points(method);
   if (options.study.points == threads) return scaling_points(method, options.thread_counts);
-  if (options.study.points == contact || (is_given && !options.contact))
+  if (options.study.points == contact || (has_no_body && !options.contact))
     return contact_points(method);
   return {{method, {}}};
 }
 
 std::optional<ContactSolver> contact_solver(const Case& planned, const Options& options) {
-  const Problem& problem = *planned.posed.problem;
+  const PosedProblem& problem = planned.posed.problem;
   const Method& method = planned.method;
-  if (!(method.condenses_contact() || problem.given) || !method.program.empty() ||
+  if (!(method.condenses_contact() || body_of(problem) == nullptr) || !method.program.empty() ||
       solved_sizes(problem).n_c == 0)
     return {};
   const ContactSolver implied = implied_contact_solver(planned.stop, planned.knob.name);
@@ -36,7 +37,7 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   std::vector<Case> cases;
   for (const PosedScene& scene : scenes)
     for (const Method& method : methods)
-      for (TurnedMethod& point : points_of(method, scene.problem->given != nullptr, options)) {
+      for (TurnedMethod& point : points_of(method, body_of(scene.problem) == nullptr, options)) {
         Case& added = cases.emplace_back(Case{scene, std::move(point.method), std::move(point.knob),
                                               static_cast<int>(cases.size()) + 1,
                                               options.study.name, options.stop});
@@ -46,8 +47,18 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   return cases;
 }
 
+const Problem* body_of(const PosedProblem& problem) {
+  const auto* const body = std::get_if<std::shared_ptr<const Problem>>(&problem);
+  return body != nullptr ? body->get() : nullptr;
+}
+
+std::string mesh_name_of(const PosedProblem& problem) {
+  const Problem* const body = body_of(problem);
+  return body != nullptr ? body->mesh.name : std::get<1>(problem)->name;
+}
+
 CaseName Case::name() const {
-  return {posed.problem->mesh.name,
+  return {mesh_name_of(posed.problem),
           posed.scene_name,
           method.name,
           study,

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "assembly/contact_problem.hpp"
 #include "assembly/problem.hpp"
 #include "bench/plan/options.hpp"
 #include "bench/records/case_name.hpp"
@@ -21,12 +23,20 @@ struct AdaptedMesh {
   double smallest_angle_deg = 0;
 };
 
+// What a case solves.
+using PosedProblem =
+    std::variant<std::shared_ptr<const Problem>, std::shared_ptr<const contact::Problem>>;
+const Problem* body_of(const PosedProblem& problem);  // null: there is none
+std::string mesh_name_of(const PosedProblem& problem);
+
 struct PosedScene {
   std::string scene_name, scene_group;
   std::string mesh_file, mesh_sha256;
   std::string scene_definition = "{}";  // the scene file's JSON
-  std::shared_ptr<const Problem> problem;
+  PosedProblem problem;
   std::optional<AdaptedMesh> adapted = {};
+
+  const std::shared_ptr<const Problem>& body() const { return std::get<0>(problem); }
 };
 
 struct Case {
@@ -42,7 +52,7 @@ struct Case {
 };
 
 // Scene by scene, so that methods on the same blocks run after one another. Without --contact:
-// Newton, and of given contact problems all solvers.
+// Newton, and of contact problems without a body all solvers.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, const Options& options = {});
 

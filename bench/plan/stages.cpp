@@ -10,11 +10,6 @@
 namespace airybench {
 
 MeshSizes solved_sizes(const Problem& problem) {
-  if (problem.given) {
-    MeshSizes sizes;
-    sizes.n_c = static_cast<int>(problem.given->b.size());
-    return sizes;
-  }
   MeshSizes sizes = mesh_sizes(problem.mesh);
   if (!problem.has_friction()) {
     sizes.n_f += sizes.n_c / 2;
@@ -24,15 +19,23 @@ MeshSizes solved_sizes(const Problem& problem) {
   return sizes;
 }
 
+MeshSizes solved_sizes(const contact::Problem& problem) {
+  MeshSizes sizes;
+  sizes.n_c = problem.points.size();
+  return sizes;
+}
+
+std::string why_skipped(const contact::Problem&, const Method& method) {
+  return method.solve_contact ? "" : "the problem has no body";
+}
+
 std::string why_skipped(const Problem& problem, const Method& method) {
-  if (problem.given && method.takes == Method::Takes::bodies) return "the problem has no body";
-  if (!problem.given && method.takes == Method::Takes::given_contact)
+  if (!method.solve)
     return "the problem has a body: HYBRID condenses it, and solves the contact law";
   const bool external = !method.program.empty();
   if (external && !problem.later_steps.empty())
     return "a path of load steps: other programs are asked for one";
-  if (external && !problem.given && method.condenses_contact() &&
-      mesh_sizes(problem.mesh).contact_edges == 0)
+  if (external && method.condenses_contact() && mesh_sizes(problem.mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
   const std::string why = why_no_blocks(problem.mesh, method.blocks);
   if (why.empty()) return why;
@@ -50,11 +53,17 @@ int edges_out_of_reach(const Problem& problem) {
   }));
 }
 
+std::vector<StageDecision> decide_stages(const contact::Problem& problem, const Method& method,
+                                         bool) {
+  if (const std::string why = why_skipped(problem, method); !why.empty())
+    return {{"all stages", false, why}};
+  return {{"contact", true, ""}};
+}
+
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
                                          bool fields_asked) {
   if (const std::string why = why_skipped(problem, method); !why.empty())
     return {{"all stages", false, why}};
-  if (problem.given) return {{"contact", true, ""}};
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   const bool airy = method.blocks == Blocks::airy;
   const bool contact = sizes.contact_edges > 0;

@@ -14,22 +14,27 @@
 namespace airybench {
 namespace {
 
+// `solve` under a changed control; none: none.
+template <typename AnySolve>
+AnySolve under(const std::function<void(RunControl&)>& turn, AnySolve solve) {
+  if (!solve) return nullptr;
+  return [solve = std::move(solve), turn](const auto& problem, RunControl control) {
+    turn(control);
+    return solve(problem, control);
+  };
+}
+
 // A copy of the method that runs under a changed control, once and untightened.
 TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
-  const auto changed = [turn](RunControl control) {
-    turn(control);
-    return control;
-  };
-  const auto under_it = [changed](const Solve& solve) {
-    return [=](const DualSystem& s, const RunControl& c) { return solve(s, changed(c)); };
-  };
   TurnedMethod result{method, std::move(knob)};
   result.method.first_tolerance = 0;
-  result.method.solve = under_it(method.solve);
+  result.method.solve = under(turn, method.solve);
+  result.method.solve_contact = under(turn, method.solve_contact);
   if (method.tune)
-    result.method.tune = [=, tune = method.tune](const DualSystem& s, const RunControl& c) {
-      Tuning tuning = tune(s, changed(c));
-      tuning.solve = under_it(tuning.solve);
+    result.method.tune = [tune = method.tune, turn](const DualSystem& system, RunControl control) {
+      turn(control);
+      Tuning tuning = tune(system, control);
+      tuning.solve = under(turn, tuning.solve);
       return tuning;
     };
   return result;

@@ -1,4 +1,4 @@
-#include "bench/problems/fclib_reader.hpp"
+#include "bench/problems/fclib.hpp"
 
 #include <fmt/format.h>
 
@@ -139,25 +139,25 @@ Eigen::MatrixXd read_matrix(const FclibFile& file, const std::string& place) {
   return W;
 }
 
-void check_law(const FclibFile& file, const GivenContact& given) {
+void check_law(const FclibFile& file, const contact::Problem& problem) {
   constexpr double rounding = 1e-5;  // of programs that write few digits
-  const Eigen::VectorXd diagonal = given.D.diagonal();
+  const Eigen::VectorXd diagonal = problem.D.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal(i) > 0))
       file.fail("/fclib_local/W", fmt::format("diagonal entry {} is {}", i, diagonal(i)), "> 0");
-  const double off = (given.D - given.D.transpose()).cwiseAbs().maxCoeff();
+  const double off = (problem.D - problem.D.transpose()).cwiseAbs().maxCoeff();
   if (off > rounding * diagonal.maxCoeff())
     file.fail("/fclib_local/W", fmt::format("differs from its transpose by {:.3g}", off),
               "a symmetric matrix");
-  for (std::size_t k = 0; k < given.friction.size(); ++k)
-    if (given.friction[k] < 0)
-      file.fail("/fclib_local/vectors/mu", fmt::format("[{}] is {}", k, given.friction[k]),
-                "at least 0");
+  const std::vector<double>& mu = problem.points.friction;
+  for (std::size_t k = 0; k < mu.size(); ++k)
+    if (mu[k] < 0)
+      file.fail("/fclib_local/vectors/mu", fmt::format("[{}] is {}", k, mu[k]), "at least 0");
 }
 
 }  // namespace
 
-std::shared_ptr<const GivenContact> read_fclib(const std::filesystem::path& path) {
+contact::Problem read_fclib(const std::filesystem::path& path) {
   const FclibFile file(path);
   const std::string local = "/fclib_local";
   if (!file.has(local))
@@ -167,14 +167,15 @@ std::shared_ptr<const GivenContact> read_fclib(const std::filesystem::path& path
   file.whole(local + "/spacedim", 2, 2);
   for (const char* name : {"/V", "/R", "/vectors/s"})
     if (file.has(local + name)) file.fail(local + name, "equality constraints", "none");
-  const auto given = std::make_shared<GivenContact>();
-  given->D = read_matrix(file, local + "/W/");
-  const int m = static_cast<int>(given->D.rows());
-  given->b = file.numbers(local + "/vectors/q", m);
+  contact::Problem problem{.name = path.stem().string()};
+  problem.D = read_matrix(file, local + "/W/");
+  const int m = static_cast<int>(problem.D.rows());
+  problem.G = file.numbers(local + "/vectors/q", m);
   const Eigen::VectorXd mu = file.numbers(local + "/vectors/mu", m / 2);
-  given->friction.assign(mu.begin(), mu.end());
-  check_law(file, *given);
-  return given;
+  problem.points.count = m / 2;
+  problem.points.friction.assign(mu.begin(), mu.end());
+  check_law(file, problem);
+  return problem;
 }
 
 }  // namespace airybench

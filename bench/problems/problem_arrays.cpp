@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 
-#include "bench/problems/known_rows.hpp"
+#include "assembly/row_order.hpp"
 
 namespace airybench {
 namespace {
@@ -21,12 +23,6 @@ Eigen::MatrixXd point_table(const std::vector<Eigen::Vector2d>& points) {
   Eigen::MatrixXd table(static_cast<Eigen::Index>(points.size()), 2);
   for (Eigen::Index i = 0; i < table.rows(); ++i) table.row(i) = points[i];
   return table;
-}
-
-// An empty vector of a system is zero.
-Eigen::MatrixXd written_out(const Eigen::VectorXd& vector, Eigen::Index size) {
-  if (vector.size() > 0) return vector;
-  return Eigen::VectorXd::Zero(size);
 }
 
 SparseRows whole(const SparseColumns& lower_triangle) {
@@ -80,12 +76,27 @@ Eigen::Index ProblemArray::columns() const {
   return std::visit([](const auto& matrix) { return Eigen::Index(matrix.cols()); }, values);
 }
 
-Eigen::VectorXd CondensedProblem::gap() const { return written_out(contact.gap, contact.size()); }
+Eigen::MatrixXd written_out(const Eigen::VectorXd& vector, Eigen::Index size) {
+  if (vector.size() > 0) return vector;
+  return Eigen::VectorXd::Zero(size);
+}
 
-Eigen::VectorXd CondensedProblem::friction() const {
-  Eigen::VectorXd mu(contact.count);
-  for (int p = 0; p < contact.count; ++p) mu(p) = contact.friction_at(p);
-  return mu;
+std::vector<KnownRow> known_rows(const Problem& problem, Known known) {
+  std::vector<KnownRow> rows;
+  const auto add_edge = [&](int row) {
+    const EdgeCondition condition = problem.condition(row);
+    for (const int end : {0, 1}) {
+      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      const std::array<Eigen::Vector2d, 2> axes =
+          condition.in_frame
+              ? std::array{frame.normal, frame.tangent}
+              : std::array<Eigen::Vector2d, 2>{Eigen::Vector2d::UnitX(), Eigen::Vector2d::UnitY()};
+      for (int i = 0; i < 2; ++i)
+        if (condition.component[i] == known) rows.push_back({row, end, axes[i]});
+    }
+  };
+  for_each_boundary_row(problem.mesh, add_edge);
+  return rows;
 }
 
 std::vector<ProblemArray> mesh_arrays(const Mesh& mesh) {
@@ -159,7 +170,7 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
         if (problem.loads.displacement_mm)
           u0.row(row).segment<2>(2 * k) += problem.loads.displacement_mm(x, row);
       } else if (role == BoundaryRole::contact) {
-        if (problem.loads.gap_mm) gap(row, k) = problem.loads.gap_mm(x, row);
+        gap(row, k) = problem.offset_at(x, row).gap_mm;
         normals.row(row).segment<2>(2 * k) = frame.normal;
       } else if (problem.loads.traction_MPa && k != 1) {
         traction.row(row).segment<2>(k) = problem.loads.traction_MPa(x, frame.normal, row);
@@ -189,24 +200,32 @@ std::vector<ProblemArray> body_arrays(const Problem& problem) {
   };
 }
 
-std::vector<ProblemArray> condensed_arrays(const Problem& problem,
-                                           const CondensedProblem& condensed) {
-  const auto& [D, G] = condensed.condensed;
-  const int n_c = condensed.contact.size();
+std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points) {
+  Eigen::MatrixXd mu(points.count, 1);
+  for (int p = 0; p < points.count; ++p) mu(p) = points.friction_at(p);
+  return {{"gap", "mm", "r = u_C - gap, per row of F_C", written_out(points.gap, points.size())},
+          {"mu", "1", "friction, per contact point", mu}};
+}
+
+std::vector<ProblemArray> contact_arrays(const contact::Problem& problem,
+                                         const Eigen::VectorXd& answer) {
+  const ContactPoints& points = problem.points;
   std::vector<ProblemArray> arrays = {
-      {"D", "mm/N", "compliance, symmetric positive definite: u_C = D F_C - G", D, true},
-      {"G", "mm", "-G are the contact displacements without contact forces", written_out(G, n_c)},
-      {"gap", "mm", "r = u_C - gap, per row of F_C", Eigen::MatrixXd(condensed.gap())},
-      {"mu", "1", "friction, per contact point", Eigen::MatrixXd(condensed.friction())},
-  };
-  if (condensed.answer.size() > 0)
+      {"D", "mm/N", "compliance, symmetric positive definite: u_C = D F_C - G", problem.D, true},
+      {"G", "mm", "-G are the contact displacements without contact forces",
+       written_out(problem.G, points.size())}};
+  std::ranges::move(contact_law_arrays(points), std::back_inserter(arrays));
+  if (answer.size() > 0)
     arrays.push_back({"F_C", "N", "an answer to compare with: the refined solution of HYBRID",
-                      Eigen::MatrixXd(condensed.answer)});
-  if (problem.given) return arrays;
-  arrays.push_back({"contact_points_mm", "mm",
-                    "x, y of every contact point: an end of a contact edge",
-                    contact_points(problem, condensed.contact)});
-  add_rows(arrays, "contact", "F_C", known_rows(problem, Known::contact_law));
+                      Eigen::MatrixXd(answer)});
+  return arrays;
+}
+
+std::vector<ProblemArray> contact_place_arrays(const Problem& body, const ContactPoints& points) {
+  std::vector<ProblemArray> arrays = {{"contact_points_mm", "mm",
+                                       "x, y of every contact point: an end of a contact edge",
+                                       contact_points(body, points)}};
+  add_rows(arrays, "contact", "F_C", known_rows(body, Known::contact_law));
   return arrays;
 }
 

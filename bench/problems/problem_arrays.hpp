@@ -1,15 +1,15 @@
 // A posed problem as named arrays, whatever file format they go to.
 //
-// The Airy system (dual_system.hpp) and the condensed contact problem (condensed.hpp) of one mesh
-// under one scene, with the tables that say what every unknown, row and contact point is. Indices
-// count from 0.
+// The Airy system (dual_system.hpp) and the contact problem (contact_problem.hpp) of one mesh under
+// one scene, with the tables that say what every unknown, row and contact point is. Indices count
+// from 0.
 #pragma once
 
 #include <string>
 #include <variant>
 #include <vector>
 
-#include "solvers/contact/condensed.hpp"
+#include "assembly/dual_system.hpp"
 
 namespace airybench {
 
@@ -27,14 +27,6 @@ struct ProblemArray {
   bool is_vector() const { return columns() == 1; }
 };
 
-struct CondensedProblem {
-  ContactPoints contact;
-  CondensedSystem condensed;
-  Eigen::VectorXd answer = {};       // F_C to compare with; empty: none is given away
-  Eigen::VectorXd gap() const;       // zeros where ContactPoints has none
-  Eigen::VectorXd friction() const;  // per contact point
-};
-
 // vertices_mm, triangles, edges, boundary, boundary_roles.
 std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 // With these everything that a displacement method needs: triangle_body, compliance_per_MPa,
@@ -43,9 +35,23 @@ std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 std::vector<ProblemArray> body_arrays(const Problem& problem);
 // S, C_F, q, F, scale, unknowns; force_rows, force_directions of C_F's rows; with contact C_C, F0.
 std::vector<ProblemArray> airy_arrays(const DualSystem& system);
-// D, G, gap, mu, F_C if it is given away; of a body contact_points_mm, and contact_rows,
-// contact_directions of the rows of F_C.
-std::vector<ProblemArray> condensed_arrays(const Problem& problem,
-                                           const CondensedProblem& condensed);
+// gap and mu, zeros where there are none.
+std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points);
+// D, G, gap, mu; F_C, an answer to compare with, unless it is empty.
+std::vector<ProblemArray> contact_arrays(const contact::Problem& problem,
+                                         const Eigen::VectorXd& answer);
+// contact_points_mm; contact_rows and contact_directions of the rows of F_C.
+std::vector<ProblemArray> contact_place_arrays(const Problem& body, const ContactPoints& points);
+
+// A vector of a system, where empty is zero, as a column.
+Eigen::MatrixXd written_out(const Eigen::VectorXd& vector, Eigen::Index size);
+
+// Which force a row of C_F (Known::force) or C_C (Known::contact_law) is, in their order.
+struct KnownRow {
+  int boundary_row;  // of Mesh::boundary
+  int end;           // 0: start of its walk, 1: end
+  Eigen::Vector2d direction;
+};
+std::vector<KnownRow> known_rows(const Problem& problem, Known known);
 
 }  // namespace airybench

@@ -16,8 +16,7 @@
 #include "bench/problems/numpy_files.hpp"
 #endif
 #ifdef AIRYBENCH_HAS_HDF5
-#include "bench/problems/fclib_file.hpp"
-#include "bench/problems/fclib_reader.hpp"
+#include "bench/problems/fclib.hpp"
 #endif
 
 namespace airybench {
@@ -25,16 +24,21 @@ namespace {
 
 struct Exported {
   std::string title;  // "Mesh0/default"
-  std::vector<ProblemArray> arrays;
-  std::optional<CondensedProblem> condensed;
+  std::vector<ProblemArray> arrays = {};
+  const contact::Problem* condensed = nullptr;  // null: there is none
+  Eigen::VectorXd answer = {};                  // F_C to compare with; empty: none is given away
   std::vector<ProblemArray> of_condensed = {};  // are among `arrays`, too
   bool airy = false;                            // these have the Airy system
 
   void append(std::vector<ProblemArray> more) {
     std::ranges::move(more, std::back_inserter(arrays));
   }
-  void append_condensed(const Problem& problem) {
-    of_condensed = condensed_arrays(problem, *condensed);
+  void append_condensed(const contact::Problem& problem, const Problem* body) {
+    condensed = &problem;
+    of_condensed = contact_arrays(problem, answer);
+    if (body != nullptr)
+      std::ranges::move(contact_place_arrays(*body, problem.points),
+                        std::back_inserter(of_condensed));
     append(of_condensed);
   }
 };
@@ -71,7 +75,8 @@ std::vector<std::string> write_npz(const Exported& problem, Files& files) {
 
 #ifdef AIRYBENCH_HAS_HDF5
 std::vector<std::string> write_fclib(const Exported& problem, Files& files) {
-  files["problem.hdf5"] = fclib_file(*problem.condensed, problem.of_condensed, problem.title);
+  files["problem.hdf5"] =
+      fclib_file(*problem.condensed, problem.answer, problem.of_condensed, problem.title);
   std::vector<std::string> places;
   for (const ProblemArray& array : problem.of_condensed)
     places.push_back(array.name == "D" ? "problem.hdf5:/fclib_local/W"
@@ -119,7 +124,7 @@ Json equations(const Exported& problem, bool fclib) {
   all.push_back("u_C = D F_C - G");
   all.push_back("r = u_C - gap");
   all.push_back("F_n <= 0, r_n <= 0, F_n r_n = 0");
-  if (problem.condensed->contact.components == 2)
+  if (problem.condensed->points.components == 2)
     all.push_back("|F_t| <= -mu F_n, F_t r_t <= 0, r_t = 0 unless |F_t| = -mu F_n");
   if (fclib)
     for (const char* line : {"FCLIB: W = s D, q = s (G + gap), s = 1/mean diag D = scale_N_per_mm",
@@ -140,7 +145,7 @@ Files write(const Exported& exported, const std::string& format, Json descriptio
       "outward, n = (s_y, -s_x) of the tangent s";
   description["equations"] = equations(exported, fclib);
   if (exported.condensed) {
-    const ContactPoints& points = exported.condensed->contact;
+    const ContactPoints& points = exported.condensed->points;
     description["contact_points"] = points.count;
     description["components"] = points.components;
     description["order"] = points.components == 2 ? "per contact point normal, tangential"
@@ -181,7 +186,7 @@ void check_problem_format(const std::string& format) {
 }
 
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
-  const Problem& problem = *posed.problem;
+  const Problem& problem = *posed.body();
   const bool fclib = format == "fclib";
   const std::string why_no_airy = why_no_blocks(problem.mesh, Blocks::airy);
   const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {
@@ -189,18 +194,19 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   });
 
   ProblemFiles result;
-  Exported exported{problem.mesh.name + "/" + posed.scene_name, mesh_arrays(problem.mesh), {}};
+  Exported exported{problem.mesh.name + "/" + posed.scene_name, mesh_arrays(problem.mesh)};
   exported.append(body_arrays(problem));
   exported.airy = !fclib && why_no_airy.empty();
-  if (exported.airy) exported.append(airy_arrays(assemble(posed.problem)));
+  if (exported.airy) exported.append(airy_arrays(assemble(posed.body())));
   Json answer = Json::object();
+  Reference reference;
   if (contact || !exported.airy) {
-    const DualSystem points = assemble(posed.problem, Blocks::contact_points);
-    Reference reference = reference_of(points, exported.title);
+    const DualSystem points = assemble(posed.body(), Blocks::contact_points);
+    reference = reference_of(points, exported.title);
     answer = {{"F_C_error_estimate", reference.error_estimate},
               {"F_C_natural_map_residual", reference.natural_map_residual}};
-    exported.condensed = {points.contact, std::move(reference.condensed), reference.F_C};
-    exported.append_condensed(problem);
+    exported.answer = reference.F_C;
+    exported.append_condensed(reference.condensed, &problem);
   }
   if (!fclib && !exported.airy)
     result.notes.push_back("only the body and the condensed problem: " + why_no_airy);
@@ -219,7 +225,7 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   return result;
 }
 
-std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file) {
+contact::Problem read_contact_problem(const std::filesystem::path& file) {
 #ifdef AIRYBENCH_HAS_HDF5
   return read_fclib(file);
 #else
@@ -228,27 +234,21 @@ std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::
 }
 
 Files airy_files(const DualSystem& system, const std::string& format) {
-  Exported exported{system.problem->mesh.name, airy_arrays(system), {}};
+  Exported exported{system.problem->mesh.name, airy_arrays(system)};
   exported.airy = true;
-  if (system.contact.count > 0) {  // S and C say the rest
-    const CondensedProblem points{system.contact, {}};
-    exported.arrays.push_back(
-        {"gap", "mm", "r = u_C - gap, per row of F_C", Eigen::MatrixXd(points.gap())});
-    exported.arrays.push_back(
-        {"mu", "1", "friction, per contact point", Eigen::MatrixXd(points.friction())});
-  }
+  if (system.contact.count > 0) exported.append(contact_law_arrays(system.contact));
   return write(exported, format, Json::object());
 }
 
-Files condensed_files(const Problem& problem, CondensedProblem condensed,
-                      const std::string& format) {
-  Exported exported{problem.mesh.name, {}, std::move(condensed)};
-  exported.append_condensed(problem);
+Files contact_files(const contact::Problem& problem, const Problem* body,
+                    const std::string& format) {
+  Exported exported{body != nullptr ? body->mesh.name : problem.name};
+  exported.append_condensed(problem, body);
   return write(exported, format, Json::object());
 }
 
 Files body_files(const Problem& problem, const std::string& format) {
-  Exported exported{problem.mesh.name, mesh_arrays(problem.mesh), {}};
+  Exported exported{problem.mesh.name, mesh_arrays(problem.mesh)};
   exported.append(body_arrays(problem));
   return write(exported, format, Json::object());
 }

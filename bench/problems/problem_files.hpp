@@ -2,7 +2,7 @@
 //
 //   matrix-market  NAME.mtx for every array (matrix_market.hpp)
 //   npz            S.npz, C_F.npz, C_C.npz, and problem.npz with all dense arrays (numpy_files.hpp)
-//   fclib          problem.hdf5, the condensed problem (fclib_file.hpp)
+//   fclib          problem.hdf5, the condensed problem (fclib.hpp)
 //
 // and problem.json, which describes them: equations, signs, and of every array its file, shape,
 // unit and meaning.
@@ -10,7 +10,6 @@
 
 #include <array>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,14 +33,14 @@ struct ProblemFiles {
 // Throws InputError: the problem has nothing that this format can hold.
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
 
-// A contact problem from a file (fclib_reader.hpp). Throws FileError; UsageError: this build is
-// without HDF5.
-std::shared_ptr<const GivenContact> read_contact_problem(const std::filesystem::path& file);
+// A contact problem from a file (fclib.hpp). Throws FileError; UsageError: this build is without
+// HDF5.
+contact::Problem read_contact_problem(const std::filesystem::path& file);
 
 // What another solver is handed of a case, in a format that there is. No answer is in it.
-Files airy_files(const DualSystem& system, const std::string& format);  // with gap and mu
-Files condensed_files(const Problem& problem, CondensedProblem condensed,
-                      const std::string& format);
+Files airy_files(const DualSystem& system, const std::string& format);     // with gap and mu
+Files contact_files(const contact::Problem& problem, const Problem* body,  // null: there is none
+                    const std::string& format);
 Files body_files(const Problem& problem, const std::string& format);
 
 }  // namespace airybench

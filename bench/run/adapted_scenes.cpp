@@ -129,7 +129,7 @@ void print(const Json& said, const std::string& name) {
 PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   PosedScene refined = level_0;
   refined.adapted.reset();
-  Mesh mesh = uniformly_refined(level_0.problem->mesh);
+  Mesh mesh = uniformly_refined(level_0.body()->mesh);
   mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refined1";
   const std::filesystem::path file =
       options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
@@ -143,7 +143,7 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
 
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
   adapting_method(options.adapt_by);
-  const Mesh& mesh = start.problem->mesh;
+  const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
   const std::string definition = definition_on(mesh, start.scene_definition, name);
   const std::filesystem::path folder = options.out / "meshes" / start.scene_name;

@@ -9,7 +9,6 @@
 #include "bench/measure/load_step_runs.hpp"
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
-#include "bench/verify/marking.hpp"
 #include "mesh/bisection.hpp"
 #include "mesh/quality.hpp"
 #include "mesh/refinement.hpp"

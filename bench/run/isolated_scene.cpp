@@ -221,7 +221,7 @@ void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
   for (std::size_t k = 0; k < cases_.size(); ++k)
-    if (why_skipped(*cases_[k]->posed.problem, cases_[k]->method).empty()) prepare(k);
+    if (why_skipped(cases_[k]->posed.problem, cases_[k]->method).empty()) prepare(k);
   prepared_ = true;
   preparation_s_ += seconds_since(start);
 }

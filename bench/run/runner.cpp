@@ -15,8 +15,8 @@
 #include <utility>
 
 #include "bench/plan/blank_record.hpp"
-#include "bench/records/robust.hpp"
 #include "bench/records/record_files.hpp"
+#include "bench/records/robust.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
 #include "bench/verify/verifier.hpp"
@@ -71,15 +70,13 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   const Problem& problem = *system.problem;
   const int row = system.contact.boundary[point], m = system.contact.components;
   const std::array<int, 3> nodes = boundary_nodes(problem, row);
-  const auto &a = problem.mesh.vertices[nodes[0]], &b = problem.mesh.vertices[nodes[2]];
-  const std::array<double, 3> gap = gap_coefficients(problem, row), slid = problem.slid_at(row);
+  const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
   const WallDetail detail = problem.wall_detail_at(row);
   EdgeValues r, u_t;
   for (int k = 0; k < 3; ++k) {
     const EdgeFrame frame = problem.frame_at_node(row, k);
-    const Eigen::Vector2d rho = problem.motion.at(a + k * (b - a) / 2);
-    r[k] = frame.normal.dot(u.col(nodes[k])) - (gap[k] - frame.normal.dot(rho));
-    u_t[k] = frame.tangent.dot(u.col(nodes[k]) + rho) - slid[k];
+    r[k] = frame.normal.dot(u.col(nodes[k])) - offset[k].along(frame.normal).x();
+    u_t[k] = frame.tangent.dot(u.col(nodes[k]) + offset[k].motion_mm) - offset[k].slid_mm;
   }
   const Eigen::Vector2d normal(F_C(m * point), F_C(m * (point + 1)));
   ContactTerms terms{};

@@ -6,7 +6,6 @@
 #include <map>
 #include <vector>
 
-#include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "bench/verify/vertex_stars.hpp"
 
@@ -157,9 +156,8 @@ struct Barrier {
   double excess(const Eigen::Vector2d& w) const { return normal.dot(w) - limit; }
 };
 struct ContactNode {
-  std::vector<Barrier> walls;                                 // one or two
-  Eigen::Vector2d motion;                                     // ρ
-  double slid = 0;                                            // what slip is measured from
+  std::vector<Barrier> walls;  // one or two
+  ContactOffset offset;
   Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
   double friction = std::numeric_limits<double>::infinity();  // the smaller μ of its edges
 };
@@ -172,7 +170,6 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
   for (int point = 0; point < system.contact.count; point += 2) {
     const int row = system.contact.boundary[point];
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const auto &a = problem.mesh.vertices[nodes[0]], &b = problem.mesh.vertices[nodes[2]];
     const EdgeFrame at_start = problem.frame_of_moment(row, 0),
                     at_end = problem.frame_of_moment(row, 1);
     const auto force_at = [&](int end, const EdgeFrame& frame) -> Eigen::Vector2d {
@@ -180,14 +177,14 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
       return F_C(p) * frame.normal + (m == 2 ? F_C(p + 1) : 0) * frame.tangent;
     };
     const Eigen::Vector2d start = force_at(0, at_start), end = force_at(1, at_end);
-    const std::array<double, 3> gap = gap_coefficients(problem, row);
+    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
     const WallDetail detail = problem.wall_detail_at(row);
     for (int k = 0; k < 3; ++k) {
       ContactNode& node = contact[nodes[k]];
-      node.motion = problem.motion.at(a + k * (b - a) / 2);
+      node.offset = offset[k];
       const Eigen::Vector2d normal = problem.frame_at_node(row, k).normal;
-      node.slid = problem.slid_at(row)[k];
-      node.walls.push_back({normal, gap[k] - detail.lowered_mm[k] - normal.dot(node.motion)});
+      node.walls.push_back(
+          {normal, offset[k].gap_mm - detail.lowered_mm[k] - normal.dot(offset[k].motion_mm)});
       node.friction = std::min(node.friction, system.contact.friction_at(point));
       node.force += of_start[k] * start + of_start[2 - k] * end;
     }
@@ -219,8 +216,7 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
   const Eigen::Vector2d t(-n.y(), n.x());
   const double slope = node.friction * std::abs(n.dot(node.force)) / k,
-               at_rest = node.slid - t.dot(node.motion),
-               slid = t.dot(w_0 - node.force / k) - at_rest;
+               at_rest = node.offset.along(n).y(), slid = t.dot(w_0 - node.force / k) - at_rest;
   const double w_n = n.dot(w_0 - node.force / k),
                w_t = at_rest + std::copysign(std::max(0.0, std::abs(slid) - slope), slid);
   return behind(node.walls, w_n * n + w_t * t);

@@ -15,11 +15,12 @@ namespace {
 
 // F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
 double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
-                                 const ContactPoints& contact, const LoadScale& scale,
-                                 const Eigen::VectorXd& start, const MultifrontalFactor& factor,
-                                 Reference& reference, Refined& refined) {
+                                 const LoadScale& scale, const Eigen::VectorXd& start,
+                                 const MultifrontalFactor& factor, Reference& reference,
+                                 Refined& refined) {
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
+  const ContactPoints& contact = reference.condensed.points;
   ContactPoints without_gap = contact;  // its displacement is r
   without_gap.gap.resize(0);
   Eigen::VectorXd F = start;
@@ -51,7 +52,7 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
 }  // namespace
 
 Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start,
-                            const Eigen::VectorXd& sweeps_from) {
+                            StartIs start_is) {
   const Problem& problem = *airy.problem;
   const LoadScale scale = load_scale(problem);
   const auto system = assemble_hybridized<long double>(problem, airy.contact);
@@ -66,12 +67,13 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
   if (system.n_c > 0) {
     reference.condensed.G = factor.load(system.b.cast<double>());
     reference.condensed.D = factor.compliance();
-    RunControl sweeps;
-    sweeps.start = sweeps_from;
+    reference.condensed.points = airy.contact;
+    RunControl control;
+    control.start = start;
     const Eigen::VectorXd F =
-        start.size() > 0 ? start : solve_contact(reference.condensed, airy.contact, sweeps).F_C;
-    force_error = solve_contact_to_rounding(system, airy.contact, scale, F, factor.cholesky(),
-                                            reference, refined);
+        start_is == StartIs::solution ? start : solve_contact(reference.condensed, control).F_C;
+    force_error =
+        solve_contact_to_rounding(system, scale, F, factor.cholesky(), reference, refined);
   } else {
     refine(system, factor.cholesky(), {}, refined);
   }

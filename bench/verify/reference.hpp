@@ -4,8 +4,8 @@
 // Element matrices, residuals and stresses are long doubles; the factor of K in double is only what
 // corrections are made with (refinement.hpp). For contact forces F the refined system gives ū_C(F).
 // The law is first solved with D and G from the factor, as methods do it; then active-set steps
-// follow, with the r of the refined system (a defect
-// correction: D is off by 1e-12, r is not), until the natural map no longer halves.
+// follow, with the r of the refined system (a defect correction: D is off by 1e-12, r is not),
+// until the natural map no longer halves.
 //
 // How far that is from the exact solution of the discrete problem, it says itself: the last
 // correction of the displacements and the next one of the forces, in the energy norm, and the
@@ -19,17 +19,18 @@
 namespace airybench {
 
 struct Reference {
-  CondensedSystem condensed;        // D as factorised; G such that D F_C − G is the refined ū_C
+  contact::Problem condensed;       // D as factorised; G such that D F_C − G is the refined ū_C
   Eigen::VectorXd F_C;              // N
   StressField stress;               // MPa
   double natural_map_residual = 0;  // of F_C with the refined ū_C, relative
   double error_estimate = 0;        // relative: the largest of the three
 };
 
-// Throws Breakdown when the factorisation fails. What is good enough is for the caller to say.
-// start: contact forces to begin with, instead of those of the sweeps. Where the problem has
-// several solutions, the one found is near them. sweeps_from: what those sweeps begin with.
+// Throws Breakdown when the factorisation fails. The caller decides which error is small enough.
+// start: contact forces that the law's solver begins with; empty: zero. A solution is refined as it
+// is: where the problem has several, the one found is near it.
+enum class StartIs { guess, solution };
 Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {},
-                            const Eigen::VectorXd& sweeps_from = {});
+                            StartIs start_is = StartIs::guess);
 
 }  // namespace airybench

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
-#include "bench/verify/moments_check.hpp"
 #include "solvers/base/dense_products.hpp"
-#include "solvers/contact/coulomb_law.hpp"
+#include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
 namespace {
@@ -112,17 +112,67 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
   return work;
 }
 
-void verify_contact(const ContactPoints& contact, const Solution& solution,
+double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
+  return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
+}
+
+}  // namespace
+
+double work_of_prescribed(const DualSystem& system, const StressField& stress,
+                          const Eigen::VectorXd& F_C) {
+  const Problem& problem = *system.problem;
+  const double of_gap = work_of_gap(system.contact, F_C);
+  if (!problem.loads.displacement_mm) return of_gap;
+  return work_of_prescribed_displacement(problem, edge_balance(problem, stress)) + of_gap;
+}
+
+namespace {
+
+// Moments in the components of EdgeUnknowns.
+Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (!problem.condition(row).in_frame) continue;
+    const auto [a, b] = problem.mesh.boundary[row].vertices;
+    auto own = moments.col(problem.edges.of_boundary[row]);
+    const bool low_first = a < b;
+    const std::array<Eigen::Vector2d, 2> walked = {low_first ? own.head<2>() : own.tail<2>(),
+                                                   low_first ? own.tail<2>() : own.head<2>()};
+    for (int end = 0; end < 2; ++end) {
+      const EdgeFrame frame = problem.frame_of_moment(row, end);
+      own.segment<2>(2 * end) << frame.normal.dot(walked[end]), frame.tangent.dot(walked[end]);
+    }
+  }
+  return moments;
+}
+
+}  // namespace
+
+MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments) {
+  const Problem& problem = *system.problem;
+  const Eigen::Matrix4Xd moments = in_frames(problem, edge_moments);
+  HybridizedSystem hybrid;
+  hybrid.n_c = system.contact.size();
+  const int inner = number_unknowns(problem, system.contact, hybrid.unknown);
+  hybrid.displacement = prescribed_displacements(problem);
+  hybrid.b.setZero(inner + hybrid.n_c);
+  Eigen::VectorXd u(hybrid.b.size());
+  for (int edge = 0; edge < problem.edges.count(); ++edge)
+    for (int k = 0; k < 4; ++k)
+      if (const int unknown = hybrid.unknown[edge][k]; unknown != prescribed_unknown)
+        u(unknown) = moments(k, edge);
+  return {recover_stresses(problem, hybrid, u).stress, u.tail(hybrid.n_c)};
+}
+
+namespace {
+
+void verify_contact(const ContactPoints& points, const Solution& solution,
                     const Reference* reference, const LoadScale& scale, Verification& result) {
   const Eigen::VectorXd& F = solution.F_C;
-  note_contact_forces(contact, F, result);
-  if (reference == nullptr) return;
-  const CondensedSystem& condensed = reference->condensed;
-  note_contact_law(contact, F, times(condensed.D, F) - condensed.G, condensed.D.diagonal(), scale,
-                   result);
-  result.error_force = relative_error(D_norm(condensed.D, F - reference->F_C),
-                                      D_norm(condensed.D, reference->F_C), scale.energy_norm);
-  if (contact.components == 2) result.friction_coupling = friction_coupling(contact, condensed.D);
+  if (reference == nullptr) return note_contact_forces(points, F, result);
+  const Eigen::MatrixXd& D = reference->condensed.D;
+  note_contact(points, D, F, times(D, F) - reference->condensed.G, scale, result);
+  result.error_force =
+      relative_error(D_norm(D, F - reference->F_C), D_norm(D, reference->F_C), scale.energy_norm);
 }
 
 void verify_moments(const DualSystem& system, const Solution& solution, const LoadScale& scale,
@@ -136,80 +186,7 @@ void verify_moments(const DualSystem& system, const Solution& solution, const Lo
                      rough_compliance(*system.problem, system.contact), scale, result);
 }
 
-double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
-  return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
-}
-
 }  // namespace
-
-double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
-  double coupling = 0;
-  for (int p = 0; p < contact.count; ++p)
-    coupling = std::max(coupling,
-                        contact.friction_at(p) * std::abs(D(2 * p, 2 * p + 1)) / D(2 * p, 2 * p));
-  return coupling;
-}
-
-void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
-                         Verification& result) {
-  const int m = contact.components;
-  double normal = 0, tangential = 0;
-  for (int p = 0; p < contact.count; ++p) {
-    normal += F(m * p);
-    if (m == 2) tangential += F(m * p + 1);
-  }
-  const std::vector<ContactState> states = contact_states(contact, F);
-  const auto count = [&](ContactState state) {
-    return static_cast<int>(std::count(states.begin(), states.end(), state));
-  };
-  result.normal_resultant_N = normal;
-  result.tangential_resultant_N = tangential;
-  result.n_open = count(ContactState::open);
-  result.n_stick = count(ContactState::stick);
-  result.n_slip = count(ContactState::slip);
-}
-
-void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
-                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
-                      const LoadScale& scale, Verification& result) {
-  const int m = contact.components;
-  const Eigen::VectorXd residual = natural_map(contact, D_diagonal, F, displacement);
-  result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
-  double signorini = 0, coulomb = 0;
-  for (int p = 0; p < contact.count; ++p) {
-    signorini = std::max(signorini, std::abs(residual(m * p)));
-    if (m == 2) coulomb = std::max(coulomb, std::abs(residual(m * p + 1)));
-  }
-  result.signorini_violation_N = signorini;
-  if (m == 2) result.coulomb_violation_N = coulomb;
-}
-
-double work_of_prescribed(const DualSystem& system, const StressField& stress,
-                          const Eigen::VectorXd& F_C) {
-  const Problem& problem = *system.problem;
-  const double of_gap = work_of_gap(system.contact, F_C);
-  if (!problem.loads.displacement_mm) return of_gap;
-  return work_of_prescribed_displacement(problem, edge_balance(problem, stress)) + of_gap;
-}
-
-std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
-  constexpr double tolerance = 1e-9;
-  const int m = contact.components;
-  double largest = 0;
-  for (int p = 0; p < contact.count; ++p) largest = std::max(largest, std::abs(F_C(m * p)));
-  std::vector<ContactState> states(static_cast<std::size_t>(contact.count));
-  for (int p = 0; p < contact.count; ++p) {
-    const double normal = std::abs(F_C(m * p));
-    if (normal <= tolerance * largest)
-      states[p] = ContactState::open;
-    else if (m == 1 ||
-             std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction_at(p) * normal)
-      states[p] = ContactState::slip;
-    else
-      states[p] = ContactState::stick;
-  }
-  return states;
-}
 
 Verification verify(const DualSystem& system, const Solution& solution,
                     const Reference* reference) {
@@ -233,6 +210,45 @@ Verification verify(const DualSystem& system, const Solution& solution,
   if (system.contact.count > 0) verify_contact(system.contact, solution, reference, scale, result);
   if (reference == nullptr && solution.edge_moments.cols() > 0)
     verify_moments(system, solution, scale, result);
+  return result;
+}
+
+Verification verify_displacement(const DualSystem& system, const Solution& solution) {
+  const Problem& problem = *system.problem;
+  const ControlPoints control = control_points(problem);
+  const int m = control.law.components;
+  const LoadScale scale = load_scale(problem);
+  const StressField stress = stress_of_displacement(problem, solution.displacement);
+  NodalForces balance = nodal_forces(problem, stress);
+  balance.sum -= nodal_loads(problem);
+
+  Eigen::VectorXd displacement(control.law.size());
+  for (int p = 0; p < control.law.count; ++p) {
+    const Eigen::Matrix2d frame = control.frame(p);
+    const int node = control.node[p];
+    for (int k = 0; k < m; ++k) {
+      const bool held = k == 1 && control.on_roller[p];
+      displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
+      balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
+    }
+  }
+  const PrescribedDisplacement prescribed = prescribed_displacement(problem);
+  for (const auto& [node, n] : prescribed.normal)  // what a roller gives
+    balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
+  double unbalanced = 0;
+  for (std::size_t node = 0; node < prescribed.at.size(); ++node)
+    if (!prescribed.at[node])
+      unbalanced = std::max(unbalanced, balance.sum.col(node).cwiseAbs().maxCoeff());
+
+  Verification result;
+  result.equilibrium_residual = relative_error(unbalanced, balance.largest, scale.force_N);
+  result.strain_energy_Nmm = stress_norm_squared(problem, stress) / 2;
+  result.unstressed = result.strain_energy_Nmm == 0;
+  if (control.law.count > 0) {
+    note_contact_forces(control.law, solution.F_C, result);
+    note_contact_law(control.law, solution.F_C, displacement,
+                     rough_compliance(problem, control.law), scale, result);
+  }
   return result;
 }
 

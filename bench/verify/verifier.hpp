@@ -5,8 +5,7 @@
 //   error_stress          ‖σ − σ_ref‖ / ‖σ_ref‖   in the energy norm, ‖σ‖² = ∫ σ:C:σ
 //   error_force           ‖F_C − F_ref‖ / ‖F_ref‖  in the D-norm, ‖F‖² = Fᵀ D F
 //   equilibrium_residual  largest unbalanced force of the stresses — across inner edges, against
-//   the
-//                         prescribed forces on Γ_F, against F_C on Γ_C — and largest resultant of
+//                         what Γ_F prescribes, against F_C on Γ_C — and largest resultant of
 //                         ∇·σ + b in a third, over the largest edge force
 //   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
 #pragma once
@@ -29,7 +28,7 @@ struct Verification {
   std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
   std::optional<double> reference_error;        // of the reference, by its own estimate
   // Without a reference, of an answer with edge moments: how far its stresses are from those of the
-  // moments, relative in the energy norm. No error: see moments_check.hpp.
+  // moments, relative in the energy norm. No error: see check_moments().
   std::optional<double> stress_of_moments_off;
   // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
   // relative to the loads then.
@@ -40,12 +39,12 @@ struct Verification {
   std::optional<double> coulomb_violation_N;     // largest tangential component
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
-  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ; of a given problem ½ Fᵀ D F
+  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ; without a body ½ Fᵀ D F
   std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
   // The largest μ|D_nt| / D_nn of a contact point. From 1 on, its law may have several solutions.
   std::optional<double> friction_coupling;
-  std::optional<double> siconos_error;  // of a given problem
+  std::optional<double> siconos_error;  // without a body
 };
 
 // reference: may be null. The contact law is then checked with the answer's own edge moments, where
@@ -60,26 +59,39 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
-// Of a given contact problem (problem.hpp), which is nothing but the contact law: its natural map,
-// and the measure that Siconos stops on (fc2d_compute_error; with r = −F, u = W r + q)
+// Of a contact problem without a body: the contact law's part, and the measure that Siconos stops
+// on (fc2d_compute_error; with r = −F, u = W r + q)
 //   siconos_error  ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖),  û_n = u_n + μ|u_t|
 // where P projects on Coulomb's cone. It depends on the units of W.
-Verification verify_given_contact(const DualSystem& system, const Solution& solution);
+Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F_C);
+
+// What stands in for a reference where a body is too large for one: whether an answer's stresses
+// are those of its edge displacements, which make a compatible field, and these meet the contact
+// law. With the equilibrium of the stresses that is all that the discrete problem asks for. It
+// bounds no error: how far the answer is from the exact one, only the method's own estimate tells.
+inline constexpr int largest_with_reference = 1'000'000;  // n_φ; above, there is none
+struct MomentsCheck {
+  StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
+  Eigen::VectorXd contact_displacement;  // ū_C, mm; in the rows of F_C
+};
+// From Solution::edge_moments, by the elements of hybridized.hpp in double.
+MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments);
 
 // ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n, N mm, what Π* lacks of the energy; F_C at the contact points.
 double work_of_prescribed(const DualSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
 
-// Parts of both verifications: resultants and states of contact forces; how far F and u_C are from
-// the contact law, with ρ = 1/D_diagonal.
+// The parts of these: resultants and states of contact forces; how far F and u_C are from the
+// contact law, with ρ = 1/D_diagonal; both with D, and the friction coupling.
 void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
                          Verification& result);
 void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
                       const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
                       const LoadScale& scale, Verification& result);
 
-// Of two components per point: Verification::friction_coupling.
-double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D);
+void note_contact(const ContactPoints& contact, const Eigen::MatrixXd& D, const Eigen::VectorXd& F,
+                  const Eigen::VectorXd& displacement, const LoadScale& scale,
+                  Verification& result);
 
 // The largest of the relative measures that decide between ok and inaccurate.
 struct WorstMeasure {

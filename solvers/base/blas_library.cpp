@@ -102,7 +102,7 @@ std::string better_blas_core() {
   return "";
 }
 
-void restart_with_better_blas_core(char* const* argv) try {
+void restart_with_better_blas_core(char* const* argv) {
   const std::string better = better_blas_core();
   if (better.empty()) return;
   static std::array<char, 64> entry;
@@ -115,7 +115,6 @@ void restart_with_better_blas_core(char* const* argv) try {
     environment[count++] = *inherited;
   }
   execve("/proc/self/exe", argv, environment.data());
-} catch (const std::bad_alloc&) {  // what comes of a lack of memory is told later
 }
 
 }  // namespace airybench

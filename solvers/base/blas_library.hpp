@@ -29,7 +29,8 @@ void set_blas_threads(int threads);
 std::string better_blas_core();
 
 // Restarts the program with that setting, which programs that it starts inherit. Returns where
-// there is none to make, or it cannot be made.
+// there is none to make, or it cannot be made. Throws std::bad_alloc: the program must end then,
+// because a dlopen() that has once run out of memory finds no symbols of dependencies later.
 void restart_with_better_blas_core(char* const* argv);
 
 }  // namespace airybench

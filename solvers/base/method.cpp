@@ -29,13 +29,17 @@ const char* flaw(const Solution& solution, const DualSystem& system) {
   return finite ? nullptr : "the result is not finite";
 }
 
-}  // namespace
+const char* flaw(const Solution& solution, const contact::Problem& problem) {
+  if (solution.F_C.size() != problem.points.size()) return "contact forces are missing";
+  return solution.F_C.allFinite() ? nullptr : "the result is not finite";
+}
 
-Solution run(const Solve& solve, const DualSystem& system, const RunControl& control) {
+template <typename SolveAny, typename Problem>
+Solution run_any(const SolveAny& solve, const Problem& problem, const RunControl& control) {
   try {
-    Solution solution = solve(system, control);
+    Solution solution = solve(problem, control);
     if (solution.status == Status::ok) {
-      if (const char* what = flaw(solution, system)) {
+      if (const char* what = flaw(solution, problem)) {
         solution.status = Status::breakdown;
         solution.message = what;
       }
@@ -53,6 +57,17 @@ Solution run(const Solve& solve, const DualSystem& system, const RunControl& con
   } catch (const std::exception& error) {
     return failed(Status::crashed, error.what());
   }
+}
+
+}  // namespace
+
+Solution run(const Solve& solve, const DualSystem& system, const RunControl& control) {
+  return run_any(solve, system, control);
+}
+
+Solution run(const SolveContact& solve, const contact::Problem& problem,
+             const RunControl& control) {
+  return run_any(solve, problem, control);
 }
 
 }  // namespace airybench

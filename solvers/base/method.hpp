@@ -11,6 +11,7 @@
 namespace airybench {
 
 using Solve = std::function<Solution(const DualSystem&, const RunControl&)>;
+using SolveContact = std::function<Solution(const contact::Problem&, const RunControl&)>;
 
 // One combination of parameters that was tried.
 struct GridPoint {
@@ -42,9 +43,7 @@ struct Method {
   std::string preconditioner = {};  // "DTIC3", as preconditioner_names() spells it; empty: none
   std::string summary = {};         // one line
   bool in_paper = false;            // named there; these are run by default
-  // What it can be asked to solve: bodies, problems that come condensed (GivenContact), or both.
-  enum class Takes { bodies, given_contact, both } takes = Takes::bodies;
-  Blocks blocks = Blocks::airy;  // what it needs assembled
+  Blocks blocks = Blocks::airy;     // what it needs assembled
   // Another discrete problem, in displacements: its stresses do not balance and are not those of
   // the reference; it is judged by the discretisation error alone.
   bool in_displacements = false;
@@ -55,8 +54,9 @@ struct Method {
   // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
   // contact there is nothing to condense.
   bool condenses_contact_only = false;
-  Solve solve = {};
-  std::string general_name = {};  // "SYMMLQ:DTIC3" where the name is an alias; else empty
+  Solve solve = {};                 // bodies; null: it takes contact problems only
+  SolveContact solve_contact = {};  // contact problems without a body; null: it takes none
+  std::string general_name = {};    // "SYMMLQ:DTIC3" where the name is an alias; else empty
   // An iterative method is run to a target error: the harness begins with this tolerance per
   // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
@@ -81,6 +81,7 @@ struct Method {
 // Runs a method; exceptions become statuses: TimeoutReached, std::bad_alloc, Breakdown, any other
 // std::exception (crashed). A success whose result is incomplete or not finite is a breakdown.
 Solution run(const Solve& solve, const DualSystem& system, const RunControl& control);
+Solution run(const SolveContact& solve, const contact::Problem& problem, const RunControl& control);
 inline Solution run(const Method& method, const DualSystem& system, const RunControl& control) {
   return run(method.solve, system, control);
 }

@@ -21,8 +21,9 @@
 
 namespace airybench {
 
-struct CondensedSystem;
-struct ContactPoints;
+namespace contact {
+struct Problem;
+}
 struct ContactResult;
 struct DualSystem;
 struct RunControl;
@@ -153,8 +154,7 @@ struct RunControl {
   // Contact forces, N, that our solvers of the condensed law begin with; empty: zero.
   Eigen::VectorXd start = {};
   // Another's contact solver, instead of these.
-  std::function<ContactResult(const CondensedSystem&, const ContactPoints&, const RunControl&)>
-      contact_by = {};
+  std::function<ContactResult(const contact::Problem&, const RunControl&)> contact_by = {};
 };
 
 // What all checks end with: the estimate into the solution, and `inaccurate` where it is above the

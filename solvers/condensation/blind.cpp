@@ -85,8 +85,8 @@ BlindSystem make_blind_system(const DualSystem& system, BlindNumbering numbering
   return blind;
 }
 
-CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& blind,
-                                 const BlindSolve& solve, int columns_at_once) {
+contact::Problem condense_blindly(const DualSystem& system, const BlindSystem& blind,
+                                  const BlindSolve& solve, int columns_at_once) {
   const int n_c = system.n_c();
   if (n_c == 0) return {};
   const std::vector<int> contact = contact_positions(system, blind);
@@ -95,7 +95,7 @@ CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& bl
     for (int i = 0; i < n_c; ++i) part(i) = x(contact[i]);
     return part;
   };
-  CondensedSystem condensed;
+  contact::Problem condensed{.points = system.contact};
   condensed.G.setZero(n_c);
   if (blind.load.size() > 0) {
     Eigen::VectorXd x = blind.load;
@@ -119,9 +119,9 @@ CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& bl
   return condensed;
 }
 
-CondensedSystem condense_blindly(const Eigen::MatrixXd& schur,
-                                 const Eigen::VectorXd& reduced_load) {
-  CondensedSystem condensed;
+contact::Problem condense_blindly(const ContactPoints& points, const Eigen::MatrixXd& schur,
+                                  const Eigen::VectorXd& reduced_load) {
+  contact::Problem condensed{.points = points};
   if (schur.size() == 0) return condensed;
   Eigen::MatrixXd L = cholesky(-schur, "blind condensation: W");
   condensed.G = -reduced_load;
@@ -163,7 +163,7 @@ void solve_blindly(const DualSystem& system, const RunControl& control, const Bl
                    const BlindSolve& solve, int columns_at_once, Solution& solution,
                    const std::shared_ptr<const void>& owner) {
   if (control.condition) solution.condition_estimate = estimate_condition(blind.lower, solve);
-  CondensedSystem condensed;
+  contact::Problem condensed;
   if (system.n_c() > 0)
     condensed = run_stage(solution.times, Stage::condense, MemoryOwner::condensed,
                           [&] { return condense_blindly(system, blind, solve, columns_at_once); });

@@ -41,10 +41,11 @@ using BlindSolve = std::function<void(Eigen::Ref<Eigen::MatrixXd>)>;
 
 // D and G, right-hand sides made a block of columns at a time. Throws Breakdown when D is not
 // positive definite to rounding.
-CondensedSystem condense_blindly(const DualSystem& system, const BlindSystem& blind,
-                                 const BlindSolve& solve, int columns_at_once);
+contact::Problem condense_blindly(const DualSystem& system, const BlindSystem& blind,
+                                  const BlindSolve& solve, int columns_at_once);
 // From the Schur complement −W of λ' and the reduced load: D = W⁻¹. Throws the same.
-CondensedSystem condense_blindly(const Eigen::MatrixXd& schur, const Eigen::VectorXd& reduced_load);
+contact::Problem condense_blindly(const ContactPoints& points, const Eigen::MatrixXd& schur,
+                                  const Eigen::VectorXd& reduced_load);
 
 // The right-hand side that belongs to contact forces; vectors from and to φ, λ, λ'.
 Eigen::VectorXd blind_right_hand_side(const DualSystem& system, const BlindSystem& blind,

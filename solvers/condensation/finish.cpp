@@ -6,11 +6,11 @@
 namespace airybench {
 namespace {
 
-void finish(const CondensedSystem& condensed, const ContactPoints& contact,
-            const RunControl& control, const std::function<void()>& recover,
-            const std::function<void()>& check, Solution& solution) {
+void finish(const contact::Problem& condensed, const RunControl& control,
+            const std::function<void()>& recover, const std::function<void()>& check,
+            Solution& solution) {
   solution.storage[MemoryOwner::condensed] = condensed.bytes();
-  solve_condensed_contact(condensed, contact, control, solution);
+  solve_condensed_contact(condensed, control, solution);
   {
     const StageTimer timer(solution.times, Stage::recover);
     recover();
@@ -31,7 +31,7 @@ SaddleVector load_of(const DualSystem& system, const Eigen::VectorXd& F_C) {
 
 // What other load cases in the Airy function need.
 struct KeptAiryBody {
-  CondensedSystem condensed;
+  contact::Problem condensed;
   BodySolve solve;
   Refine refine;
   std::shared_ptr<const void> owner;  // of what `solve` refers to
@@ -45,8 +45,10 @@ Solution solve_load_case(KeptAiryBody& body, const DualSystem& system, const Run
   };
   Solution solution;
   if (system.n_c() > 0)
-    run_stage(solution.times, Stage::contact, MemoryOwner::condensed,
-              [&] { body.condensed.G = solved({}).lambda_C; });
+    run_stage(solution.times, Stage::contact, MemoryOwner::condensed, [&] {
+      body.condensed.points = system.contact;
+      body.condensed.G = solved({}).lambda_C;
+    });
   finish_in_airy_function(system, control, body.condensed, solved, body.solve, body.refine,
                           solution);
   return solution;
@@ -61,14 +63,14 @@ void store_airy_answer(const DualSystem& system, const Eigen::VectorXd& x, Solut
 }
 
 void finish_in_airy_function(const DualSystem& system, const RunControl& control,
-                             const CondensedSystem& condensed,
+                             const contact::Problem& condensed,
                              const std::function<SaddleVector(const Eigen::VectorXd& F_C)>& recover,
                              const BodySolve& solve, Refine refine, Solution& solution,
                              std::shared_ptr<const void> owner) {
   const SaddleSolve solve_here = [&](SaddleVector& v) { solve(system, v); };
   SaddleVector answer;
   finish(
-      condensed, system.contact, control,
+      condensed, control,
       [&] {
         answer = recover(solution.F_C);
         store_airy_answer(system, answer.x, solution);
@@ -89,25 +91,23 @@ void finish_in_airy_function(const DualSystem& system, const RunControl& control
       [body](const DualSystem& s, const RunControl& c) { return solve_load_case(*body, s, c); });
 }
 
-void finish_in_displacements(const Problem& problem, const ContactPoints& contact,
-                             const RunControl& control, const CondensedSystem& condensed,
-                             StiffnessFactor& factor,
+void finish_in_displacements(const Problem& problem, const RunControl& control,
+                             const contact::Problem& condensed, StiffnessFactor& factor,
                              const std::function<void(Eigen::VectorXd u)>& recover,
                              const std::function<UnbalancedForces()>& unbalanced,
                              Solution& solution) {
   Eigen::VectorXd u_C;
   finish(
-      condensed, contact, control,
+      condensed, control,
       [&] {
-        if (contact.size() > 0) u_C = times(condensed.D, solution.F_C) - condensed.G;
+        if (condensed.points.size() > 0) u_C = times(condensed.D, solution.F_C) - condensed.G;
         Eigen::VectorXd u = factor.recover(solution.F_C, u_C);
         solution.contact_displacement = u_C;
         const OwnerScope scope(MemoryOwner::answer);
         recover(std::move(u));
       },
       [&] {
-        check_stiffness_answer(problem, contact, condensed, unbalanced(), u_C, factor, control,
-                               solution);
+        check_stiffness_answer(problem, condensed, unbalanced(), u_C, factor, control, solution);
       },
       solution);
 }

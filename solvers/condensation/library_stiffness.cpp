@@ -4,28 +4,30 @@
 #include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
-namespace {
 
-void drop(Eigen::SparseMatrix<double>& matrix) { Eigen::SparseMatrix<double>().swap(matrix); }
-
-Eigen::VectorXd kept_load(const Eigen::VectorXd& b) {
-  const OwnerScope scope(MemoryOwner::factor);
-  return b;
-}
-
-void count_load(const Eigen::VectorXd& b, Solution& solution) {
-  solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(b.size()) * sizeof(double);
-}
-
-}  // namespace
-
-void CholmodStiffness::factor(const Deadline&) {
+template <typename Factor>
+void LibraryStiffness<Factor>::factor(const Deadline&) {
   factor_.factor(lower_);
-  drop(lower_);
+  Eigen::SparseMatrix<double>().swap(lower_);
 }
+
+template <typename Factor>
+void LibraryStiffness<Factor>::keep(const Eigen::VectorXd& b) {
+  const OwnerScope scope(MemoryOwner::factor);
+  b_ = b;
+}
+
+template <typename Factor>
+void LibraryStiffness<Factor>::count(Solution& solution) const {
+  count_factor(factor_, solution);
+  solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(b_.size()) * sizeof(double);
+}
+
+template class LibraryStiffness<CholmodFactor>;
+template class LibraryStiffness<MumpsFactor>;
 
 Eigen::VectorXd CholmodStiffness::load(const Eigen::VectorXd& b) {
-  b_ = kept_load(b);
+  keep(b);
   Eigen::VectorXd u = b;
   factor_.solve_in_place(u);
   return -u.tail(n_c_);
@@ -38,14 +40,8 @@ Eigen::VectorXd CholmodStiffness::recover(const Eigen::VectorXd& F_C, const Eige
   return u;
 }
 
-void CholmodStiffness::count(Solution& solution) const {
-  count_factor(factor_, solution);
-  count_load(b_, solution);
-}
-
-void MumpsStiffness::factor(const Deadline&) {
-  factor_.factor(lower_);
-  drop(lower_);
+void MumpsStiffness::factor(const Deadline& deadline) {
+  LibraryStiffness::factor(deadline);
   if (n_c_ > 0) schur_factor_ = cholesky(factor_.take_schur(), "Schur complement of the stiffness");
 }
 
@@ -54,7 +50,7 @@ Eigen::MatrixXd MumpsStiffness::compliance() {
 }
 
 Eigen::VectorXd MumpsStiffness::load(const Eigen::VectorXd& b) {
-  b_ = kept_load(b);
+  keep(b);
   if (n_c_ == 0) return {};
   Eigen::VectorXd G = -factor_.reduce(b);
   solve_by_cholesky(schur_factor_, G);
@@ -82,8 +78,7 @@ void MumpsStiffness::solve_in_place(Eigen::Ref<Eigen::MatrixXd> X, const Deadlin
 }
 
 void MumpsStiffness::count(Solution& solution) const {
-  count_factor(factor_, solution);
-  count_load(b_, solution);
+  LibraryStiffness::count(solution);
   solution.storage[MemoryOwner::factor] +=
       static_cast<std::size_t>(schur_factor_.size()) * sizeof(double);
 }

@@ -14,7 +14,7 @@ template <typename System>
 struct StiffnessBody {
   System system;
   std::unique_ptr<StiffnessFactor> factor;
-  CondensedSystem condensed;
+  contact::Problem condensed;
 };
 
 // Has the solution solve other load cases, if the control says so. finish(load case, control, body,

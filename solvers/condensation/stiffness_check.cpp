@@ -7,10 +7,10 @@
 
 namespace airybench {
 
-void check_stiffness_answer(const Problem& problem, const ContactPoints& contact,
-                            const CondensedSystem& condensed, const UnbalancedForces& unbalanced,
-                            const Eigen::VectorXd& displacement, StiffnessFactor& factor,
-                            const RunControl& control, Solution& solution) {
+void check_stiffness_answer(const Problem& problem, const contact::Problem& condensed,
+                            const UnbalancedForces& unbalanced, const Eigen::VectorXd& displacement,
+                            StiffnessFactor& factor, const RunControl& control,
+                            Solution& solution) {
   const LoadScale scale = load_scale(problem);
   const Eigen::VectorXd& r = unbalanced.r;
   Eigen::VectorXd load = r;
@@ -24,7 +24,7 @@ void check_stiffness_answer(const Problem& problem, const ContactPoints& contact
       (squared < 0 ? 0 : std::sqrt(squared)) + 0.01 * std::sqrt(unbalanced.defect_energy);
   double estimate = relative_error(r.lpNorm<Eigen::Infinity>(), unbalanced.largest, scale.force_N);
   if (solution.F_C.size() > 0) {
-    const ContactCheck check = check_contact(condensed.D, contact, solution.F_C,
+    const ContactCheck check = check_contact(condensed.D, condensed.points, solution.F_C,
                                              displacement + delta.tail(displacement.size()), scale);
     error += check.energy_norm;
     estimate = larger_error(estimate, check.relative);

@@ -30,9 +30,8 @@ struct UnbalancedForces {
 
 // Sets the solution's estimate from its F_C and stress, and says `inaccurate` where it is ok so far
 // and the estimate is above the target. displacement: u_C that belongs to F_C.
-void check_stiffness_answer(const Problem& problem, const ContactPoints& contact,
-                            const CondensedSystem& condensed, const UnbalancedForces& unbalanced,
-                            const Eigen::VectorXd& displacement, StiffnessFactor& factor,
-                            const RunControl& control, Solution& solution);
+void check_stiffness_answer(const Problem& problem, const contact::Problem& condensed,
+                            const UnbalancedForces& unbalanced, const Eigen::VectorXd& displacement,
+                            StiffnessFactor& factor, const RunControl& control, Solution& solution);
 
 }  // namespace airybench

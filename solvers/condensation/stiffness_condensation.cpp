@@ -32,15 +32,15 @@ void MultifrontalStiffness::count(Solution& solution) const {
   solution.storage[MemoryOwner::factor] += static_cast<std::size_t>(y_.size()) * sizeof(double);
 }
 
-CondensedSystem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
-                                       const std::string& system, const RunControl& control,
-                                       Solution& solution) {
+contact::Problem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
+                                        const ContactPoints& points, const std::string& system,
+                                        const RunControl& control, Solution& solution) {
   run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor.analyse(); });
   control.deadline.check("the ordering of the " + system);
   run_stage(solution.times, Stage::factor, MemoryOwner::factor,
             [&] { factor.factor(control.deadline); });
   control.deadline.check("the factorisation of the " + system);
-  CondensedSystem condensed;
+  contact::Problem condensed{.points = points};
   run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
     condensed.G = factor.load(b);
     condensed.D = factor.compliance();

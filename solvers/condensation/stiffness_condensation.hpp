@@ -56,10 +56,10 @@ class MultifrontalStiffness final : public StiffnessFactor {
   Eigen::VectorXd y_;
 };
 
-// D and G of K u = b + F_C, and into the solution the stages' times and what the factor takes.
-// system: what messages call it.
-CondensedSystem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
-                                       const std::string& system, const RunControl& control,
-                                       Solution& solution);
+// The contact problem of K u = b + F_C, and into the solution the stages' times and what the factor
+// takes. system: what messages call it.
+contact::Problem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
+                                        const ContactPoints& points, const std::string& system,
+                                        const RunControl& control, Solution& solution);
 
 }  // namespace airybench

@@ -110,6 +110,7 @@ ThreeStep condense_in_three_steps(const DualSystem& system, const SolveInPlace& 
     const OwnerScope scope_of_D(MemoryOwner::condensed);
     Eigen::MatrixXd L = cholesky((W + W.transpose()) / 2, "three-step condensation: W");
     solve_by_cholesky(L, g);
+    steps.condensed.points = system.contact;
     steps.condensed.G = std::move(g);
     steps.condensed.D = inverse_from_factor(std::move(L));
   }

@@ -30,7 +30,7 @@ struct KeepX {
 };
 
 struct ThreeStep {
-  CondensedSystem condensed;          // empty without contact
+  contact::Problem condensed;         // empty without contact
   std::vector<int> row_of_column;     // column k of X belongs to row row_of_column[k] of [C_F; C_C]
   ColumnStore X;                      // n × (n_f + n_c), or empty if it is kept nowhere
   Eigen::VectorXd x;                  // S⁻¹ q; empty: zero

@@ -60,16 +60,16 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   return next;
 }
 
-void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints& contact,
-                          const RunControl& control, ContactResult& result) {
+void finish_by_active_set(const contact::Problem& problem, const RunControl& control,
+                          ContactResult& result) {
   constexpr int most_steps = 100, patience = 15;  // steps without a smaller natural map
   const double enough = control.contact_tolerance / 100;
   Eigen::VectorXd F = result.F_C;
   int since_best = 0;
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
-    const Eigen::VectorXd u = times(condensed.D, F) - condensed.G;
-    const double relative = relative_natural_map(contact, condensed.D.diagonal(), F, u);
+    const Eigen::VectorXd u = times(problem.D, F) - problem.G;
+    const double relative = relative_natural_map(problem.points, problem.D.diagonal(), F, u);
     const double before = result.natural_map_residual;
     if (step == 0 || relative < before) {
       result.F_C = F;
@@ -80,7 +80,7 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
     const double best = result.natural_map_residual;
     if (best <= enough || (best <= control.contact_tolerance && step > 0 && best > before / 2))
       break;
-    F = active_set_step(condensed.D, contact, F, relative_to_gap(contact, u));
+    F = active_set_step(problem.D, problem.points, F, relative_to_gap(problem.points, u));
     ++result.active_set_steps;
     control.deadline.check("the active sets of the contact law");
   }
@@ -88,8 +88,7 @@ void finish_by_active_set(const CondensedSystem& condensed, const ContactPoints&
                      std::max(control.contact_tolerance, control.contact_acceptable);
 }
 
-ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
-                                      const ContactPoints& contact, const RunControl& control) {
+ContactResult solve_contact_by_newton(const contact::Problem& problem, const RunControl& control) {
   constexpr int first_sweeps = 10;  // from fewer, active sets may cycle
   ContactResult best;
   ContactResult swept;
@@ -99,11 +98,11 @@ ContactResult solve_contact_by_newton(const CondensedSystem& condensed,
   std::vector<double> history;
   for (int next = first_sweeps;; next *= 10) {
     part.contact_sweeps = std::min(next, control.contact_sweeps - sweeps);
-    swept = solve_contact_by_gauss_seidel(condensed, contact, part, swept.F_C);
+    swept = solve_contact_by_gauss_seidel(problem, part, swept.F_C);
     sweeps += swept.iterations;
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
-    finish_by_active_set(condensed, contact, control, result);
+    finish_by_active_set(problem, control, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
       best = std::move(result);

@@ -7,29 +7,29 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_admm(const CondensedSystem& condensed, const ContactPoints& contact,
-                                    const RunControl& control, const Eigen::VectorXd& start) {
+ContactResult solve_contact_by_admm(const contact::Problem& problem, const RunControl& control,
+                                    const Eigen::VectorXd& start) {
   constexpr double apart = 10, factor = 2;
-  const int m = contact.components;
-  const Eigen::VectorXd offset = contact_offset(condensed, contact);
-  Eigen::VectorXd weight = condensed.D.diagonal();
+  const int m = problem.points.components;
+  const Eigen::VectorXd offset = contact_offset(problem);
+  Eigen::VectorXd weight = problem.D.diagonal();
   if (m == 2)
-    for (int p = 0; p < contact.count; ++p)
+    for (int p = 0; p < problem.points.count; ++p)
       weight.segment<2>(2 * p).setConstant(weight.segment<2>(2 * p).mean());
 
   Eigen::MatrixXd L;
   const auto factorise = [&] {
-    L = condensed.D;
+    L = problem.D;
     L.diagonal() += weight;
     L = cholesky(std::move(L), "ADMM: D with weights on its diagonal");
   };
   factorise();
-  Eigen::VectorXd y = Eigen::VectorXd::Zero(contact.size());
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.points.size());
   int iteration = 0, next_change = 1, pause = 1;
-  return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& z) {
+  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& z) {
     Eigen::VectorXd F = offset + weight.cwiseProduct(z - y);
     solve_by_cholesky(L, F);
-    const Eigen::VectorXd projected = project_on_coulomb(contact, F + y);
+    const Eigen::VectorXd projected = project_on_coulomb(problem.points, F + y);
     const Eigen::VectorXd root = weight.cwiseSqrt();
     const double gap = root.cwiseProduct(F - projected).norm();
     const double step = root.cwiseProduct(projected - z).norm();

@@ -17,7 +17,7 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_admm(const CondensedSystem& condensed, const ContactPoints& contact,
-                                    const RunControl& control, const Eigen::VectorXd& start = {});
+ContactResult solve_contact_by_admm(const contact::Problem& problem, const RunControl& control,
+                                    const Eigen::VectorXd& start = {});
 
 }  // namespace airybench

@@ -5,17 +5,16 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_anderson(const CondensedSystem& condensed,
-                                        const ContactPoints& contact, const RunControl& control,
+ContactResult solve_contact_by_anderson(const contact::Problem& problem, const RunControl& control,
                                         const Eigen::VectorXd& start) {
   constexpr int memory = 10;
-  const Eigen::VectorXd offset = contact_offset(condensed, contact);
-  AndersonAcceleration acceleration(contact.size(), memory);
-  Eigen::VectorXd from = start.size() > 0 ? start : Eigen::VectorXd::Zero(contact.size());
+  const Eigen::VectorXd offset = contact_offset(problem);
+  AndersonAcceleration acceleration(problem.points.size(), memory);
+  Eigen::VectorXd from = start.size() > 0 ? start : Eigen::VectorXd::Zero(problem.points.size());
   // F is what a sweep gave, so that it meets the law's bounds; `from` is where the next one begins.
-  return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& F) {
+  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& F) {
     F = from;
-    const double change = gauss_seidel_sweep(condensed, contact, offset, F);
+    const double change = gauss_seidel_sweep(problem, offset, F);
     from = acceleration.next(F, F - from);
     return change;
   });

@@ -6,8 +6,7 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_anderson(const CondensedSystem& condensed,
-                                        const ContactPoints& contact, const RunControl& control,
+ContactResult solve_contact_by_anderson(const contact::Problem& problem, const RunControl& control,
                                         const Eigen::VectorXd& start = {});
 
 }  // namespace airybench

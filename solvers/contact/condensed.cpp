@@ -19,44 +19,43 @@ double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F) {
   return squared < 0 ? 0 : std::sqrt(squared);  // NaN is no zero
 }
 
-Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPoints& contact) {
-  return contact.gap.size() > 0 ? Eigen::VectorXd(condensed.G + contact.gap) : condensed.G;
+Eigen::VectorXd contact_offset(const contact::Problem& problem) {
+  const Eigen::VectorXd& gap = problem.points.gap;
+  return gap.size() > 0 ? Eigen::VectorXd(problem.G + gap) : problem.G;
 }
 
-double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const Eigen::VectorXd& F) {
-  return relative_natural_map(contact, condensed.D.diagonal(), F,
-                              times(condensed.D, F) - condensed.G);
+double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F) {
+  return relative_natural_map(problem.points, problem.D.diagonal(), F,
+                              times(problem.D, F) - problem.G);
 }
 
-ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const RunControl& control) {
-  if (control.start.size() != 0 && control.start.size() != contact.size())
+ContactResult solve_contact(const contact::Problem& problem, const RunControl& control) {
+  const int size = problem.points.size();
+  if (control.start.size() != 0 && control.start.size() != size)
     throw std::invalid_argument("RunControl::start: " + std::to_string(control.start.size()) +
-                                " contact forces (allowed: none or " +
-                                std::to_string(contact.size()) + ")");
-  if (control.contact_by) return control.contact_by(condensed, contact, control);
+                                " contact forces (allowed: none or " + std::to_string(size) + ")");
+  if (control.contact_by) return control.contact_by(problem, control);
   switch (control.stop == Stop::paper ? ContactSolver::gauss_seidel : control.contact) {
     case ContactSolver::newton:
-      return solve_contact_by_newton(condensed, contact, control);
+      return solve_contact_by_newton(problem, control);
     case ContactSolver::gauss_seidel:
-      return solve_contact_by_gauss_seidel(condensed, contact, control, control.start);
+      return solve_contact_by_gauss_seidel(problem, control, control.start);
     case ContactSolver::anderson:
-      return solve_contact_by_anderson(condensed, contact, control, control.start);
+      return solve_contact_by_anderson(problem, control, control.start);
     case ContactSolver::admm:
-      return solve_contact_by_admm(condensed, contact, control, control.start);
+      return solve_contact_by_admm(problem, control, control.start);
   }
   throw std::logic_error("no such contact solver");
 }
 
-void solve_condensed_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                             const RunControl& control, Solution& solution) {
+void solve_condensed_contact(const contact::Problem& problem, const RunControl& control,
+                             Solution& solution) {
   solution.status = Status::ok;
   solution.message.clear();
-  if (contact.size() == 0) return;
+  if (problem.points.size() == 0) return;
   const StageTimer timer(solution.times, Stage::contact);
   const OwnerScope scope(MemoryOwner::condensed);
-  ContactResult result = solve_contact(condensed, contact, control);
+  ContactResult result = solve_contact(problem, control);
   solution.F_C = std::move(result.F_C);
   solution.contact_iterations = result.iterations;
   solution.newton_steps = result.active_set_steps;

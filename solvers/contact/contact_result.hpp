@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_problem.hpp"
 #include "solvers/base/solution.hpp"
 #include "solvers/contact/condensed.hpp"
 
@@ -22,27 +22,25 @@ struct ContactResult {
 };
 
 // That of coulomb_law.hpp, with r = D F − G − ḡ.
-double relative_natural_map(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const Eigen::VectorXd& F);
+double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F);
 
-// By control.contact; with the paper's stop by Gauss–Seidel.
-ContactResult solve_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                            const RunControl& control);
+// By control.contact_by or control.contact; with the paper's stop by Gauss–Seidel.
+ContactResult solve_contact(const contact::Problem& problem, const RunControl& control);
 
 // G + ḡ, so that r = D F − offset.
-Eigen::VectorXd contact_offset(const CondensedSystem& condensed, const ContactPoints& contact);
+Eigen::VectorXd contact_offset(const contact::Problem& problem);
 
 // Iterates F ← next(F), which returns the norm of its change, until the natural map is below the
 // tolerance or control.contact_sweeps are done, and says which. The map is asked for when the
 // change is below the tolerance. Throws TimeoutReached.
 template <typename Next>
-ContactResult iterate_contact(const CondensedSystem& condensed, const ContactPoints& contact,
-                              const RunControl& control, const Eigen::VectorXd& start, Next next) {
+ContactResult iterate_contact(const contact::Problem& problem, const RunControl& control,
+                              const Eigen::VectorXd& start, Next next) {
   ContactResult result;
   Eigen::VectorXd& F = result.F_C;
-  F = start.size() > 0 ? start : Eigen::VectorXd::Zero(contact.size());
+  F = start.size() > 0 ? start : Eigen::VectorXd::Zero(problem.points.size());
   const auto ask = [&](double allowed) {
-    result.natural_map_residual = relative_natural_map(condensed, contact, F);
+    result.natural_map_residual = relative_natural_map(problem, F);
     return result.natural_map_residual <= allowed;
   };
   while (result.iterations < control.contact_sweeps && !result.converged) {

@@ -1,14 +1,10 @@
-// Signorini's and Coulomb's law at one contact point, and how far a pair (F, r) is from it.
-//
-//   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;   |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n
-//
-// F force on the body (N), r displacement minus gap (mm), n outward. Without friction, only the
-// normal part is there.
+// Signorini's and Coulomb's law (contact_problem.hpp) at one contact point, and how far a pair (F,
+// r) is from it.
 #pragma once
 
 #include <Eigen/Core>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_problem.hpp"
 
 namespace airybench {
 
@@ -32,7 +28,7 @@ Vector relative_to_gap(const ContactPoints& contact, Vector displacement) {
 }
 
 // F − P(F − ρ r) at every point, with ρ_n = 1/D_nn and ρ_t = 1/D_tt: zero exactly when the law
-// holds; N. displacement: ū_C. The vectors are ordered as DualSystem::contact says.
+// holds; N. displacement: ū_C. Vectors are in the rows of F_C.
 Eigen::VectorXd natural_map(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
                             const Eigen::VectorXd& F_C, const Eigen::VectorXd& displacement);
 // Its norm over ‖F_C‖; where F_C = 0 its norm.

@@ -11,13 +11,12 @@ namespace {
 
 // One sweep; returns the squared norm of the change of F.
 template <int components>
-double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
-             const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
+double sweep(const contact::Problem& problem, const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
   using Local = Eigen::Matrix<double, components, 1>;
-  const Eigen::MatrixXd& D = condensed.D;
+  const Eigen::MatrixXd& D = problem.D;
   const auto n = static_cast<int>(F.size());
   double change = 0;
-  for (int p = 0; p < contact.count; ++p) {
+  for (int p = 0; p < problem.points.count; ++p) {
     const Eigen::Index i = components * p;
     const Eigen::Matrix<double, components, components> D_pp =
         D.template block<components, components>(i, i);
@@ -28,7 +27,7 @@ double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
     b -= D_pp * old;
     Local solved;
     if constexpr (components == 2)
-      solved = solve_coulomb_law(D_pp, b, contact.friction_at(p));
+      solved = solve_coulomb_law(D_pp, b, problem.points.friction_at(p));
     else
       solved(0) = solve_signorini_law(D_pp(0), b(0));
     F.template segment<components>(i) = solved;
@@ -39,18 +38,18 @@ double sweep(const CondensedSystem& condensed, const ContactPoints& contact,
 
 }  // namespace
 
-double gauss_seidel_sweep(const CondensedSystem& condensed, const ContactPoints& contact,
-                          const Eigen::VectorXd& offset, Eigen::VectorXd& F) {
-  return std::sqrt(contact.components == 2 ? sweep<2>(condensed, contact, offset, F)
-                                           : sweep<1>(condensed, contact, offset, F));
+double gauss_seidel_sweep(const contact::Problem& problem, const Eigen::VectorXd& offset,
+                          Eigen::VectorXd& F) {
+  return std::sqrt(problem.points.components == 2 ? sweep<2>(problem, offset, F)
+                                                  : sweep<1>(problem, offset, F));
 }
 
-ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
-                                            const ContactPoints& contact, const RunControl& control,
+ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,
+                                            const RunControl& control,
                                             const Eigen::VectorXd& start) {
-  const Eigen::VectorXd offset = contact_offset(condensed, contact);
-  return iterate_contact(condensed, contact, control, start, [&](Eigen::VectorXd& F) {
-    return gauss_seidel_sweep(condensed, contact, offset, F);
+  const Eigen::VectorXd offset = contact_offset(problem);
+  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& F) {
+    return gauss_seidel_sweep(problem, offset, F);
   });
 }
 

@@ -10,13 +10,13 @@ namespace airybench {
 
 // One sweep from F, in place; returns the norm of the change. Nothing is allocated.
 // offset: contact_offset().
-double gauss_seidel_sweep(const CondensedSystem& condensed, const ContactPoints& contact,
-                          const Eigen::VectorXd& offset, Eigen::VectorXd& F);
+double gauss_seidel_sweep(const contact::Problem& problem, const Eigen::VectorXd& offset,
+                          Eigen::VectorXd& F);
 
 // Starts from `start`; empty: F_C = 0. Not converged after control.contact_sweeps, or when a force
 // is not finite.
-ContactResult solve_contact_by_gauss_seidel(const CondensedSystem& condensed,
-                                            const ContactPoints& contact, const RunControl& control,
+ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,
+                                            const RunControl& control,
                                             const Eigen::VectorXd& start = {});
 
 }  // namespace airybench

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-#include "assembly/dual_system.hpp"
+#include "assembly/contact_problem.hpp"
 
 namespace airybench {
 

@@ -14,7 +14,7 @@ template <typename Factor>
 struct BlindBody {
   BlindSystem blind;
   Factor factor;
-  CondensedSystem condensed;
+  contact::Problem condensed;
 };
 using MumpsBody = BlindBody<MumpsFactor>;
 
@@ -57,11 +57,12 @@ Solution solve_blind_mumps_schur(const DualSystem& system, const RunControl& con
   const std::shared_ptr<MumpsBody> body = factorise(system, control, n_c, solution);
   const BlindSystem& blind = body->blind;
   MumpsFactor& factor = body->factor;
-  CondensedSystem& condensed = body->condensed;
+  contact::Problem& condensed = body->condensed;
   const Eigen::VectorXd load = blind_right_hand_side(system, blind, {});
   if (n_c > 0)
-    condensed = run_stage(solution.times, Stage::condense, MemoryOwner::condensed,
-                          [&] { return condense_blindly(factor.schur(), factor.reduce(load)); });
+    condensed = run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
+      return condense_blindly(system.contact, factor.schur(), factor.reduce(load));
+    });
   finish_in_airy_function(
       system, control, condensed,
       [&](const Eigen::VectorXd& F_C) {

@@ -17,8 +17,9 @@ void finish_hybridized(const DualSystem& airy, const RunControl& control, Hybrid
                        Solution& solution) {
   const Problem& problem = *airy.problem;
   HybridizedAnswer answer;
+  body.condensed.points = airy.contact;  // the load case's
   finish_in_displacements(
-      problem, airy.contact, control, body.condensed, *body.factor,
+      problem, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& u) {
         answer = recover_stresses(problem, body.system, u);
         solution.stress = std::move(answer.stress);
@@ -50,8 +51,8 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Mak
     if (has_its_own && !control.keep_body && !control.condition) system.K = {};
   });
   solution.storage[MemoryOwner::system_matrix] = system.bytes() + body->factor->matrix_bytes();
-  body->condensed =
-      factorise_and_condense(*body->factor, system.b, "hybridized system", control, solution);
+  body->condensed = factorise_and_condense(*body->factor, system.b, airy.contact,
+                                           "hybridized system", control, solution);
   if (control.condition)
     solution.condition_estimate = estimate_condition(
         lower_triangle(system.K),

@@ -14,8 +14,9 @@ using QuadraticBody = StiffnessBody<QuadraticDisplacements>;
 void finish_quadratic(const DualSystem& airy, const RunControl& control, QuadraticBody& body,
                       Solution& solution) {
   const Problem& problem = *airy.problem;
+  body.condensed.points = body.system.control.law;  // the load case's
   finish_in_displacements(
-      problem, body.system.control.law, control, body.condensed, *body.factor,
+      problem, control, body.condensed, *body.factor,
       [&](const Eigen::VectorXd& unknowns) {
         solution.displacement = displacement_field(body.system, unknowns);
         solution.stress = stress_of_displacement(problem, solution.displacement);
@@ -36,8 +37,8 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
                      [&] { return assemble_quadratic_displacements(*airy.problem); });
   solution.storage[MemoryOwner::system_matrix] = system.bytes();
   body->factor = std::make_unique<MultifrontalStiffness>(system.K, system.n_c());
-  body->condensed =
-      factorise_and_condense(*body->factor, system.b, "displacement system", control, solution);
+  body->condensed = factorise_and_condense(*body->factor, system.b, system.control.law,
+                                           "displacement system", control, solution);
   finish_quadratic(airy, control, *body, solution);
   keep_if_told(airy, control, body, finish_quadratic, solution);
   return solution;

@@ -28,10 +28,11 @@ Solution solve_symmlq(const DualSystem& system, const RunControl& control,
     if (system.F0.size() > 0) b.tail(n_c) = -system.F0;
   };
 
-  CondensedSystem condensed;
+  contact::Problem condensed;
   KrylovSummary all;
   if (n_c > 0)
     run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
+      condensed.points = system.contact;
       condensed.D.resize(n_c, n_c);
       condensed.G.resize(n_c);
       const RightHandSides sides = {n_c + 1,

@@ -204,7 +204,7 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
   constexpr int most_points = 700;
   const int m = contact.components;
   CoarseContact coarse;
-  ContactPoints& points = coarse.points;
+  ContactPoints& points = coarse.problem.points;
   points.components = m;
   std::vector<int> place(unknown_.size(), -1), met;  // of nodes along Γ_C, as points meet them
   for (const int node : node_of_point_)
@@ -240,9 +240,9 @@ CoarseContact CoarseDisplacements::contact_problem(const ContactPoints& contact,
       N(unknown_[met[i]][k] - first_trailing_, m * group + k) = 1 / nodes[group];
     }
   solve_lower(L, N);
-  coarse.condensed.D.setZero(N.cols(), N.cols());
-  add_transposed_times(1, N, N, coarse.condensed.D);
-  coarse.condensed.G = -transposed_times(N, factor_.forward(restricted(b)).tail(L.rows()));
+  coarse.problem.D.setZero(N.cols(), N.cols());
+  add_transposed_times(1, N, N, coarse.problem.D);
+  coarse.problem.G = -transposed_times(N, factor_.forward(restricted(b)).tail(L.rows()));
   return coarse;
 }
 

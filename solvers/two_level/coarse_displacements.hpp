@@ -18,8 +18,7 @@ namespace airybench {
 // The contact law on the coarse displacements, means over groups of neighbouring nodes where there
 // are many: which one a contact point begins with.
 struct CoarseContact {
-  CondensedSystem condensed;
-  ContactPoints points;       // the coarse ones
+  contact::Problem problem;
   std::vector<int> of_point;  // contact point → coarse one, or −1
 };
 

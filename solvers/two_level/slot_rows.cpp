@@ -34,18 +34,17 @@ std::vector<PointLaw> SlotRows::first_laws(int& sweeps) {
   M_.hold(prescribed_);
   std::vector<PointLaw> laws(static_cast<std::size_t>(contact.count));
   const CoarseContact coarse = M_.coarse().contact_problem(contact, b_);
-  if (coarse.points.count == 0) return laws;
+  const auto& [D, G, points, unnamed] = coarse.problem;
+  if (points.count == 0) return laws;
   RunControl rough = control_;
   rough.contact_tolerance = 1e-6;
   rough.contact_sweeps = 1000;
   rough.histories = false;
-  const ContactResult of_coarse = solve_contact_by_newton(coarse.condensed, coarse.points, rough);
+  const ContactResult of_coarse = solve_contact_by_newton(coarse.problem, rough);
   sweeps = of_coarse.iterations;
   const Eigen::VectorXd& F = of_coarse.F_C;
-  const Eigen::VectorXd r = relative_to_gap(
-      coarse.points, Eigen::VectorXd(times(coarse.condensed.D, F) - coarse.condensed.G));
-  const std::vector<PointLaw> at_coarse =
-      laws_of(coarse.points, F - r.cwiseQuotient(coarse.condensed.D.diagonal()));
+  const Eigen::VectorXd r = relative_to_gap(points, Eigen::VectorXd(times(D, F) - G));
+  const std::vector<PointLaw> at_coarse = laws_of(points, F - r.cwiseQuotient(D.diagonal()));
   for (std::size_t p = 0; p < laws.size(); ++p)
     if (coarse.of_point[p] >= 0) laws[p] = at_coarse[coarse.of_point[p]];
   return laws;

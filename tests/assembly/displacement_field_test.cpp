@@ -146,18 +146,18 @@ TEST(ControlPoints, AtAKinkTheNormalIsTheMeanAndTheGapTheSmallerOne) {
   }
 }
 
-TEST(ControlPoints, CoefficientsOfAGapMakeTheGap) {
+TEST(ContactOffset, ItsCoefficientsMakeTheGap) {
   Mesh mesh = small_tooth(3, 3);
   Loads loads;
   loads.gap_mm = [](const auto& x, int) { return 0.1 - 0.03 * x.y() + 0.02 * x.y() * x.y(); };
   const Problem problem = make_problem(mesh, {compliance({}, Plane::strain)}, loads, 0);
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
-    const auto [c0, c1, c2] = gap_coefficients(problem, row);
+    const auto [c0, c1, c2] = problem.offset_coefficients(row);
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     for (const double s : {0.0, 0.2, 0.5, 0.9, 1.0})
-      EXPECT_NEAR((1 - s) * (1 - s) * c0 + 2 * s * (1 - s) * c1 + s * s * c2,
+      EXPECT_NEAR((1 - s) * (1 - s) * c0.gap_mm + 2 * s * (1 - s) * c1.gap_mm + s * s * c2.gap_mm,
                   loads.gap_mm((1 - s) * a + s * b, row), 1e-14);
   }
 }

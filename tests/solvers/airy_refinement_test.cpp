@@ -256,7 +256,7 @@ TEST_F(AiryRefinement, AWrongDIsMendedOrNoticed) {
   const SkylineFactor factor = factor_in_stages(d.system.S, {}, stages);
   const SolveInPlace solve_S = [&](Eigen::Ref<MatrixXd> X) { solve_in_place(factor, X, {}, 1); };
   ThreeStep steps = condense_in_three_steps(d.system, solve_S);
-  const CondensedSystem right = steps.condensed;
+  const contact::Problem right = steps.condensed;
   const VectorXd soft = VectorXd::Random(d.system.n_c()).normalized();
   for (const double size : {1e-9, 1e-6, 1e-3, 0.5, 3.0, 1e3, 1e8, 1e15}) {
     for (const bool all : {true, false}) {
@@ -266,10 +266,11 @@ TEST_F(AiryRefinement, AWrongDIsMendedOrNoticed) {
         wrong_D *= 1 + size;
       else
         wrong_D += size * wrong_D.norm() * soft * soft.transpose();
-      steps.condensed = {.D = wrong_D, .G = wrong_D * testing::solved(right.D, right.G)};
+      steps.condensed.D = wrong_D;
+      steps.condensed.G = wrong_D * testing::solved(right.D, right.G);
       const SaddleSolve solve = [&](SaddleVector& v) { solve_saddle(steps, d.system, solve_S, v); };
       Solution solution;
-      solve_condensed_contact(steps.condensed, d.system.contact, {}, solution);
+      solve_condensed_contact(steps.condensed, {}, solution);
       const SaddleVector answer = recover_airy_unknowns(steps, d.system, solution.F_C, solve_S);
       const auto expect_honest = [&](const Solution& found) {
         if (found.status == Status::ok)

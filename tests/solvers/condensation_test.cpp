@@ -20,7 +20,7 @@ namespace {
 using testing::posed;
 using testing::scene_variants;
 
-CondensedSystem three_step_condensed(const DualSystem& system) {
+contact::Problem three_step_condensed(const DualSystem& system) {
   const SkylineFactor factor = factor_ldlt(analyse_skyline(system.S), system.S);
   return condense_in_three_steps(system,
                                  [&](Eigen::Ref<Eigen::MatrixXd> X) { solve_in_place(factor, X); })
@@ -28,7 +28,7 @@ CondensedSystem three_step_condensed(const DualSystem& system) {
 }
 
 TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
-  const CondensedSystem condensed = three_step_condensed(assemble(posed({})));
+  const contact::Problem condensed = three_step_condensed(assemble(posed({})));
   EXPECT_EQ(testing::distance(condensed.D, condensed.D.transpose()), 0);
   const Eigen::VectorXd eigenvalues = testing::eigenvalues(condensed.D);
   EXPECT_GT(eigenvalues(0), 1e-5 * eigenvalues(eigenvalues.size() - 1));
@@ -37,9 +37,8 @@ TEST(Condensation, ComplianceIsSymmetricPositiveDefinite) {
 TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
   for (const auto& [name, scene] : scene_variants()) {
     const DualSystem system = assemble(posed(scene));
-    const CondensedSystem airy = three_step_condensed(system);
-    const CondensedSystem other =
-        testing::condensed(assemble_hybridized(*system.problem, system.contact));
+    const contact::Problem airy = three_step_condensed(system);
+    const contact::Problem other = testing::condensed(*system.problem, system.contact);
     EXPECT_LT(testing::distance(airy.D, other.D), 1e-11 * other.D.norm()) << name;
     EXPECT_LE(testing::distance(airy.G, other.G), 1e-11 * other.G.norm()) << name;
   }
@@ -48,8 +47,8 @@ TEST(Condensation, HybridizedAndAirySystemsGiveTheSameNumbers) {
 TEST(Condensation, BlindAndThreeStepGiveTheSameNumbers) {
   for (const auto& [name, scene] : scene_variants()) {
     const DualSystem system = assemble(posed(scene));
-    const CondensedSystem reference = three_step_condensed(system);
-    const auto expect_equal = [&, &label = name](const CondensedSystem& other, const char* how) {
+    const contact::Problem reference = three_step_condensed(system);
+    const auto expect_equal = [&, &label = name](const contact::Problem& other, const char* how) {
       EXPECT_LT(testing::distance(other.D, reference.D), 1e-10 * reference.D.norm())
           << label << how;
       EXPECT_LE(testing::distance(other.G, reference.G), 1e-10 * reference.G.norm())
@@ -66,9 +65,9 @@ TEST(Condensation, BlindAndThreeStepGiveTheSameNumbers) {
                    ", solves");
     partial.analyse(last.lower, system.n_c());
     partial.factor(last.lower);
-    expect_equal(
-        condense_blindly(partial.schur(), partial.reduce(blind_right_hand_side(system, last, {}))),
-        ", Schur");
+    expect_equal(condense_blindly(system.contact, partial.schur(),
+                                  partial.reduce(blind_right_hand_side(system, last, {}))),
+                 ", Schur");
     const BlindSystem mixed = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     const SkylineFactor factor = factor_ldlt(analyse_skyline(mixed.lower), mixed.lower);
     expect_equal(

@@ -20,7 +20,7 @@ Eigen::ArrayXd times_from_below(const Problem& problem) {
   for (int t = 0; t < system.K.count(); ++t)
     if (near_contact.asks_for(t)) near_contact.add(t, from_lower(system.K.lower[t].data()));
   const Eigen::VectorXd below = at_contact_points(near_contact.from_below(), problem, contact);
-  return testing::condensed(system).D.diagonal().array() / below.array();
+  return testing::condensed(problem, contact).D.diagonal().array() / below.array();
 }
 
 testing::NamedScenes scenes() {

@@ -76,82 +76,78 @@ ContactPoints points(int count, int components, double mu) {
   return contact;
 }
 
-CondensedSystem random_condensed(int size, unsigned seed) {
+// With twelve points.
+contact::Problem random_problem(int components, double mu, unsigned seed) {
   std::srand(seed);
+  const int size = 12 * components;
   const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
   return {root * root.transpose() + size * Eigen::MatrixXd::Identity(size, size),
-          -size * Eigen::VectorXd::Random(size).cwiseAbs()};
+          -size * Eigen::VectorXd::Random(size).cwiseAbs(), points(12, components, mu)};
 }
 
 TEST(GaussSeidel, MeetsTheLawAtEveryPoint) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  const CondensedSystem condensed = random_condensed(24, 10);
-  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  const contact::Problem problem = random_problem(2, 0.3, 10);
+  const ContactResult result = solve_contact_by_gauss_seidel(problem, {});
   ASSERT_TRUE(result.converged);
   EXPECT_LE(result.natural_map_residual, 1e-12);
-  const Eigen::VectorXd r = condensed.D * result.F_C - condensed.G - contact.gap;
+  const Eigen::VectorXd r = problem.D * result.F_C - problem.G - problem.points.gap;
   for (int p = 0; p < 12; ++p)
     expect_coulomb_law(result.F_C.segment<2>(2 * p), r.segment<2>(2 * p), 0.3, 100, 100);
 }
 
 TEST(GaussSeidel, WithoutFrictionItIsTheComplementarityProblem) {
-  const ContactPoints contact = points(12, 1, 0);
-  const CondensedSystem condensed = random_condensed(12, 11);
-  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  const contact::Problem problem = random_problem(1, 0, 11);
+  const ContactResult result = solve_contact_by_gauss_seidel(problem, {});
   ASSERT_TRUE(result.converged);
-  const Eigen::VectorXd r = condensed.D * result.F_C - condensed.G - contact.gap;
+  const Eigen::VectorXd r = problem.D * result.F_C - problem.G - problem.points.gap;
   EXPECT_LE(result.F_C.maxCoeff(), 0);
   EXPECT_LE(r.maxCoeff(), 1e-10);
   EXPECT_LE((result.F_C.cwiseProduct(r)).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(GaussSeidel, NothingTouchesAndZeroForcesConverge) {
-  const ContactPoints contact = points(4, 2, 0.3);
-  CondensedSystem condensed = random_condensed(8, 12);
-  condensed.G.setConstant(1);  // displacements −1: away from the wall
-  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
+  contact::Problem problem = random_problem(2, 0.3, 12);
+  problem.G.setConstant(1);  // displacements −1: away from the wall
+  const ContactResult result = solve_contact_by_gauss_seidel(problem, {});
   EXPECT_TRUE(result.converged);
   EXPECT_TRUE(result.F_C.isZero(0));
 }
 
 TEST(GaussSeidel, TooFewSweepsOrNaNIsNotConverged) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  CondensedSystem condensed = random_condensed(24, 13);
+  contact::Problem problem = random_problem(2, 0.3, 13);
   RunControl control;
   control.contact_sweeps = 2;
-  const ContactResult few = solve_contact_by_gauss_seidel(condensed, contact, control);
+  const ContactResult few = solve_contact_by_gauss_seidel(problem, control);
   EXPECT_FALSE(few.converged);
   EXPECT_EQ(few.iterations, 2);
   control.contact_sweeps = 0;
-  EXPECT_FALSE(solve_contact_by_gauss_seidel(condensed, contact, control).converged);
-  condensed.G(3) = std::nan("");
-  EXPECT_FALSE(solve_contact_by_gauss_seidel(condensed, contact, {}).converged);
+  EXPECT_FALSE(solve_contact_by_gauss_seidel(problem, control).converged);
+  problem.G(3) = std::nan("");
+  EXPECT_FALSE(solve_contact_by_gauss_seidel(problem, {}).converged);
 }
 
 TEST(GaussSeidel, KeepsAHistoryOnRequest) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  const CondensedSystem condensed = random_condensed(24, 14);
+  const contact::Problem problem = random_problem(2, 0.3, 14);
   RunControl control;
   control.histories = true;
-  const ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+  const ContactResult result = solve_contact_by_gauss_seidel(problem, control);
   EXPECT_EQ(result.history.size(), static_cast<std::size_t>(result.iterations));
   EXPECT_LE(result.history.back(), control.contact_tolerance);
-  EXPECT_TRUE(solve_contact_by_gauss_seidel(condensed, contact, {}).history.empty());
+  EXPECT_TRUE(solve_contact_by_gauss_seidel(problem, {}).history.empty());
 }
 
 TEST(GaussSeidel, GoesOnFromAGivenStart) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  const CondensedSystem condensed = random_condensed(24, 15);
-  const ContactResult first = solve_contact_by_gauss_seidel(condensed, contact, {});
-  const ContactResult again = solve_contact_by_gauss_seidel(condensed, contact, {}, first.F_C);
+  const contact::Problem problem = random_problem(2, 0.3, 15);
+  const ContactResult first = solve_contact_by_gauss_seidel(problem, {});
+  const ContactResult again = solve_contact_by_gauss_seidel(problem, {}, first.F_C);
   EXPECT_TRUE(again.converged);
   EXPECT_LE(again.iterations, 2);
   EXPECT_LT(testing::distance(again.F_C, first.F_C), 1e-12 * first.F_C.norm());
 }
 
 // A compliance like that of a thin layer between long waves: sweeps carry little from end to end.
-CondensedSystem stiff_condensed(int count, int components) {
-  const int size = count * components;
+contact::Problem stiff_problem(int components) {
+  const int count = 40, size = count * components;
   Eigen::MatrixXd D = 1e-4 * Eigen::MatrixXd::Identity(size, size);
   for (int i = 0; i < size; ++i)
     for (int j = 0; j < size; ++j)
@@ -159,63 +155,59 @@ CondensedSystem stiff_condensed(int count, int components) {
         D(i, j) += std::min(i, j) / components + 1 + (i % components);
   Eigen::VectorXd G(size);
   for (int i = 0; i < size; ++i) G(i) = i % components == 0 ? -1 - 0.01 * i : 0.3 - 0.02 * i;
-  return {D, G};
+  return {D, G, points(count, components, components == 2 ? 0.3 : 0)};
 }
 
 TEST(ActiveSet, FinishesWhereSweepsAreSlow) {
   for (const int components : {1, 2}) {
-    const ContactPoints contact = points(40, components, components == 2 ? 0.3 : 0);
-    const CondensedSystem condensed = stiff_condensed(40, components);
+    const contact::Problem problem = stiff_problem(components);
     RunControl control;
     control.contact_sweeps = 300;
-    ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
+    ContactResult result = solve_contact_by_gauss_seidel(problem, control);
     ASSERT_FALSE(result.converged) << components;
-    finish_by_active_set(condensed, contact, control, result);
+    finish_by_active_set(problem, control, result);
     EXPECT_TRUE(result.converged) << components;
     EXPECT_LE(result.natural_map_residual, control.contact_tolerance);
     EXPECT_GT(result.active_set_steps, 0);
     if (components == 1) continue;
-    const Eigen::VectorXd r = condensed.D * result.F_C - condensed.G - contact.gap;
-    for (int p = 0; p < contact.count; ++p)
+    const Eigen::VectorXd r = problem.D * result.F_C - problem.G - problem.points.gap;
+    for (int p = 0; p < problem.points.count; ++p)
       expect_coulomb_law(result.F_C.segment<2>(2 * p), r.segment<2>(2 * p), 0.3, 100, 100);
   }
 }
 
 TEST(ActiveSet, HasTheSameSolutionAsTheSweeps) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  const CondensedSystem condensed = random_condensed(24, 16);
-  const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
+  const contact::Problem problem = random_problem(2, 0.3, 16);
+  const ContactResult sweeps = solve_contact_by_gauss_seidel(problem, {});
   RunControl control;
   control.contact_sweeps = 1;
-  ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, control);
-  finish_by_active_set(condensed, contact, control, result);
+  ContactResult result = solve_contact_by_gauss_seidel(problem, control);
+  finish_by_active_set(problem, control, result);
   ASSERT_TRUE(result.converged);
   EXPECT_LT(testing::distance(result.F_C, sweeps.F_C), 1e-11 * sweeps.F_C.norm());
 }
 
 TEST(ActiveSet, AStepFromTheSolutionStaysThere) {
-  ContactPoints contact = points(12, 2, 0.3);
-  const CondensedSystem condensed = random_condensed(24, 17);
-  const Eigen::VectorXd F = solve_contact_by_gauss_seidel(condensed, contact, {}).F_C;
-  const Eigen::VectorXd r = condensed.D * F - condensed.G - contact.gap;
-  EXPECT_LT(testing::distance(active_set_step(condensed.D, contact, F, r), F), 1e-11 * F.norm());
+  const contact::Problem problem = random_problem(2, 0.3, 17);
+  const Eigen::VectorXd F = solve_contact_by_gauss_seidel(problem, {}).F_C;
+  const Eigen::VectorXd r = problem.D * F - problem.G - problem.points.gap;
+  EXPECT_LT(testing::distance(active_set_step(problem.D, problem.points, F, r), F),
+            1e-11 * F.norm());
 }
 
 TEST(ActiveSet, NeverClaimsWhatTheNaturalMapDenies) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  CondensedSystem condensed = random_condensed(24, 18);
-  condensed.G(3) = std::nan("");
-  ContactResult result = solve_contact_by_gauss_seidel(condensed, contact, {});
-  finish_by_active_set(condensed, contact, {}, result);
+  contact::Problem problem = random_problem(2, 0.3, 18);
+  problem.G(3) = std::nan("");
+  ContactResult result = solve_contact_by_gauss_seidel(problem, {});
+  finish_by_active_set(problem, {}, result);
   EXPECT_FALSE(result.converged);
 }
 
 TEST(Anderson, HasTheSameSolutionAsTheSweepsInFewer) {
   for (const int components : {1, 2}) {
-    const ContactPoints contact = points(40, components, components == 2 ? 0.3 : 0);
-    const CondensedSystem condensed = stiff_condensed(40, components);
-    const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
-    const ContactResult result = solve_contact_by_anderson(condensed, contact, {});
+    const contact::Problem problem = stiff_problem(components);
+    const ContactResult sweeps = solve_contact_by_gauss_seidel(problem, {});
+    const ContactResult result = solve_contact_by_anderson(problem, {});
     ASSERT_TRUE(sweeps.converged && result.converged) << components;
     EXPECT_LT(2 * result.iterations, sweeps.iterations);
     EXPECT_LT(testing::distance(result.F_C, sweeps.F_C), 1e-8 * sweeps.F_C.norm());
@@ -224,10 +216,9 @@ TEST(Anderson, HasTheSameSolutionAsTheSweepsInFewer) {
 
 TEST(Admm, HasTheSameSolutionAsTheSweeps) {
   for (const int components : {1, 2}) {
-    const ContactPoints contact = points(12, components, components == 2 ? 0.3 : 0);
-    const CondensedSystem condensed = random_condensed(12 * components, 19);
-    const ContactResult sweeps = solve_contact_by_gauss_seidel(condensed, contact, {});
-    const ContactResult result = solve_contact_by_admm(condensed, contact, {});
+    const contact::Problem problem = random_problem(components, components == 2 ? 0.3 : 0, 19);
+    const ContactResult sweeps = solve_contact_by_gauss_seidel(problem, {});
+    const ContactResult result = solve_contact_by_admm(problem, {});
     ASSERT_TRUE(sweeps.converged && result.converged) << components;
     EXPECT_LT(testing::distance(result.F_C, sweeps.F_C), 1e-9 * sweeps.F_C.norm());
   }
@@ -235,34 +226,31 @@ TEST(Admm, HasTheSameSolutionAsTheSweeps) {
 
 // Whatever the unit of D, the weights follow.
 TEST(Admm, DoesNotDependOnTheUnits) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  CondensedSystem condensed = random_condensed(24, 20);
-  const int iterations = solve_contact_by_admm(condensed, contact, {}).iterations;
-  condensed.D *= 0x1p-40;
-  condensed.G *= 0x1p-40;
-  ContactPoints scaled = contact;
-  scaled.gap *= 0x1p-40;
-  EXPECT_EQ(solve_contact_by_admm(condensed, scaled, {}).iterations, iterations);
+  contact::Problem problem = random_problem(2, 0.3, 20);
+  const int iterations = solve_contact_by_admm(problem, {}).iterations;
+  problem.D *= 0x1p-40;
+  problem.G *= 0x1p-40;
+  problem.points.gap *= 0x1p-40;
+  EXPECT_EQ(solve_contact_by_admm(problem, {}).iterations, iterations);
 }
 
 TEST(ContactSolvers, TooFewIterationsOrNaNIsNotConverged) {
-  const ContactPoints contact = points(12, 2, 0.3);
-  CondensedSystem condensed = random_condensed(24, 21);
-  CondensedSystem poisoned = condensed;
+  contact::Problem problem = random_problem(2, 0.3, 21);
+  contact::Problem poisoned = problem;
   poisoned.G(3) = std::nan("");
   for (const ContactSolver solver : all_contact_solvers) {
     RunControl control;
     control.contact = solver;
-    EXPECT_TRUE(solve_contact(condensed, contact, control).converged) << name_of(solver);
-    const ContactResult of_nan = solve_contact(poisoned, contact, control);
+    EXPECT_TRUE(solve_contact(problem, control).converged) << name_of(solver);
+    const ContactResult of_nan = solve_contact(poisoned, control);
     EXPECT_FALSE(of_nan.converged) << name_of(solver);
-    EXPECT_EQ(of_nan.F_C.size(), contact.size()) << name_of(solver);
+    EXPECT_EQ(of_nan.F_C.size(), problem.points.size()) << name_of(solver);
     control.contact_sweeps = 0;
-    EXPECT_FALSE(solve_contact(poisoned, contact, control).converged) << name_of(solver);
+    EXPECT_FALSE(solve_contact(poisoned, control).converged) << name_of(solver);
     control.deadline = Deadline::after(-1);
     control.contact_sweeps = 1000000;
     control.contact_tolerance = -1;
-    EXPECT_THROW(solve_contact(condensed, contact, control), TimeoutReached) << name_of(solver);
+    EXPECT_THROW(solve_contact(problem, control), TimeoutReached) << name_of(solver);
   }
 }
 

@@ -35,7 +35,7 @@ RunControl first_control() {
 double true_error(const Problem& problem, const Solution& solution, const Solution& exact) {
   const ContactPoints contact =
       assemble(std::make_shared<const Problem>(problem), Blocks::contact_points).contact;
-  const Eigen::MatrixXd D = testing::condensed(assemble_hybridized(problem, contact)).D;
+  const Eigen::MatrixXd D = testing::condensed(problem, contact).D;
   const double stress = std::sqrt(stress_norm_squared(problem, exact.stress)),
                force = D_norm(D, exact.F_C);
   const double off = stress_distance(problem, solution.stress, exact.stress),
@@ -78,8 +78,8 @@ TEST(HybridizedCg, ItsEstimateCoversTheContactLaw) {
       const ContactPoints contact = contact_points(*problem);
       const Solution solution = solve("HYBRID:CG", problem, first_control());
       if (!solution.error_estimate) continue;  // not converged
-      const CondensedSystem condensed = testing::condensed(assemble_hybridized(*problem, contact));
-      const double map = relative_natural_map(condensed, contact, solution.F_C);
+      const contact::Problem condensed = testing::condensed(*problem, contact);
+      const double map = relative_natural_map(condensed, solution.F_C);
       EXPECT_LE(map, std::max(1e-9, 1.05 * *solution.error_estimate)) << mesh.name << ' ' << name;
     }
 }

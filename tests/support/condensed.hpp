@@ -1,4 +1,4 @@
-// D and G of a problem, by a factor of the hybridized system.
+// The contact problem of a body, by a factor of its hybridized system.
 #pragma once
 
 #include "solvers/condensation/hybridized.hpp"
@@ -6,10 +6,11 @@
 
 namespace airybench::testing {
 
-inline CondensedSystem condensed(const HybridizedSystem& system) {
+inline contact::Problem condensed(const Problem& problem, const ContactPoints& points) {
+  const HybridizedSystem system = assemble_hybridized(problem, points);
   MultifrontalStiffness factor(system.K, system.n_c);
   Solution ignored;
-  return factorise_and_condense(factor, system.b, "hybridized", {}, ignored);
+  return factorise_and_condense(factor, system.b, points, "hybridized", {}, ignored);
 }
 
 }  // namespace airybench::testing

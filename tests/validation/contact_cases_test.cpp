@@ -59,9 +59,8 @@ struct Face {
     RunControl control;
     control.contact_sweeps = 50;  // then active sets
     Solution solution;
-    const CondensedSystem condensed =
-        testing::condensed(assemble_hybridized(*problem, system.contact));
-    solve_condensed_contact(condensed, system.contact, control, solution);
+    const contact::Problem condensed = testing::condensed(*problem, system.contact);
+    solve_condensed_contact(condensed, control, solution);
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
     F_C = solution.F_C;
     const Eigen::VectorXd r =

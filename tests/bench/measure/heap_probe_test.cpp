@@ -82,11 +82,11 @@ std::int64_t allocations_of(const Work& work) {
   return heap::allocations() - before;
 }
 
-CondensedSystem condensed(int size) {
+contact::Problem condensed(int size, ContactPoints points) {
   std::srand(1);
   const Eigen::MatrixXd root = Eigen::MatrixXd::Random(size, size);
   return {root * root.transpose() + Eigen::MatrixXd::Identity(size, size),
-          -size * Eigen::VectorXd::Random(size).cwiseAbs()};
+          -size * Eigen::VectorXd::Random(size).cwiseAbs(), std::move(points)};
 }
 
 TEST(Allocations, NoneInsideAContactSweep) {
@@ -95,14 +95,13 @@ TEST(Allocations, NoneInsideAContactSweep) {
     contact.components = components;
     contact.count = 40 / components;
     if (components == 2) contact.friction.assign(static_cast<std::size_t>(contact.count), 0.3);
-    const CondensedSystem system = condensed(40);
+    const contact::Problem problem = condensed(40, contact);
     const auto allocations = [&](int sweeps) {
       RunControl control;
       control.contact_tolerance = 0;  // never met: all sweeps are made
       control.contact_sweeps = sweeps;
-      return allocations_of([&] {
-        EXPECT_EQ(solve_contact_by_gauss_seidel(system, contact, control).iterations, sweeps);
-      });
+      return allocations_of(
+          [&] { EXPECT_EQ(solve_contact_by_gauss_seidel(problem, control).iterations, sweeps); });
     };
     EXPECT_EQ(allocations(3), allocations(30)) << components;
   }

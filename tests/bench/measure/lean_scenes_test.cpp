@@ -287,7 +287,7 @@ TEST(CountOfSolves, BlindCondensationSolvesForContactForcesAndALoadOnly) {
     const BlindSystem blind = make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
     const SkylineFactor factor = factor_ldlt(analyse_skyline(blind.lower), blind.lower);
     CountedSolve solve{factor};
-    const CondensedSystem condensed = condense_blindly(system, blind, std::ref(solve), 8);
+    const contact::Problem condensed = condense_blindly(system, blind, std::ref(solve), 8);
     const bool loaded = blind.load.size() > 0;
     EXPECT_EQ(loaded, system.q.size() + system.F.size() + system.F0.size() > 0) << scene.name;
     EXPECT_EQ(solve.columns, system.n_c() > 0 ? system.n_c() + (loaded ? 1 : 0) : 0) << scene.name;

@@ -6,7 +6,7 @@
 
 #include "assembly/dual_system.hpp"
 #include "assembly/scene.hpp"
-#include "bench/problems/known_rows.hpp"
+#include "bench/problems/problem_arrays.hpp"
 #include "mesh/msh_format.hpp"
 #include "tests/support/bench_command.hpp"
 #include "tests/support/posed.hpp"

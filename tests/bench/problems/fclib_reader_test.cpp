@@ -1,7 +1,5 @@
 // Contact problems in FCLIB's format: our own export back again, other storages, and wrong files.
-#include "bench/problems/fclib_reader.hpp"
-
-#include <gtest/gtest.h>
+#include "bench/problems/fclib.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -34,8 +32,8 @@ Values whole(std::vector<double> numbers) { return {std::move(numbers), true}; }
 enum class Storage { rows, columns, triplets };
 
 // The entries of W that are not zero; triplets of a small one twice, by halves.
-Contents contents_of(const GivenContact& problem, Storage storage) {
-  const int m = static_cast<int>(problem.b.size());
+Contents contents_of(const contact::Problem& problem, Storage storage) {
+  const int m = static_cast<int>(problem.G.size());
   std::vector<double> p = {0}, i, x;
   if (storage == Storage::triplets) p.clear();
   for (int row = 0; row < m; ++row) {
@@ -60,8 +58,8 @@ Contents contents_of(const GivenContact& problem, Storage storage) {
           {"/fclib_local/W/p", whole(p)},
           {"/fclib_local/W/i", whole(i)},
           {"/fclib_local/W/x", {x}},
-          {"/fclib_local/vectors/q", {{problem.b.begin(), problem.b.end()}}},
-          {"/fclib_local/vectors/mu", {problem.friction}}};
+          {"/fclib_local/vectors/q", {{problem.G.begin(), problem.G.end()}}},
+          {"/fclib_local/vectors/mu", {problem.points.friction}}};
 }
 
 void write(const std::filesystem::path& path, const Contents& contents) {
@@ -78,26 +76,23 @@ void write(const std::filesystem::path& path, const Contents& contents) {
   }
 }
 
-GivenContact small_problem() {
-  GivenContact problem;
+contact::Problem small_problem() {
+  contact::Problem problem;
   problem.D = Eigen::Vector4d(2, 3, 4, 5).asDiagonal();
   problem.D(0, 2) = problem.D(2, 0) = 0.5;
-  problem.b = Eigen::Vector4d(-1, 0.5, 2, -0.25);
-  problem.friction = {0.3, 0};
+  problem.G = Eigen::Vector4d(-1, 0.5, 2, -0.25);
+  problem.points.count = 2;
+  problem.points.friction = {0.3, 0};
   return problem;
 }
 
-Solution solved(std::shared_ptr<const GivenContact> given) {
-  Problem problem;
-  problem.given = std::move(given);
-  const DualSystem system =
-      assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points);
-  return run(condensed_contact(), system, {});
+Solution solved(const contact::Problem& problem) {
+  return run(condensed_contact().solve_contact, problem, {});
 }
 
 class FclibReader : public ::testing::Test {
  protected:
-  std::shared_ptr<const GivenContact> read(const Contents& contents) const {
+  contact::Problem read(const Contents& contents) const {
     write(file(), contents);
     return read_fclib(file());
   }
@@ -115,12 +110,14 @@ class FclibReader : public ::testing::Test {
 };
 
 TEST_F(FclibReader, ReadsAllStorages) {
-  const GivenContact problem = small_problem();
+  const contact::Problem problem = small_problem();
   for (const Storage storage : {Storage::rows, Storage::columns, Storage::triplets}) {
     const auto found = read(contents_of(problem, storage));
-    EXPECT_EQ(found->D, problem.D);
-    EXPECT_EQ(found->b, problem.b);
-    EXPECT_EQ(found->friction, problem.friction);
+    EXPECT_EQ(found.name, "p");
+    EXPECT_EQ(found.D, problem.D);
+    EXPECT_EQ(found.G, problem.G);
+    EXPECT_EQ(found.points.count, 2);
+    EXPECT_EQ(found.points.friction, problem.points.friction);
   }
 }
 
@@ -138,7 +135,7 @@ TEST_F(FclibReader, OurOwnExportHasTheForcesOfTheBody) {
     const auto given = read_fclib(file());
     Eigen::VectorXd F = solved(given).F_C;
     for (const Storage storage : {Storage::columns, Storage::triplets})
-      EXPECT_EQ(solved(read(contents_of(*given, storage))).F_C, F);
+      EXPECT_EQ(solved(read(contents_of(given, storage))).F_C, F);
     if (friction == 0) {
       EXPECT_EQ(F(Eigen::seq(1, Eigen::last, 2)).norm(), 0);
       F = Eigen::VectorXd(F(Eigen::seq(0, Eigen::last, 2)));
@@ -153,9 +150,9 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
     contents["/fclib_local/" + name] = values;
     return contents;
   };
-  const auto of = [](const std::function<void(GivenContact&)>& change,
+  const auto of = [](const std::function<void(contact::Problem&)>& change,
                      Storage storage = Storage::rows) {
-    GivenContact problem = small_problem();
+    contact::Problem problem = small_problem();
     change(problem);
     return contents_of(problem, storage);
   };
@@ -191,9 +188,9 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   refused(with("vectors/mu", {{0.3}}), "/fclib_local/vectors/mu: 1 values (allowed: 2 numbers)");
   refused(with("vectors/s", {{0}}), "/fclib_local/vectors/s: equality constraints (allowed: none)");
   refused(with("V/m", whole({0})), "/fclib_local/V: equality constraints (allowed: none)");
-  refused(of([](GivenContact& p) { p.D(0, 2) = 0.6; }),
+  refused(of([](contact::Problem& p) { p.D(0, 2) = 0.6; }),
           "/fclib_local/W: differs from its transpose by 0.1 (allowed: a symmetric matrix)");
-  refused(of([](GivenContact& p) { p.D(3, 3) = 0; }, Storage::triplets),
+  refused(of([](contact::Problem& p) { p.D(3, 3) = 0; }, Storage::triplets),
           "/fclib_local/W: diagonal entry 3 is 0 (allowed: > 0)");
   for (const auto& [name, values] : contents_of(small_problem(), Storage::rows)) {
     Contents contents = contents_of(small_problem(), Storage::rows);
@@ -232,7 +229,7 @@ TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
     testing::write_text(file(), damaged);
     try {
       const auto problem = read_fclib(file());
-      EXPECT_EQ(problem->D.rows(), problem->b.size());
+      EXPECT_EQ(problem.D.rows(), problem.G.size());
     } catch (const FileError& why) {
       EXPECT_EQ(std::string(why.what()).find('\n'), std::string::npos);
       ++refusals;
@@ -246,21 +243,15 @@ TEST_F(FclibReader, DamagedFilesAreRefusedOrRead) {
 // 0.5), r − û = (0.75, −0.5) is outside of the cone: nearest n = (0.75 + 0.25)/1.25 = 0.8, t =
 // −0.4; the difference to r is (1.2, 0.4); the largest of ‖r‖ = 2, ‖u‖ and ‖q‖ is 2.
 TEST(SiconosError, OfOneContactByHand) {
-  const auto given = std::make_shared<GivenContact>();
-  given->D = Eigen::Matrix2d::Identity();
-  given->b = Eigen::Vector2d(-1, 0.5);
-  given->friction = {0.5};
-  const Solution exact = solved(given);
+  contact::Problem problem = {Eigen::Matrix2d::Identity(), Eigen::Vector2d(-1, 0.5)};
+  problem.points.count = 1;
+  problem.points.friction = {0.5};
+  const Solution exact = solved(problem);
   ASSERT_EQ(exact.status, Status::ok);
   EXPECT_LT((exact.F_C - Eigen::Vector2d(-1, 0.5)).norm(), 1e-12);  // slip: |t| = μ n
-  Problem problem;
-  problem.given = given;
-  const DualSystem system =
-      assemble(std::make_shared<const Problem>(problem), Blocks::contact_points);
-  EXPECT_LT(verify_given_contact(system, exact).siconos_error.value(), 1e-12);
-  Solution wrong = exact;
-  wrong.F_C = Eigen::Vector2d(-2, 0);
-  EXPECT_NEAR(verify_given_contact(system, wrong).siconos_error.value(), std::sqrt(1.6) / 2, 1e-14);
+  EXPECT_LT(verify(problem, exact.F_C).siconos_error.value(), 1e-12);
+  EXPECT_NEAR(verify(problem, Eigen::Vector2d(-2, 0)).siconos_error.value(), std::sqrt(1.6) / 2,
+              1e-14);
 }
 
 }  // namespace

@@ -16,16 +16,16 @@ std::filesystem::path file_of(const std::string& name) {
 }
 
 // The largest violation of the law by r = −F and u = W r + q, relative to the largest force.
-double violation(const GivenContact& given, const Eigen::VectorXd& F) {
-  const Eigen::VectorXd r = -F, u = given.D * r + given.b;
-  const double force = r.cwiseAbs().maxCoeff(), velocity = force * given.D.diagonal().maxCoeff();
+double violation(const contact::Problem& problem, const Eigen::VectorXd& F) {
+  const Eigen::VectorXd r = -F, u = problem.D * r + problem.G;
+  const double force = r.cwiseAbs().maxCoeff(), velocity = force * problem.D.diagonal().maxCoeff();
   double worst = 0;
   const auto at_least_zero = [&](double value, double scale) {
     worst = std::max(worst, -value / scale);
   };
-  for (std::size_t p = 0; p < given.friction.size(); ++p) {
-    const auto n = static_cast<Eigen::Index>(2 * p), t = n + 1;
-    const double room = given.friction[p] * r(n) - std::abs(r(t));
+  for (int p = 0; p < problem.points.count; ++p) {
+    const int n = 2 * p, t = n + 1;
+    const double room = problem.points.friction_at(p) * r(n) - std::abs(r(t));
     at_least_zero(r(n), force);
     at_least_zero(u(n), velocity);
     at_least_zero(room, force);
@@ -49,14 +49,12 @@ TEST_F(ForeignProblems, NewtonSolvesThem) {
       {"slider_crank", 2}, {"00071", 89}, {"granular_flow_00667", 667}};
   for (const auto& [name, count] : contacts) {
     SCOPED_TRACE(name);
-    const auto problem = std::make_shared<Problem>();
-    problem->given = read_contact_problem(file_of(name));
-    ASSERT_EQ(problem->given->friction.size(), static_cast<std::size_t>(count));
-    const DualSystem system = assemble(problem, Blocks::contact_points);
-    const Solution solution = run(condensed_contact(), system, {});
+    const contact::Problem problem = read_contact_problem(file_of(name));
+    ASSERT_EQ(problem.points.count, count);
+    const Solution solution = run(condensed_contact().solve_contact, problem, {});
     EXPECT_EQ(solution.status, Status::ok) << solution.message;
-    EXPECT_LT(violation(*problem->given, solution.F_C), 1e-10);
-    EXPECT_GT(violation(*problem->given, 1.001 * solution.F_C), 1e-5);
+    EXPECT_LT(violation(problem, solution.F_C), 1e-10);
+    EXPECT_GT(violation(problem, 1.001 * solution.F_C), 1e-5);
   }
 }
 

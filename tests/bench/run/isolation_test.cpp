@@ -209,7 +209,7 @@ TEST_F(IsolationAtSize, ATimeLimitIsARecord) {
   Method patient = method_;
   patient.solve = [this](const DualSystem& system, const RunControl& control) {
     Solution solution = method_.solve(system, control);
-    while (system.problem == large_.problem && solution.status == Status::ok)
+    while (system.problem == large_.body() && solution.status == Status::ok)
       solution = method_.solve(system, control);
     return solution;
   };
@@ -233,7 +233,7 @@ TEST_F(IsolationAtSize, ATimeLimitInItsContactLawIsARecord) {
     ender.at_begin = [&](Stage stage) {
       if (stage == Stage::contact) own.deadline = Deadline::after(0);
     };
-    const ObservedStages scope(system.problem == large_.problem ? &ender : nullptr);
+    const ObservedStages scope(system.problem == large_.body() ? &ender : nullptr);
     return method_.solve(system, own);
   };
   const Record record = run_large(late);
@@ -249,7 +249,7 @@ TEST_F(IsolationAtSize, AKillWithinAStageIsARecord) {
       killer.at_end = [&](Stage of) {
         if (of == stage) die_of(SIGKILL);
       };
-      const ObservedStages scope(system.problem == large_.problem ? &killer : nullptr);
+      const ObservedStages scope(system.problem == large_.body() ? &killer : nullptr);
       return method_.solve(system, control);
     };
     const Record record = run_large(killed);
@@ -285,7 +285,7 @@ TEST_F(Isolation, ALibraryThatExitsForLackOfMemoryIsOutOfMemory) {
 }
 
 TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {
-  auto problem = std::make_shared<Problem>(*posed_.problem);
+  auto problem = std::make_shared<Problem>(*posed_.body());
   problem->loads.displacement_mm = [](const Eigen::Vector2d&, int) -> Eigen::Vector2d {
     die_of(SIGSEGV);
     return Eigen::Vector2d::Zero();

@@ -166,7 +166,7 @@ TEST(ListedScenes, AnotherSolutionIsNotWrong) {
   const DualSystem system = assemble(problem, Blocks::contact_points);
   const Reference pressed =
       compute_reference(assemble(posed(changes(0.002)), Blocks::contact_points));
-  const Reference other = compute_reference(system, pressed.F_C);
+  const Reference other = compute_reference(system, pressed.F_C, StartIs::solution);
   ASSERT_LT(other.error_estimate, 1e-12);
   ASSERT_LT(other.F_C.sum(), -1);
   Method finds_the_other = select_methods("HYBRID").front();
@@ -208,8 +208,8 @@ TEST(ListedScenes, AnotherSolutionOfAPathIsNotWrong) {
       compute_reference(assemble(posed(changes(0.002)), Blocks::contact_points));
   Method finds_the_other = select_methods("HYBRID").front();
   finds_the_other.solve = [&](const DualSystem& system, const RunControl&) {
-    return answer_of(
-        compute_reference(assemble(system.problem, Blocks::contact_points), pressed.F_C));
+    return answer_of(compute_reference(assemble(system.problem, Blocks::contact_points),
+                                       pressed.F_C, StartIs::solution));
   };
   const Record record = examined(posed(changes(0)), finds_the_other);
   EXPECT_EQ(record.outcome, "other_solution") << record.status_reason;

@@ -1,38 +1,22 @@
 // Intervals of what one asks of the contact: they hold what finer meshes say.
 #include "bench/verify/contact_intervals.hpp"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "assembly/scene.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/refinement.hpp"
-#include "solvers/methods.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/posed.hpp"
+#include "tests/bench/verify/solved.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::contact_intervals_test {
 namespace {
 
-struct Judged {
-  DualSystem system;
-  Solution hybrid;
-  DisplacementField u;
-  ConstitutiveError error;
-  std::optional<ContactIntervals> intervals;
+struct Judged : testing::Solved {
+  ConstitutiveError of_w = error();
+  std::optional<ContactIntervals> intervals = contact_intervals(
+      system, hybrid.stress, hybrid.F_C, w, of_w, resultant_lifts(*system.problem));
 
-  Judged(const Scene& scene, const Mesh& mesh)
-      : system(assemble(testing::posed(scene, mesh), Blocks::contact_points)),
-        hybrid(run(select_methods("HYBRID").front(), system, {})),
-        u(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)),
-        error(constitutive_error(system, hybrid.stress, hybrid.F_C, u)),
-        intervals(contact_intervals(system, hybrid.stress, hybrid.F_C, u, error,
-                                    resultant_lifts(*system.problem))) {
-    EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
-  }
+  using Solved::Solved;
   double resultant(int component) const {
     const int m = system.contact.components;
     double sum = 0;
@@ -40,12 +24,6 @@ struct Judged {
     return sum;
   }
 };
-
-Scene with_friction(double mu) {
-  Scene scene;
-  scene.friction = mu;
-  return scene;
-}
 
 void expect_inside(const Bracket& interval, double value, const char* what) {
   EXPECT_LE(interval.low, value) << what;
@@ -55,7 +33,7 @@ void expect_inside(const Bracket& interval, double value, const char* what) {
 TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
   for (const double mu : {0.0, 0.2}) {
     SCOPED_TRACE(mu);
-    const Scene scene = with_friction(mu);
+    const Scene scene = {.friction = mu};
     const Judged coarse(scene, testing::catalogue_mesh("Mesh0")),
         fine(scene, testing::catalogue_mesh("Mesh3"));
     ASSERT_TRUE(coarse.intervals && fine.intervals);
@@ -81,10 +59,10 @@ TEST(ContactIntervals, HoldWhatFinerMeshesSay) {
 
 // A wall that ends within the face, at vertices; a crowned one.
 TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
-  Scene punch = with_friction(0), crown = with_friction(0);
-  punch.crown_radius_mm.reset();
-  punch.wall = PolylineWall{{{10, 2.5}, {10, 7.5}}};
-  crown.crown_radius_mm = 400;
+  const Scene punch = {.friction = 0,
+                       .crown_radius_mm = {},
+                       .wall = PolylineWall{{{10, 2.5}, {10, 7.5}}}},
+              crown = {.friction = 0, .crown_radius_mm = 400};
   Mesh mesh = testing::small_block(12, 12, 0);
   for (int level = 0; level < 2; ++level) {
     mesh = uniformly_refined(mesh);
@@ -98,10 +76,9 @@ TEST(ContactIntervals, TheLargestPressureIsUnboundedAtTheEdgeOfAPunch) {
 }
 
 TEST(ContactIntervals, ResultantsNeedOneNormalAndAFaceApartFromWhatIsHeld) {
-  Scene bent = with_friction(0);
   Mesh mesh = testing::small_tooth(6, 5);
   for (Eigen::Vector2d& x : mesh.vertices) x.x() += 0.002 * x.x() * x.y() * x.y() / 10;
-  const Judged on_bent_face(bent, mesh);
+  const Judged on_bent_face({.friction = 0}, mesh);
   ASSERT_TRUE(on_bent_face.intervals);
   EXPECT_FALSE(on_bent_face.intervals->normal_resultant_N);
   EXPECT_GT(on_bent_face.intervals->largest_pressure_MPa, 0);
@@ -121,8 +98,7 @@ Mesh pin(int first) {
 }
 
 TEST(ContactIntervals, AClosedFaceHasTheSameEndsWhereverItStarts) {
-  Scene scene = with_friction(0.3);
-  scene.crown_radius_mm.reset();
+  const Scene scene = {.friction = 0.3, .crown_radius_mm = {}};
   const auto ends = [&](int first) {
     const Judged judged(scene, pin(first));
     std::vector<ContactEnd> found = judged.intervals->ends;
@@ -177,20 +153,20 @@ double distance(const Problem& coarse, const StressField& stress, const Judged& 
 
 TEST(MeanStress, IsNearerToTheSolutionThanItsBoundAndThanEitherStress) {
   for (const double mu : {0.0, 0.2}) {
-    const Scene scene = with_friction(mu);
+    const Scene scene = {.friction = mu};
     const Mesh mesh = testing::small_tooth(6, 5);
     Mesh finer = mesh;
     for (int k = 0; k < 3; ++k) finer = uniformly_refined(finer);
     const Judged coarse(scene, mesh), fine(scene, finer);
     const Problem& problem = *coarse.system.problem;
-    const StressField mean = mean_stress(problem, coarse.hybrid.stress, coarse.u);
+    const StressField mean = mean_stress(problem, coarse.hybrid.stress, coarse.w);
     const double of_mean = distance(problem, mean, fine),
                  norm = std::sqrt(stress_norm_squared(problem, coarse.hybrid.stress)),
-                 of_fine = fine.error.relative * norm;  // the fine one is off by at most
-    EXPECT_LE(of_mean, coarse.error.relative_of_mean * norm + of_fine) << mu;
+                 of_fine = fine.of_w.relative * norm;  // the fine one is off by at most
+    EXPECT_LE(of_mean, coarse.of_w.relative_of_mean * norm + of_fine) << mu;
     EXPECT_LT(of_mean, distance(problem, coarse.hybrid.stress, fine)) << mu;
-    EXPECT_GE(coarse.error.relative_of_mean, 0.5 * coarse.error.relative);
-    EXPECT_LT(coarse.error.relative_of_mean, 0.6 * coarse.error.relative);
+    EXPECT_GE(coarse.of_w.relative_of_mean, 0.5 * coarse.of_w.relative);
+    EXPECT_LT(coarse.of_w.relative_of_mean, 0.6 * coarse.of_w.relative);
   }
 }
 

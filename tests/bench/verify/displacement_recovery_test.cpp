@@ -2,40 +2,14 @@
 // P2's.
 #include "bench/verify/displacement_recovery.hpp"
 
-#include <gtest/gtest.h>
-
-#include "assembly/edge_forces.hpp"
-#include "assembly/scene.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "solvers/methods.hpp"
+#include "tests/bench/verify/solved.hpp"
 #include "tests/support/exact_fields.hpp"
-#include "tests/support/places.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::displacement_recovery_test {
 namespace {
 
-struct Recovered {
-  DualSystem system;
-  Solution hybrid;
-  DisplacementField w;
-
-  explicit Recovered(Problem problem)
-      : system(
-            assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points)),
-        hybrid(run(select_methods("HYBRID").front(), system, {})) {
-    EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
-    w = recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments);
-  }
-  ConstitutiveError error() const {
-    return constitutive_error(system, hybrid.stress, hybrid.F_C, w);
-  }
-  ConstitutiveError error_with_p2() const {
-    const Solution p2 = run(select_methods("P2").front(), system, {});
-    EXPECT_EQ(p2.status, Status::ok) << p2.message;
-    return constitutive_error(system, hybrid.stress, hybrid.F_C, p2.displacement);
-  }
-};
+using testing::Solved;
 
 // Tractions and a body force, a roller, two materials, a moved and a turned body, a clearance.
 Scene block_scene(double friction) {
@@ -56,8 +30,7 @@ Scene block_scene(double friction) {
 std::vector<Problem> problems() {
   std::vector<Problem> all;
   for (const double friction : {0.0, 0.2, 1.0}) {
-    Scene scene;
-    scene.friction = friction;
+    Scene scene = {.friction = friction};
     all.push_back(pose(scene, testing::small_tooth(8, 7)));
     all.push_back(pose(scene, testing::small_rack(2, 6, 5)));
     scene.displacement_mm = {0.02, 1000};
@@ -75,10 +48,9 @@ TEST(RecoveredDisplacement, IsNearP2sUpToIncompressibility) {
   for (const double friction : {0.0, 0.2})
     for (const auto& [poisson, most] :
          {std::pair{0.0, 1.2}, {0.3, 1.2}, {0.45, 1.2}, {0.49, 1.2}, {0.499, 1.3}, {0.4999, 2.0}}) {
-      Scene scene;
-      scene.friction = friction;
+      Scene scene = {.friction = friction};
       scene.material.poisson = poisson;
-      const Recovered r(pose(scene, testing::catalogue_mesh("Mesh0")));
+      const Solved r(scene, testing::catalogue_mesh("Mesh0"));
       const ConstitutiveError error = r.error(), least = r.error_with_p2();
       EXPECT_EQ(error.flaw, "") << poisson;
       EXPECT_LT(error.relative, most * least.relative) << poisson << " " << friction;
@@ -91,14 +63,14 @@ TEST(RecoveredDisplacement, IsTheExactOneWhereTheStressIsLinear) {
     if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
   for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3)) {
     const Eigen::Matrix3d c = compliance({2000, 0.3}, Plane::stress);
-    const Recovered r(make_problem(mesh, {c}, testing::loads_of(exact), 0));
+    const Solved r(make_problem(mesh, {c}, testing::loads_of(exact), 0));
     EXPECT_LT(r.error().body_Nmm, 1e-18 * stress_norm_squared(*r.system.problem, r.hybrid.stress));
   }
 }
 
 TEST(RecoveredDisplacement, IsAdmissible) {
   for (const Problem& problem : problems()) {
-    const Recovered r(problem);
+    const Solved r(problem);
     const PrescribedDisplacement given = prescribed_displacement(problem);
     for (Eigen::Index node = 0; node < r.w.cols(); ++node)
       if (given.at[node]) {
@@ -111,13 +83,12 @@ TEST(RecoveredDisplacement, IsAdmissible) {
 TEST(RecoveredDisplacement, OnARollerOnlyTheNormalPartIsSet) {
   for (const double turn : {0.0, 30.0}) {
     Mesh mesh = testing::small_block(6, 6, turn);
-    Scene scene;
-    scene.friction = 0;
+    Scene scene = {.friction = 0};
     scene.boundary["displacement:root"].support = BoundaryValues::Support::full;
     for (BoundaryEdge& edge : mesh.boundary)
       if (boundary_label(mesh, edge) == "force:bottom") edge.role = BoundaryRole::displacement;
     scene.boundary["displacement:bottom"].support = BoundaryValues::Support::normal;
-    const Recovered r(pose(scene, mesh));
+    const Solved r(scene, mesh);
     const Problem& problem = *r.system.problem;
     const PrescribedDisplacement given = prescribed_displacement(problem);
     EXPECT_FALSE(given.normal.empty());
@@ -136,7 +107,7 @@ TEST(RecoveredDisplacement, OnARollerOnlyTheNormalPartIsSet) {
 // is not so, but nearly.
 TEST(RecoveredDisplacement, ItsErrorIsNearThatOfTheBestDisplacement) {
   for (const Problem& problem : problems()) {
-    const Recovered r(problem);
+    const Solved r(problem);
     const double own = r.error().relative, best = r.error_with_p2().relative;
     EXPECT_LE(own, 1.5 * best);  // 1.03 to 1.42 on these coarse meshes, most with two materials
     EXPECT_GE(own, (!problem.has_friction() ? 1 - 1e-9 : 0.9) * best);
@@ -144,29 +115,15 @@ TEST(RecoveredDisplacement, ItsErrorIsNearThatOfTheBestDisplacement) {
 }
 
 TEST(RecoveredDisplacement, TheBoundsHoldTheExactEnergyAndCloseInOnIt) {
-  constexpr double finest_upper_bound_Nmm = 26.5295912;  // tests/data/oracles.csv
-  Scene scene;
-  scene.friction = 0;
-  double gap = 1;
-  for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2"}) {
-    const ConstitutiveError error = Recovered(pose(scene, testing::catalogue_mesh(mesh))).error();
-    EXPECT_TRUE(error.guaranteed) << mesh;
-    EXPECT_LT(error.lower_bound_Nmm, finest_upper_bound_Nmm) << mesh;
-    EXPECT_GT(error.upper_bound_Nmm, finest_upper_bound_Nmm) << mesh;
-    EXPECT_LT(error.upper_bound_Nmm - error.lower_bound_Nmm, gap) << mesh;
-    gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
-  }
-  EXPECT_LT(gap, 5e-4 * finest_upper_bound_Nmm);
+  testing::expect_closing_bounds([](const Solved& s) { return s.error(); }, 5e-4);
 }
 
 // A contact face of two edges that are not in line: each keeps its own inequality.
 TEST(RecoveredDisplacement, KeepsToEveryContactEdgeOfABentFace) {
   Mesh mesh = testing::small_tooth(8, 7);
   for (Eigen::Vector2d& x : mesh.vertices) x.x() -= 0.02 * x.y() * x.y() * x.x() / 10;
-  Scene scene;
-  scene.friction = 0;
-  scene.displacement_mm = {0.1, 0};
-  const ConstitutiveError error = Recovered(pose(scene, mesh)).error();
+  const ConstitutiveError error =
+      Solved({.friction = 0, .displacement_mm = {0.1, 0}}, mesh).error();
   EXPECT_EQ(error.flaw, "");
   EXPECT_TRUE(error.guaranteed);
 }

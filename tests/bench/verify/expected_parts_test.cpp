@@ -1,4 +1,5 @@
-// What is expected of finer meshes, on made-up errors that follow a law.
+// Which triangles are refined, on made-up errors; what is expected of finer meshes, where they
+// follow a law.
 #include "bench/verify/expected_parts.hpp"
 
 #include <gtest/gtest.h>
@@ -105,6 +106,19 @@ TEST(ExpectedParts, CuttingEndsWhereItIsFineEnoughAndLeavesEqualParts) {
   const ExpectedParts none(mesh, number_edges(mesh), std::vector<double>(mesh.triangles.size(), 0));
   const auto same = none.cut_until([](const ExpectedParts::Finer&) { return false; });
   EXPECT_EQ(same.triangles, static_cast<double>(mesh.triangles.size()));
+}
+
+TEST(BulkMarks, AreTheFewestThatHoldTheFraction) {
+  const std::vector<double> parts = {1, 5, 0, 3, 1};
+  EXPECT_EQ(bulk_marks(parts, 0.5), (std::vector{1}));
+  EXPECT_EQ(bulk_marks(parts, 0.51), (std::vector{1, 3}));
+  EXPECT_EQ(bulk_marks(parts, 0.85), (std::vector{0, 1, 3}));  // of equal parts the lower number
+  EXPECT_EQ(bulk_marks(parts, 1), (std::vector{0, 1, 3, 4}));
+}
+
+TEST(BulkMarks, PartsThatRoundingMadeNegativeAreZero) {
+  EXPECT_EQ(bulk_marks({-1e-18, 1, 1}, 1), (std::vector{1, 2}));
+  EXPECT_EQ(bulk_marks({0, -1e-18}, 0.6), std::vector<int>());
 }
 
 }  // namespace

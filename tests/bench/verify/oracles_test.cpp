@@ -38,20 +38,14 @@ Oracle finest(const std::string& wanted) {
   return best;
 }
 
-Verification solved(const std::string& mesh, const Scene& scene, const char* method) {
-  const auto problem = testing::posed(scene, testing::catalogue_mesh(mesh));
-  const DualSystem system = assemble(problem);
-  const Solution solution = run(select_methods(method).front(), system, {});
+Verification solved(const std::string& mesh, const Scene& scene, const char* name) {
+  const Method method = select_methods(name).front();
+  const DualSystem system =
+      assemble(testing::posed(scene, testing::catalogue_mesh(mesh)), method.blocks);
+  const Solution solution = run(method, system, {});
   EXPECT_EQ(solution.status, Status::ok) << solution.message;
-  return verify(system, solution, nullptr);
-}
-
-Verification solved_in_displacements(const std::string& mesh, const Scene& scene) {
-  const auto problem = testing::posed(scene, testing::catalogue_mesh(mesh));
-  const DualSystem system = assemble(problem, Blocks::contact_points);
-  const Solution solution = run(select_methods("P2").front(), system, {});
-  EXPECT_EQ(solution.status, Status::ok) << solution.message;
-  return verify_displacement(system, solution);
+  return method.in_displacements ? verify_displacement(system, solution)
+                                 : verify(system, solution, nullptr);
 }
 
 double relative(double value, double oracle) { return std::abs(value / oracle - 1); }
@@ -79,15 +73,13 @@ TEST(Oracles, DefaultRackWithFriction) {
 // oracle's contact is at nodes, where ours is at control points, and its finest mesh has four to
 // six times as many unknowns. A displacement solution is too stiff: its energy is too high.
 TEST(Oracles, QuadraticDisplacementsAgreeWithAnotherProgramsOwn) {
-  Scene frictionless;
-  frictionless.friction = 0;
   const Oracle oracle = finest("tooth-frictionless");
-  const Verification v = solved_in_displacements("Mesh3", frictionless);
+  const Verification v = solved("Mesh3", {.friction = 0}, "P2");
   EXPECT_GT(v.strain_energy_Nmm, oracle.strain_energy_Nmm);
   EXPECT_LT(relative(v.strain_energy_Nmm, oracle.strain_energy_Nmm), 1.2e-4);
 
   const Oracle rubbing = finest("tooth-default");
-  const Verification w = solved_in_displacements("Mesh3", {});
+  const Verification w = solved("Mesh3", {}, "P2");
   EXPECT_LT(relative(*w.normal_resultant_N, rubbing.normal_N), 2e-4);
   EXPECT_LT(relative(*w.tangential_resultant_N, rubbing.tangential_N), 7e-4);
   EXPECT_LT(relative(w.strain_energy_Nmm, rubbing.strain_energy_Nmm), 2e-4);
@@ -95,11 +87,9 @@ TEST(Oracles, QuadraticDisplacementsAgreeWithAnotherProgramsOwn) {
 
 TEST(Oracles, WithoutFrictionTheEnergiesBoundTheExactOneFromBothSides) {
   const Oracle oracle = finest("tooth-frictionless");
-  Scene scene;
-  scene.friction = 0;
   double before = 0;
   for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2", "Mesh3"}) {
-    const Verification v = solved(mesh, scene, "3STEPD");
+    const Verification v = solved(mesh, {.friction = 0}, "3STEPD");
     const double lower_bound = -*v.complementary_energy_Nmm;
     EXPECT_GT(lower_bound, before) << mesh;  // more elements, more admissible stresses
     EXPECT_LT(lower_bound, oracle.strain_energy_Nmm) << mesh;

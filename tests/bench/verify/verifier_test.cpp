@@ -89,10 +89,21 @@ TEST_F(Verifier, FindsEveryViolationOfTheContactLaw) {
   }
 }
 
+TEST_F(Verifier, SaysTheSameOfTheContactProblemAlone) {
+  pose_scene({});
+  solution_.F_C *= 1.01;
+  const Verification v = verified(), alone = verify(reference_.condensed, solution_.F_C);
+  EXPECT_EQ(alone.natural_map_residual, v.natural_map_residual);
+  EXPECT_EQ(alone.signorini_violation_N, v.signorini_violation_N);
+  EXPECT_EQ(alone.coulomb_violation_N, v.coulomb_violation_N);
+  EXPECT_EQ(alone.normal_resultant_N, v.normal_resultant_N);
+  EXPECT_EQ(alone.n_slip, v.n_slip);
+  EXPECT_EQ(alone.friction_coupling, v.friction_coupling);
+  EXPECT_FALSE(alone.equilibrium_residual || alone.error_stress || alone.error_force);
+}
+
 TEST_F(Verifier, WithoutFrictionThereIsNoTangentialLaw) {
-  Scene scene;
-  scene.friction = 0;
-  pose_scene(scene);
+  pose_scene({.friction = 0});
   const Verification v = verified();
   EXPECT_FALSE(v.coulomb_violation_N);
   EXPECT_EQ(*v.tangential_resultant_N, 0);
@@ -100,9 +111,7 @@ TEST_F(Verifier, WithoutFrictionThereIsNoTangentialLaw) {
 }
 
 TEST_F(Verifier, ABodyThatIsOnlyMovedHasNoError) {
-  Scene scene;
-  scene.clearance_mm = 1;
-  pose_scene(scene);
+  pose_scene({.clearance_mm = 1});
   EXPECT_LT(worst_measure(verified()).value, 1e-9);
   // … but a stress that is not there in truth is one.
   solution_.stress.assign(solution_.stress.size(), 0.1 * ElementStress::Ones());
@@ -122,11 +131,7 @@ TEST_F(Verifier, NaNIsTheWorstMeasure) {
 TEST_F(Verifier, EnergiesAreClapeyrons) {
   // Flat wall, no gap: the loads work only at Γ_D, so Π* = U − 2U = −U (friction does no work where
   // nothing slides: μ large).
-  Scene scene;
-  scene.crown_radius_mm.reset();
-  scene.friction = 100;
-  scene.displacement_mm = {0.02, 0};
-  pose_scene(scene);
+  pose_scene({.friction = 100, .crown_radius_mm = {}, .displacement_mm = {0.02, 0}});
   const Verification v = verified();
   EXPECT_EQ(*v.n_stick, system_.contact.count);
   EXPECT_NEAR(*v.complementary_energy_Nmm, -v.strain_energy_Nmm, 1e-9 * v.strain_energy_Nmm);
@@ -140,6 +145,55 @@ TEST_F(Verifier, WithoutAReferenceErrorsAreUnknownNotZero) {
   EXPECT_FALSE(v.reference_error);
   EXPECT_LT(*v.natural_map_residual, 1e-10);  // by its own edge moments
   EXPECT_LT(v.equilibrium_residual, 1e-11);
+}
+
+// Where there is no reference, an answer's own edge moments stand in for it.
+class WithoutAReference : public ::testing::Test {
+ protected:
+  Solution solve(const char* method, double friction) {
+    system_ = assemble(testing::posed({.friction = friction}, testing::small_tooth(8, 6)),
+                       Blocks::contact_points);
+    RunControl control;
+    control.tolerance = 1e-10;
+    return run(select_methods(method).front(), system_, control);
+  }
+  double worst(const Solution& solution) const {
+    return worst_measure(verify(system_, solution, nullptr)).value;
+  }
+  DualSystem system_;
+};
+
+TEST_F(WithoutAReference, FindsNothingWrongWithARightAnswer) {
+  for (const double friction : {0.2, 0.0})
+    for (const char* method : {"HYBRID", "HYBRID:CG"}) {
+      const Solution solution = solve(method, friction);
+      const Verification v = verify(system_, solution, nullptr);
+      ASSERT_TRUE(v.stress_of_moments_off && v.natural_map_residual) << method;
+      EXPECT_LT(*v.stress_of_moments_off, 1e-10) << method;
+      EXPECT_LT(*v.natural_map_residual, 1e-7) << method;
+      EXPECT_LT(v.equilibrium_residual, 1e-7) << method;
+      EXPECT_FALSE(v.error_stress || v.error_force || v.reference_error) << method;
+    }
+}
+
+TEST_F(WithoutAReference, SeesEveryPartOfAnAnswerThatIsWrong) {
+  const Solution right = solve("HYBRID:CG", 0.2);
+  const auto after = [&](auto change) {
+    Solution wrong = right;
+    change(wrong);
+    return worst(wrong);
+  };
+  EXPECT_LT(worst(right), 1e-7);
+  EXPECT_GT(after([](Solution& s) { s.F_C *= 1.001; }), 1e-5);
+  EXPECT_GT(after([](Solution& s) {
+              for (ElementStress& stress : s.stress) stress *= 1.001;  // it balances but for F_C
+            }),
+            1e-5);
+  EXPECT_GT(after([](Solution& s) { s.edge_moments *= 1.001; }), 1e-5);
+  // In balance and compatible, through the wall.
+  system_ = assemble(testing::posed({.clearance_mm = 1}, testing::small_tooth(8, 6)),
+                     Blocks::contact_points);
+  EXPECT_GT(worst(right), 1e-5);
 }
 
 }  // namespace

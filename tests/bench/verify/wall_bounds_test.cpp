@@ -1,11 +1,7 @@
 // Bounds are of the wall as it is, whatever lies between the points that a mesh has on it.
-#include <gtest/gtest.h>
-
 #include "bench/run/adaptive_loop.hpp"
-#include "bench/verify/discretisation_error.hpp"
-#include "bench/verify/displacement_recovery.hpp"
 #include "mesh/refinement.hpp"
-#include "tests/support/posed.hpp"
+#include "tests/bench/verify/solved.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::wall_bounds_test {
@@ -13,22 +9,11 @@ namespace {
 
 // Pressed by 0.01 mm against what its right side faces.
 Scene pressed(Wall wall, std::optional<Wall> face = {}) {
-  Scene scene;
-  scene.friction = 0;
-  scene.displacement_mm = {0.01, 0};
-  scene.crown_radius_mm.reset();
-  scene.wall = std::move(wall);
-  scene.face = std::move(face);
-  return scene;
-}
-
-ConstitutiveError error_of(const Scene& scene, const Mesh& mesh) {
-  const DualSystem system = assemble(testing::posed(scene, mesh), Blocks::contact_points);
-  const Solution hybrid = run(select_methods("HYBRID").front(), system, {});
-  EXPECT_EQ(hybrid.status, Status::ok) << hybrid.message;
-  return constitutive_error(
-      system, hybrid.stress, hybrid.F_C,
-      recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments));
+  return {.friction = 0,
+          .crown_radius_mm = {},
+          .wall = std::move(wall),
+          .face = std::move(face),
+          .displacement_mm = {0.01, 0}};
 }
 
 const FlatWall flat{{10, 0}, {-1, 0}};
@@ -55,7 +40,7 @@ TEST(WallBounds, DoNotCrossThoseOfFinerMeshes) {
     double below = 0, above = std::numeric_limits<double>::infinity();
     for (int level = 0; level < 5; ++level) {
       if (level > 0) mesh = uniformly_refined(mesh);
-      const ConstitutiveError error = error_of(scene, mesh);
+      const ConstitutiveError error = testing::Solved(scene, mesh).error();
       ASSERT_TRUE(error.guaranteed) << name << " " << level << ": " << error.flaw;
       below = std::max(below, error.lower_bound_Nmm);
       above = std::min(above, error.upper_bound_Nmm);
@@ -85,7 +70,7 @@ TEST(WallBounds, AWallThatEndsInsideAnEdgeGuaranteesNothingAndIsMarked) {
   double before = std::numeric_limits<double>::infinity();
   for (int level = 0; level < 3; ++level) {
     if (level > 0) mesh = uniformly_refined(uniformly_refined(mesh));
-    const ConstitutiveError error = error_of(scene, mesh);
+    const ConstitutiveError error = testing::Solved(scene, mesh).error();
     EXPECT_FALSE(error.guaranteed) << level;
     EXPECT_GT(error.beyond_wall_Nmm, 0) << level;
     EXPECT_LT(error.beyond_wall_Nmm, before) << level;

@@ -1,4 +1,4 @@
-#include "bench/problems/fclib_file.hpp"
+#include "bench/problems/fclib.hpp"
 
 #include <fmt/format.h>
 
@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "bench/problems/hdf5_handle.hpp"
+#include "solvers/contact/contact_result.hpp"
 
 namespace airybench {
 namespace {
@@ -95,19 +96,20 @@ Eigen::MatrixXd with_tangents(const ContactPoints& contact, const Eigen::MatrixX
   return both;
 }
 
-void write_problem(hid_t file, const CondensedProblem& condensed, double s,
-                   const std::string& title) {
-  const ContactPoints& contact = condensed.contact;
-  const auto& [D, G] = condensed.condensed;
+void write_problem(hid_t file, const contact::Problem& problem, const Eigen::VectorXd& answer,
+                   double s, const std::string& title) {
+  const ContactPoints& points = problem.points;
   const Handle local = group(file, "fclib_local");
   write(local, "spacedim", 2);
-  const Eigen::MatrixXd W = s * D;
-  write_matrix(local, with_tangents(contact, W));
-  const Eigen::VectorXd q = s * (G + condensed.gap());
+  const Eigen::MatrixXd W = s * problem.D;
+  write_matrix(local, with_tangents(points, W));
+  const Eigen::VectorXd q = s * contact_offset(problem);
   {
     const Handle vectors = group(local, "vectors");
-    write(vectors, "q", with_tangents(contact, q));
-    write(vectors, "mu", condensed.friction());
+    write(vectors, "q", with_tangents(points, q));
+    Eigen::VectorXd mu(points.count);
+    for (int p = 0; p < points.count; ++p) mu(p) = points.friction_at(p);
+    write(vectors, "mu", mu);
   }
   {
     const Handle info = group(local, "info");
@@ -120,11 +122,11 @@ void write_problem(hid_t file, const CondensedProblem& condensed, double s,
                       "W symmetric positive definite",
                       s));
   }
-  if (condensed.answer.size() == 0) return;
+  if (answer.size() == 0) return;
   const Handle solution = group(file, "solution");
-  const Eigen::VectorXd r = -condensed.answer;
-  write(solution, "r", with_tangents(contact, r));
-  write(solution, "u", with_tangents(contact, Eigen::VectorXd(W * r + q)));
+  const Eigen::VectorXd r = -answer;
+  write(solution, "r", with_tangents(points, r));
+  write(solution, "u", with_tangents(points, Eigen::VectorXd(W * r + q)));
 }
 
 std::string image_of(hid_t file) {
@@ -139,15 +141,15 @@ std::string image_of(hid_t file) {
 
 }  // namespace
 
-std::string fclib_file(const CondensedProblem& condensed, const std::vector<ProblemArray>& arrays,
-                       const std::string& title) {
+std::string fclib_file(const contact::Problem& problem, const Eigen::VectorXd& answer,
+                       const std::vector<ProblemArray>& arrays, const std::string& title) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
-  const double s = 1 / condensed.condensed.D.diagonal().mean();
+  const double s = 1 / problem.D.diagonal().mean();
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth_bytes = 1 << 20;
   check(H5Pset_fapl_core(in_memory, growth_bytes, false));
   const Handle file(H5Fcreate("fclib", H5F_ACC_TRUNC, H5P_DEFAULT, in_memory), H5Fclose);
-  write_problem(file, condensed, s, title);
+  write_problem(file, problem, answer, s, title);
   {
     const Handle ours = group(file, "airybench");
     write(ours, "scale_N_per_mm", Eigen::VectorXd::Constant(1, s));

@@ -1,0 +1,122 @@
+// The contact law's part of the judge: of bodies, and of contact problems that have none.
+#include <algorithm>
+#include <cmath>
+
+#include "bench/verify/verifier.hpp"
+#include "solvers/base/dense_products.hpp"
+#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/coulomb_law.hpp"
+
+namespace airybench {
+namespace {
+
+// The nearest point of |t| ≤ μ n.
+Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
+  const double normal = r.x(), tangential = std::abs(r.y());
+  if (tangential <= mu * normal) return r;
+  if (mu * tangential <= -normal) return {0, 0};
+  const double n = (normal + mu * tangential) / (1 + mu * mu);
+  return {n, std::copysign(mu * n, r.y())};
+}
+
+// Verification::siconos_error of r = −F, u = W r + q; the offset is q, DF is D F.
+double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
+                     const Eigen::VectorXd& F, const Eigen::VectorXd& DF) {
+  const Eigen::VectorXd r = -F, u = offset - DF;
+  double squared = 0;
+  for (int p = 0; p < points.count; ++p) {
+    const double mu = points.friction_at(p);
+    const Eigen::Vector2d r_p = r.segment<2>(2 * p), u_p = u.segment<2>(2 * p);
+    const Eigen::Vector2d shifted = r_p - u_p - Eigen::Vector2d(mu * std::abs(u_p.y()), 0);
+    squared += (r_p - project_on_cone(shifted, mu)).squaredNorm();
+  }
+  const double scale = std::max({r.norm(), u.norm(), offset.norm()});
+  return scale > 0 ? std::sqrt(squared) / scale : 0;
+}
+
+// Verification::friction_coupling.
+double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
+  double coupling = 0;
+  for (int p = 0; p < contact.count; ++p)
+    coupling = std::max(coupling,
+                        contact.friction_at(p) * std::abs(D(2 * p, 2 * p + 1)) / D(2 * p, 2 * p));
+  return coupling;
+}
+
+}  // namespace
+
+std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
+  constexpr double tolerance = 1e-9;
+  const int m = contact.components;
+  double largest = 0;
+  for (int p = 0; p < contact.count; ++p) largest = std::max(largest, std::abs(F_C(m * p)));
+  std::vector<ContactState> states(static_cast<std::size_t>(contact.count));
+  for (int p = 0; p < contact.count; ++p) {
+    const double normal = std::abs(F_C(m * p));
+    if (normal <= tolerance * largest)
+      states[p] = ContactState::open;
+    else if (m == 1 ||
+             std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction_at(p) * normal)
+      states[p] = ContactState::slip;
+    else
+      states[p] = ContactState::stick;
+  }
+  return states;
+}
+
+void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
+                         Verification& result) {
+  const int m = contact.components;
+  double normal = 0, tangential = 0;
+  for (int p = 0; p < contact.count; ++p) {
+    normal += F(m * p);
+    if (m == 2) tangential += F(m * p + 1);
+  }
+  const std::vector<ContactState> states = contact_states(contact, F);
+  const auto count = [&](ContactState state) {
+    return static_cast<int>(std::count(states.begin(), states.end(), state));
+  };
+  result.normal_resultant_N = normal;
+  result.tangential_resultant_N = tangential;
+  result.n_open = count(ContactState::open);
+  result.n_stick = count(ContactState::stick);
+  result.n_slip = count(ContactState::slip);
+}
+
+void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
+                      const Eigen::VectorXd& displacement, const Eigen::VectorXd& D_diagonal,
+                      const LoadScale& scale, Verification& result) {
+  const int m = contact.components;
+  const Eigen::VectorXd residual = natural_map(contact, D_diagonal, F, displacement);
+  result.natural_map_residual = relative_error(residual.norm(), F.norm(), scale.force_N);
+  double signorini = 0, coulomb = 0;
+  for (int p = 0; p < contact.count; ++p) {
+    signorini = std::max(signorini, std::abs(residual(m * p)));
+    if (m == 2) coulomb = std::max(coulomb, std::abs(residual(m * p + 1)));
+  }
+  result.signorini_violation_N = signorini;
+  if (m == 2) result.coulomb_violation_N = coulomb;
+}
+
+void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const Eigen::VectorXd& F,
+                  const Eigen::VectorXd& displacement, const LoadScale& scale,
+                  Verification& result) {
+  note_contact_forces(points, F, result);
+  note_contact_law(points, F, displacement, D.diagonal(), scale, result);
+  if (points.components == 2) result.friction_coupling = friction_coupling(points, D);
+}
+
+Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {
+  const Eigen::VectorXd DF = times(problem.D, F), offset = contact_offset(problem);
+  LoadScale scale;  // forces that would undo the offset point by point
+  scale.force_N = offset.cwiseQuotient(problem.D.diagonal()).norm();
+  Verification result;
+  result.equilibrium_residual.reset();
+  note_contact(problem.points, problem.D, F, DF - problem.G, scale, result);
+  result.strain_energy_Nmm = F.dot(DF) / 2;
+  if (problem.points.components == 2)
+    result.siconos_error = siconos_error(problem.points, offset, F, DF);
+  return result;
+}
+
+}  // namespace airybench

@@ -1,0 +1,58 @@
+// A problem solved in stresses by HYBRID and in displacements, which are recovered from the
+// stresses or P2's.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "assembly/scene.hpp"
+#include "bench/verify/discretisation_error.hpp"
+#include "bench/verify/displacement_recovery.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::testing {
+
+inline Solution solved_by(const char* method, const DualSystem& system) {
+  Solution solution = run(select_methods(method).front(), system, {});
+  EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
+  return solution;
+}
+
+struct Solved {
+  DualSystem system;
+  Solution hybrid;
+  DisplacementField w;  // recovered
+
+  explicit Solved(Problem problem)
+      : system(
+            assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points)),
+        hybrid(solved_by("HYBRID", system)),
+        w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
+  Solved(const Scene& scene, Mesh mesh) : Solved(pose(scene, std::move(mesh))) {}
+
+  ConstitutiveError error_with(const DisplacementField& u) const {
+    return constitutive_error(system, hybrid.stress, hybrid.F_C, u);
+  }
+  ConstitutiveError error() const { return error_with(w); }
+  Solution p2() const { return solved_by("P2", system); }
+  ConstitutiveError error_with_p2() const { return error_with(p2().displacement); }
+};
+
+// The exact energy without friction lies between the bounds of Mesh0, Mesh1 and Mesh2, which close
+// in on it up to this part of it.
+template <typename ErrorOf>
+void expect_closing_bounds(ErrorOf error_of, double part) {
+  constexpr double finest_upper_bound_Nmm = 26.5295912;  // tests/data/oracles.csv
+  double gap = 1;
+  for (const char* mesh : {"Mesh0", "Mesh1", "Mesh2"}) {
+    const ConstitutiveError error = error_of(Solved({.friction = 0}, catalogue_mesh(mesh)));
+    EXPECT_TRUE(error.guaranteed) << mesh;
+    EXPECT_LT(error.lower_bound_Nmm, finest_upper_bound_Nmm) << mesh;
+    EXPECT_GT(error.upper_bound_Nmm, finest_upper_bound_Nmm) << mesh;
+    EXPECT_LT(error.upper_bound_Nmm - error.lower_bound_Nmm, gap) << mesh;
+    gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
+  }
+  EXPECT_LT(gap, part * finest_upper_bound_Nmm);
+}
+
+}  // namespace airybench::testing
