@@ -66,7 +66,8 @@ void flic_is_fastest_near_3(Evidence& evidence) {
   for (const std::string& family : families_with(evidence, mesh, "FLIC")) {
     const auto times = times_of_levels(evidence, mesh, family, "FLIC", 1, 5);
     if (times.size() < 5) continue;
-    const int best = std::ranges::min({2, 3, 4}, {}, [&](int x) { return times.at(x).figure_s; });
+    const int best = std::min(
+        {2, 3, 4}, [&](int a, int b) { return times.at(a).figure_s < times.at(b).figure_s; });
     for (const int end : {1, 5}) {
       const Ratio ratio = ratio_of(times.at(end), times.at(best));
       evidence.part(fmt::format("{} FLIC{}/FLIC{}", family, end, best), ratio, longer);
