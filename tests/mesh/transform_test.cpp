@@ -300,7 +300,8 @@ TEST(MeshLayers, ImpossibleValuesAreNamed) {
       {{{1, 0}, 100, {}}, "count: 100 layers, but layer 1 has no triangle of the mesh small tooth"},
   };
   for (const auto& [layers, complaint] : cases)
-    EXPECT_EQ(testing::complaint_of<TransformError>([&] { layered(small_tooth(8, 4), layers); }),
+    EXPECT_EQ(testing::complaint_of<TransformError>(
+                  [&given = layers] { layered(small_tooth(8, 4), given); }),
               complaint);
 }
 

@@ -13,6 +13,7 @@
 namespace airybench::testing {
 
 struct TemporaryFolder : airybench::TemporaryFolder {
+  TemporaryFolder() {}  // user-provided: Clang wants it for a const member
   std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 };
 
