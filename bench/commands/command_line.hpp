@@ -16,7 +16,7 @@ namespace airybench {
 // unknown). Refuses "--out=", because CLI11 would take the next argument as its value.
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-// Parse numbers (support/numbers.hpp). Throw UsageError: option, value, what is allowed.
+// Parse numbers (support/numbers.hpp). Throw UsageError: option, value, allowed values.
 enum class Least { zero, above_zero };
 double read_number(const std::string& option, const std::string& text, Least least, double most);
 std::int64_t read_whole(const std::string& option, const std::string& text, std::int64_t least,
@@ -63,7 +63,6 @@ void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
 // --mesh with model settings, and --scene: one of each.
 void add_one_body(CLI::App& app, Options& options);
 
-// Parses the command line of a run (run_options.cpp). Throws UsageError, HelpRequested.
-Options parse_options(int argc, const char* const* argv);
+Options parse_options(int argc, const char* const* argv);  // throws UsageError, HelpRequested
 
 }  // namespace airybench

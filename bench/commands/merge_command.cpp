@@ -102,7 +102,6 @@ void refuse_mixtures(const std::vector<RecordLine>& all, Sameness sameness) {
   }
 }
 
-// Throws FileError if two records have the same key.
 template <typename Key, typename KeyOf>
 std::map<Key, RecordLine> by(const std::vector<RecordLine>& all, KeyOf key_of) {
   std::map<Key, RecordLine> cases;

@@ -18,8 +18,7 @@ PosedScene one_posed_scene(const Options& options);  // throws UsageError unless
 
 RunLimits limits_of(const Options& options);
 
-// Quotes a word for the shell if necessary.
-std::string shell_word(const std::string& word);
+std::string shell_word(const std::string& word);  // quoted if necessary
 
 // Runs the shell command $AIRYBENCH_THEN with the results folder as its last argument; notes a
 // failure. Then prints which picture of the last mesh outside the catalogue to open, or how to get

@@ -17,11 +17,10 @@ struct MeshFile {
   bool is_of_model = false;  // converted from a model: the file may not exist yet
 };
 
-// The catalogue, Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, else the folder installed with this program.
-std::filesystem::path mesh_directory();
+std::filesystem::path mesh_directory();  // $AIRYBENCH_MESH_DIR, else the program's own catalogue
 
-// Makes Mesh3+refine2.msh of the catalogue from Mesh3 in memory; sha256 is then that of the MSH
-// text. Throws MeshError, or std::invalid_argument if the file name is not a valid mesh name.
+// Makes Mesh3+refine2.msh of the catalogue from Mesh3 in memory and hashes its MSH text. Throws
+// MeshError, or std::invalid_argument if the file name is not a valid mesh name.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 // Reads options.meshes; meshgen converts models and foreign MSH files. Throws MeshError, FileError,

@@ -22,7 +22,6 @@ struct AdaptedMesh {
   double smallest_angle_deg = 0;
 };
 
-// A problem with a body, or a contact problem without one.
 using PosedProblem =
     std::variant<std::shared_ptr<const Problem>, std::shared_ptr<const contact::Problem>>;
 const Problem* body_of(const PosedProblem& problem);  // null without a body
@@ -54,8 +53,7 @@ struct Case {
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, const Options& options = {});
 
-// SHA-256 of the cases' names, meshes and scenes: shards of one plan have equal fingerprints.
-std::string fingerprint(const std::vector<Case>& plan);
+std::string fingerprint(const std::vector<Case>& plan);  // SHA-256 of names, meshes, scenes
 
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
 

@@ -13,12 +13,11 @@ struct SceneFile {
   Scene scene;
   std::string definition = "{}";
 };
-// Scene::name is the file's stem. Throws SceneError, one line: file, key, value, what is allowed.
+// Scene::name is the file's stem. Throws SceneError, one line: file, key, value, allowed values.
 SceneFile read_scene_file(const std::filesystem::path& file);
 Scene read_scene(const std::filesystem::path& file);
 // Outside the catalogue of meshes, a flat wall replaces the default crown.
 SceneFile on_other_bodies(SceneFile file);
-// Reads a scene file's text; messages begin with `place`.
-Scene scene_of(const std::string& text, const std::string& place);
+Scene scene_of(const std::string& text, const std::string& place);  // place: for messages
 
 }  // namespace airybench

@@ -1,5 +1,5 @@
 // Reads the values of a scene file's keys; the type of the target selects the overload of read(). A
-// value that does not fit throws SceneError, one line: file, key, value, what is allowed.
+// value that does not fit throws SceneError, one line: file, key, value, allowed values.
 #pragma once
 
 #include <fmt/format.h>
@@ -35,7 +35,7 @@ class SceneValue {
   SceneValue item(std::size_t k) const { return {file_, key_, json[k]}; }
 
   // Calls the takers of the keys that are present, in the order of `keys`; refuses other keys. If
-  // `all` is not empty, every key is required, and `all` tells the user what is allowed.
+  // `all` is not empty, every key is required, and `all` names the allowed values.
   void object(const std::vector<SceneKey>& keys, const std::string& all = "") const {
     if (!json.is_object()) fail("a JSON object");
     for (const auto& [name, value] : json.items())
