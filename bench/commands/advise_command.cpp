@@ -109,7 +109,6 @@ Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
   return advice;
 }
 
-// Extrapolates uniform refinement beyond a mesh and the same mesh refined once.
 std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error) {
   constexpr double most_unknowns = 1e9;
   if (!coarse.error_total || !fine.error_total || !coarse.time_s || !fine.time_s ||

@@ -64,8 +64,7 @@ std::vector<PosedScene> posed_problems(const Options& options) {
   return posed;
 }
 
-// True for adapted and refined meshes too: "Mesh0+adapt3".
-bool is_named_after_catalogue(const std::string& mesh) {
+bool is_named_after_catalogue(const std::string& mesh) {  // also "Mesh0+adapt3"
   const std::string body = mesh.substr(0, mesh.find('+'));
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }

@@ -38,7 +38,6 @@ Examples
   bench track --history=results/history --from=results/latest
 )";
 
-// Options that make no sense here, or that bench track sets.
 constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
                                 "--help", "--dry-run", "--explain"};
 
@@ -69,7 +68,6 @@ TrackOptions parse_track(int argc, const char* const* argv) {
              "per cent: smaller changes of a time are no change");
   add_whole(app, "--nights-after", 2, 30, options.rules.least_after,
             "nights after a change of a time that confirm it");
-  // Pass everything after "--" to the run.
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(
       argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });

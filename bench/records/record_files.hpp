@@ -15,7 +15,6 @@
 
 namespace airybench {
 
-// Which records of the folder to keep.
 enum class Keep {
   none,      // the first new record removes them
   others,    // a new record replaces the old one of its case
