@@ -1,12 +1,13 @@
-// How fast our own factorisations are, as a fraction of dgemm on the same machine in the same run
-// (BLAS on one thread): the skyline's of S, its solves, and the multifrontal one of HYBRID.
+// Measures the speed of our factorisations as a fraction of the speed of dgemm in the same run,
+// with BLAS on one thread: the skyline factorisation of S, its solves, and the multifrontal
+// factorisation of HYBRID.
 //
-//   factor_benchmark [Google Benchmark's options]         sizes: all meshes below
+//   factor_benchmark [Google Benchmark's options]
 //
-// Each iteration times one dgemm and one operation in turn. Operations are those of the factor that
-// is stored: of the skyline Σ h², and 4 Σ h per dense right-hand side; of fronts Σ (rows of a
-// pivot)², their forming and gathering not counted. What the skyline's panels pad, and the leading
-// zeros that solves skip, is not credited: solves here are on dense right-hand sides.
+// Each iteration times one dgemm, then one operation. Operation counts:
+//   skyline factor       Σ h_i²       h_i: see SkylineProfile; padding is not counted
+//   skyline solve        4 Σ h_i      per right-hand side, which is dense
+//   multifrontal factor  Σ (rows of a pivot)²   without forming and gathering fronts
 #include <benchmark/benchmark.h>
 
 #include <chrono>
@@ -42,7 +43,7 @@ double seconds(const std::function<void()>& work) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Flops per second of C ← C + A B with square matrices.
+// Flop/s of C ← C + A B with square matrices.
 double dgemm_rate() {
   static const Eigen::MatrixXd a = Eigen::MatrixXd::Random(dgemm_size, dgemm_size);
   static Eigen::MatrixXd c = Eigen::MatrixXd::Zero(dgemm_size, dgemm_size);

@@ -19,7 +19,7 @@ namespace {
 
 using Command = int (*)(int argc, const char* const* argv);
 
-// `bench WORD …`; without such a word it is a run.
+// Keyed by the first argument; any other first argument starts a run.
 const std::map<std::string_view, Command> commands = {
     {"advise", airybench::advise_command},
     {"claims", airybench::claims_command},
@@ -31,7 +31,7 @@ const std::map<std::string_view, Command> commands = {
     {"track", airybench::track_command},
 };
 
-// Standard error may be full; that is told by the exit code.
+// If standard error is full, the exit code reports it.
 int complain(std::string_view what, int exit_code) {
   std::fprintf(stderr, "bench: %.*s\n", static_cast<int>(what.size()), what.data());
   return exit_code;
@@ -58,14 +58,14 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return complain("out of memory", airybench::did_not_finish);
   } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0 || std::ferror(stderr) != 0)  // which fmt throws for
+    if (std::ferror(stdout) != 0 || std::ferror(stderr) != 0)  // fmt throws on a failed write
       return airybench::wrong_usage;
     return complain(fmt::format("a defect of this program: {}", error.what()),
                     airybench::did_not_finish);
   }
 }
 
-// Sanitizers are not initialised then, and take more address space than any limit allows.
+// Sanitizers start later than this, and reserve more address space than any limit allows.
 #ifndef AIRYBENCH_SANITIZED
 [[gnu::section(".preinit_array"),
   gnu::used]] void (*before_libraries)(int, char**,
@@ -78,6 +78,6 @@ int main(int argc, char** argv) {
   airybench::open_standard_streams();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
   if (const std::string lack = airybench::lack_of_address_space(1); !lack.empty())
-    std::_Exit(complain(lack, airybench::wrong_usage));  // an orderly end would wait for BLAS
+    std::_Exit(complain(lack, airybench::wrong_usage));  // std::exit() would wait for BLAS
   return airybench::checked_exit_code(run(argc, argv), "bench");
 }

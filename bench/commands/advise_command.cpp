@@ -74,7 +74,6 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   return options;
 }
 
-// A row of the advice: a record, measured or forecast.
 struct Advice {
   Record record;
   std::string basis, command;
@@ -82,13 +81,12 @@ struct Advice {
   bool meets(double error) const {
     return record.status == Status::ok && record.error_total && *record.error_total <= error;
   }
-  // With the adaptive loop, where there is one.
   double whole_time_s() const {
     return record.time_s.value_or(INFINITY) + record.adapt_time_s.value_or(0);
   }
 };
 
-// Of a level or of the refined mesh, as a file; of the best one from the start.
+// The command reads the level's mesh file or, if is_adapted, adapts the given mesh again.
 std::string command_of(const Options& options, const Record& r, bool is_adapted) {
   std::string text = "bench --mesh=";
   if (is_adapted || r.adapt_level == 0) {
@@ -111,7 +109,6 @@ Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
   return advice;
 }
 
-// What refining everywhere takes, from the coarse mesh and the one refined once.
 std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error) {
   constexpr double most_unknowns = 1e9;
   if (!coarse.error_total || !fine.error_total || !coarse.time_s || !fine.time_s ||
@@ -129,7 +126,7 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
     const double exponent = std::max(*pooled_exponent({{first, second}}, n), least_exponent);
     return extrapolate({second}, n, exponent, 0).value;
   };
-  // Small meshes cost more per unknown, so less than proportional growth does not go on.
+  // Small meshes cost more per unknown; beyond them, growth is at least proportional.
   const double proportional = 1, any = -std::numeric_limits<double>::infinity();
   Record forecast;
   forecast.status = Status::ok;
@@ -144,8 +141,8 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
   return Advice{forecast, "forecast", ""};
 }
 
-// Takes cases out of a plan that by earlier records do not fit into the budget, the longest first;
-// what nothing is known of stays. Returns a row for each.
+// Removes the longest cases until earlier records say that the rest fits into the budget; keeps the
+// shortest case and cases without records. Returns a row for each removed case.
 std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));

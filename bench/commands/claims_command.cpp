@@ -35,7 +35,6 @@ std::string cell(const std::vector<std::string>& lines) {
   return boost::replace_all_copy(joined(lines, "<br>"), "|", "\\|");
 }
 
-// A verdict and its sentence on a line, what it rests on below.
 std::string claims_text(const std::vector<Claim>& claims) {
   std::string text;
   int number = 0;

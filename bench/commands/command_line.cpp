@@ -16,7 +16,6 @@
 namespace airybench {
 namespace {
 
-// The file of that name, or those that a glob matches; one that matches nothing is a file's name.
 std::vector<std::filesystem::path> files_of(const std::string& item) {
   if (std::error_code error; std::filesystem::exists(item, error)) return {item};
   glob_t found = {};

@@ -1,4 +1,4 @@
-// What the commands' lines have in common.
+// Options and parsing that several commands share.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -12,12 +12,11 @@
 
 namespace airybench {
 
-// app.parse(argc, argv), with CLI11's ways to end as ours: HelpRequested (help, version),
-// UsageError (one line; for an unknown word with what is valid; also for "--out=", whose value
-// would be the next argument).
+// Throws HelpRequested (help, version) or UsageError (one line; lists the valid options if one is
+// unknown). Refuses "--out=", because CLI11 would take the next argument as its value.
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
-// Numbers of options (support/numbers.hpp). Throw UsageError: option, value and what is allowed.
+// Parse numbers (support/numbers.hpp). Throw UsageError: option, value, allowed values.
 enum class Least { zero, above_zero };
 double read_number(const std::string& option, const std::string& text, Least least, double most);
 std::int64_t read_whole(const std::string& option, const std::string& text, std::int64_t least,
@@ -26,7 +25,7 @@ inline constexpr double most_of_a_limit = 1e9;
 
 CLI::Option* add_number(CLI::App& app, const std::string& name, Least least, double most,
                         double& number, const std::string& description);
-// Of an int, or an optional without a default.
+// Number: int, or std::optional<int> without a default.
 template <typename Number>
 CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t least,
                        std::int64_t most, Number& number, const std::string& description) {
@@ -40,13 +39,13 @@ CLI::Option* add_whole(CLI::App& app, const std::string& name, std::int64_t leas
   return option->type_name("INT");
 }
 
-// "5..50,within=30": items of an option's value, and settings by their keys. Throws UsageError for
-// another key than `keys`, or one that is there twice.
+// Splits an option's value, as "5..50,within=30", into items and settings. Throws UsageError for a
+// key that is not in `keys` or is repeated.
 struct ValueParts {
   ValueParts(const std::string& option, const std::string& text,
              const std::vector<std::string>& keys);
 
-  const std::string& only_item() const;  // UsageError: there are more, or none
+  const std::string& only_item() const;  // throws UsageError unless there is one
   std::optional<std::string> setting(const std::string& key) const;
   std::optional<double> number(const std::string& key, double most) const;  // above 0
 
@@ -55,18 +54,15 @@ struct ValueParts {
   std::map<std::string, std::string> settings;
 };
 
-// Files and globs, separated by commas; a glob that matches nothing is a file's name.
+// Takes files and globs, separated by commas; a glob without a match is taken as a file name.
 void add_files(CLI::App& app, const char* option, std::vector<std::filesystem::path>& files,
                const std::string& about);
-// --memory-limit, in MiB.
 void add_memory_limit(CLI::App& app, Options& options);
-// --role, --parameter and --mesh-size, as `meshgen --convert` has them and judges them; settings
-// gets them in its words.
+// --role, --parameter and --mesh-size become `settings` for `meshgen --convert`, which checks them.
 void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
-// --mesh with these, and --scene, for a command that takes one of each.
+// --mesh with model settings, and --scene: one of each.
 void add_one_body(CLI::App& app, Options& options);
 
-// The command line of a run (run_options.cpp). Throws UsageError, HelpRequested.
-Options parse_options(int argc, const char* const* argv);
+Options parse_options(int argc, const char* const* argv);  // throws UsageError, HelpRequested
 
 }  // namespace airybench

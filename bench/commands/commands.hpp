@@ -1,5 +1,5 @@
-// The commands of bench, a file each. argv[0] is the command's name. They print, and return the
-// exit code. They throw HelpRequested, InputError (wrong usage, an unusable file) and Interrupted.
+// The commands of bench, one per file. argv[0] is the command's name. They return the exit code,
+// and throw HelpRequested, InputError (wrong usage, an unusable file) and Interrupted.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ int export_command(int argc, const char* const* argv);
 int export_problem_command(int argc, const char* const* argv);
 int merge_command(int argc, const char* const* argv);
 int replay_command(int argc, const char* const* argv);
-int run_command(int argc, const char* const* argv);  // `bench` without a word
+int run_command(int argc, const char* const* argv);  // `bench` without a command
 int track_command(int argc, const char* const* argv);
 
-// The arguments of the nightly run: `own` of the user, and the selection for what they leave open.
+// The arguments of a nightly run: the user's, and defaults for the options that these lack.
 std::vector<std::string> nightly_arguments(const std::vector<std::string>& own,
                                            const std::string& out);
 

@@ -34,7 +34,7 @@ Examples
   bench compare results/before results/after
 )";
 
-// The runs of a side, which must be of one program and its settings, and each of another time.
+// Throws FileError if the runs differ in program or settings, or if one is repeated.
 Runs runs_in(const std::string& folders) {
   Runs runs;
   const std::vector<std::string> names = split_list(folders);
@@ -58,7 +58,7 @@ Runs runs_in(const std::string& folders) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-  std::string a, b;  // as they were given
+  std::string a, b;
   std::filesystem::path out;
   double minimum_effect_percent = 3;
   CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",

@@ -40,7 +40,6 @@ const std::vector<std::pair<std::string, std::string (*)(const std::vector<Recor
     {"csv", series_csv},
     {"junit", junit_xml}};
 
-// The cases of all runs by date, each with its run's context.
 std::vector<Record> cases_of_history(const std::filesystem::path& folder) {
   std::vector<Record> cases;
   for (TrackedRun& run : read_history(folder))

@@ -30,7 +30,7 @@ Example
 
 int export_problem_command(int argc, const char* const* argv) {
   Options options;
-  options.dry_run = true;  // a model's mesh is not kept
+  options.dry_run = true;  // no keep_models()
   std::string format;
   CLI::App app("A problem's matrices, for your own solvers.", "bench export-problem");
   app.footer(export_problem_footer);

@@ -63,12 +63,12 @@ bool lies_in_its_folder(const std::filesystem::path& recorded) {
          *recorded.lexically_normal().begin() != "..";
 }
 
-// Meshes in the folders of runs, by their paths from there, which are the same in the whole.
+// Path in the run's folder, and later in the result's, → mesh file of a run.
 using OwnMeshes = std::map<std::string, std::filesystem::path>;
 
-// Throws FileError: there is another file of that path.
+// Throws FileError if another file already has that path.
 void add(const std::string& path, const std::filesystem::path& file, OwnMeshes& meshes) {
-  if (!std::filesystem::exists(file)) return;  // a run may have been kept without its meshes
+  if (!std::filesystem::exists(file)) return;  // meshes of the run were not kept
   const auto [there, is_new] = meshes.emplace(path, file);
   if (is_new || there->second == file) return;  // another case of the same run
   if (sha256_of_file(there->second) != sha256_of_file(file))
@@ -76,7 +76,7 @@ void add(const std::string& path, const std::filesystem::path& file, OwnMeshes& 
                                 there->second.string(), file.string()));
 }
 
-// Paths from a run's folder become paths from the folder of the whole.
+// Makes mesh paths relative to the result's folder.
 std::vector<RecordLine> read_all(const MergeOptions& options, OwnMeshes& meshes) {
   std::vector<RecordLine> all;
   for (const std::filesystem::path& folder : options.folders)
@@ -102,7 +102,6 @@ void refuse_mixtures(const std::vector<RecordLine>& all, Sameness sameness) {
   }
 }
 
-// Two records of one case, by whatever tells cases apart, are refused.
 template <typename Key, typename KeyOf>
 std::map<Key, RecordLine> by(const std::vector<RecordLine>& all, KeyOf key_of) {
   std::map<Key, RecordLine> cases;
@@ -117,7 +116,7 @@ std::map<Key, RecordLine> by(const std::vector<RecordLine>& all, KeyOf key_of) {
   return cases;
 }
 
-// 0: the records are older than that word.
+// 0 if the records are older than that word of the context.
 std::int64_t cases_planned(const RecordLine& line) {
   constexpr std::int64_t most = 1'000'000;
   const std::string word = context_word(line.record, "cases_planned");
@@ -153,10 +152,9 @@ void refuse_missing(const std::map<std::int64_t, RecordLine>& cases, std::int64_
                   count, planned, fmt::join(missing, ", "), count > most_named ? ", …" : ""));
 }
 
-// In the plan's order.
 std::vector<RecordLine> of_shards(const std::vector<RecordLine>& all, bool incomplete) {
   const auto cases = by<std::int64_t>(all, number_of);
-  // The plan is the same in all, or they would have been refused.
+  // refuse_mixtures() has checked that all lines have the same plan.
   const std::int64_t planned = cases_planned(all.front());
   if (!incomplete) refuse_missing(cases, planned);
   std::vector<RecordLine> lines;

@@ -29,8 +29,8 @@ Exit status  0  the same status, iterations and contact states as recorded
 )";
 
 struct ReplayOptions {
-  std::string record;         // as it is named
-  std::string folder, which;  // its parts
+  std::string record;         // FOLDER:CASE or FOLDER:LINE
+  std::string folder, which;  // its two parts
   std::filesystem::path out = "results/replay";
   bool other_program = false;
 };
@@ -81,7 +81,6 @@ void refuse_what_is_not_at_hand(const Record& record, const std::string& place) 
         fmt::format("{}: a contact problem of --problem (allowed: cases with a mesh)", place));
 }
 
-// A missing word leaves the number as it is.
 template <typename Number>
 void take(const Context& context, const std::string& key, Number& number) {
   const std::string word = context_word(context, key);
@@ -93,7 +92,6 @@ void take(const Context& context, const std::string& key, Number& number) {
   number = static_cast<Number>(*value);
 }
 
-// Of the run of a scaling study: "1,2,4".
 std::vector<int> thread_counts_of(const Context& context) {
   std::vector<int> counts;
   for (const std::string& word : split_list(context_word(context, "threads"))) {
@@ -112,7 +110,7 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   options.threads = static_cast<int>(record.threads.value_or(1));
   options.target_error = record.target_error.value_or(options.target_error);
   options.study = study_named(record.study).value_or(Study());
-  // The points of an accuracy knob have their own stops.
+  // Each point of an accuracy study sets its stop.
   if (options.study.points != Study::Points::accuracy) options.stop = record.stop;
   if (options.study.points == Study::Points::threads) {
     options.thread_counts = thread_counts_of(context);
@@ -135,7 +133,7 @@ Options options_of(const Record& record, const Context& context, std::filesystem
   return options;
 }
 
-// Older records do not say where a mesh of the catalogue was.
+// Older records have no mesh_file for meshes of the catalogue.
 MeshFile mesh_of(const Record& record, const std::filesystem::path& folder) {
   const std::string recorded = record.mesh_file.empty() ? record.mesh + ".msh" : record.mesh_file;
   const std::filesystem::path file = recorded_file(recorded, folder);
@@ -146,7 +144,6 @@ MeshFile mesh_of(const Record& record, const std::filesystem::path& folder) {
   return mesh;
 }
 
-// place: of the record, for messages.
 Case case_of(const Record& record, const std::string& place, const std::filesystem::path& folder,
              const Options& options) {
   MeshFile mesh = mesh_of(record, folder);
@@ -173,7 +170,7 @@ std::string text_of(const Record& record, const char* key) {
   return value.is_string() ? value.get<std::string>() : json_text(value);
 }
 
-// What is shown of both, and whether it must be the same.
+// The printed fields, and whether they must be equal.
 constexpr std::pair<const char*, bool> compared[] = {{"time_s", false},
                                                      {"peak_heap_bytes", false},
                                                      {"error_stress", false},
@@ -198,7 +195,7 @@ int replay_command(int argc, const char* const* argv) {
   require_threads(options.threads);
   set_threads(options.threads);
   Context context = context_of_run(options);
-  context.insert(recorded.begin(), recorded.end());  // what that run said of itself
+  context.insert(recorded.begin(), recorded.end());  // keys that only that run has
   std::error_code error;
   if (std::filesystem::equivalent(asked.folder, asked.out, error))
     throw UsageError(

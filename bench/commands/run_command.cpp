@@ -30,7 +30,7 @@
 namespace airybench {
 namespace {
 
-// The paper shows SYMMLQ and says that the other is alike; both are run.
+// The paper's figure shows SYMMLQ; its text says that 3STEPCG is alike.
 constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
 
 std::vector<Method> other_programs(const Options& options) {
@@ -110,8 +110,7 @@ void print_warnings(const Context& context, const RunResult& result, const Optio
         early, result.records.size());
 }
 
-// Those asked for. By default the paper's, which leave out bodies with holes: for these also what
-// takes them.
+// The paper's methods cannot solve bodies with holes; HYBRID and P2 can.
 std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
   std::vector<Method> others = other_programs(options);
   if (!options.problems.empty()) {
@@ -126,7 +125,6 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
   return select_methods(names, others);
 }
 
-// The adapted meshes of each. short_of: goals that were not reached, a line each.
 std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const Options& options,
                                   std::vector<std::string>& short_of) {
   std::vector<PosedScene> levels;
@@ -138,7 +136,6 @@ std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const O
   return levels;
 }
 
-// The cases of the command line, before they are shared out.
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   std::vector<PosedScene> scenes = posed_scenes(options);
   if (!options.adapt.empty()) scenes = levels_of(scenes, options, short_of);
@@ -173,7 +170,7 @@ int run_command(int argc, const char* const* argv) {
   const bool only_plans = options.explain || options.dry_run;
   if (!only_plans) require_threads(options.threads);
   if (!options.adapt.empty())
-    catch_interrupts();               // it runs solves; other planning the signal itself ends
+    catch_interrupts();               // adapting solves; a signal just ends other planning
   std::vector<std::string> short_of;  // goals of --adapt that were not reached
   const std::vector<Case> whole = plan_of(options, short_of);
   for (const std::string& why : short_of) std::cerr << fmt::format("note: {}\n", why);

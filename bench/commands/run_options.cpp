@@ -57,7 +57,6 @@ std::string footer() {
   return text + run_footer;
 }
 
-// Options of earlier versions, and what says it now.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 10> replaced = {{
     {"--adapt-by", "--adapt=GOAL,by=METHOD"},
     {"--budget", "--study=error:SECONDS"},
@@ -79,7 +78,7 @@ void refuse_replaced(int argc, const char* const* argv) {
   }
 }
 
-// What Google Benchmark is told, kept as options: the plan and the records must show it.
+// Stores Google Benchmark's arguments as options, because plan and records depend on them.
 void take_benchmark_argument(const std::string& argument, Options& options) {
   const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
     if (!argument.starts_with(option)) return {};
@@ -106,7 +105,7 @@ void take_benchmark_argument(const std::string& argument, Options& options) {
   }
 }
 
-// Values that are more than a word or a number, as they are written.
+// Option values that are parsed after CLI11.
 struct Texts {
   std::string study, stop = "target", contact = "newton", repetitions = "5", noise, threads = "1",
                      timeout = "900", adapt, shard, fields;
@@ -249,8 +248,8 @@ void read_repetitions(const std::string& text, Options& options) {
                                  options.max_repetitions, least_repetitions(options)));
 }
 
-// Runs may take twice a budget: a detail run takes longer than a timed one. The search for
-// parameters, which is in no time, keeps the limit that it had.
+// With budgets, a run may take twice the largest one: a detail run takes longer than a timed run.
+// No recorded time includes the search for parameters, so its limit stays.
 void read_timeout(const std::string& text, bool is_given, Options& options) {
   const ValueParts parts("--timeout", text, {"tuning"});
   options.timeout_s =
@@ -293,8 +292,7 @@ void read_fields(const std::string& text, Options& options) {
           fmt::format("--fields: {} (allowed: mean, histories, or no value)", shortened(word)));
 }
 
-// One number; of the scaling study several, no more than there are processors: what runs on fewer
-// has no efficiency.
+// In the scaling study at most the number of processors: beyond it, efficiency means nothing.
 void read_threads(const std::string& text, bool is_given, Options& options) {
   const bool scaling = options.study.points == Study::Points::threads;
   const int processors = processors_at_hand();

@@ -64,8 +64,7 @@ std::vector<PosedScene> posed_problems(const Options& options) {
   return posed;
 }
 
-// Also when adapted or refined: Mesh0+adapt3.
-bool is_named_after_catalogue(const std::string& mesh) {
+bool is_named_after_catalogue(const std::string& mesh) {  // also "Mesh0+adapt3"
   const std::string body = mesh.substr(0, mesh.find('+'));
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
@@ -76,7 +75,6 @@ bool is_newer(const fs::path& file, const fs::path& than) {
          fs::last_write_time(file, error) >= fs::last_write_time(than, error);
 }
 
-// Empty: all meshes are of the catalogue.
 std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
   const auto last = std::find_if(records.rbegin(), records.rend(), [](const Record& r) {
     return r.n_phi && !is_named_after_catalogue(r.mesh);

@@ -38,13 +38,12 @@ Examples
   bench track --history=results/history --from=results/latest
 )";
 
-// Options of a run that make no sense here, or that bench track sets itself.
 constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
                                 "--help", "--dry-run", "--explain"};
 
 struct TrackOptions {
   fs::path history = "results/history";
-  fs::path from;  // empty: run
+  fs::path from;  // empty: measure
   bool judge_only = false;
   double minimum_effect_percent = 5;
   TimeRules rules;
@@ -69,7 +68,6 @@ TrackOptions parse_track(int argc, const char* const* argv) {
              "per cent: smaller changes of a time are no change");
   add_whole(app, "--nights-after", 2, 30, options.rules.least_after,
             "nights after a change of a time that confirm it");
-  // What comes after "--" goes on to the run as it is.
   const char* const* const end = argv + argc;
   const char* const* const separator = std::find_if(
       argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
@@ -98,11 +96,10 @@ TrackedRun measure(const TrackOptions& options) {
   const std::vector<std::string> arguments = nightly_arguments(options.run, latest.string());
   std::vector<const char*> argv = {"bench"};
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
-  run_command(static_cast<int>(argv.size()), argv.data());  // a failed case is a finding
+  run_command(static_cast<int>(argv.size()), argv.data());  // failed cases are findings
   return run_in(latest);
 }
 
-// Tracks the last run, and writes it.
 int track_and_print(std::vector<TrackedRun>& history, const TrackOptions& options) {
   track_newest(history, options.rules);
   const TrackedRun& run = history.back();
@@ -151,7 +148,7 @@ int track_command(int argc, const char* const* argv) {
   if (options.judge_only) return track_and_print(history, options);
   if (!run) run = measure(options);
   run->file = file_for(*run, options.history, history);
-  // An older run may be added later: it is compared with what was before it.
+  // --from may add an older run: compare it with the runs before it only.
   std::erase_if(history, [&](const TrackedRun& other) { return other.date > run->date; });
   history.push_back(std::move(*run));
   return track_and_print(history, options);

@@ -23,7 +23,7 @@ Record blank_record(const PosedProblem& problem, const Method& method, const Opt
     record.status_reason = std::move(why);
   }
   record.mesh = mesh_name_of(problem);
-  if (body != nullptr) take_over(extent_of(body->mesh), record);  // tells bodies apart
+  if (body != nullptr) take_over(extent_of(body->mesh), record);
   describe(method, record);
   take_over(options, record);
   record.study = options.study.name;

@@ -1,4 +1,4 @@
-// A case's record before anything has run: names, sizes, stages, what makes it this case.
+// The record of a case before anything runs: names, sizes, stages and the reason to skip it.
 #pragma once
 
 #include "bench/plan/options.hpp"
@@ -10,10 +10,8 @@ namespace airybench {
 Record blank_record(const PosedProblem& problem, const Method& method, const Options& options);
 Record blank_record(const Case& planned, const Options& options);
 
-// Its name, family and parts.
 void describe(const Method& method, Record& record);
-
-// Scene, mesh file, knob and stop of the case.
+// Sets scene, mesh file, knob, stop and contact solver.
 void identify(const Case& planned, Record& record);
 
 }  // namespace airybench

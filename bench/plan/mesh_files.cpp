@@ -40,7 +40,6 @@ void check_name(const Mesh& mesh, const std::filesystem::path& path) {
 constexpr const char* converter = "meshgen";
 constexpr double time_limit_s = 900;
 
-// What it says last, without its name.
 std::string complaint_of(const ProgramEnd& end) {
   if (end.signal != 0)
     return fmt::format("{} was ended by a signal: {}", converter, strsignal(end.signal));
@@ -55,9 +54,8 @@ std::string complaint_of(const ProgramEnd& end) {
 
 bool can_convert_models() { return program_of_ours(converter).has_value(); }
 
-// Made by `meshgen`, a process of its own, because bench does not link Gmsh. settings: options of
-// `meshgen --convert`, "--role=clamped=displacement". Notes go to standard error. Throws FileError:
-// what is wrong with model or settings, or what to install.
+// bench does not link Gmsh, so meshgen converts in a separate process; its notes go to standard
+// error. settings: options of `meshgen --convert`. Throws FileError.
 std::string mesh_text_of_model(const std::filesystem::path& model,
                                const std::vector<std::string>& settings) {
   const auto program = program_of_ours(converter);
@@ -90,7 +88,7 @@ MeshFile converted(const std::filesystem::path& model, const Options& options) {
   return file;
 }
 
-// Of the catalogue; made in memory, its file is never there.
+// Refines in memory; no file exists at `path`.
 MeshFile refined_mesh(const std::filesystem::path& path, const RefinedName& refined) {
   MeshFile file{path, "", read_msh(path.parent_path() / (std::string(refined.name) + ".msh"))};
   for (int i = 0; i < refined.times; ++i) file.mesh = uniformly_refined(file.mesh);

@@ -1,4 +1,4 @@
-// Finding and reading the meshes that a selection names.
+// Finds and reads the meshes that a selection names.
 #pragma once
 
 #include <filesystem>
@@ -14,31 +14,27 @@ struct MeshFile {
   std::filesystem::path path;
   std::string sha256;
   Mesh mesh;
-  bool is_of_model = false;  // made of a model: the file may not be there yet
+  bool is_of_model = false;  // converted from a model: the file may not exist yet
 };
 
-// The folder of Mesh0..Mesh7: $AIRYBENCH_MESH_DIR, or the one that comes with this program.
-std::filesystem::path mesh_directory();
+std::filesystem::path mesh_directory();  // $AIRYBENCH_MESH_DIR, else the program's own catalogue
 
-// Also Mesh3+refine2.msh beside Mesh3.msh of the catalogue, which is made in memory; its SHA-256 is
-// that of the file it would be. Throws MeshError, std::invalid_argument: the file's name is no name
-// of a mesh.
+// Makes Mesh3+refine2.msh of the catalogue from Mesh3 in memory and hashes its MSH text. Throws
+// MeshError, or std::invalid_argument if the file name is not a valid mesh name.
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
-// Reads options.meshes. Models (model_format.hpp, and MSH files that are not of our form) are
-// converted by meshgen; keep_models() writes what is made of them to
-//   OUT/meshes/NAME.HASH/NAME.msh      HASH: the start of the file's SHA-256
-// a file as any other, which records name and nothing else overwrites. Throws MeshError, FileError,
-// std::invalid_argument; two files of the same name are refused, and settings without a model.
+// Reads options.meshes; meshgen converts models and foreign MSH files. Throws MeshError, FileError,
+// or std::invalid_argument (two meshes have one name; model settings without a model).
 std::vector<MeshFile> read_meshes(const Options& options);
+// Writes converted meshes to OUT/meshes/NAME.HASH/NAME.msh, which no other mesh overwrites: HASH is
+// the start of the SHA-256.
 void keep_models(const std::vector<MeshFile>& files);
 
 bool is_of_catalogue(const std::filesystem::path& file);
 
-// How a record in `folder` names a mesh's file: one of the catalogue's by its name alone, another
-// by its path from the folder, "./part.msh".
+// A record in `folder` names a mesh of the catalogue by its file name, and another mesh by its path
+// relative to the folder, as in "./part.msh". recorded_file() is the inverse.
 std::string recorded_path(const std::filesystem::path& file, const std::filesystem::path& folder);
-// And back.
 std::filesystem::path recorded_file(const std::string& recorded,
                                     const std::filesystem::path& folder);
 

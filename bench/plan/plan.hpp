@@ -1,4 +1,4 @@
-// The cases of a run: meshes × scenes × methods, in a study × points of a knob.
+// The cases of a run: meshes × scenes × methods, and in a study × points of a knob.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,16 @@
 
 namespace airybench {
 
-// A level of an adaptive loop.
 struct AdaptedMesh {
   int level = 0;
-  double time_s = 0;          // of the loop up to this level
-  double estimate_share = 0;  // of that time
+  double time_s = 0;          // of the loop, up to this level
+  double estimate_share = 0;  // of error estimates in time_s
   double smallest_angle_deg = 0;
 };
 
-// What a case solves.
 using PosedProblem =
     std::variant<std::shared_ptr<const Problem>, std::shared_ptr<const contact::Problem>>;
-const Problem* body_of(const PosedProblem& problem);  // null: there is none
+const Problem* body_of(const PosedProblem& problem);  // null without a body
 std::string mesh_name_of(const PosedProblem& problem);
 
 struct PosedScene {
@@ -42,24 +40,21 @@ struct PosedScene {
 struct Case {
   PosedScene posed;
   Method method;
-  Knob knob = {};            // of a study
-  int number = 0;            // in the whole plan, from 1, whatever part of it is run
-  std::string study;         // its name
-  Stop stop = Stop::target;  // the knob's, where it has one
-  // Of the condensed contact problem; none: there is no such problem.
-  std::optional<ContactSolver> contact = {};
+  Knob knob = {};
+  int number = 0;  // in the whole plan, from 1, also in a shard
+  std::string study;
+  Stop stop = Stop::target;                   // the knob's stop if it has one
+  std::optional<ContactSolver> contact = {};  // empty: no condensed contact problem
   CaseName name() const;
 };
 
-// Scene by scene, so that methods on the same blocks run after one another. Without --contact:
-// Newton, and of contact problems without a body all solvers.
+// Orders cases by scene, so that methods on the same blocks run one after another. Without
+// --contact, bodies take Newton, and problems without a body one case per contact solver.
 std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
                              const std::vector<Method>& methods, const Options& options = {});
 
-// SHA-256 of the cases' names, meshes and scenes: two machines have the same plan.
-std::string fingerprint(const std::vector<Case>& plan);
+std::string fingerprint(const std::vector<Case>& plan);  // SHA-256 of names, meshes, scenes
 
-// The shard of a plan.
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
 
 }  // namespace airybench

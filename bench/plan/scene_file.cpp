@@ -33,8 +33,7 @@ std::string text_of(const std::filesystem::path& file, const std::string& place)
   }
 }
 
-// Two numbers a line, x and y in mm, separated by a comma or spaces; skips empty lines, those that
-// begin with '#', and a first line of two words.
+// Reads lines "x y" or "x, y" in mm; skips empty lines, '#' lines and a header without digits.
 Json points_of(const std::filesystem::path& file, const std::string& place) {
   Json points = Json::array();
   std::istringstream lines(text_of(file, place + ": polyline: "));
@@ -53,7 +52,6 @@ Json points_of(const std::filesystem::path& file, const std::string& place) {
   return points;
 }
 
-// Puts the points of files, which lie next to the scene's, in the place of their names.
 void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
   if (!json.is_structured()) return;
   for (auto& [key, value] : json.items())
@@ -65,7 +63,7 @@ void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
 
 Json json_of(const std::string& text, const std::string& place) {
   constexpr std::size_t most_keys = 1000;
-  // JSON allows a key to be repeated; a scene does not.
+  // JSON allows repeated keys; a scene does not.
   std::vector<std::set<std::string>> keys;
   const auto watch = [&](int depth, Json::parse_event_t event, Json& value) {
     if (depth > 8) throw SceneError(place + ": nested more than 8 deep");
@@ -77,7 +75,7 @@ Json json_of(const std::string& text, const std::string& place) {
       throw SceneError(place + ": " + shortened(value.get<std::string>()) + ": given twice");
     return true;
   };
-  if (text.find('\0') != text.npos)  // which would end the text for the parser
+  if (text.find('\0') != text.npos)  // the parser would stop there
     throw SceneError(place + ": not JSON: a zero byte");
   try {
     return Json::parse(text, watch);

@@ -1,5 +1,5 @@
-// Scene files: JSON with the keys of the struct Scene; missing keys take its defaults. The keys are
-// in scene_keys.cpp, their meaning in docs/meshes-and-scenes.md.
+// Scene files: JSON with the keys of struct Scene; a missing key keeps its default. scene_keys.cpp
+// has the keys, docs/meshes-and-scenes.md their meaning.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,16 @@
 
 namespace airybench {
 
-// definition: its JSON on one line, with what it has from other files in it.
+// definition: the scene's JSON on one line, with the points of polyline files inlined.
 struct SceneFile {
   Scene scene;
   std::string definition = "{}";
 };
-// Throws SceneError, one line: file, key, value, what is allowed. Scene::name is the file's stem.
+// Scene::name is the file's stem. Throws SceneError, one line: file, key, value, allowed values.
 SceneFile read_scene_file(const std::filesystem::path& file);
 Scene read_scene(const std::filesystem::path& file);
-// The crown is the catalogue's: on another body a scene that says nothing of it has a flat wall.
+// Outside the catalogue of meshes, a flat wall replaces the default crown.
 SceneFile on_other_bodies(SceneFile file);
-// The same of a scene file's text; place is what messages name.
-Scene scene_of(const std::string& text, const std::string& place);
+Scene scene_of(const std::string& text, const std::string& place);  // place: for messages
 
 }  // namespace airybench

@@ -1,24 +1,22 @@
-// The keys of a scene file, each a line of a table: its name, the member that it sets, its range.
-// Ranges that hold for any scene are in check_values() (assembly/scene.hpp).
+// Tables of a scene file's keys: the key's name, the member that it sets, its range.
+// check_values() (assembly/scene.hpp) checks the ranges that hold for any scene.
 #include "bench/plan/scene_value.hpp"
 
 namespace airybench {
 namespace {
 
-constexpr int most = 1'000'000;  // of things that are counted
+constexpr int most = 1'000'000;  // limit of counts
 
-// "bodies" is of an obstacle alone: a face is the body's own.
 enum class Curve { obstacle, face };
 
 }  // namespace
 
-// Overloads of read() are found by their argument, so none is in the unnamed namespace.
+// Argument-dependent lookup must find read(), so no overload is in the unnamed namespace.
 
 static void read(const SceneValue& value, Material& material) {
   value.object({key("young_MPa", material.young_MPa), key("poisson", material.poisson)});
 }
 
-// A constant, or linear between two points.
 template <typename Value>
 void read(const SceneValue& value, LinearValue<Value>& linear) {
   if (value.json.is_object()) {
@@ -105,7 +103,6 @@ static void read(const SceneValue& value, MeshTransform& mesh) {
                 whole("keep_force_edges", mesh.keep_force_edges, 0, most)});
 }
 
-// A list of at least one.
 template <typename Item>
 static SceneKey list(const char* name, std::vector<Item>& items, const Item& preset,
                      const char* allowed) {
@@ -147,7 +144,7 @@ static void read_load_steps(const SceneValue& value, Scene& scene) {
 
 void read(const SceneValue& value, Scene& scene) {
   Material& material = scene.material;
-  // What others take their defaults from comes first.
+  // Keys from which others take their defaults come first.
   value.object({whole("teeth", scene.teeth, 1, most),
                 positive("root_half_height_mm", scene.root_half_height_mm),
                 positive("length_mm", scene.length_mm),

@@ -1,5 +1,5 @@
-// Values of a scene file's keys, read by the type of what takes them. One that does not fit throws
-// SceneError, one line: file, key, value, what is allowed.
+// Reads the values of a scene file's keys; the type of the target selects the overload of read(). A
+// value that does not fit throws SceneError, one line: file, key, value, allowed values.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,7 +23,7 @@ struct SceneKey {
 
 class SceneValue {
  public:
-  // key: empty for the whole scene, else "boundary: force: pressure_MPa".
+  // key: "boundary: force: pressure_MPa"; empty for the whole scene.
   SceneValue(std::string file, std::string key, const Json& value)
       : json(value), file_(std::move(file)), key_(std::move(key)) {}
 
@@ -34,8 +34,8 @@ class SceneValue {
   }
   SceneValue item(std::size_t k) const { return {file_, key_, json[k]}; }
 
-  // Calls every key's taker, in the order of `keys`; refuses other keys. all: what is allowed where
-  // one is missing; empty: each may be.
+  // Calls the takers of the keys that are present, in the order of `keys`; refuses other keys. If
+  // `all` is not empty, every key is required, and `all` names the allowed values.
   void object(const std::vector<SceneKey>& keys, const std::string& all = "") const {
     if (!json.is_object()) fail("a JSON object");
     for (const auto& [name, value] : json.items())
@@ -48,7 +48,6 @@ class SceneValue {
         is_complete = false;
     if (!all.empty() && !is_complete) fail(all);
   }
-  // The same with keys of the user's choice.
   void each(const std::string& allowed,
             const std::function<void(const std::string&, const SceneValue&)>& take) const {
     if (!json.is_object()) fail(allowed);
@@ -96,7 +95,7 @@ void read(const SceneValue& value, std::array<T, 2>& pair) {
   for (std::size_t k = 0; k < 2; ++k) read(value.item(k), pair[k]);
 }
 
-// Lines of the tables of keys. The targets must outlive the reading.
+// Rows of the tables of keys. Each keeps a reference to its target.
 template <typename T>
 SceneKey key(const char* name, T& target) {
   return {name, [&target](const SceneValue& value) { read(value, target); }};
@@ -129,7 +128,6 @@ SceneKey either(const char* name, T& target, const char* first_word, Word first,
           }};
 }
 
-// A whole scene: scene_keys.cpp.
-void read(const SceneValue& value, Scene& scene);
+void read(const SceneValue& value, Scene& scene);  // scene_keys.cpp
 
 }  // namespace airybench

@@ -1,4 +1,4 @@
-// Which stages a case needs, and which are left out and why.
+// Decides which stages a case needs, and says why the others are left out.
 #pragma once
 
 #include <string>
@@ -12,28 +12,26 @@ namespace airybench {
 struct StageDecision {
   std::string stage;
   bool run;
-  std::string reason;  // why it is left out; empty when it is run
+  std::string reason;  // empty if it is run
 };
 
-// The sizes that a problem is solved with: without friction the tangential contact rows count in
-// n_f.
+// The sizes of the system that is solved: without friction, tangential contact rows count in n_f,
+// not in n_c; a roller edge adds two rows to n_f.
 MeshSizes solved_sizes(const Problem& problem);
-MeshSizes solved_sizes(const contact::Problem& problem);  // n_c alone
+MeshSizes solved_sizes(const contact::Problem& problem);  // n_c only
 
-// Contact edges that could not meet their wall, and are free (assembly/contact_conditions.hpp).
+// Counts contact edges out of reach of their wall (assembly/contact_conditions.hpp).
 int edges_out_of_reach(const Problem& problem);
 
-// Why a method is not run on a problem, with those that are; empty: it is.
+// Why a method cannot solve a problem, and which methods can. Empty if it can.
 std::string why_skipped(const Problem& problem, const Method& method);
 std::string why_skipped(const contact::Problem& problem, const Method& method);
 
-// From the problem alone, before anything is computed.
 std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
                                          bool fields_asked);
 std::vector<StageDecision> decide_stages(const contact::Problem& problem, const Method& method,
                                          bool fields_asked);
 
-// The same of whatever is posed.
 inline MeshSizes solved_sizes(const PosedProblem& problem) {
   return std::visit([](const auto& own) { return solved_sizes(*own); }, problem);
 }

@@ -14,7 +14,6 @@
 namespace airybench {
 namespace {
 
-// `solve` under a changed control; none: none.
 template <typename AnySolve>
 AnySolve under(const std::function<void(RunControl&)>& turn, AnySolve solve) {
   if (!solve) return nullptr;
@@ -24,7 +23,7 @@ AnySolve under(const std::function<void(RunControl&)>& turn, AnySolve solve) {
   };
 }
 
-// A copy of the method that runs under a changed control, once and untightened.
+// A copy of the method that runs once, without tightening, after `turn` has changed the control.
 TurnedMethod turned(const Method& method, Knob knob, std::function<void(RunControl&)> turn) {
   TurnedMethod result{method, std::move(knob)};
   result.method.first_tolerance = 0;
@@ -122,7 +121,7 @@ std::vector<std::filesystem::path> scenes_of(const Study& study) {
 }
 
 std::vector<TurnedMethod> contact_points(const Method& method) {
-  if (!method.program.empty()) return {{method, {}}};  // it is one
+  if (!method.program.empty()) return {{method, {}}};  // the program is a contact solver
   std::vector<TurnedMethod> points;
   for (const ContactSolver solver : all_contact_solvers)
     points.push_back(turned(method, {"", {}, {}, solver},
@@ -135,7 +134,7 @@ std::vector<TurnedMethod> scaling_points(const Method& method, const std::vector
   for (const int count : threads) {
     points.push_back(turned(method, {"threads", count, {}, {}, count},
                             [count](RunControl& control) { control.threads = count; }));
-    points.back().method.first_tolerance = method.first_tolerance;  // tightened as ever
+    points.back().method.first_tolerance = method.first_tolerance;  // still tightened
   }
   return points;
 }

@@ -95,7 +95,7 @@ std::optional<CaseName> case_name_of(std::string_view text) {
       if (!name.knob_value) return {};
     }
   }
-  // Order and repetition: the name must be written as it is printed.
+  // text() fixes the order of the parts and excludes repetition.
   if (name.mesh.empty() || name.scene.empty() || name.method.empty() || name.text() != text)
     return {};
   return name;

@@ -1,13 +1,12 @@
-// What a case is called wherever it is printed, asked for, filed or compared:
+// The name of a case in output, options, file names and comparisons:
 //
 //   MESH/SCENE/METHOD[/study=STUDY][/KNOB=VALUE][/stop=paper][/contact=SOLVER]
 //
 //   Mesh0/default/3STEPD
 //   Mesh3/default/ALM/stop=paper
-//   Mesh3/default/HYBRID/contact=anderson
 //   Mesh0/default/SSKY/study=error/tolerance=0.01
 //
-// The parts in brackets are there where they are not the default. plots/case_names.py is the same.
+// Parts in brackets are omitted if they are the default. plots/case_names.py has the same names.
 #pragma once
 
 #include <optional>
@@ -18,33 +17,29 @@
 
 namespace airybench {
 
-// The knob of an error study that counts Gauss–Seidel sweeps.
 inline constexpr std::string_view sweeps_knob = "contact sweeps";
 
 struct CaseName {
   std::string mesh, scene, method;
-  std::string study, knob;           // empty: none
-  std::optional<double> knob_value;  // none: the knob is not turned
+  std::string study, knob;           // may be empty
+  std::optional<double> knob_value;  // empty: the knob is not changed
   Stop stop = Stop::target;
-  std::optional<ContactSolver> contact;  // where it is not the implied one
+  std::optional<ContactSolver> contact;  // unless implied_contact_solver()
 
   std::string text() const;
-  std::string suffix() const;  // of the method: "/study=error/tolerance=0.01"
-  // As a part of a file's name, of each name another: "--" for '/', '+' for ':', and escapes as
-  // "%2B" for these themselves.
+  std::string suffix() const;  // after the method: "/study=error/tolerance=0.01"
+  // One-to-one, for file names: "--" for '/', '+' for ':', and escapes such as "%2B".
   std::string file() const;
 };
 
-// Newton; with the paper's stop, or where sweeps are counted, Gauss–Seidel.
+// Gauss–Seidel with the paper's stop or a knob that counts sweeps, else Newton.
 ContactSolver implied_contact_solver(Stop stop, std::string_view knob);
-// For CaseName::contact.
 std::optional<ContactSolver> unless_implied(std::optional<ContactSolver> solver, Stop stop,
                                             std::string_view knob);
 
-// Of a mesh, a scene or a method: UTF-8 without '/' and control characters, not empty.
+// UTF-8 without '/' and control characters, not empty.
 bool is_name(std::string_view text);
 
-// Empty: this is no case's name.
 std::optional<CaseName> case_name_of(std::string_view text);
 
 }  // namespace airybench

@@ -7,10 +7,9 @@
 namespace airybench {
 namespace {
 
-// Time, place and load, which may differ.
 const std::set<std::string> of_the_moment = {"date", "load_1min_at_start", "host", "shard"};
 
-// Choices of a run that do not change a solve.
+// Options that do not change a solve.
 const std::set<std::string> of_the_run = {
     "adapt",       "adapt_by",        "cases_planned", "interleaved",        "levels",
     "long_case_s", "max_repetitions", "marking",       "memory_limit_bytes", "plan_sha256",

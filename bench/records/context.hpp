@@ -1,4 +1,4 @@
-// Records in one folder are of the same kind of machine, build, threads and tolerances.
+// Compares contexts: the records in one folder share machine type, build, threads and tolerances.
 #pragma once
 
 #include <map>
@@ -8,13 +8,13 @@ namespace airybench {
 
 using Context = std::map<std::string, std::string>;  // Record's `context`
 
-std::string context_word(const Context& context, const std::string& key);  // "": it has none
+std::string context_word(const Context& context, const std::string& key);  // "" if missing
 
-// To resume a run the program must be the same file; to join shards, which other compilers may have
-// built, the same unchanged sources do. Different runs may also differ in their plan and limits.
+// same_program (to resume): one executable. same_sources (to join shards) allows two executables of
+// one clean revision. different_runs also allows other plans and limits.
 enum class Sameness { same_program, same_sources, different_runs };
 
-// Where two contexts differ that must not: "threads: 1 and 2; compiler: …"; empty: nowhere.
+// The forbidden differences, "threads: 1 and 2; compiler: …"; empty if there are none.
 std::string differences(const Context& a, const Context& b, Sameness sameness);
 
 }  // namespace airybench

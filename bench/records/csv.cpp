@@ -8,7 +8,7 @@
 namespace airybench {
 namespace {
 
-// A text that a spreadsheet would take for a formula, or that begins with ', has a ' before it.
+// Prefixes ' to a text that begins with ' or that a spreadsheet would evaluate as a formula.
 std::string no_formula(std::string text) {
   if (text.find_first_of("=+-@\t\r'") == 0 && !parse_number(text)) text.insert(0, "'");
   return text;

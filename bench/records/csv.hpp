@@ -8,16 +8,13 @@
 
 namespace airybench {
 
-// results.csv: a header and a row per record, of the fields that are columns; empty: does not
-// apply.
+// results.csv: a header and a row per record; a cell is empty if the field does not apply.
 std::string csv_text(const std::vector<Record>& records);
 
-// A text as a cell, in quotation marks or where it needs them; a spreadsheet takes it for no
-// formula.
+// A cell in quotation marks, always or if necessary; no spreadsheet evaluates it as a formula.
 std::string csv_quoted(const std::string& text);
 std::string csv_cell(const std::string& text);
 
-// date,revision,mesh,scene,method,stop,quantity,value: a row per record and number.
-std::string series_csv(const std::vector<Record>& records);
+std::string series_csv(const std::vector<Record>& records);  // a row per record and number
 
 }  // namespace airybench

@@ -18,7 +18,7 @@ namespace {
 
 using Run = benchmark::BenchmarkReporter::Run;
 
-// The reporter escapes quotes and line ends, but no other control characters.
+// The reporter escapes quotes and line ends, but not other control characters.
 std::string printable(std::string text) {
   for (char& c : text)
     if (static_cast<unsigned char>(c) < 0x20 && c != '\n' && c != '\t') c = ' ';
@@ -39,7 +39,7 @@ Run run_of(const Record& record, std::size_t family) {
   return run;
 }
 
-// Since Google Benchmark 1.8 a failed run is a skipped one.
+// Google Benchmark 1.8 replaced error_occurred by skipped.
 template <typename AnyRun>
 void fail(AnyRun& run, const std::string& message) {
   if constexpr (requires { run.skip_message; }) {
@@ -51,14 +51,14 @@ void fail(AnyRun& run, const std::string& message) {
   }
 }
 
-// A time in s, or for a percentage the fraction itself.
+// value: seconds, or a fraction for kPercentage.
 Run aggregate(Run run, const char* name, double value, benchmark::StatisticUnit unit) {
   run.run_type = Run::RT_Aggregate;
   run.aggregate_name = name;
   run.aggregate_unit = unit;
   run.repetition_index = Run::no_repetition_index;
   run.iterations = run.repetitions;
-  // The reporter divides times, and times only, by the iterations.
+  // The reporter divides only times by the iterations.
   run.real_accumulated_time =
       unit == benchmark::kTime ? value * static_cast<double>(run.iterations) : value;
   return run;
@@ -92,7 +92,6 @@ std::vector<Run> runs_of(const Record& record, std::size_t family) {
   return runs;
 }
 
-// The keys that the library writes, as far as a record knows them, and then the record's own.
 Json context_of(const std::vector<Record>& cases) {
   const Context known = cases.empty() ? Context() : cases.front().context;
   Json context = {
@@ -114,7 +113,7 @@ Json context_of(const std::vector<Record>& cases) {
 
 std::string google_benchmark_json(const std::vector<Record>& cases) {
   std::ostringstream text;
-  // ReportContext() would describe the machine that exports, and its clock.
+  // ReportContext() would describe the exporting machine.
   text << "{\n  \"context\": " << indented_json_text(context_of(cases), 2)
        << ",\n  \"benchmarks\": [\n";
   benchmark::JSONReporter reporter;

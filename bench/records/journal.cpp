@@ -48,7 +48,7 @@ void Journal::append(const std::string& line) {
   int error = write_all(descriptor_, line + "\n");
   if (error == 0 && fsync(descriptor_) != 0) error = errno;
   if (error == 0) return;
-  // If this fails as well, a torn line stays, which read_journal() ignores.
+  // If truncation fails too, a torn line stays, which read_journal() ignores.
   [[maybe_unused]] const int taken_back = ftruncate(descriptor_, before);
   throw FileError(fmt::format("{}: cannot be written: {}", file_.string(), strerror(error)));
 }

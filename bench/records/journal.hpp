@@ -1,4 +1,4 @@
-// A file of lines that only grows, each line on disk before the run goes on.
+// An append-only file of lines. Each line is on disk before the run continues.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@ namespace airybench {
 class Journal {
  public:
   Journal() = default;  // closed
-  // Opens for appending. Throws FileError, also where there is anything but a regular file.
+  // Opens for appending. Throws FileError, also if the file is not a regular file.
   explicit Journal(const std::filesystem::path& file);
   ~Journal();
   Journal(Journal&& other) noexcept;
   Journal& operator=(Journal&& other) noexcept;
 
   bool is_open() const { return descriptor_ >= 0; }
-  // Returns when the line is on disk (fsync). Throws FileError: it cannot be written, and is taken
-  // back; or the file was removed or replaced.
+  // Returns when the line is on disk (fsync). Throws FileError if writing fails, and removes the
+  // partial line, or if the file was removed or replaced.
   void append(const std::string& line);
 
  private:
@@ -29,11 +29,11 @@ class Journal {
 };
 
 struct JournalLines {
-  std::vector<std::string> lines;  // whole ones, without their ends
-  bool torn = false;               // the start of another follows, whose writer was stopped
+  std::vector<std::string> lines;  // complete lines without '\n'
+  bool torn = false;               // an incomplete line follows; its writer was stopped
 };
 JournalLines journal_lines_of(const std::string& text);
-// A file that is not there has no lines. Throws FileError.
+// A missing file has no lines. Throws FileError.
 JournalLines read_journal(const std::filesystem::path& file);
 
 }  // namespace airybench

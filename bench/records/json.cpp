@@ -8,14 +8,14 @@ namespace airybench {
 
 namespace {
 
-// Reading and writing are recursive: the stack limits the depth.
+// Limits the depth, because reading and writing are recursive.
 void check_text(const std::string& text) {
   constexpr int deepest = 32;
   int depth = 0;
   bool in_text = false;
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '\0')  // which would end the text for the parser
+    if (c == '\0')  // the parser would stop there
       throw Json::parse_error::create(101, i + 1, "a zero byte", nullptr);
     if (c == '"') in_text = !in_text;
     if (in_text) {

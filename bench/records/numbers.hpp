@@ -1,4 +1,4 @@
-// What the formats of other tools take of a record.
+// The parts of a record that the formats of other tools use.
 #pragma once
 
 #include <string>
@@ -10,13 +10,11 @@
 
 namespace airybench {
 
-// Every field that is a number, in the order of record_fields.def.
 std::vector<std::pair<std::string, double>> numbers_of(const Record& record);
 
-// Of time_s: the stored interval, else median ± median absolute deviation; zeros without a time.
+// The stored interval of time_s, else median ± median absolute deviation; zeros without a time.
 Interval time_interval(const Record& record);
 
-// The method with what tells its cases apart: "ALM/stop=paper".
-std::string variant_of(const Record& record);
+std::string variant_of(const Record& record);  // "ALM/stop=paper"
 
 }  // namespace airybench

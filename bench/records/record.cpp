@@ -17,7 +17,6 @@ namespace {
       fmt::format("{}: {} (allowed: a JSON object)", place, shortened(json_text(json))));
 }
 
-// A record of its keys, one after the other.
 class RecordBuilder {
  public:
   explicit RecordBuilder(const std::string& place)
@@ -27,7 +26,7 @@ class RecordBuilder {
     const Field* field = find_field(key);
     if (field == nullptr) return;
     const auto index = static_cast<std::size_t>(field - record_fields().data());
-    if (is_given_[index]) field->clear(record_);  // of a repeated key the last one counts
+    if (is_given_[index]) field->clear(record_);  // the last of repeated keys counts
     is_given_[index] = true;
     field->read(value, place_, field->name, record_);
   }
@@ -49,7 +48,7 @@ class RecordBuilder {
   Record record_;
 };
 
-// Gives each of the record's values to the builder as soon as it is complete.
+// Passes each top-level value to the builder and never holds the whole record's JSON.
 class RecordParser : public Json::json_sax_t {
  public:
   explicit RecordParser(RecordBuilder& builder) : builder_(builder) {}
@@ -106,7 +105,7 @@ class RecordParser : public Json::json_sax_t {
   bool in_record_ = false;
   std::string record_key_, key_;
   Json value_;               // of record_key_
-  std::vector<Json*> open_;  // its arrays and objects that are not closed yet
+  std::vector<Json*> open_;  // arrays and objects in value_ that are not closed yet
 };
 
 }  // namespace

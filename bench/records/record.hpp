@@ -1,5 +1,4 @@
-// One case's record: everything that a line of the output says. Its fields, with their meaning, are
-// in record_fields.def.
+// The record of a case, a line of records.jsonl. record_fields.def lists and explains its fields.
 #pragma once
 
 #include <cstdint>
@@ -16,9 +15,9 @@
 
 namespace airybench {
 
-// What a field of each kind is held as. What a kind accepts of JSON: record_fields.cpp.
+// The type of each kind of field. record_fields.cpp checks the JSON that a kind accepts.
 namespace field_kind {
-using name = std::string;  // of a mesh, a scene, a method
+using name = std::string;  // see is_name()
 using text = std::string;
 using flag = bool;
 using count = std::optional<std::int64_t>;
@@ -28,10 +27,10 @@ using time = std::optional<double>;      // > 0
 using fraction = std::optional<double>;  // 0 … 1
 using status = Status;
 using claim = std::optional<Status>;
-using stop = Stop;  // older records have none: the target
+using stop = Stop;  // missing in older records: target
 using contact = std::optional<ContactSolver>;
 using times = std::vector<double>;
-using stage_times = std::vector<std::map<std::string, double>>;  // of every run: stage → seconds
+using stage_times = std::vector<std::map<std::string, double>>;  // per run: stage → seconds
 using words = std::vector<std::string>;
 using words_by_word = std::map<std::string, std::string>;
 // JSON of a certain shape, or null:
@@ -46,14 +45,14 @@ using steps = Json;
 using attempts = Json;
 }  // namespace field_kind
 
-// The defaults are those of a case that did not run.
+// The defaults describe a case that did not run.
 struct Record {
 #define FIELD(kind, name, unit, use, source, label, meaning) field_kind::kind name{};
 #include "bench/records/record_fields.def"
   Record() { status = Status::crashed; }
 };
 
-// The sources of fields: types of other rooms, known by name alone.
+// Sources of fields; take_over() needs their names only.
 struct AssembledBlocks;
 struct MemorySplit;
 struct MeshExtent;
@@ -61,9 +60,9 @@ struct Method;
 struct Options;
 struct Solution;
 struct Verification;
-struct elsewhere;  // is set where it is measured
+struct elsewhere;  // no source: the code that measures sets the field
 
-// Copies every field that the table takes from this source, whose member has the field's name.
+// Copies the fields whose source in the table is Source, from the members of the same name.
 template <typename Source>
 void take_over(const Source& from, Record& record) {
 #define FIELD(kind, name, unit, use, source, label, meaning) \
@@ -71,14 +70,14 @@ void take_over(const Source& from, Record& record) {
 #include "bench/records/record_fields.def"
 }
 
-// Where a field goes, besides records.jsonl, which has them all.
+// Where a field goes besides records.jsonl, which has all fields.
 enum FieldUse : unsigned {
   stored = 0,
   column = 1,   // of results.csv
-  nightly = 2,  // into the nights of a history
-  counter = 4,  // is judged there: a growth is worse
-  error = 8,    // is judged there: an error or a residual
-  // A counter that depends on compiler and libraries, too, and by how much it may grow.
+  nightly = 2,  // the nights of a history
+  counter = 4,  // judged in nights: growth is worse
+  error = 8,    // judged in nights: an error or a residual
+  // A counter that compiler and libraries change, and its tolerance.
   of_libraries = 16,
   per_mille = 32,
   per_cent = 64,
@@ -86,52 +85,45 @@ enum FieldUse : unsigned {
 
 struct Field {
   const char* name;
-  const char* unit;     // "" : none; "1": a ratio
+  const char* unit;     // "": none; "1": a ratio
   unsigned use;         // FieldUse
-  const char* label;    // of its series on the page; "": it has none
+  const char* label;    // of its series on the page; "": no series
   const char* meaning;  // Markdown, one line
   Json (*value)(const Record& record);
-  void (*clear)(Record& record);  // to its default
-  // A RecordError begins with `place` and `key`.
+  void (*clear)(Record& record);  // restores the default
+  // Throws RecordError, which begins with `place` and `key`.
   void (*read)(const Json& value, const std::string& place, const char* key, Record& record);
 };
 
-// In the order of record_fields.def.
 const std::vector<Field>& record_fields();
-// Those that have all of these uses.
-std::vector<const Field*> fields_with(unsigned uses);
-const Field* find_field(const std::string& name);   // nullptr: none is named so
-const Field& field_named(const std::string& name);  // throws std::out_of_range
+std::vector<const Field*> fields_with(unsigned uses);  // that have all of these uses
+const Field* find_field(const std::string& name);      // nullptr if unknown
+const Field& field_named(const std::string& name);     // throws std::out_of_range
 
-// Empty: it has none, or is no number.
-std::optional<double> number_in(const Record& record, const Field& field);
+std::optional<double> number_in(const Record& record, const Field& field);  // empty: no number
 
-// A line of records.jsonl, columns first; with `uses` only the fields that have all of these.
-Json to_json(const Record& record, unsigned uses = stored);
+Json to_json(const Record& record, unsigned uses = stored);  // of fields_with(uses)
 
-// A record or a file of records cannot be used; what() is one line: file, line number, key, value,
-// what is allowed.
+// what() is one line: file, line number, key, value, allowed values.
 struct RecordError : FileError {
   using FileError::FileError;
 };
 
-// to_json() of the result is the JSON again. Keys that are no fields are ignored; those that are
-// missing keep their defaults, and in records older than general_name and family these follow from
-// the method's name. A RecordError begins with `place`.
+// The inverse of to_json(). Ignores unknown keys; missing keys keep their defaults, except that
+// general_name and family, which older records lack, follow from the method's name. Throws
+// RecordError, which begins with `place`.
 Record record_of(const Json& json, const std::string& place);
-// The same of a line's text, without all of its JSON in between.
+// Equals record_of(json_of_text(text)), but uses less memory.
 Record record_of_text(const std::string& text, const std::string& place);
-// A line's JSON. Throws RecordError: it is none.
-Json json_of_text(const std::string& text, const std::string& place);
+Json json_of_text(const std::string& text, const std::string& place);  // throws RecordError
 
 CaseName name_of(const Record& record);
 
-// "": its context has none.
-std::string context_word(const Record& record, const std::string& key);
+std::string context_word(const Record& record, const std::string& key);  // "" if missing
 
 bool is_verified(const Record& record);
 
-// Has an answer whose time and memory are worth taking, also one that was cut short on purpose.
+// Whether time and memory count: there is an answer, or an error study stopped the method early.
 bool is_measured(const Record& record);
 
 }  // namespace airybench

@@ -1,4 +1,3 @@
-// The fields to JSON and back, and what each kind accepts.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -15,7 +14,7 @@
 namespace airybench {
 namespace {
 
-// What is empty or not finite is null.
+// Empty and non-finite values become null.
 template <typename T>
 Json json_of(const T& value) {
   if constexpr (std::is_same_v<T, std::string>) {
@@ -125,8 +124,7 @@ bool is_load_step(const Json& step) {
                     {"n_slip", count_or_null}});
 }
 
-// What a kind accepts. null and a missing key are the same: empty, which only a required field may
-// not be.
+// A missing key counts as null. null means empty; a required field must not be empty.
 struct Rule {
   std::string allowed;
   Shape accepts;

@@ -18,7 +18,7 @@ std::string text_of(const std::vector<RecordLine>& lines) {
   return text;
 }
 
-// Before records change, so that none of a folder's files belongs to others.
+// Called before records change, so that no summary outlives its records.
 void remove_summaries(const std::filesystem::path& folder) {
   std::error_code ignored;
   for (const char* stale : {"results.csv", "results.json"})
@@ -39,7 +39,6 @@ void write(const Summaries& summaries, const std::filesystem::path& folder) {
   write_file_atomically(folder / "results.json", summaries.google_benchmark);
 }
 
-// Throws FileError where something else has the name of one of its files.
 std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
   make_folder(folder);
   for (const char* name : {"records.jsonl", "results.csv", "results.json"})

@@ -92,7 +92,7 @@ std::string unpacked(const std::string& bytes, const std::string& file) {
   if (bytes.size() > most_bytes) throw FileError(file + ": larger than 1 GiB");
   Inflation inflation;
   z_stream& stream = inflation.stream;
-  // zlib's interface lacks const; it does not write there.
+  // zlib's interface lacks const; inflate() does not write to its input.
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
   stream.avail_in = static_cast<uInt>(bytes.size());
   std::string text;

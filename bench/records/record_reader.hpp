@@ -1,4 +1,4 @@
-// Reads files of records back, also packed ones.
+// Reads files of records, plain or packed with gzip.
 #pragma once
 
 #include <filesystem>
@@ -11,33 +11,30 @@ namespace airybench {
 
 struct RecordLine {
   std::string place;  // "results/latest/records.jsonl:3"
-  Json json;          // with keys that are no fields
+  Json json;          // includes unknown keys
   Record record;
 };
 
 struct RecordLines {
   std::vector<RecordLine> lines;
-  bool torn = false;  // the last one was half written, and is not among them
+  bool torn = false;  // an incomplete last line was left out
 };
 
-// records.jsonl of a folder that bench wrote; records.jsonl.gz where it is packed.
+// records.jsonl, or records.jsonl.gz if only that exists.
 std::filesystem::path records_file_in(const std::filesystem::path& folder);
 
-// A file that is not there has no lines, one that ends in .gz is unpacked. Throws FileError;
-// RecordError: a line that is no record.
+// A missing file has no lines; .gz is unpacked. Throws FileError, or RecordError for a bad line.
 RecordLines read_record_lines(const std::filesystem::path& file);
-// The same of a file's text; file is what messages name.
-RecordLines record_lines_of(const std::string& text, const std::string& file);
-// Of a folder's records, packed or not. Throws FileError, also where there is none.
+RecordLines record_lines_of(const std::string& text, const std::string& file);  // file: in messages
+// Throws FileError, also if the folder has no file of records.
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 
 enum class Studies { leave_out, include };
-// In the order of the lines. Throws RecordError, also where there is no such file.
+// Throws FileError, or RecordError for a bad line or a missing file.
 std::vector<Record> read_records(const std::filesystem::path& file,
                                  Studies studies = Studies::leave_out);
 
-// The bytes of a .gz (RFC 1952), of one member or several, unpacked: at most 1 GiB. Throws
-// FileError "file: why".
+// Unpacks a .gz (RFC 1952) with one or several members, up to 1 GiB. Throws FileError "file: why".
 std::string unpacked(const std::string& bytes, const std::string& file);
 
 }  // namespace airybench

@@ -20,7 +20,6 @@ double resampled_median(const std::vector<double>& samples, std::mt19937& engine
   return median(std::move(drawn));
 }
 
-// statistic(engine) computes the figure from resampled values.
 template <typename Statistic>
 Interval percentile_interval(const Statistic& statistic) {
   constexpr int resamples = 2000;
@@ -59,7 +58,7 @@ double robust_standard_deviation(const std::vector<double>& values) {
 
 std::optional<Interval> median_interval(std::vector<double> samples) {
   if (samples.size() < fewest_for_median_interval) return {};
-  // Boost's quantile of a lower tail is rounded down: the largest k with P(B <= k) <= tail.
+  // Boost rounds this quantile down: the largest k with P(B <= k) <= tail.
   const boost::math::binomial below(static_cast<double>(samples.size()), 0.5);
   const auto k = static_cast<std::size_t>(boost::math::quantile(below, tail));
   std::sort(samples.begin(), samples.end());

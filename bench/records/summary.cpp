@@ -39,7 +39,6 @@ void summarise_times(Record& r) {
   r.busy_kernel_s = median_of(r.busy_kernel_samples_s);
 }
 
-// A stage's median is over the runs that have it.
 void summarise_stages(Record& r) {
   for (const Field* field : fields_with(column)) {
     if (!std::string_view(field->name).starts_with("stage_")) continue;
@@ -108,7 +107,7 @@ void summarise(Record& r) {
   summarise_load_cases(r);
   summarise_grid(r);
   r.outcome = outcome_of(r);
-  // A displacement method has no algebraic error against the reference.
+  // A displacement method has no error_stress.
   if (r.error_discretisation && is_verified(r))
     r.error_total = *r.error_discretisation + r.error_stress.value_or(0);
 }
