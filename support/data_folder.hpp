@@ -12,8 +12,7 @@ namespace airybench {
 // executable, so that no object file holds a path of the build machine. Throws FileError.
 std::filesystem::path data_folder(std::string_view name);
 
-// Another program of this project: installed next to this one as "airybench-name", or in the build
-// tree.
+// "airybench-name" next to this program, or name/name in the build tree; empty if there is none.
 std::optional<std::filesystem::path> program_of_ours(const std::string& name);
 
 }  // namespace airybench

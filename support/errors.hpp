@@ -17,7 +17,6 @@ enum ExitCode {
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// Names the argument and what is valid.
 struct UsageError : InputError {
   using InputError::InputError;
 };

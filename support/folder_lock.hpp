@@ -9,8 +9,7 @@ namespace airybench {
 // the file .lock, which works over NFS and is not inherited. At most one per folder and process.
 class FolderLock {
  public:
-  // Throws FileError if another process (named with its host) has the lock, or the folder is
-  // unusable.
+  // Throws FileError if another process has the lock (it is named), or if the folder is unusable.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -32,7 +32,6 @@ struct ChildEnd {
   std::int64_t peak_bytes = 0;          // of a program, see run_program
 };
 std::string signal_name(int signal);  // "SIGSEGV"
-// "ended with exit code 3", "was ended by SIGSEGV", "was ended after the limit of 60 s".
 std::string how_it_ended(const ChildEnd& end, double limit_s);
 
 // The kernel's kills for lack of memory in this process's control group (version 2, memory.events),
@@ -67,8 +66,7 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Empty if the child has ended, see end(); kills one that give_up() rejects or that stays
-  // suspended.
+  // Empty if the child has ended: see end(). Kills it if give_up() is true or it stays suspended.
   std::optional<std::string> ask(const std::string& line,
                                  const std::function<bool()>& give_up = {});
   const ChildEnd& end() const { return end_; }
@@ -107,8 +105,7 @@ struct ProgramLimits {
 // peak_bytes is the largest sum, at any check, of the resident peaks (VmHWM) of all live processes:
 // for one process its peak up to the last check, for several an upper bound; 0 if never checked.
 //
-// Throws std::system_error if no process or shared memory is left, std::runtime_error if the
-// guardian is killed.
+// Throws std::system_error (no process, no shared memory), std::runtime_error (guardian killed).
 ChildEnd run_program(const Program& program, const ProgramLimits& limits);
 
 // Returns the output as text. Also throws FileError if there is no temporary folder.

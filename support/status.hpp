@@ -36,8 +36,7 @@ std::optional<Status> status_of(std::string_view name);
 // The solve ended with an answer whose time and memory count: ok, inaccurate or unstressed.
 bool has_answer(Status status);
 
-// target: an iteration's tolerance is tightened until the method's own estimate is below the
-// target.
+// target: the tolerance is tightened until the method's own estimate is below the target.
 enum class Stop { target, paper };
 std::string_view name_of(Stop stop);  // "paper"
 std::optional<Stop> stop_of(std::string_view name);

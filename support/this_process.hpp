@@ -18,8 +18,7 @@ void catch_interrupts();
 bool is_interrupted();
 void throw_if_interrupted();
 
-// `code`, but at least wrong_usage if standard output or standard error could not be written (a
-// full disk). Reports the first to standard error.
+// `code`, but at least wrong_usage if standard output or standard error could not be written.
 int checked_exit_code(int code, const char* program);
 
 // A std::bad_alloc that leads to std::terminate() (a library may let no exception out) then writes

@@ -51,7 +51,6 @@ Declaration read_declaration(const std::filesystem::path& file);
 
 // The program's non-empty lines, shortened: the first, and the last if there are more.
 std::vector<std::string> printed_lines(const std::filesystem::path& file);
-// "ended with exit code 3: the last line".
 std::string how_it_ended(const ChildEnd& end, double limit_s,
                          const std::vector<std::string>& printed);
 

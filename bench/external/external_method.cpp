@@ -257,7 +257,6 @@ Solution solve_contact_law(const Caller& caller,
   return solution;
 }
 
-// Turns a missing or invalid answer into a failed solution.
 template <typename AnySolve>
 auto with_no_answer(AnySolve solve) {
   return [solve = std::move(solve)](const auto& problem, const RunControl& control) {

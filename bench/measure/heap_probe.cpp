@@ -76,9 +76,8 @@ void add(MemoryOwner owner, std::int64_t bytes) {
   if (raise(peak, now)) copy_at_peak(now);
 }
 
-// A block is one byte larger than asked for. Its last byte is the tag: the owner, and whether
-// glibc, whose blocks end 8 bytes after a multiple of 16, gave 16 bytes more for it. These do not
-// count.
+// A block's last byte, one more than asked for, is its tag: the owner, and whether glibc, whose
+// blocks end 8 bytes after a multiple of 16, gave 16 bytes for it, which do not count.
 constexpr unsigned char enlarged = 0x80;
 constexpr std::int64_t enlargement_bytes = 16;
 constexpr std::size_t with_tag(std::size_t bytes) {

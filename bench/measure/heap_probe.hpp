@@ -40,10 +40,9 @@ class Limit {
   bool exceeded() const;
 };
 
-// While the object lives, ends the process with backstop_exit_code if the heap outgrows what a
-// Limit can hold (by small blocks, or by all that the machine has), or if a library calls exit()
-// after a refusal, as OpenBLAS's threads do. limit_bytes: of the Limits to come; 1.5 times as much
-// is granted.
+// Ends the process with backstop_exit_code if the heap outgrows what a Limit can hold (small
+// blocks, or all that the machine has), or if a library calls exit() after a refusal, as OpenBLAS's
+// threads do. limit_bytes: of the Limits to come; 1.5 times as much is granted.
 class Backstop {
  public:
   explicit Backstop(std::optional<std::int64_t> limit_bytes);

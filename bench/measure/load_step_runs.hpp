@@ -30,7 +30,7 @@ Solution answer_of(const Reference& reference);
 struct JudgedStep {
   Status claimed_status;
   Verification verification;
-  // Against the nearest solution on the method's own path, if other forces meet the law there.
+  // Set if the forces meet the law but are not the reference's: against the nearest solution.
   std::optional<Verification> as_other = {};
   double dissipation_Nmm = 0;
 
@@ -50,8 +50,7 @@ std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
 Json steps_of(const std::vector<JudgedStep>& steps);
 
-// The same for HYBRID with every step in two halves, where both have an answer; their dissipation
-// adds up.
+// The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
 Json steps_in_halves(const Problem& first);
 
 }  // namespace airybench

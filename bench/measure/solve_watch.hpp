@@ -69,8 +69,7 @@ class InstructionCounter {
   InstructionCounter(const InstructionCounter&) = delete;
   InstructionCounter& operator=(const InstructionCounter&) = delete;
 
-  // Empty if the machine has no counter, the kernel forbids it (perf_event_paranoid), or shares it
-  // out.
+  // Empty if there is no counter, the kernel forbids it (perf_event_paranoid), or it is shared out.
   std::optional<std::int64_t> count() const;
 
  private:

@@ -30,7 +30,6 @@ class Workbench {
   enum class Bound { p2, recovery };
 
   void show_on(ActivityBoard* board) { board_ = board; }
-  // Computes the blocks, the reference, and all else that cases of this method share.
   void prepare(const Method& method);
 
   struct Choice {

@@ -46,7 +46,7 @@ std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bo
 
 int least_repetitions(const Options& options);
 int most_repetitions(const Options& options);
-// False from the most repetitions or long_case_s on, and after the least also if precise enough.
+// False after the most repetitions or long_case_s, and after the least if the precision is reached.
 bool is_repeated(const Record& record, const Options& options);
 
 }  // namespace airybench
