@@ -20,19 +20,18 @@ namespace fs = std::filesystem;
   throw FileError(file.string() + ": cannot be written: " + std::generic_category().message(error));
 }
 
-// Where the links end, whether something is there or not.
 fs::path end_of_links(const fs::path& file) {
-  constexpr int most_links = 40;  // as the kernel
+  constexpr int most_links = 40;  // the kernel's limit
   fs::path target = file;
   std::error_code error;
   for (int links = 0; fs::is_symlink(target, error); ++links) {
     if (links == most_links) fail_to_write(file, ELOOP);
-    target = target.parent_path() / fs::read_symlink(target, error);  // absolute: that alone
+    target = target.parent_path() / fs::read_symlink(target, error);  // absolute: it alone
   }
   return target;
 }
 
-// Makes what nobody could have put there before; its name is in `made`. False: see errno.
+// Creates a file or folder with a new random name, left in `made`. False: see errno.
 template <typename Make>
 bool make_beside(const fs::path& target, fs::path& made, const Make& make) {
   do {
@@ -114,7 +113,7 @@ void check_is_free(const fs::path& folder) {
 
 void write_folder_atomically(const fs::path& asked, const Files& files) {
   const fs::path folder =
-      asked.has_filename() ? asked : asked.parent_path();  // no slash at its end
+      asked.has_filename() ? asked : asked.parent_path();  // without a slash at the end
   check_is_free(folder);
   if (folder.has_parent_path()) make_folder(folder.parent_path());
   fs::path made;
@@ -122,7 +121,7 @@ void write_folder_atomically(const fs::path& asked, const Files& files) {
     fail_to_write(folder, errno);
   const TemporaryFolder beside(made);
   for (const auto& [name, bytes] : files) write_file_atomically(made / name, bytes);
-  if (rename(made.c_str(), folder.c_str()) != 0)  // takes the place of an empty one
+  if (rename(made.c_str(), folder.c_str()) != 0)  // replaces an empty folder
     fail_to_write(folder, errno);
   sync_folder(folder.parent_path());
 }

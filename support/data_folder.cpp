@@ -13,7 +13,7 @@ fs::path folder_of_program() { return fs::read_symlink("/proc/self/exe").parent_
 
 fs::path data_folder(std::string_view name) {
   const fs::path place = folder_of_program().parent_path() / "share" / "airybench" / name;
-  // Permission is missing where a folder above cannot be entered by the user who started us.
+  // Fails if the user may not enter a folder above.
   std::error_code error;
   fs::path folder = fs::weakly_canonical(place, error);
   if (error)

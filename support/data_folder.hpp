@@ -1,4 +1,4 @@
-// Where the program finds what comes with it.
+// Finds the data and programs that come with this program.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,11 @@
 
 namespace airybench {
 
-// "meshes", "scenes/stability", "results": that folder of ../share/airybench, next to the folder of
-// the running executable: in the build tree links to the sources, after an installation copies. So
-// no object file holds a path of the machine that compiled it. FileError: it cannot be reached.
+// "meshes", "scenes/stability", "results": a folder of ../share/airybench as seen from the
+// executable, so that no object file holds a path of the build machine. Throws FileError.
 std::filesystem::path data_folder(std::string_view name);
 
-// Another program of this project: "airybench-name" next to the running one where both are
-// installed, in a folder of its name in the build tree. Empty: there is none.
+// "airybench-name" next to this program, or name/name in the build tree; empty if there is none.
 std::optional<std::filesystem::path> program_of_ours(const std::string& name);
 
 }  // namespace airybench

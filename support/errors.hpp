@@ -1,4 +1,4 @@
-// How a command ends, and what it throws for that.
+// Exit codes of commands, and the exceptions that lead to them.
 #pragma once
 
 #include <stdexcept>
@@ -12,20 +12,19 @@ enum ExitCode {
   did_not_finish = 3  // out of memory, or a defect of the program itself
 };                    // 128 + n: ended by signal n
 
-// What the user gave cannot be used; what() is one line: file or argument, place, value, what is
-// allowed. std::invalid_argument is understood in the same way.
+// Unusable input; what() is one line: file or argument, place, value, what is allowed.
+// std::invalid_argument is treated alike.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
-// Names the argument and what is valid.
 struct UsageError : InputError {
   using InputError::InputError;
 };
-// A file or folder that cannot be read or written, or is not what it should be.
+// A file or folder that cannot be read or written, or has the wrong content.
 struct FileError : InputError {
   using InputError::InputError;
 };
-// Asked for help or version: what() is the text. No failure.
+// The user asked for help or version; what() is the text. Not a failure.
 struct HelpRequested : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -22,11 +22,10 @@ std::string because_of(const char* what) {
   return what + (": " + std::generic_category().message(errno));
 }
 
-// begin: is told the size.
 void read_file(const std::filesystem::path& file, const std::function<void(std::size_t)>& begin,
                const std::function<void(std::string_view)>& take) {
   constexpr std::int64_t most = std::int64_t{1} << 30;
-  // Does not wait for who might write into a pipe.
+  // Do not block on a FIFO.
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (descriptor < 0) fail_to_read(file, because_of("cannot be opened"));
   const struct Closer {

@@ -20,7 +20,7 @@ std::string this_process() {
   return fmt::format("process {} on {}", getpid(), host.data());
 }
 
-// What the holder wrote; it may just have begun.
+// The holder may not have written its name yet.
 std::string holder(int descriptor) {
   std::array<char, 300> text;
   const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
@@ -30,7 +30,7 @@ std::string holder(int descriptor) {
 }  // namespace
 
 FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".lock") {
-  const std::string own_name = this_process();  // before there is a file that would stay
+  const std::string own_name = this_process();  // an exception later would leave the file
   for (;;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     struct flock whole = {};
@@ -46,9 +46,9 @@ FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".l
       throw FileError(fmt::format("{}: {}", folder.string(), why));
     }
     if (is_open_as(descriptor_, file_)) break;
-    close(descriptor_);  // its holder took the file away in between
+    close(descriptor_);  // the holder removed the file in between
   }
-  // For who is refused; a lock without a name still locks.
+  // The name is for error messages; the lock holds without it.
   if (ftruncate(descriptor_, 0) == 0) static_cast<void>(write_all(descriptor_, own_name));
 }
 

@@ -1,17 +1,15 @@
-// One writer a folder.
+// One writer per folder.
 #pragma once
 
 #include <filesystem>
 
 namespace airybench {
 
-// Holds the folder until the object or the process ends, however that ends: the kernel keeps the
-// lock (a POSIX record lock on the file .lock, which works over NFS and which children do not
-// inherit). One lock a folder in a process.
+// Locks the folder until the object or the process ends, even by a crash: a POSIX record lock on
+// the file .lock, which works over NFS and is not inherited. At most one per folder and process.
 class FolderLock {
  public:
-  // Throws FileError: another process holds it, with that process's number and machine; or the
-  // folder is not there or cannot be written.
+  // Throws FileError if another process has the lock (it is named), or if the folder is unusable.
   explicit FolderLock(const std::filesystem::path& folder);
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;

@@ -1,5 +1,4 @@
-// Lists on the command line, "a,b". A separator or a backslash that is part of an item is written
-// with a backslash before it.
+// Lists on the command line, "a,b". A backslash escapes a separator or a backslash in an item.
 #pragma once
 
 #include <optional>
@@ -11,7 +10,7 @@ namespace airybench {
 
 std::vector<std::string> split_list(std::string_view list, char separator = ',');
 
-// The first item, and all behind its separator as it is written; no rest: there is no separator.
+// rest: the raw text after the separator; empty if there is no separator.
 struct FirstItem {
   std::string item;
   std::optional<std::string_view> rest;

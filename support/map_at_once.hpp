@@ -1,5 +1,5 @@
-// Large arrays of which all is written soon are mapped at once, by pages of 2 MiB where the system
-// has them, instead of page by page on the first touch. A hint, nothing else.
+// A hint that a large array will soon be written in full: maps it at once, by pages of 2 MiB if the
+// system has them, instead of page by page on the first touch.
 #pragma once
 
 #include <cstddef>

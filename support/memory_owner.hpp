@@ -1,9 +1,9 @@
-// Whose memory it is: an allocation belongs to the owner that its thread has named.
+// Attributes heap blocks to owners: a block belongs to the owner that its thread has named.
 //
 //   const OwnerScope scope(MemoryOwner::factor);   // until the end of the block; scopes nest
 //
-// A block keeps its owner until it is freed, wherever that is and also when it grows. Naming costs
-// two writes to a thread's own variable; who counts is bench/measure/heap_probe.hpp, or nobody.
+// A block keeps its owner until it is freed, also by another thread and when it grows. Naming costs
+// two writes to a thread-local variable. bench/measure/heap_probe.hpp counts, if it is linked.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 namespace airybench {
 
 enum class MemoryOwner : std::uint8_t {
-  other,           // what nobody has named
+  other,           // not named
   blocks,          // S, C_F, C_C, q … as assembled
   system_matrix,   // what a method assembles itself: K of HYBRID and P2, M₁₁ of BLIND
   factor,          // of a direct method, with what its analysis and its solves keep
@@ -38,7 +38,6 @@ constexpr std::string_view name_of(MemoryOwner owner) {
   return names[static_cast<std::size_t>(owner)];
 }
 
-// A value for every owner.
 template <typename T>
 struct ByOwner {
   std::array<T, all_memory_owners.size()> values{};
@@ -47,10 +46,9 @@ struct ByOwner {
   T sum() const { return std::accumulate(values.begin(), values.end(), T{}); }
 };
 
-// The owner that the calling thread has named last. A new thread begins with `other`.
+// `other` in a new thread.
 inline constinit thread_local MemoryOwner current_memory_owner = MemoryOwner::other;
 
-// Names the owner of what this thread allocates; the one before it is back afterwards.
 class OwnerScope {
  public:
   explicit OwnerScope(MemoryOwner owner) : before_(current_memory_owner) {

@@ -1,4 +1,4 @@
-// The one reader of numbers in arguments, names and words.
+// Reads all numbers in arguments, names and words.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 
 namespace airybench {
 
-// The whole text is a finite decimal number: no spaces, no '+', no infinity. Empty: it is not.
+// A finite decimal number without spaces or '+'. Empty if the whole text is not one.
 std::optional<double> parse_number(std::string_view text);
-// And without '.' or exponent; no leading zeros, which elsewhere mean base 8.
+// Also without '.', exponent, or leading zeros, which elsewhere mean base 8.
 std::optional<std::int64_t> parse_whole(std::string_view text);
-// "2%" is 0.02. Empty: no such text, or not above 0 % and below 100 %.
+// "2%" is 0.02. Empty unless the text is above 0 % and below 100 %.
 std::optional<double> parse_percent(std::string_view text);
 
 }  // namespace airybench

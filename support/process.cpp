@@ -39,14 +39,13 @@ constexpr int poll_ms = 100;
   throw std::system_error(error, std::generic_category(), what);
 }
 
-// A fork that runs body and ends.
 enum class WhenParentEnds { end, go_on };
 pid_t start(WhenParentEnds then, const std::function<void()>& body) {
   const pid_t parent = getpid(), child = fork();
   if (child != 0) return child;
   if (then == WhenParentEnds::end) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
-    if (getppid() != parent) _exit(0);  // it ended before the line above
+    if (getppid() != parent) _exit(0);  // the parent ended before prctl()
   }
   [&]() noexcept { body(); }();  // an exception would unwind into the parent's part of the stack
   _exit(0);                      // no destructors, no buffers: they are the parent's
@@ -59,7 +58,7 @@ void note_status(int status, ChildEnd& end) {
 
 void run_child(const std::function<void(Channel&)>& body, Channel& channel) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_IGN);
-  // If the machine runs out of memory, this one goes first; a run of crashes fills no disk.
+  // The kernel kills this process first if memory runs out; no core dump fills the disk.
   std::ofstream("/proc/self/oom_score_adj") << 1000;
   const rlimit no_core{0, 0};
   setrlimit(RLIMIT_CORE, &no_core);
@@ -143,7 +142,7 @@ ChildProcess::ChildProcess(const std::function<void(Channel&)>& body)
   std::array<int, 2> ends;
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     fail_to("a line to a child process");
-  std::fflush(nullptr);  // or the child would write it, too
+  std::fflush(nullptr);  // otherwise the child would write it again
   pid_ = start(WhenParentEnds::end, [&] {
     close(ends[0]);
     Channel channel(ends[1]);
@@ -175,7 +174,7 @@ void ChildProcess::finish(int patience_ms) {
   note_status(status, end_);
   if (const auto now = oom_kills(); now && oom_kills_before_)
     end_.oom_killed = end_.signal == SIGKILL && *now > *oom_kills_before_;
-  rlimit limit = {};  // its own, too
+  rlimit limit = {};  // inherited by the child
   end_.used_up_processor_time =
       getrlimit(RLIMIT_CPU, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
       static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1) >= limit.rlim_cur;
@@ -200,14 +199,12 @@ std::optional<std::string> ChildProcess::ask(const std::string& line,
   };
   std::optional<std::string> answer;
   if (channel_->send(line)) answer = channel_->receive(gives_up);
-  // A child that closed the line is about to end by itself.
   if (!answer) finish(end_.timed_out || end_.stopped ? 0 : 2000);
   return answer;
 }
 
 namespace {
 
-// Where the guardian and the program leave how it ended.
 class SharedEnd {
  public:
   SharedEnd()
@@ -225,7 +222,6 @@ class SharedEnd {
   void* page_;
 };
 
-// All processes below this one, the nearest first.
 std::vector<pid_t> descendants(pid_t of) {
   std::vector<pid_t> found = {of};
   for (std::size_t k = 0; k < found.size(); ++k) {
@@ -252,7 +248,7 @@ bool lead(int descriptor, const std::filesystem::path& to, int flags) {
   return file >= 0 && dup2(file, descriptor) == descriptor;
 }
 
-// The program's process, up to its first instruction. Returns: it could not be started, see errno.
+// Executes the program; returns only if it cannot be started, see errno.
 void become(const Program& program, const ProgramLimits& limits, const sigset_t& signals) {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGXFSZ}) std::signal(signal, SIG_DFL);
   sigprocmask(SIG_SETMASK, &signals, nullptr);
@@ -276,7 +272,6 @@ void become(const Program& program, const ProgramLimits& limits, const sigset_t&
   if (is_ready) execvp(arguments.front(), arguments.data());
 }
 
-// Runs in the guardian's process.
 class Guardian {
  public:
   Guardian(const Program& program, const ProgramLimits& limits, ChildEnd& end)
@@ -284,7 +279,7 @@ class Guardian {
 
   void run(pid_t parent) {
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    sigset_t all, before;  // it ends when its parent has ended, not with it
+    sigset_t all, before;  // the guardian must outlive a signal that ends its parent
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
     std::signal(SIGCHLD, SIG_DFL);
@@ -307,7 +302,6 @@ class Guardian {
   }
 
  private:
-  // It has ended, or passed a limit.
   bool is_over(double elapsed_s) {
     std::int64_t bytes = 0;
     for (const pid_t process : descendants(getpid())) bytes += resident_peak_bytes(process);
@@ -319,7 +313,6 @@ class Guardian {
     return end_.timed_out || end_.over_memory;
   }
 
-  // Until the next look: a short life is looked at more often.
   static void wait_for_child(double elapsed_s) {
     const timespec most = {0, static_cast<long>(1e9 * std::clamp(elapsed_s / 50, 1e-3, 10e-3))};
     sigset_t ended;
@@ -337,7 +330,7 @@ class Guardian {
     }
   }
 
-  // One may start another while they are killed: until there is none.
+  // Repeats because a process may start another while they are killed.
   void end_all() {
     for (std::vector<pid_t> left; !(left = descendants(getpid())).empty();) {
       for (const pid_t process : left) kill(process, SIGKILL);

@@ -1,9 +1,9 @@
-// Processes that this one starts, watches and ends; every fork of the project is in process.cpp.
+// Starts, watches and ends processes; every fork of the project is in process.cpp.
 //
-//   ChildProcess   a function of this program in a fork; the two talk in lines of text
+//   ChildProcess   a function of this program in a fork; both exchange lines of text
 //   run_program    another program, with all that it starts
 //
-// Each ends when this process does, however that ends.
+// Both end when this process ends, even by a crash.
 #pragma once
 
 #include <sys/types.h>
@@ -18,30 +18,26 @@
 
 namespace airybench {
 
-// How a process ended, and why it was killed.
 struct ChildEnd {
-  int exit_code = -1;                   // of one that ended by itself
+  int exit_code = -1;                   // if it exited
   int signal = 0;                       // that ended it
-  int start_error = 0;                  // errno: the program could not be started
-  bool timed_out = false;               // it took longer than its limit, or than its caller waits
+  int start_error = 0;                  // errno if the program could not be started
+  bool timed_out = false;               // it passed its limit, or its caller gave up
   bool over_memory = false;             // its processes together passed the limit
-  bool stopped = false;                 // somebody had suspended it (SIGSTOP) for seconds
-  bool lingered = false;                // it closed the line and did not end
-  bool used_up_processor_time = false;  // as much as its limit (ulimit -t) allows
-  std::optional<bool> oom_killed;       // did the kernel kill for lack of memory meanwhile?
+  bool stopped = false;                 // it was suspended (SIGSTOP) for seconds
+  bool lingered = false;                // it closed its channel but did not exit
+  bool used_up_processor_time = false;  // up to its limit (ulimit -t)
+  std::optional<bool> oom_killed;       // SIGKILL while the kernel's count of OOM kills rose
   double wall_s = 0;                    // of a program
-  std::int64_t peak_bytes = 0;          // of a program: see run_program
+  std::int64_t peak_bytes = 0;          // of a program, see run_program
 };
 std::string signal_name(int signal);  // "SIGSEGV"
-// "ended with exit code 3", "was ended by SIGSEGV", "was ended after the limit of 60 s".
 std::string how_it_ended(const ChildEnd& end, double limit_s);
 
-// Processes that the kernel has killed for lack of memory: in this process's control group (version
-// 2, memory.events), else on this machine (/proc/vmstat); empty: neither is known. root: where
-// /proc and /sys are.
+// The kernel's kills for lack of memory in this process's control group (version 2, memory.events),
+// else on this machine (/proc/vmstat); empty if unknown. root: folder of /proc and /sys.
 std::optional<std::int64_t> oom_kills(const std::filesystem::path& root = "/");
 
-// One end of a line between two processes.
 class Channel {
  public:
   explicit Channel(int socket) : socket_(socket) {}
@@ -49,9 +45,8 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  bool send(const std::string& line);  // false: the other end is closed
-  // The next line; empty: the other end is closed, or give_up() says so. It is asked ten times a
-  // second.
+  bool send(const std::string& line);  // false if the other end is closed
+  // Empty if the other end is closed or give_up(), asked ten times a second, returns true.
   std::optional<std::string> receive(const std::function<bool()>& give_up = {});
 
  private:
@@ -59,27 +54,25 @@ class Channel {
   std::string received_;
 };
 
-inline constexpr int no_memory_exit_code = 97;  // of a ChildProcess that could not go on without it
+inline constexpr int no_memory_exit_code = 97;  // a ChildProcess ran out of memory
 
-// A fork has everything that its parent had, without copying it. The parent must not have started
-// threads that the child needs: OpenMP's regions do not survive a fork. Signals from the terminal
-// are for the parent to handle.
+// A fork shares its parent's memory without a copy. The parent must not have started threads that
+// the child needs (OpenMP). The child ignores signals from the terminal.
 class ChildProcess {
  public:
-  // The child runs body and ends with exit code 0; an exception: 1. Throws std::system_error.
+  // The child exits with 0 after body, with 1 after an exception. Throws std::system_error.
   explicit ChildProcess(const std::function<void(Channel&)>& body);
   ~ChildProcess();  // kills it
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
-  // Sends a line, waits for the answer; empty: the child has ended, end() says how. It is killed
-  // when give_up says so, or when it stays suspended.
+  // Empty if the child has ended: see end(). Kills it if give_up() is true or it stays suspended.
   std::optional<std::string> ask(const std::string& line,
                                  const std::function<bool()>& give_up = {});
   const ChildEnd& end() const { return end_; }
 
  private:
-  void finish(int patience_ms);  // reaps; kills after so long
+  void finish(int patience_ms);  // reaps the child; kills it after patience_ms
   bool is_stopped() const;
 
   pid_t pid_ = -1;  // -1: reaped
@@ -89,36 +82,33 @@ class ChildProcess {
 };
 
 struct Program {
-  std::vector<std::string> command = {};  // its file, or a name to look for in PATH; arguments
-  std::filesystem::path folder = "";      // that it runs in; empty: this one
-  std::map<std::string, std::string> environment = {};  // besides ours
-  std::filesystem::path output = {};                    // file for what it prints
-  std::filesystem::path errors = {};                    // for standard error, if not the same
-  std::filesystem::path scratch = {};  // removed with this process, should it end first
-  bool in_own_session = true;          // no signals from the terminal
+  std::vector<std::string> command = {};                // a file or a name in PATH, then arguments
+  std::filesystem::path folder = "";                    // working folder; empty: the current one
+  std::map<std::string, std::string> environment = {};  // added to ours
+  std::filesystem::path output = {};                    // file for its standard output
+  std::filesystem::path errors = {};   // for its standard error, if not the same file
+  std::filesystem::path scratch = {};  // removed if this process ends first
+  bool in_own_session = true;          // receives no signals from the terminal
 };
 
 struct ProgramLimits {
   double time_s = 0;
   std::optional<std::int64_t> memory_bytes = {};
-  // Of each file that it writes, what it prints included (RLIMIT_FSIZE): SIGXFSZ ends it.
+  // For each file that it writes, its output included (RLIMIT_FSIZE, SIGXFSZ).
   std::int64_t file_bytes = std::int64_t{4} << 30;
 };
 
-// Runs a program, without input, to its end or to a limit. Between this process and the program
-// stands a guardian, a fork: it adopts what the program leaves behind (PR_SET_CHILD_SUBREAPER),
-// looks at the tree every one to ten milliseconds, and kills all of it when a limit is passed, when
-// the program ends, or when this process does.
+// Runs a program without input until it ends or passes a limit. A guardian process in between
+// adopts orphans (PR_SET_CHILD_SUBREAPER), checks the process tree every 1 to 10 ms, and kills all
+// of it when a limit is passed, the program ends, or this process ends.
 //
-// peak_bytes is the sum of the resident peaks (VmHWM) of the processes that are alive at once, its
-// largest value at any look: of one process its own peak, but for what it added since the last
-// look; of several no less than what they had together. 0: it was too short to be seen.
+// peak_bytes is the largest sum, at any check, of the resident peaks (VmHWM) of all live processes:
+// for one process its peak up to the last check, for several an upper bound; 0 if never checked.
 //
-// Throws std::system_error: no process, or no memory to share with it; std::runtime_error: somebody
-// ended the guardian.
+// Throws std::system_error (no process, no shared memory), std::runtime_error (guardian killed).
 ChildEnd run_program(const Program& program, const ProgramLimits& limits);
 
-// The same with what it prints as text. Throws FileError, too: no temporary folder.
+// Returns the output as text. Also throws FileError if there is no temporary folder.
 struct ProgramEnd : ChildEnd {
   std::string out, err;
 };

@@ -1,7 +1,6 @@
 #include "support/sha256.hpp"
 
-// OpenSSL's newer functions set up the library first, which does not survive a refused allocation
-// (OpenSSL 3.0).
+// OpenSSL 3.0's newer functions do not survive a refused allocation in their initialisation.
 #define OPENSSL_SUPPRESS_DEPRECATED
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4): the fingerprint by which records name the mesh they were measured on.
+// SHA-256 (FIPS 180-4), by which records identify their mesh.
 #pragma once
 
 #include <filesystem>
@@ -7,10 +7,9 @@
 
 namespace airybench {
 
-// The hash as 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::string_view bytes);
 
-// The hash of a file's bytes. Throws std::runtime_error "file: why" when it cannot be read.
+// Throws std::runtime_error "file: why" if the file cannot be read.
 std::string sha256_of_file(const std::filesystem::path& file);
 
 }  // namespace airybench

@@ -1,4 +1,3 @@
-// What messages quote of what they were given.
 #pragma once
 
 #include <string>
@@ -6,7 +5,7 @@
 
 namespace airybench {
 
-// On one line and at most so many bytes long: control characters are '?', what is cut off is "…".
+// One line of at most `most` bytes: '?' for control characters, "…" for the rest of a cut text.
 std::string shortened(std::string_view text, std::size_t most = 80);
 
 }  // namespace airybench

@@ -32,7 +32,7 @@ std::string show_duration(double seconds) {
 
 std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
                           std::size_t first_number) {
-  // Characters, not bytes: "±" and "µ" have two.
+  // Counts characters, not bytes: "±" and "µ" have two.
   const auto length = [](const std::string& text) {
     return static_cast<std::size_t>(
         std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));

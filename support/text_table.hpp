@@ -1,4 +1,4 @@
-// Numbers as a user reads them, and tables of them.
+// Numbers and tables as a user reads them.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,12 @@
 
 namespace airybench {
 
-// "1.24 ms", "3.4 MiB", "2.3e-12"; a dash for what does not apply.
+// "1.24 ms", "3.4 MiB", "2.3e-12"; "-" for a missing value.
 std::string show_seconds(std::optional<double> seconds);
 std::string show_bytes(std::optional<std::int64_t> bytes);
 std::string show_error(std::optional<double> error);
 
-// Rows of equally many cells, the header first: columns from first_number to the last but one are
-// flush right.
+// Rows of equal length, the header first; columns first_number to the last but one are flush right.
 std::string aligned_table(const std::vector<std::vector<std::string>>& rows,
                           std::size_t first_number);
 

@@ -48,7 +48,7 @@ Interrupted::Interrupted(int number)
 
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error that we can tell
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow becomes a write error, which we report
 }
 
 bool is_interrupted() { return interrupting_signal != 0; }
@@ -60,7 +60,7 @@ void throw_if_interrupted() {
 void open_standard_streams() {
   for (const int descriptor : {0, 1, 2})
     if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
-      // The lowest that is free: this one.
+      // open() returns the lowest free descriptor: this one.
       static_cast<void>(open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY));
 }
 

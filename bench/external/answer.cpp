@@ -21,7 +21,7 @@ bool is_file(const std::filesystem::path& file) {
   return std::filesystem::is_regular_file(file, unknown);
 }
 
-// Without the folder's name, which means nothing to a user.
+// Messages omit the folder's name, which means nothing to a user.
 std::string text_of(const std::filesystem::path& folder, const std::string& name) {
   if (!is_file(folder / name)) throw FileError(name + ": there is none in {output}");
   return file_text(folder / name);

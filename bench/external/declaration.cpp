@@ -38,14 +38,13 @@ bool is_command(const Json& value) {
          std::ranges::all_of(value, [](const Json& word) { return word.is_string(); });
 }
 
-// A name that can be asked for: no glob, no list, no part of a path.
+// Excludes globs, lists and parts of paths, so that a user can select the name.
 bool is_plain(const std::string& name) {
   return std::ranges::all_of(name, [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
   });
 }
 
-// A word of the command whose placeholder is none of ours; nullptr: there is none.
 const std::string* unknown_placeholder(const std::vector<std::string>& command) {
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {

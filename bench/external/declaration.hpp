@@ -1,4 +1,4 @@
-// A solver that is a program of somebody else's, as a small JSON file declares it:
+// An external solver program, declared by a small JSON file:
 //
 //   { "name": "scipy",
 //     "summary": "sparse LU, Newton's method",
@@ -7,15 +7,15 @@
 //     "version": ["python3", "-c", "import scipy; print('scipy', scipy.__version__)"],
 //     "first_tolerance": 0.01 }
 //
-// reads      airy (S, C_F, C_C and loads), condensed (D, G), body (mesh, material, boundary data)
-// returns    airy_function, contact_forces, displacement: what belongs to each of these; of a body
-//            edge_displacements, too: those of hybridized elements, with their contact forces
-// command    runs in the folder of this file. {input}: folder of the problem's files; {output}:
-//            empty folder for the answer (answer.hpp); {threads}, {tolerance}, {time_limit_s}
-// version    prints one line
-// first_tolerance  only with {tolerance}: the first one, per target error; it is tightened until
-//            the program's own error estimate is below the target
-// summary, version and first_tolerance may be left out.
+//   reads, returns   airy (S, C_F, C_C and loads): airy_function; condensed (D, G): contact_forces;
+//                    body (mesh, material, boundary data): displacement, or edge_displacements of
+//                    hybridized elements with their contact forces
+//   command          runs in this file's folder. {input}: folder of the problem's files; {output}:
+//                    empty folder for the answer (answer.hpp). Also {threads}, {tolerance},
+//                    {time_limit_s}
+//   version          optional, like summary; prints one line
+//   first_tolerance  optional, with {tolerance}: the first tolerance per target error, tightened
+//                    until the program's own error estimate is below the target
 #pragma once
 
 #include <array>
@@ -28,7 +28,6 @@
 
 namespace airybench {
 
-// Of commands, filled in for each run.
 namespace placeholder {
 inline constexpr const char *input = "{input}", *output = "{output}", *threads = "{threads}",
                             *tolerance = "{tolerance}", *time_limit_s = "{time_limit_s}";
@@ -41,20 +40,17 @@ struct Declaration {
 
   std::filesystem::path folder;
   std::string name, summary, format;
-  Returns returns = Returns::airy_function;  // which tells what it reads
+  Returns returns = Returns::airy_function;  // also tells what it reads
   std::vector<std::string> command;
-  std::string version = "unknown version";  // what its command printed
+  std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;
 };
 
-// And asks the program for its version. Throws FileError, one line: file, key, value, what is
-// allowed.
+// Also runs the version command. Throws FileError, one line: file, key, value, what is allowed.
 Declaration read_declaration(const std::filesystem::path& file);
 
-// Lines that a program printed and that are not empty, each shortened: the first, and the last if
-// there are more.
+// The program's non-empty lines, shortened: the first, and the last if there are more.
 std::vector<std::string> printed_lines(const std::filesystem::path& file);
-// "ended with exit code 3: the last line".
 std::string how_it_ended(const ChildEnd& end, double limit_s,
                          const std::vector<std::string>& printed);
 

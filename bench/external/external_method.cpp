@@ -33,7 +33,7 @@ struct Caller {
   std::optional<std::int64_t> memory_limit_bytes;
 };
 
-// Once from left to right: what a value is made of stays.
+// One pass from left to right: a placeholder inside an inserted value stays.
 std::string filled_in(std::string_view word, const std::map<std::string, std::string>& values) {
   std::string result;
   while (!word.empty()) {
@@ -104,12 +104,10 @@ class ProgramSolve {
   }
   const Answer& answer() const { return answer_; }
 
-  // What follows is on our clock.
   void end_handing_over() {
     work_.reset();
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
-  // Of a program that solves all of it.
   Solution take_over(const RunControl& control) {
     end_handing_over();
     Solution solution;
@@ -168,7 +166,7 @@ Solution solve_airy(const Caller& caller, const DualSystem& system, const RunCon
   return solution;
 }
 
-// w of the values of u at vertices and edges' middles.
+// Coefficients of w = u − motion, from u at vertices and at the middles of edges.
 DisplacementField displacement_of(const Problem& problem, const Eigen::MatrixXd& values) {
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
@@ -196,7 +194,6 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   return solution;
 }
 
-// Moments of w from those of u.
 void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
   for (int edge = 0; edge < problem.edges.count(); ++edge) {
     const auto& [low, high] = problem.edges.vertices[edge];
@@ -233,7 +230,7 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
   return F(Eigen::seqN(0, contact.count, 2));
 }
 
-// solve: of the method whose contact law it is; of `body`, or null.
+// solve: the method whose contact law the program replaces. body: may be null.
 Solution solve_contact_law(const Caller& caller,
                            const std::function<Solution(const RunControl&)>& solve,
                            const Problem* body, const RunControl& given) {
@@ -245,7 +242,7 @@ Solution solve_contact_law(const Caller& caller,
         caller, [&] { return contact_files(problem, body, format); }, given);
     ContactResult result;
     result.F_C = forces_of(*program, problem.points, format);
-    result.converged = true;  // its own word
+    result.converged = true;  // as the program claims
     result.iterations = program->answer().contact_iterations.value_or(0);
     program->end_handing_over();
     return result;
@@ -260,7 +257,6 @@ Solution solve_contact_law(const Caller& caller,
   return solution;
 }
 
-// `solve`, whose program may give no answer.
 template <typename AnySolve>
 auto with_no_answer(AnySolve solve) {
   return [solve = std::move(solve)](const auto& problem, const RunControl& control) {

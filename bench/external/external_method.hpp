@@ -1,10 +1,8 @@
-// Another's program as a method of the harness.
-//
-// What reads the Airy system or the body solves all of it; what reads the condensed problem is the
-// contact law of HYBRID, which makes D and G and recovers the stresses. The harness hands over
-// files, takes the answer (answer.hpp) and makes of φ or u the stresses itself. Time is the
-// program's own clock for what it does, ours for what we do; Solution::program has ours for the
-// program as a whole, and its memory.
+// An external program as a method of the harness. A program that reads the Airy system or the body
+// solves the whole problem; one that reads the condensed problem replaces the contact law of
+// HYBRID. The harness writes the files, reads the answer (answer.hpp) and computes the stresses
+// from φ or u. Times are the program's own clock for its work and ours for the rest;
+// Solution::program has our time and memory of the program as a whole.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +13,7 @@
 
 namespace airybench {
 
-// "EXTERNAL:name". memory_limit_bytes: of its processes together.
+// Its name is "EXTERNAL:name". memory_limit_bytes: of all its processes together.
 Method external_method(const Declaration& declaration,
                        std::optional<std::int64_t> memory_limit_bytes);
 

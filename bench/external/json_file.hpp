@@ -1,4 +1,4 @@
-// A JSON file with one object, read key by key. What does not fit throws FileError, one line: file,
+// A JSON file with one object, read key by key. Unfit content throws FileError, one line: file,
 // key, value, what is allowed.
 #pragma once
 
@@ -18,7 +18,6 @@ namespace airybench {
 
 class JsonFile {
  public:
-  // name: of the file, in messages.
   JsonFile(std::string name, const std::string& text) : name_(std::move(name)) {
     try {
       json_ = parse_json(text);
@@ -29,7 +28,7 @@ class JsonFile {
   }
 
   enum class Need { must_be_there, may_be_left_out };
-  // take: keeps the value, or says false: it is none of those allowed.
+  // take stores the value, or returns false if it is not allowed.
   void read(const char* key, Need need, const std::string& allowed,
             const std::function<bool(const Json& value)>& take) {
     keys_.emplace_back(key);
@@ -39,7 +38,6 @@ class JsonFile {
       throw FileError(fmt::format("{}: {}: is missing (allowed: {})", name_, key, allowed));
     }
   }
-  // Those that were not read.
   void refuse_other_keys() const {
     for (const auto& [key, value] : json_.items())
       if (std::ranges::find(keys_, key) == keys_.end())

@@ -1,5 +1,4 @@
-// What a process is doing, on a page of memory shared with the process that watches it, which can
-// so report where a crash came, and end what takes too long.
+// A process's activity on a page of memory that it shares with the process that watches it.
 #pragma once
 
 #include <atomic>
@@ -27,7 +26,7 @@ enum class Activity {
 std::string_view name_of(Activity activity);  // "detail run"
 bool is_run(Activity activity);               // of the method itself: tuning and the three runs
 
-// What a run may take: --timeout; tuning its own limit, where there is one.
+// --timeout, or for tuning its budget if there is one.
 double run_limit_s(Activity run, const Options& options);
 
 class ActivityBoard : public StageObserver {
@@ -45,9 +44,9 @@ class ActivityBoard : public StageObserver {
   Activity activity() const;
   double seconds() const;          // since the activity began; 0 in none
   std::string where() const;       // "timed run, factor"
-  double seconds_in_runs() const;  // of all runs that have ended, or are under way
+  double seconds_in_runs() const;  // the current run included
 
-  void beat();              // the process is alive, though it waits for others
+  void beat();              // a heartbeat while the process waits for others
   double silent_s() const;  // since the last beat(), begins() or ends()
 
  private:
@@ -58,7 +57,7 @@ class ActivityBoard : public StageObserver {
   Page* page_;
 };
 
-// An activity from construction to destruction; board may be null.
+// board may be null.
 class ActivityScope {
  public:
   ActivityScope(ActivityBoard* board, Activity activity) : board_(board) {

@@ -1,4 +1,4 @@
-// What this program was made from and how; written by cmake/build_info.cmake at every build.
+// How this program was built; cmake/build_info.cmake writes the values at every build.
 #pragma once
 
 namespace airybench {

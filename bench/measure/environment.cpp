@@ -31,7 +31,7 @@
 namespace airybench {
 namespace {
 
-// Without an answer for lack of memory or descriptors a run would seem to be another machine's.
+// Throws if memory or descriptors run out: "unknown" would look like another machine.
 std::ifstream opened(const char* path) {
   std::ifstream file(path);
   if (!file && (errno == ENOMEM || errno == EMFILE || errno == ENFILE))
@@ -64,7 +64,7 @@ std::string host_name() {
 
 void set_threads(int threads) {
   set_blas_threads(threads);
-  // CHOLMOD asks for a fixed number of threads in its regions; only the nesting level stops that.
+  // CHOLMOD requests a fixed number of threads; only the nesting level limits that.
   omp_set_max_active_levels(threads == 1 ? 0 : 1);
   omp_set_num_threads(threads);
 }

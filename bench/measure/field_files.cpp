@@ -14,7 +14,6 @@
 namespace airybench {
 namespace {
 
-// A corner of a third: HctStress's columns.
 Eigen::Vector2d corner_of_third(const TriangleVertices& v, int column) {
   const int third = column / 3, corner = column % 3;
   return corner == 2 ? Eigen::Vector2d(v.rowwise().mean())
@@ -35,7 +34,6 @@ std::string stress_csv(const Problem& problem, const StressField& stress) {
   return text;
 }
 
-// The displacements of a triangle's six nodes: corners, then middles of edges.
 Eigen::Matrix<double, 2, 6> values_at_nodes(const Problem& problem, int triangle,
                                             const DisplacementField& u) {
   const std::array<int, 6> nodes = triangle_nodes(problem, triangle);
@@ -93,7 +91,6 @@ std::string boundary_csv(const Mesh& mesh) {
   return text;
 }
 
-// Of every triangle, 0 to 1.
 std::vector<double> error_shares(const ConstitutiveError& error) {
   std::vector<double> shares = error.of_triangle_Nmm;
   double sum = 0;
@@ -109,7 +106,6 @@ std::string error_csv(const ConstitutiveError& error) {
   return text;
 }
 
-// A value per triangle as one of each third.
 template <typename Number>
 std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
   std::vector<Number> values;
@@ -172,7 +168,7 @@ void take_forces(const ContactPoints& contact, const Solution& solution, Contact
     picture.force.emplace_back(solution.F_C(m * p), m == 2 ? solution.F_C(m * p + 1) : 0.0);
 }
 
-// The control point of an edge's end; where that is prescribed, of the edge.
+// The state is that of the control point at the edge's end; if that is prescribed, of the edge.
 void take_forces_of_displacements(const DualSystem& system, const Solution& solution,
                                   ContactPicture& picture) {
   const Problem& problem = *system.problem;
@@ -198,7 +194,7 @@ void take_forces_of_displacements(const DualSystem& system, const Solution& solu
   }
 }
 
-// r = (w_n − (g0 − ρ_n), w_t − (s0 − ρ_t)) in moments, per contact point.
+// r = (w_n − (g0 − ρ_n), w_t − (s0 − ρ_t)) as moments, per contact point.
 std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const DisplacementField& w,
                                         const std::vector<EdgeFrame>& frames) {
   const Problem& problem = *system.problem;
@@ -243,7 +239,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
       picture.gap_mm.push_back(-r.x());
       picture.slip_mm.push_back(r.y());
     }
-  // A program that answers by its Airy function has none.
+  // A program that returns an Airy function has no contact displacement.
   if (!has_own_points || solution.contact_displacement.size() == 0) return picture;
   const Eigen::VectorXd r = relative_to_gap(contact, solution.contact_displacement);
   const int m = contact.components;

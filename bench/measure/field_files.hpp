@@ -1,23 +1,19 @@
-// The fields of a solution in files: CSV for figures and other programs, VTU for ParaView.
+// Writes the fields of a solution: CSV for figures and other programs, VTU for ParaView.
 //
-//   NAME.stress.csv   triangle, third, corner, x_mm, y_mm, sxx_MPa, syy_MPa, sxy_MPa
-//                     nine rows per triangle: the corners of its thirds, as in HctStress
-//   NAME.displacement.csv  triangle, node, x_mm, y_mm, ux_mm, uy_mm
-//                     six rows per triangle: its corners, then the middles of its edges from corner
-//                     1 to 2, 2 to 3, 3 to 1; quadratic between them, continuous
+//   NAME.stress.csv   triangle, third, corner, x_mm, y_mm, sxx_MPa, syy_MPa, sxy_MPa; nine rows per
+//                     triangle: the corners of its thirds, as in HctStress
+//   NAME.displacement.csv  triangle, node, x_mm, y_mm, ux_mm, uy_mm; six rows per triangle: its
+//                     corners, then the middles of edges 12, 23, 31; quadratic, continuous
 //   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
-//                     slip_mm, state
-//                     a row per contact point (ContactPicture); state open, stick or slip
+//                     slip_mm, state (open, stick, slip); a row per contact point (ContactPicture)
 //   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, role
-//   NAME.error.csv    triangle, error_share
-//                     a row per triangle, in the order of NAME.stress.csv: its share, 0 to 1, of
-//                     the squared constitutive relation error, contact terms included
-//   NAME.mean.csv     as NAME.stress.csv: the mean of the stresses and those of the displacements
-//   NAME.vtu          a cell per third, which shares no points: stress_MPa (xx, yy, xy) and
-//                     displacement_mm at points; body, triangle, error_share (of the whole
-//                     triangle) of cells
-//   NAME.contact.vtu  a line per contact edge with two points: what NAME.contact.csv has, and state
-//                     0 open, 1 stick, 2 slip
+//   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
+//                     contact terms included; triangles in the order of NAME.stress.csv
+//   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements
+//   NAME.vtu          a cell per third, without shared points: stress_MPa (xx, yy, xy) and
+//                     displacement_mm at points; body, triangle, error_share (of the triangle)
+//   NAME.contact.vtu  a line per contact edge with two points: the columns of NAME.contact.csv
+//                     but the length; state 0 open, 1 stick, 2 slip
 // Unknown values are left out.
 #pragma once
 
@@ -34,20 +30,19 @@
 
 namespace airybench {
 
-// Per contact point of the system, two per edge, in Problem::frame_of_moment(). Gap and slip are
-// those of the contact law: moments over the edge (edge_forces.hpp), from the load step before; a
-// closed point has no gap, a sticking one no slip.
+// Two contact points per edge, in Problem::frame_of_moment(). Gap and slip are the contact law's:
+// moments over the edge (edge_forces.hpp), from the load step before.
 struct ContactPicture {
   std::vector<Eigen::Vector2d> at_mm;
   std::vector<EdgeFrame> frame;
   std::vector<Eigen::Vector2d> force;  // normal, tangential, N
   std::vector<ContactState> state;
   std::vector<double> gap_mm;   // g0 − u_n
-  std::vector<double> slip_mm;  // u_t against the wall; empty: not known
+  std::vector<double> slip_mm;  // u_t against the wall; empty if unknown
 };
 
-// A displacement method: the tractions of its stresses, the states of its control points. w: a
-// displacement of the solution without the problem's rigid motion, where there is one.
+// For a displacement method: the tractions of its stresses, the states of its control points. w:
+// the displacement without the problem's rigid motion, if known.
 ContactPicture contact_picture(const DualSystem& system, const Solution& solution,
                                const std::optional<DisplacementField>& w);
 
@@ -56,11 +51,11 @@ struct SolvedFields {
   const Solution& solution;
   // Bernstein coefficients (displacement_field.hpp) without the problem's rigid motion.
   std::optional<DisplacementField> w;
-  const ConstitutiveError* error = nullptr;  // null: not known
+  const ConstitutiveError* error = nullptr;  // null if unknown
   std::optional<StressField> mean;
 };
 
-// Writes the files folder/NAME.*; throws FileError.
+// Writes folder/NAME.*; throws FileError.
 void write_fields(const std::filesystem::path& folder, const std::string& name,
                   const SolvedFields& fields);
 

@@ -14,7 +14,6 @@
 #include <limits>
 #include <string>
 
-// glibc's allocator under its own names.
 extern "C" {
 void* __libc_malloc(std::size_t);
 void* __libc_calloc(std::size_t, std::size_t);
@@ -39,7 +38,7 @@ std::atomic<std::int64_t> count{0}, given_out{0};
 
 using Counters = std::array<std::atomic<std::int64_t>, all_memory_owners.size()>;
 Counters live_of{}, highest_of{};
-Counters at_peak{};                      // live_of when the peak was last copied
+Counters at_peak{};                      // live_of at the last copy
 std::atomic<std::int64_t> copied_at{0};  // live bytes then
 std::atomic_flag copying = ATOMIC_FLAG_INIT;
 
@@ -60,8 +59,7 @@ ByOwner<std::int64_t> values_of(const Counters& counters) {
   return values;
 }
 
-// Copies the owners' bytes when the peak has grown by a thousandth since the last copy; not when
-// another thread is at it.
+// Copies only after 0.1 % of growth, and not while another thread copies.
 void copy_at_peak(std::int64_t now) {
   const std::int64_t grown = now - copied_at;
   if (grown <= now / 1000 || copying.test_and_set(std::memory_order_acquire)) return;
@@ -78,9 +76,8 @@ void add(MemoryOwner owner, std::int64_t bytes) {
   if (raise(peak, now)) copy_at_peak(now);
 }
 
-// The last byte of a block, for which one byte more is asked, is its tag: its owner, and whether
-// glibc, whose blocks end 8 bytes after a multiple of 16, gave 16 bytes more for it. These belong
-// to the probe and do not count.
+// A block's last byte, one more than asked for, is its tag: the owner, and whether glibc, whose
+// blocks end 8 bytes after a multiple of 16, gave 16 bytes for it, which do not count.
 constexpr unsigned char enlarged = 0x80;
 constexpr std::int64_t enlargement_bytes = 16;
 constexpr std::size_t with_tag(std::size_t bytes) {
@@ -115,7 +112,6 @@ void* refused() {
   return nullptr;
 }
 
-// block: given for so many bytes and the tag, or null.
 void* counted(void* block, std::size_t bytes, MemoryOwner owner = current_memory_owner) {
   if (block == nullptr) {
     refused_by_machine = true;
@@ -160,7 +156,7 @@ void* realloc(void* block, std::size_t bytes) {
     return refused();
   const MemoryOwner owner = owner_of(block);
   void* moved = __libc_realloc(block, with_tag(bytes));
-  if (moved != nullptr) add(owner, -before);  // else the old block is still there
+  if (moved != nullptr) add(owner, -before);  // otherwise the old block stays
   return counted(moved, bytes, owner);
 }
 

@@ -1,11 +1,8 @@
-// The process's heap, counted at the allocator: heap_probe.cpp replaces malloc, calloc, realloc,
-// free and the aligned family, so the libraries' allocations count as well as ours. A block counts
-// with its usable size, for the owner that its thread has named (memory_owner.hpp). Memory that is
-// mapped without the allocator is not heap: OpenBLAS's packing buffers show in the resident set
-// only.
-//
-// Where the probe cannot be (sanitizers bring their own allocator), heap_probe_off.cpp stands in
-// and is_active() is false.
+// Counts the process's heap at the allocator: heap_probe.cpp replaces malloc, calloc, realloc, free
+// and the aligned family, for libraries too. A block counts with its usable size, for the owner
+// that its thread has named (memory_owner.hpp). Memory mapped without the allocator, such as
+// OpenBLAS's packing buffers, is not heap. Sanitizers bring their own allocator: heap_probe_off.cpp
+// then stands in, and is_active() is false.
 #pragma once
 
 #include <cstdint>
@@ -19,23 +16,21 @@ bool is_active();
 std::int64_t live_bytes();
 std::int64_t peak_bytes();       // highest live_bytes() since reset_peak()
 std::int64_t peak_ever_bytes();  // highest live_bytes() of the process
-std::int64_t allocations();      // calls that returned a block, since the start
-std::int64_t allocated_bytes();  // asked for by these calls together, whether freed or not
-void reset_peak();               // the peaks are then what is live now
-bool was_refused();              // has the machine, not a Limit, refused an allocation so far?
+std::int64_t allocations();      // calls that returned a block
+std::int64_t allocated_bytes();  // requested by these calls, freed or not
+void reset_peak();               // sets the peaks to live_bytes()
+bool was_refused();              // the machine, not a Limit, has refused an allocation
 
-// By owner. The live bytes sum to live_bytes().
+// By owner; the live bytes sum to live_bytes().
 ByOwner<std::int64_t> live_by_owner();
-ByOwner<std::int64_t> peak_by_owner();     // live at peak_bytes(), to a thousandth of it
+ByOwner<std::int64_t> peak_by_owner();     // at peak_bytes(), to 0.1 % of it
 ByOwner<std::int64_t> highest_by_owner();  // each owner's own highest since reset_peak()
 
-// A second peak for parts of what the first one covers.
 std::int64_t lap_peak_bytes();  // highest live_bytes() since reset_lap_peak()
 void reset_lap_peak();
 
-// For the scope of the object, allocations that would lift live_bytes() above the limit fail, as on
-// a full machine. Blocks below 64 KiB are granted all the same, because OpenBLAS and OpenMP do not
-// survive their refusal; exceeded() is then true.
+// While the object lives, allocations that would lift live_bytes() above the limit fail and set
+// exceeded(); blocks below 64 KiB do not fail, as OpenBLAS and OpenMP do not survive that.
 class Limit {
  public:
   explicit Limit(std::int64_t live_bytes_at_most);
@@ -45,10 +40,9 @@ class Limit {
   bool exceeded() const;
 };
 
-// For the scope of the object, ends the process with backstop_exit_code when the heap grows beyond
-// what a Limit can hold: by small blocks without end, or past the memory that the machine has left;
-// or when a library calls exit() because a Limit has refused it a block, as OpenBLAS's threads do.
-// limit_bytes: of the Limits to come, or empty; half of it again is granted.
+// Ends the process with backstop_exit_code if the heap outgrows what a Limit can hold (small
+// blocks, or all that the machine has), or if a library calls exit() after a refusal, as OpenBLAS's
+// threads do. limit_bytes: of the Limits to come; 1.5 times as much is granted.
 class Backstop {
  public:
   explicit Backstop(std::optional<std::int64_t> limit_bytes);

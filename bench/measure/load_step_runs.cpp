@@ -13,11 +13,9 @@
 namespace airybench {
 namespace {
 
-// A path has spent the sum over its steps of these …
 constexpr std::tuple sums = {&Solution::factor_flops, &Solution::linear_iterations,
                              &Solution::contact_iterations, &Solution::newton_steps,
                              &Solution::uzawa_iterations};
-// … and the largest of these.
 constexpr std::tuple maxima = {&Solution::library_bytes, &Solution::factor_entries,
                                &Solution::error_estimate, &Solution::condition_estimate};
 
@@ -33,7 +31,7 @@ void add(const std::optional<T>& more, std::optional<T>& sum) {
 
 template <typename T>
 void raise(const std::optional<T>& other, std::optional<T>& largest) {
-  if (other && !(largest.value_or(*other) > *other)) largest = other;  // NaN is largest
+  if (other && !(largest.value_or(*other) > *other)) largest = other;  // NaN counts as largest
 }
 
 void take_step(bool is_first, const std::string& prefix, const Solution& step, Solution& path) {
@@ -44,7 +42,6 @@ void take_step(bool is_first, const std::string& prefix, const Solution& step, S
   for_each(sums, [&](auto member) { add(step.*member, path.*member); });
   for_each(maxima, [&](auto member) { raise(step.*member, path.*member); });
   if (path.parameters.empty()) path.parameters = step.parameters;
-  // A path ends with a step that has no answer.
   if (is_first || path.status == Status::ok || !has_answer(step.status)) {
     path.status = step.status;
     path.message = step.message.empty() ? "" : prefix + step.message;

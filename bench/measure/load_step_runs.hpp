@@ -1,5 +1,5 @@
-// A case with load steps: its whole path is one solve, and every step is judged as a separate
-// problem. A case without is a path of one step.
+// A case with load steps: the path is one solve, and each step is judged as a separate problem. A
+// case without is a path of one step.
 #pragma once
 
 #include <memory>
@@ -17,44 +17,40 @@ inline int count_of_steps(const Problem& problem) {
   return 1 + static_cast<int>(problem.later_steps.size());
 }
 
-// The references of all steps, each with the slip of those before it.
+// Each reference carries the slip of the steps before it.
 struct ReferencePath {
-  std::vector<Reference> steps;  // all of them, or none …
-  std::string missing;           // … and why
+  std::vector<Reference> steps;  // all, or none
+  std::string missing;           // why there are none
 };
-// error_at_most: of every reference, by its own estimate.
+// error_at_most: limits each reference's own error estimate and equilibrium residual.
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most);
 
-// From which a path can go on.
 Solution answer_of(const Reference& reference);
 
 struct JudgedStep {
   Status claimed_status;
   Verification verification;
-  // Against the solution nearest to it, where the law is met by other forces than the reference's:
-  // along the method's own path, whose past may be another, too.
+  // Set if the forces meet the law but are not the reference's: against the nearest solution.
   std::optional<Verification> as_other = {};
   double dissipation_Nmm = 0;
 
   const Verification& seen() const { return as_other ? *as_other : verification; }
 };
 
-// The answer of the last step, with the times and iterations of all, the largest storage and error
-// estimate, and the worst status. watched_s: the time of visiting, which is part of no stage.
+// The last step's answer, with the sums of times and iterations, the largest storage and error
+// estimate, and the worst status. watched_s: time in `visit`, which is part of no stage.
 Solution solve_path(const Solve& solve, DualSystem& system, const RunControl& control,
                     const VisitStep& visit, double& watched_s);
 
-// "load step 3 of 20: ", or nothing where there is one only.
+// "load step 3 of 20: "; empty for a path of one step.
 std::string step_prefix(std::int64_t step, const Problem& first);
 
-// The step whose worst measure is largest, a NaN above all; there must be one.
+// The step with the largest worst measure; NaN is largest. There must be a step.
 std::size_t worst_step(const std::vector<JudgedStep>& steps);
 
-// Record::steps.
 Json steps_of(const std::vector<JudgedStep>& steps);
 
-// The same of a path whose steps are taken in two halves each, by HYBRID, where both halves are
-// done; at their ends the loads are those of the path's own steps. The dissipation is that of both.
+// The same for HYBRID with each step in two halves, if both have an answer; dissipation adds up.
 Json steps_in_halves(const Problem& first);
 
 }  // namespace airybench

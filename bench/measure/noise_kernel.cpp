@@ -20,14 +20,14 @@ namespace {
 
 constexpr int rows = 128;
 
-// Plain arrays, and no sanitizer on the loops over them, which would be too slow.
+// Sanitizers would slow the loops over these arrays too much.
 struct Work {
   double column[rows][rows];  // lower triangle: column[j][i], i ≥ j
   double values[noise_sweep_length];
 };
 #define AIRYBENCH_NOT_SANITIZED __attribute__((no_sanitize("address", "undefined")))
 
-// A = L D Lᵀ in place, columns one after another, of A = I + 1 1ᵀ/rows; the sum of D.
+// A = I + 1 1ᵀ/rows = L D Lᵀ in place, column by column; returns the sum of D.
 AIRYBENCH_NOT_SANITIZED double factorise(Work& work) {
   auto& column = work.column;
   for (int j = 0; j < rows; ++j) {
@@ -46,11 +46,10 @@ AIRYBENCH_NOT_SANITIZED double factorise(Work& work) {
   return sum;
 }
 
-// Writes every number, then reads them all.
 AIRYBENCH_NOT_SANITIZED double sweep(Work& work) {
   auto& values = work.values;
   for (int i = 0; i < noise_sweep_length; ++i) values[i] = i % 7;
-  benchmark::ClobberMemory();  // or the two loops could become one without the memory
+  benchmark::ClobberMemory();  // the compiler must not fuse the two loops
   double sums[8] = {};
   for (int i = 0; i < noise_sweep_length; i += 8)
     for (int lane = 0; lane < 8; ++lane) sums[lane] += values[i + lane];
@@ -63,14 +62,13 @@ constexpr std::size_t page = 4096;
 alignas(page) Work own_work;
 static_assert(sizeof(Work) % page == 0);
 
-// Hints: a fork gets zeros, because the next pass would copy each page that is shared with one,
-// which takes longer than the work itself.
+// Hints. A fork gets zeros: to copy the pages that it shares would take longer than the work.
 void take_pages([[maybe_unused]] Work& work) {
 #ifdef MADV_WIPEONFORK
   ::madvise(&work, sizeof work, MADV_WIPEONFORK);
 #endif
 #ifdef MADV_POPULATE_WRITE
-  // All at once, but not by 2 MiB as map_at_once does: times of earlier runs would not compare.
+  // Not by 2 MiB as map_at_once does: times would not compare with earlier runs.
   ::madvise(&work, sizeof work, MADV_POPULATE_WRITE);
 #endif
 }

@@ -1,23 +1,21 @@
-// How steadily the machine computes: a fixed piece of work of one or two milliseconds, timed
-// between the measurements. On a machine that does nothing else its times would all be the same.
-//
-// The work has a part in the processor's caches, an LDLᵀ factorisation of 128 rows, and a part in
-// its memory, two sweeps over 8 MiB; no library's version matters. Its data are in static storage,
-// which heap figures do not see.
+// Measures how steadily the machine computes: a fixed piece of work of one or two milliseconds,
+// timed between the measurements. On an idle machine its times are equal. An LDLᵀ factorisation of
+// 128 rows runs in the caches, two sweeps over 8 MiB in memory; no library takes part. The data are
+// in static storage, outside the heap figures.
 #pragma once
 
 namespace airybench {
 
-// Seconds of one pass. Allocates nothing. Not for several threads at once.
+// Seconds of one pass. Allocates nothing. One thread at a time may call it.
 double run_noise_kernel();
 
-// The same on so many threads at once, each with data of its own: seconds until the last has ended.
-// Over those of one: what frequency, shared caches and memory, or other work take from each.
+// Seconds of the slowest of `threads` passes at once, each on its own data. Longer than one pass
+// alone if frequency, shared caches, memory or other work slow them down.
 double run_noise_kernel(int threads);
 
 double noise_kernel_checksum();
 
-// Doubles: 8 MiB. Fewer in a sanitized program, which is not timed.
+// 8 MiB of doubles; fewer in a sanitized program, which is not timed.
 #ifdef AIRYBENCH_SANITIZED
 inline constexpr int noise_sweep_length = 1 << 14;
 #else

@@ -143,7 +143,7 @@ void note_large_strains(const Problem& problem, const StressField& stress, Recor
   constexpr double largest_small = 0.1;
   double largest = 0;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    // Triangles' means: corners are singular on any mesh.
+    // Means over triangles: corners are singular on any mesh.
     const Eigen::Vector3d strain = problem.compliance_of(t) * stress[t].rowwise().mean();
     const double middle = (strain(0) + strain(1)) / 2,
                  radius = std::hypot((strain(0) - strain(1)) / 2, strain(2) / 2);

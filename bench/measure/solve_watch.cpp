@@ -151,7 +151,7 @@ std::optional<std::int64_t> InstructionCounter::count() const {
     std::uint64_t instructions, time_enabled, time_running;
   } counted = {};
   if (file_ < 0 || read(file_, &counted, sizeof counted) != sizeof counted) return {};
-  // A counter that was shared out, or never ran, has only part of them.
+  // The kernel shared the counter out, or never ran it.
   if (counted.time_running == 0 || counted.time_running != counted.time_enabled) return {};
   return static_cast<std::int64_t>(counted.instructions);
 }

@@ -1,10 +1,9 @@
-// What one solve takes besides time: heap by owner (memory_owner.hpp) and by stage, next to what
-// the method counts for itself; resident set; instructions.
+// What one solve takes besides time: heap by owner (memory_owner.hpp) and by stage, next to the
+// method's own count; resident set; instructions.
 //
-// All bytes of heap are above what was live before the solve, the blocks counted in. Measured and
-// counted are compared at the ends of stages, the most of an owner's bytes there: by then the
-// workspace of building is gone and what the method keeps, and counts, is there. The vectors of an
-// iteration live inside a stage, so theirs is the owner's own highest.
+// Heap bytes exclude what was live before the solve, but include the blocks. An owner's measured
+// bytes are its largest at the ends of stages, when workspace is gone and what the method keeps is
+// there; vectors of an iteration live inside a stage, so theirs is the owner's own peak.
 #pragma once
 
 #include <cstdint>
@@ -17,38 +16,32 @@
 namespace airybench {
 
 struct MemorySplit {
-  ByOwner<std::int64_t> at_peak;  // at the solve's overall peak, to a thousandth of the live heap
-  ByOwner<std::int64_t> held;     // as above
+  ByOwner<std::int64_t> at_peak;  // at the solve's peak, to 0.1 % of the live heap
+  ByOwner<std::int64_t> held;     // as described above
   ByOwner<std::int64_t> counted;  // entries × size; zero: not counted
   std::array<std::optional<std::int64_t>, all_stages.size()> stage_peak;  // empty: not run
-  std::int64_t heap_allocations = 0, heap_allocated_bytes = 0;            // whether freed or not
+  std::int64_t heap_allocations = 0, heap_allocated_bytes = 0;            // freed or not
 };
 
-// Σ held / Σ counted over the owners that are counted, without the blocks, which the method did not
-// make. Empty: there are none.
+// Σ held / Σ counted over the counted owners except the blocks; empty if there are none.
 std::optional<double> count_ratio(const MemorySplit& memory);
 
-// Is any owner's held more than 10 % of its count, and more than 64 KiB, away from it?
+// Whether some owner's held bytes differ from its count by more than 10 % and more than 64 KiB.
 bool counts_differ(const MemorySplit& memory);
 
-// {"factor": {"peak_bytes": …, "held_bytes": …, "counted_bytes": … or null}, …}; only owners that
-// have something.
+// {"factor": {"peak_bytes": …, "held_bytes": …, "counted_bytes": … or null}, …}; no empty owners.
 Json by_owner(const MemorySplit& memory);
-// {"order": highest heap while it ran, …}; only stages that ran.
 Json by_stage(const MemorySplit& memory);
 
-// Watches the heap of one solve, from its construction on.
 class MemoryWatch : public StageObserver {
  public:
-  // held_by_blocks: what the solve's blocks hold already, which counts as the solve's. Resets the
-  // heap's peaks.
+  // held_by_blocks: bytes of the solve's blocks, which count as its own. Resets the heap's peaks.
   explicit MemoryWatch(std::int64_t held_by_blocks);
 
   void begins(Stage stage) override;
   void ends(Stage stage) override;
 
   std::int64_t peak_bytes() const;
-  // counted_blocks: bytes that the blocks count.
   MemorySplit split(const Solution& solution, std::size_t counted_blocks) const;
 
  private:
@@ -57,20 +50,18 @@ class MemoryWatch : public StageObserver {
 
   std::int64_t held_by_blocks_, before_;
   ByOwner<std::int64_t> before_by_owner_;
-  MemorySplit seen_;  // until now; of allocations those before
+  MemorySplit seen_;  // so far; for allocations the counts before
   ObservedStages observed_{this};
 };
 
-// The process's resident set: code, heap, mapped buffers.
 namespace rss {
-// Sets the kernel's high-water mark to the present resident set; false where that is not allowed.
+// Sets the kernel's high-water mark to the present resident set; false if not allowed.
 bool reset_peak();
 std::optional<std::int64_t> peak_bytes();  // the high-water mark, VmHWM
 }  // namespace rss
 
-// Instructions that this process executes in user space, by Linux's perf_event_open(2): other work
-// on the machine does not disturb the figure. Of threads those count that are started while the
-// counter lives, by the thread that made it or its descendants.
+// Counts this process's instructions in user space (perf_event_open(2)), which other work does not
+// disturb. Includes threads that this one or its descendants start while the counter lives.
 class InstructionCounter {
  public:
   InstructionCounter();  // begins to count
@@ -78,8 +69,7 @@ class InstructionCounter {
   InstructionCounter(const InstructionCounter&) = delete;
   InstructionCounter& operator=(const InstructionCounter&) = delete;
 
-  // Since construction. Empty where the machine has no such counter (many virtual ones), the kernel
-  // forbids it (/proc/sys/kernel/perf_event_paranoid), or others had it for part of the time.
+  // Empty if there is no counter, the kernel forbids it (perf_event_paranoid), or it is shared out.
   std::optional<std::int64_t> count() const;
 
  private:

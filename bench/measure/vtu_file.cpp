@@ -35,7 +35,6 @@ std::string type_name() {
   return fmt::format("{}{}", kind, 8 * sizeof(Number));
 }
 
-// The number of bytes, then the bytes.
 template <typename Number>
 std::string data_array(const std::string& attributes, const std::vector<Number>& values) {
   const std::uint64_t size = values.size() * sizeof(Number);

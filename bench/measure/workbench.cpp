@@ -41,7 +41,7 @@ Workbench::Workbench(PosedProblem problem, const Options& options, LeftOut left_
 void Workbench::prepare(const Method& method) {
   try {
     blocks(method.blocks);
-  } catch (const std::exception&) {  // the examination will say it
+  } catch (const std::exception&) {  // examine() reports it
     return;
   }
   reference();
@@ -121,7 +121,7 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
                           ? run(choice.solve, *blocks.system, control)
                           : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
     refused = limit && limit->exceeded();
-  } catch (const std::bad_alloc&) {  // so little that not even a message could be written
+  } catch (const std::bad_alloc&) {  // not even a message could be allocated
     refused = true;
   }
   result.time_s = seconds_since(start) - watched_s;
@@ -172,7 +172,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
       std::ranges::any_of(tuning.grid, [](const GridPoint& p) { return p.outcome == "not tried"; });
   if (tuning.solve != nullptr) {
     choice.solve = tuning.solve;
-  } else {  // every run says what became of it
+  } else {  // every run reports the failure
     choice.solve = [status = tuned.solution.status, message = tuned.solution.message](
                        const DualSystem&, const RunControl&) {
       Solution solution;
@@ -184,7 +184,7 @@ Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks&
   return choice;
 }
 
-// What the method said with a tolerance, and what was true, which it is not told.
+// Records the claimed and the true error of a tolerance; the method never sees the true one.
 void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run,
                              Record& record) {
   Json attempt = {{"tolerance", choice.tolerance},
@@ -200,13 +200,13 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
 Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& assembled,
                                   Choice& choice, Record& record) {
   constexpr int most_attempts = 6;
-  std::optional<Run> finished;  // not accurate enough, with the tolerance before
+  std::optional<Run> finished;  // the last answer, not accurate enough
   double finished_with = 0;
   for (int attempt = 1;; ++attempt) {
     malloc_trim(0);  // memory that earlier runs freed must not count
     Run run = solve(choice, assembled, Activity::detail_run);
     const Solution& solution = run.solution;
-    if (finished && !has_answer(solution.status)) {  // better than nothing
+    if (finished && !has_answer(solution.status)) {  // the earlier answer is better than none
       record.tuning_s = *record.tuning_s - finished->time_s + run.time_s;
       choice.tolerance = finished_with;
       return std::move(*finished);
@@ -224,7 +224,7 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
     }
     record.tuning_s = searched_s;
     finished_with = choice.tolerance;
-    // Errors follow the tolerance about linearly; a factor of 3 to be sure.
+    // Errors are about proportional to the tolerance; 3 is a safety factor.
     const double factor = options_.target_error / estimate / 3;
     choice.tolerance *= std::isfinite(factor) ? std::clamp(factor, 1e-3, 0.3) : 0.1;
     choice.tolerance = std::max(tightest, choice.tolerance);
@@ -241,9 +241,9 @@ JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution&
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
   if (solution.program) {
-    // Another's discrete law is not ours; the violations in N stay.
+    // The program has another discrete law: only the violations in N apply.
     result.verification.natural_map_residual.reset();
-    // Its own stress, which is zero, does not tell whether there is none.
+    // A zero stress from the program does not prove that the body has none.
     result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
   }
   return result;
@@ -263,7 +263,7 @@ std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem
                                                                 const Solution& solution,
                                                                 const Verification& v) {
   const auto is_small = [&](double error) { return error <= options_.target_error; };
-  // Only where the law is met with the reference's D and G, but by other forces.
+  // Only forces that meet the law with the reference's D and G, but differ from its forces.
   if (is_small(worst_measure(v).value) || !v.friction_coupling ||
       !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
@@ -349,7 +349,7 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (options_.histories)
     for (const IterationHistory& history : solution.histories)
       record.histories[history.what] = history.residual;
-  if (solution.done_fraction) {  // on timeout, the solve itself at work: at least so much memory
+  if (solution.done_fraction) {  // timeout in the solve itself: a lower bound
     record.peak_heap_bytes = run.peak_heap_bytes;
     record.peak_rss_bytes = run.peak_rss_bytes;
     if (*solution.done_fraction > 0)

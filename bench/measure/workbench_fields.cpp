@@ -1,4 +1,4 @@
-// The mesh's own error in a Workbench, and the fields that it writes with it.
+// The discretisation error in a Workbench, and the fields that it writes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace airybench {
 
 std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
-  if (method.in_displacements && !method.program.empty()) return {};  // its own are at hand
+  if (method.in_displacements && !method.program.empty()) return {};  // it has its own
   if (options_.study.points == Study::Points::accuracy || method.in_displacements)
     return Workbench::Bound::p2;
   if (!options_.adapt.empty() || options_.fields || options_.study.bounds)
@@ -28,7 +28,6 @@ const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
 
 namespace {
 
-// Null where an answer has none.
 Json shown(const ConstitutiveError& error) {
   const auto or_null = [](bool is_there, double value) { return is_there ? Json(value) : Json(); };
   return {{"error_discretisation", or_null(error.flaw.empty(), error.relative)},
@@ -45,14 +44,13 @@ void add_intervals(const ContactIntervals& intervals, Json& step) {
     }
 }
 
-// Of P2 against the stresses of the reference.
 std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& system,
                                                             const Solution& reference,
                                                             const DisplacementField& u) {
   ConstitutiveError error = constitutive_error(system, reference.stress, reference.F_C, u);
   if (error.flaw.empty()) return {std::move(error), u};
-  // Its law is at its nodes, at a corner of two walls about their mean normal: that goes through
-  // what stands out between them.
+  // P2 meets the law only at nodes (at a corner of two walls with the mean normal), and may
+  // penetrate a wall in between.
   DisplacementField behind = admissible_displacement(system, reference.F_C, u);
   ConstitutiveError of_it = constitutive_error(system, reference.stress, reference.F_C, behind);
   if (of_it.flaw.empty()) return {std::move(of_it), std::move(behind)};
@@ -61,7 +59,7 @@ std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& sy
 
 }  // namespace
 
-// Every step against a system whose slip is measured from the stresses' own past.
+// Each step's system measures slip from the stresses' own past.
 std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
   const ActivityScope scope(board_, Activity::discretisation);
   std::vector<DisplacementField> of_p2;
@@ -173,7 +171,6 @@ void Workbench::write_fields_of(const Method& method, const DualSystem& system,
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
   SolvedFields fields{system, solution, {}, nullptr, {}};
-  // The method's own displacement, one recovered from its edge moments, or one that is known.
   if (solution.displacement.cols() > 0)
     fields.w = solution.displacement;
   else if (solution.edge_moments.cols() > 0)

@@ -26,7 +26,6 @@
 namespace airybench {
 namespace {
 
-// The method of --adapt=…,by=: its stresses balance and it has edge displacements.
 Method adapting_method(const std::string& name) {
   const auto is_fit = [](const Method& method) {
     return method.blocks == Blocks::contact_points && !method.in_displacements;
@@ -40,7 +39,7 @@ Method adapting_method(const std::string& name) {
   throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
 }
 
-// The definition on the mesh that the scene has made: layers are bodies there, with materials.
+// Restates the definition for the mesh that it made: each layer is a body there.
 std::string definition_on(const Mesh& mesh, const std::string& definition,
                           const std::string& place) {
   Json json = parse_json(definition);
@@ -57,7 +56,6 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   return json_text(json);
 }
 
-// And writes the level's mesh.
 Json answer_for(AdaptiveLevel& level, const Options& options, const std::string& mesh_name,
                 const std::filesystem::path& folder) {
   level.mesh.name =
@@ -70,7 +68,6 @@ Json answer_for(AdaptiveLevel& level, const Options& options, const std::string&
           {"time_s", level.time_s},        {"estimate_s", level.estimate_s}};
 }
 
-// Runs in the loop's process: a level per line that it is sent.
 void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Options& options,
                 const std::filesystem::path& folder) {
   tell_refused_memory_at_exit();
@@ -92,7 +89,7 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
   }
 }
 
-constexpr double grace_s = 60;  // beyond the solve, for posing, judging and bisecting
+constexpr double grace_s = 60;  // beyond the solve: posing, judging and bisecting
 
 std::string obituary(const ChildEnd& end) {
   if (end.timed_out) return "a level took longer than --timeout";
@@ -172,7 +169,7 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     goes_on = !said.value("reached", false) && result.why_not_reached.empty();
   }
   if (options.goals_only && !levels.empty()) {
-    levels.back()["reaches"] = true;  // or is as far as it came
+    levels.back()["reaches"] = true;  // the last level, even if it misses the goal
     std::erase_if(levels, [](const Json& said) { return !said.at("reaches").get<bool>(); });
   }
   for (const Json& said : levels)

@@ -19,13 +19,13 @@
 namespace airybench {
 namespace {
 
-// By which factor the last level may correct what is expected of the next.
+// Limits the correction that one level makes to the expectation for the next.
 constexpr double most_correction = 3;
-constexpr int most_cuts = 24;  // of a triangle in a level
+constexpr int most_cuts = 24;  // per triangle and level
 
 std::vector<int> cuts_of(const std::vector<double>& parts, double marking) {
   constexpr double part_of_a_cut = 4;
-  constexpr double cheap = 0.1;  // of the triangles, that a level may add at least
+  constexpr double cheap = 0.1;  // a level may always add this share of the triangles
   std::vector<int> cuts(parts.size(), 0);
   const std::vector<int> marked = bulk_marks(parts, marking);
   double least = std::numeric_limits<double>::infinity();
@@ -158,9 +158,9 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
 }
 
 BisectedMesh AdaptiveLoop::bisected_as_expected() {
-  // Of a level, in triangles; the first one learns where singular vertices are.
+  // Growth in triangles per level; the first level only locates singular vertices.
   constexpr double most_growth = 4, first_growth = 2, least_growth = 1.2;
-  constexpr double aim = 0.96;  // of the goal: to miss it by little costs a level more
+  constexpr double aim = 0.96;  // of the goal: a near miss costs one more level
   using Finer = ExpectedParts::Finer;
   const AdaptGoal& goal = settings_.goals[goal_];
   const ExpectedParts expected(mesh_, edges_, parts_Nmm_);

@@ -31,20 +31,17 @@ struct Command {
   std::size_t k = 0;
 };
 
-// What an activity may take: a run --timeout, assembly, reference and verification a quarter of an
-// hour at least.
 double limit_s(const ActivityBoard& board, const Options& options) {
   constexpr double least_for_others_s = 900;
   return is_run(board.activity()) ? run_limit_s(board.activity(), options)
                                   : std::max(options.timeout_s, least_for_others_s);
 }
 
-// With a grace in which a method can end by itself and report how far it came.
+// The grace lets a method end by itself and report its progress.
 bool is_overdue(const ActivityBoard& board, const Options& options) {
   return board.seconds() > 1.1 * limit_s(board, options) + 2;
 }
 
-// programs/CASE.txt: what another's program wrote about itself.
 void keep_log(const Case& c, const Options& options, const std::string& log) {
   if (log.empty()) return;
   make_folder(options.out / "programs");
@@ -71,7 +68,7 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       record = std::move(examination.record);
       choice = std::move(examination.choice);
       keep_log(c, options, bench.program_log());
-    } catch (const FileError& error) {  // of a field or a log
+    } catch (const FileError& error) {  // from a field or a log
       record = blank_record(c, options);
       record.status = Status::machine_fault;
       record.status_reason = error.what();
@@ -100,11 +97,10 @@ Record record_of_end(const Case& c, const Options& options, const TimedRun& last
   return record;
 }
 
-// The scene's board shows preparations, and beats while a case is waited for.
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
                  ActivityBoard& board, const LeftOut& left_out) {
   tell_refused_memory_at_exit();
-  set_threads(1);  // OpenMP's threads would not be there in the cases' processes
+  set_threads(1);  // OpenMP's threads would not survive the forks
   Workbench bench(cases.front()->posed.problem, options, left_out);
   bench.show_on(&board);
   std::map<std::size_t, CaseProcess> processes;
@@ -134,7 +130,7 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
         return is_overdue(own.board, options);
       });
       if (!answer) last = obituary_of(own.process->end(), own.board, options);
-    } catch (const std::system_error& error) {  // no process to be had
+    } catch (const std::system_error& error) {  // no process could be started
       last.status = Status::machine_fault;
       last.message = error.what();
     }
@@ -202,7 +198,6 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
                                     : ", as the kernel does when memory runs out"));
 }
 
-// It neither does something that its board shows, nor waits for a case's process and beats.
 bool IsolatedScene::is_silent() const {
   constexpr double most_silent_s = 20;
   return board_.activity() == Activity::none && board_.silent_s() > most_silent_s;
@@ -216,7 +211,7 @@ std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size
   });
 }
 
-// All before the first case: a scene's process that breaks takes its cases' processes along.
+// Prepares all cases first: a scene's process that breaks ends its cases' processes.
 void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
@@ -227,7 +222,7 @@ void IsolatedScene::prepare_all() {
 }
 
 void IsolatedScene::prepare(std::size_t k) {
-  constexpr int most_attempts = 4;  // assembly, reference and discretisation error may each break
+  constexpr int most_attempts = 4;  // assembly, reference and discretisation may each break
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     if (process_ == nullptr) {
       examined_.clear();
@@ -253,7 +248,7 @@ void IsolatedScene::prepare(std::size_t k) {
       case Activity::reference:
         left_out_.reference = "no reference: " + why;
         break;
-      default:  // ended from outside: once more
+      default:  // killed from outside: try again
         break;
     }
     board_.ends();

@@ -17,12 +17,12 @@ namespace {
 
 constexpr std::size_t lasting = 12;  // passes
 constexpr int passes_at_start = 2 * lasting;
-// A pass takes 8 MiB of the caches, to be loaded again in a millisecond or two.
+// A pass displaces 8 MiB of cached data, which takes one or two milliseconds to reload.
 constexpr double long_ago_s = 1;
-constexpr double until_idle_threads_sleep_s = 0.1;  // those of BLAS, in the case's process
+constexpr double until_idle_threads_sleep_s = 0.1;  // BLAS threads in the case's process
 constexpr int most_looks = 10;
 constexpr double between_looks_s = 0.2;
-// All waiting together, beyond so many seconds: of the run's time so far.
+// All waits together take at most free_waiting_s plus this share of the run's time so far.
 constexpr double most_waiting_share = 0.1, free_waiting_s = 10;
 
 void warm_up_by_passes() {

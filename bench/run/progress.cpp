@@ -29,10 +29,9 @@ std::string noisy_line(const Record& r) {
                      100 * *r.retry_noisy);
 }
 
-// Of the table at the end; shown where a record has the field.
 struct Column {
   const char* header;
-  const char* field;  // nullptr: always shown
+  const char* field;  // shown if any record has it; nullptr: always shown
   std::string (*text)(const Record&);
 };
 
@@ -40,7 +39,7 @@ std::string whole(const std::optional<std::int64_t>& number) {
   return number ? fmt::format("{}", *number) : "-";
 }
 
-// Without the method's check of itself, and refinement.
+// Time without the method's own error check and refinement.
 std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
@@ -76,8 +75,7 @@ bool any_has(const std::vector<Record>& records, const char* field) {
       records, [&](const Record& r) { return !field_named(field).value(r).is_null(); });
 }
 
-// For most methods the total error is that of the mesh: shown where it tells them apart, or where a
-// method has no other.
+// Shows the total error only where the methods do not all share their mesh's.
 std::vector<Column> columns_for(const std::vector<Record>& records) {
   std::vector<Column> columns;
   for (const Column& c : table_columns)
@@ -105,7 +103,7 @@ std::string results_table(const std::vector<Record>& records) {
     if (r.precision && !r.precision_reached && r.time_s) table += imprecise_line(r);
   for (const Record& r : records)
     if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) table += noisy_line(r);
-  std::set<std::string> said;  // the same of every method on a mesh
+  std::set<std::string> said;  // lines that all methods on a mesh share
   for (const Record& r : records)
     if (r.status != Status::ok)
       table += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);

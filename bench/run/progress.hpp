@@ -1,4 +1,4 @@
-// What a user sees of a run: a line per case while it runs, and the table at the end.
+// Output for the user: a line per case during the run, and the final table.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,6 @@ std::string results_table(const std::vector<Record>& records);
 class Progress {
  public:
   explicit Progress(std::vector<std::int64_t> n_phi_of_cases);
-  // The line for a case that has just ended.
   std::string line(const Record& record);
 
  private:

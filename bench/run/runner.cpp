@@ -31,15 +31,13 @@ namespace {
 constexpr int passes_beside = 3;  // before a case, and after it
 constexpr int most_attempts = 4;
 
-// Since Google Benchmark 1.8, whose State has skipped(), a time needs its unit; before, it had
-// none.
+// Google Benchmark takes times with a unit since version 1.8, the first with State::skipped().
 template <typename State>
 constexpr bool takes_unit = requires(State& state) {
   state.skipped();
 };
 
-// Sets all that environment variables could change (BENCHMARK_FILTER and so on): only bench's own
-// options count.
+// Sets every option that environment variables (BENCHMARK_FILTER and so on) could change.
 void initialize_benchmark(bool interleave) {
   static std::vector<std::string> arguments;  // Google Benchmark keeps pointers to them
   std::vector<std::string> wanted = {
@@ -61,7 +59,7 @@ void initialize_benchmark(bool interleave) {
       "--benchmark_time_unit=ms",
       "--v=0",
       fmt::format("--benchmark_enable_random_interleaving={}", interleave)};
-  if (arguments == wanted) return;  // it complains of a context that it has already
+  if (arguments == wanted) return;  // a repeated context would raise a complaint
   arguments = std::move(wanted);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());
@@ -69,7 +67,6 @@ void initialize_benchmark(bool interleave) {
   benchmark::Initialize(&argc, argv.data());
 }
 
-// Hears which benchmarks have all of their repetitions, and what Google Benchmark complains of.
 class Listener : public benchmark::BenchmarkReporter {
  public:
   using Ended = std::function<void(const std::string& name)>;
@@ -85,7 +82,6 @@ class Listener : public benchmark::BenchmarkReporter {
   Ended ended_;
 };
 
-// Returns the first complaint.
 std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
   struct Forgets {
     ~Forgets() { benchmark::ClearRegisteredBenchmarks(); }
@@ -105,8 +101,7 @@ class SceneRunner {
     cases_.resize(cases.size());
   }
 
-  // Interleaved cases end in random order, but all at about the same time: their records are kept
-  // in the plan's.
+  // Interleaved cases end in random order, at about the same time; records keep the plan's order.
   void run() {
     for (std::size_t k = 0; k < cases_.size(); ++k)
       benchmark::RegisterBenchmark(planned_[k]->name().text().c_str(),
@@ -133,7 +128,7 @@ class SceneRunner {
     std::vector<Record> noisy;  // the samples of earlier attempts
     double wall_s = 0;
     bool finished = false, written = false;
-    bool shown_once = false;  // of a long case: Google Benchmark has its only sample
+    bool shown_once = false;  // Google Benchmark has a long case's only sample
   };
 
   void measure(std::size_t k, benchmark::State& state) {
@@ -160,7 +155,6 @@ class SceneRunner {
     record.busy_kernel_samples_s = std::move(before.busy_kernel_samples_s);
   }
 
-  // The time of one repetition. A long case has its only one from its detail run.
   double next_sample(std::size_t k, benchmark::State& state) {
     Measured& c = cases_[k];
     if (is_repeated(*c.record, options_)) return add_sample(k);
@@ -202,8 +196,7 @@ class SceneRunner {
     }
   }
 
-  // Those that are finished and were noisy, in turn. A long case has one sample more, of a timed
-  // run.
+  // A long case gets one further sample, from a timed run.
   void measure_noisy_again() {
     for (std::size_t made = 1; made < most_attempts; ++made) {
       std::vector<std::size_t> noisy;
@@ -274,7 +267,7 @@ bool is_repeated(const Record& record, const Options& options) {
 
 std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bool interleave) {
   initialize_benchmark(interleave);
-  for (const Case& c : plan)  // any setting would be part of the name; min_time=0 is one iteration
+  for (const Case& c : plan)  // settings would enter the name; min_time=0 gives one iteration
     benchmark::RegisterBenchmark(c.name().text().c_str(), [](benchmark::State& state) {
       for (auto _ : state) continue;
     });
@@ -297,7 +290,7 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   NoiseWatch watch(options.retry_noisy, machine);
   RunResult result;
   result.torn = files.was_torn();
-  std::map<std::int64_t, Record> records;  // by the case's number
+  std::map<std::int64_t, Record> records;  // by case number
   std::vector<std::vector<const Case*>> scenes;
   std::vector<std::int64_t> n_phi;
   for (const Case& c : plan) {
@@ -331,7 +324,7 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   }
   files.finish();
   for (auto& [number, record] : records) result.records.push_back(std::move(record));
-  result.times.judging_s -= result.times.preparation_s;  // it is part of the first case's wall time
+  result.times.judging_s -= result.times.preparation_s;  // included in the first case's wall time
   result.times.wall_s = seconds_since(start);
   return result;
 }

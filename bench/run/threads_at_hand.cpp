@@ -38,10 +38,9 @@ rlim_t address_space() {
   return getrlimit(RLIMIT_AS, &limit) == 0 ? limit.rlim_cur : RLIM_INFINITY;
 }
 
-// most: threads of BLAS; asked: those that the user asked for.
 std::string lack_of_address_space(int most, int asked) {
   constexpr std::uint64_t MiB = 1024 * 1024;
-  // A thread's stack and BLAS's buffer of 128 MiB; the program itself.
+  // of_thread: a thread's stack and BLAS's buffer of 128 MiB.
   constexpr std::uint64_t of_thread = 136 * MiB, of_program = 96 * MiB;
   const std::uint64_t needed = of_program + static_cast<std::uint64_t>(most) * of_thread;
   const rlim_t limit = address_space();
@@ -84,7 +83,7 @@ void end_for_lack_of_address_space(int, char**, char** environment) {
 void require_threads(int threads) {
   if (const std::string lack = lack_of_address_space(threads); !lack.empty())
     throw UsageError(lack);
-  // Of BLAS, of OpenMP and of a method, and the processes of a scene and a case.
+  // BLAS, OpenMP and the method each start as many; a scene and a case are processes.
   if (threads > 1 && !can_start(3 * threads + 2))
     throw UsageError(fmt::format(
         "--threads: {} (allowed: fewer, as the machine has no more to give: ulimit -u)", threads));
