@@ -28,8 +28,7 @@ struct ContactPoints {
 
 namespace contact {
 
-// A condensed body, the paper's eq. (5), ū_C = D F_C − G, or a file of another program. Units of
-// such a file are its own.
+// A condensed body, the paper's eq. (5), ū_C = D F_C − G, or a file's problem in the file's units.
 struct Problem {
   Eigen::MatrixXd D = {};  // n_c × n_c, mm/N, symmetric positive definite compliance
   Eigen::VectorXd G = {};  // n_c, mm; −G: displacements without contact forces

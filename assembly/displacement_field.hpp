@@ -50,8 +50,7 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
 // A ε(u), MPa.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 
-// Per node ∫ σ:ε(u_i) of stresses that are linear on each triangle, N, and the largest contribution
-// of a triangle.
+// Per node ∫ σ:ε(u_i), N, of stresses linear on each triangle; a triangle's largest contribution.
 struct NodalForces {
   Eigen::Matrix2Xd sum;
   double largest = 0;

@@ -110,7 +110,6 @@ struct Problem {
   }
   bool has_friction() const { return !friction.empty(); }
   bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
-  // What the quadratic gap of an edge of Γ_C omits of its wall.
   WallDetail wall_detail_at(int boundary_row) const {
     return loads.wall_detail.empty() ? WallDetail{}
                                      : loads.wall_detail[static_cast<std::size_t>(boundary_row)];

@@ -30,7 +30,6 @@ struct RigidMotion {
 
 using EdgeDisplacement = std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int edge)>;
 
-// A straight piece of boundary with a prescribed displacement; on a roller its normal part.
 struct PrescribedEdge {
   Eigen::Vector2d start, end;
   int number = 0;

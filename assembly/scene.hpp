@@ -31,8 +31,7 @@ struct Scene {
   MeshTransform mesh = {};
   Layers layers = {};
 
-  // The transformed mesh has the geometry. Values given here are compared with it; a contradiction
-  // is refused.
+  // Compared with the transformed mesh; a contradiction is refused.
   std::optional<int> teeth = {};  // separate contact faces
   std::optional<double> root_half_height_mm = {}, length_mm = {}, tip_half_height_mm = {};
 

@@ -59,7 +59,6 @@ void larger_x_makes_dtic_faster(Evidence& evidence) {
   }
 }
 
-// Both end levels must be slower than the best inner level.
 void flic_is_fastest_near_3(Evidence& evidence) {
   const std::string mesh = evidence.cases().preconditioner_mesh();
   for (const std::string& family : families_with(evidence, mesh, "FLIC")) {

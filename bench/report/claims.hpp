@@ -51,11 +51,9 @@ struct Ratio {
 // Of the medians, with a 95 % bootstrap interval (fixed seed). A single sample counts as exact, a
 // timeout with its lower bound.
 Ratio ratio_of(const CaseTime& numerator, const CaseTime& denominator);
-// Geometric mean, minimum and maximum over meshes; estimated ratios enter with their bounds.
-// `ratios` must not be empty.
+// Geometric mean and range, with the bounds of estimated ratios. `ratios` must not be empty.
 Ratio spread(const std::vector<Ratio>& ratios);
-// "1.34 [1.3, 1.38]", "1.34" (single samples), "~5.2 above 3.1", "~0.2 below 0.4", "~2.1 (no
-// bound)": both timed out.
+// "1.34", "1.34 [1.3, 1.38]", "~5.2 above 3.1", "~0.2 below 0.4", "~2.1 (no bound)".
 std::string show_ratio(const Ratio& ratio);
 
 inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> paper_names = {{
@@ -66,12 +64,11 @@ inline constexpr std::array<std::pair<std::string_view, std::string_view>, 5> pa
     {"3STEPCG6", "3STEPCG:DTIC6"},
 }};
 
-// The cases of one stop and one scene, found by any name of their method.
 class CaseTable {
  public:
-  // Keeps the records of the stop and of the default scene, or of the only scene. A direct method
-  // has no stop of its own: records of the other stop count if there are none of this one. The last
-  // record of a case counts. Throws RecordError, with `source`: several scenes, no default one.
+  // Keeps the records of the stop and of the default (or only) scene. Direct methods have no stop:
+  // records of the other stop count if there are none of this one. The last record of a case
+  // counts. Throws RecordError, with `source`: several scenes, no default one.
   CaseTable(const std::vector<Record>& records, const std::string& stop, const std::string& source);
 
   const Record* find(const std::string& mesh, const std::string& method) const;  // or null
@@ -135,7 +132,6 @@ class Evidence {
   std::map<std::string, std::vector<std::pair<std::string, std::vector<std::string>>>> missing_;
 };
 
-// Preconditioners (Fig. 3), methods (Figs 4, 5), then the rest.
 std::vector<Claim> check_claims(const CaseTable& cases);
 
 std::string joined(const std::vector<std::string>& texts, const char* separator = ", ");

@@ -11,7 +11,7 @@
 //              by a fixed kernel that all runs time between the cases
 //
 // A case is slower if p <= 5 %, ratio and ratio / drift exceed the minimum effect, ratio / drift
-// also exceeds the drift or its reciprocal (the correction may be off by as much as it corrects),
+// also exceeds the drift and its reciprocal (the correction may be off by as much as it corrects),
 // and the runs were interleaved: at no time did one side have more than one run more than the
 // other. Otherwise the test measures the time of day, not the program. Faster: the same with
 // reciprocals.

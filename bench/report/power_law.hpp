@@ -38,7 +38,7 @@ Estimate extrapolate(const std::vector<SizedValue>& points, int n, double expone
                      double least_scatter);
 inline constexpr double exponent_scatter = 0.3;
 
-// The exponent near n that groups with a factor each share. Empty: no group has two sizes.
+// The common exponent near n of groups that differ by a factor. Empty: no group has two sizes.
 std::optional<double> pooled_exponent(const std::vector<std::vector<SizedValue>>& groups, int n);
 
 }  // namespace airybench

@@ -16,8 +16,9 @@ namespace {
 
 using RecordList = std::vector<const Record*>;
 
-// of: empty if a record lacks the value. Standard deviations of its logarithm, at least: of a case
-// between runs on a busy machine, of power laws of direct and iterative methods, of another method.
+// `of` is empty if a record lacks the value. The rest are least standard deviations of its
+// logarithm: of a case between runs on a busy machine, of power laws of direct and of iterative
+// methods, and of another method's values.
 struct Quantity {
   std::optional<double> (*of)(const Record&);
   double measured, direct, iterative, relative;

@@ -137,7 +137,6 @@ TimeTable time_table(const std::vector<TrackedRun>& runs) {
   return table;
 }
 
-// Seconds; null: none was measured.
 Json median_time(const std::vector<double>& log_times, std::size_t first, std::size_t end) {
   std::vector<double> times;
   for (std::size_t t = first; t < end; ++t)

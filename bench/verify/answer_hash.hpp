@@ -16,8 +16,8 @@
 
 namespace airybench {
 
-// The first 16 hexadecimal digits of the SHA-256 of the rounded sums. Empty if the answer is
-// unstressed, where all digits are rounding, or not finite.
+// 16 hexadecimal digits of SHA-256. Empty if the answer is unstressed (only rounding) or not
+// finite.
 std::string answer_hash(const Verification& verification);
 
 }  // namespace airybench

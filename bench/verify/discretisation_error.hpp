@@ -59,8 +59,7 @@ struct ConstitutiveError {
 StressField mean_stress(const Problem& problem, const StressField& stress,
                         const DisplacementField& u);
 
-// stress and F_C (at the contact points of `system`) are those of an equilibrium method, u is
-// quadratic.
+// stress, F_C: from an equilibrium method, at the contact points of `system`; u: quadratic.
 ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
                                      const Eigen::VectorXd& F_C, const DisplacementField& u);
 

@@ -188,7 +188,6 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
   return contact;
 }
 
-// The point nearest to w behind one or two walls.
 Eigen::Vector2d behind(const std::vector<Barrier>& walls, const Eigen::Vector2d& w) {
   const auto moved = [](const Barrier& wall, const Eigen::Vector2d& x) {
     return Eigen::Vector2d(x - std::max(0.0, wall.excess(x)) * wall.normal);
@@ -218,7 +217,6 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   return behind(node.walls, w_n * n + w_t * t);
 }
 
-// u = u0 on Γ_D (rollers: the normal part), u_n ≤ g0 on Γ_C.
 class Constraints {
  public:
   Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)

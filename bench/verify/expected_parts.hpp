@@ -34,8 +34,7 @@ class ExpectedParts {
 
   double of(const TrianglePart& part) const;
 
-  // A finer mesh: number of triangles, sum of their parts, largest part. Conformity cuts are
-  // ignored.
+  // Of a finer mesh: number of triangles, sum and maximum of their parts. Ignores conformity cuts.
   struct Finer {
     double triangles = 0, squared = 0, largest = 0;
   };

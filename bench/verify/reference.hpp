@@ -28,8 +28,8 @@ struct Reference {
 };
 
 // Throws Breakdown if the factorisation fails or the law has no finite solution. The caller decides
-// which error is small enough. start: initial contact forces; empty: zero. A `solution` is refined
-// without solving the law first, which selects one of several solutions.
+// which error is small enough. start: initial contact forces; empty: zero. StartIs::solution
+// refines `start` as it is: of several solutions the one near it is found.
 enum class StartIs { guess, solution };
 Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {},
                             StartIs start_is = StartIs::guess);

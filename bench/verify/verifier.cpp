@@ -13,8 +13,7 @@
 namespace airybench {
 namespace {
 
-// Forces of the element stresses on edges, N. Sums over an edge's elements; columns: low and high
-// vertex, rows: x, y.
+// Edge forces of the element stresses, N. Columns: low and high vertex; rows: x, y.
 struct EdgeBalance {
   std::vector<Eigen::Matrix2d> sum;
   double largest = 0;     // largest single force, N
@@ -128,7 +127,6 @@ double work_of_prescribed(const DualSystem& system, const StressField& stress,
 
 namespace {
 
-// Moments in the components of EdgeUnknowns.
 Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (!problem.condition(row).in_frame) continue;

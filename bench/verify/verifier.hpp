@@ -29,8 +29,7 @@ struct Verification {
   // Without a reference: distance of the stresses from those of the edge moments, relative in the
   // energy norm. Not an error: see check_moments().
   std::optional<double> stress_of_moments_off;
-  // The stress (of the reference or of a displacement method) is zero. Errors are relative to the
-  // loads.
+  // The stress of the reference or displacement method is zero; errors are relative to the loads.
   bool unstressed = false;
   std::optional<double> equilibrium_residual = std::numeric_limits<double>::infinity();
   std::optional<double> natural_map_residual;
@@ -46,8 +45,7 @@ struct Verification {
   std::optional<double> siconos_error;  // without a body
 };
 
-// reference: may be null. The law is then checked with the answer's edge moments, if any, and ρ =
-// 1/rough_compliance.
+// reference: may be null; then edge moments, if any, and ρ = 1/rough_compliance check the law.
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
 
 // For a displacement method, whose discrete problem has no reference: judges displacements and
@@ -72,7 +70,6 @@ struct MomentsCheck {
   StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
   Eigen::VectorXd contact_displacement;  // ū_C, mm; rows as in F_C
 };
-// Uses the elements of hybridized.hpp in double.
 MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments);
 
 // ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = W − Π*, N mm; F_C at the contact points.

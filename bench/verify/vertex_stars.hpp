@@ -19,8 +19,7 @@ class VertexStars {
  public:
   using OfTriangle = Eigen::Matrix<double, 2, 6>;  // in the order of triangle_nodes()
 
-  // own: per triangle, the displacement whose stress is Πσ, the linear field nearest to σ. held:
-  // nodes that stay.
+  // own: per triangle, the displacement with stress Πσ, the linear field nearest to σ. held: fixed.
   VertexStars(const Problem& problem, const std::vector<OfTriangle>& own,
               const std::vector<bool>& held);
   void sweep(DisplacementField& w);

@@ -11,7 +11,6 @@ namespace {
 
 using namespace parallel;
 
-// One row per boundary edge.
 struct BoundaryArrays {
   Eigen::MatrixXi edges, roles, rollers;
   Eigen::MatrixXd u0_mm, traction_MPa, gap_mm, normals, moment_normals, friction;
@@ -131,7 +130,6 @@ std::vector<ContactEdge> contact_edges(const BodyPart& part) {
   return edges;
 }
 
-// Every slot is an unknown, except the prescribed ones.
 HybridizedSystem system_of_slots(const Problem& problem) {
   HybridizedSystem system;
   number_unknowns(problem, {}, system.unknown);

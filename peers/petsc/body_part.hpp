@@ -28,7 +28,6 @@ struct BodyPart {
   Eigen::VectorXd compliance;              // rough, per row of F_C
   HybridizedSystem system;                 // unknowns: slots of local edges; no K, no loads
 };
-// own: the rank's triangles; file: has the boundary.
 BodyPart make_body_part(MeshPart own, const NpzSlices& file);
 
 // Sums columns per row of the parts' boundaries into the rows of the whole one. Collective.

@@ -26,7 +26,6 @@ struct MeshSlices {
 };
 MeshSlices read_slices(const NpzSlices& file);
 
-// Entities (vertices or edges) of a part.
 struct Numbering {
   std::vector<PetscInt> input;    // local → number in the file
   std::vector<PetscInt> global;   // local → number among all ranks

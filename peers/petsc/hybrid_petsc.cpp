@@ -19,7 +19,6 @@ namespace {
 
 using namespace parallel;
 
-// Seconds per stage, by its name in answer.json.
 struct Stages {
   double start = clock_s(), last = start;
   std::map<std::string, double> spent;
@@ -99,8 +98,7 @@ Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows
   return all;
 }
 
-// Writes edge_displacements_mm.npy, F_C.mtx, log.txt and, last, answer.json. Collective; rank 0
-// writes.
+// Writes edge_displacements_mm.npy, F_C.mtx, log.txt and, last, answer.json. Collective.
 void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u,
                   const RowsResult& answer, double estimate, const CoarseSpace* coarse,
                   const Stages& stages) {

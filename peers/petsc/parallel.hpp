@@ -58,7 +58,6 @@ using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedKsp = Owned<KSP, KSPDestroy>;
 using OwnedSf = Owned<PetscSF, PetscSFDestroy>;
 
-// From PETSc's database; none: not given.
 inline std::optional<std::string> option(const std::string& name) {
   std::array<char, 256> value{};
   PetscBool given = PETSC_FALSE;
