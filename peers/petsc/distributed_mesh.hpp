@@ -1,7 +1,6 @@
 // The mesh of an exported body, spread over the ranks: each has only its own triangles.
 //
-//   slices    every rank reads an equal share of triangles, edges and vertices; the rank that has
-//   an
+//   slices    every rank reads an equal share of triangles, edges and vertices; the rank with an
 //             edge's low vertex in its slice finds the triangles that meet at the edge
 //   parts     MatPartitioning (-mat_partitioning_type) partitions the dual graph; triangles move to
 //             their parts
