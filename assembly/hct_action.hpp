@@ -1,5 +1,4 @@
-// Applies the matrix of hct_stress() and its transpose without forming it, in a tenth of the
-// operations.
+// hct_stress() and its transpose applied without forming the matrix: a tenth of the operations.
 #pragma once
 
 #include <array>

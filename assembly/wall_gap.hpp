@@ -1,6 +1,5 @@
-// The exact gap between a straight edge of a contact face and the wall in front of it, including
-// corners of a polyline, steps and ends of a wall between the points that a discrete problem
-// samples:
+// The exact gap between a straight edge of a contact face and the wall in front of it, with the
+// corners, steps and ends of a wall that lie between the points of a discrete problem:
 //
 //   g0(s) = t_wall(x(s)) − t_face(x(s)),   x(s) = (1 − s) a + s b,   0 ≤ s ≤ 1      (wall.hpp)
 #pragma once

@@ -31,8 +31,7 @@ std::vector<ProblemArray> mesh_arrays(const Mesh& mesh);
 // rollers, u0_mm, traction_MPa, gap_mm, contact_normals, contact_moment_normals, friction,
 // body_force_N_per_mm3.
 std::vector<ProblemArray> body_arrays(const Problem& problem);
-// S, C_F, q, F, scale, unknowns; force_rows and force_directions per row of C_F; with contact C_C,
-// F0.
+// S, C_F, q, F, scale, unknowns; with contact C_C, F0; force_rows, force_directions per row of C_F.
 std::vector<ProblemArray> airy_arrays(const DualSystem& system);
 // gap and mu; zeros if there are none.
 std::vector<ProblemArray> contact_law_arrays(const ContactPoints& points);

@@ -10,11 +10,13 @@
 //   together   drift = median over the cases of noise_kernel_s in B / in A: the machine's change,
 //              by a fixed kernel that all runs time between the cases
 //
-// A case is slower if p <= 5 %, ratio and ratio / drift exceed the minimum effect, ratio / drift
-// also exceeds the drift and its reciprocal (the correction may be off by as much as it corrects),
-// and the runs were interleaved: at no time did one side have more than one run more than the
-// other. Otherwise the test measures the time of day, not the program. Faster: the same with
-// reciprocals.
+// A case is slower if all of these hold; it is faster if they hold for the reciprocals:
+//   p <= 5 %
+//   ratio and ratio / drift exceed the minimum effect
+//   ratio / drift exceeds the drift and its reciprocal: a slower machine need not slow a case as it
+//     slows the kernel, so the correction may be off by as much as it corrects
+//   the runs are interleaved: no side ever had more than one run more than the other; otherwise the
+//     test measures the time of day
 #pragma once
 
 #include <optional>

@@ -16,8 +16,7 @@
 
 namespace airybench {
 
-// 16 hexadecimal digits of SHA-256. Empty if the answer is unstressed (only rounding) or not
-// finite.
+// 16 hexadecimal digits of SHA-256. Empty if the answer is unstressed (all rounding) or not finite.
 std::string answer_hash(const Verification& verification);
 
 }  // namespace airybench

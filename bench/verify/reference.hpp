@@ -9,8 +9,7 @@
 //
 // The reference estimates its distance from the exact solution of the discrete problem: the last
 // correction of the displacements and the next one of the forces, in the energy norm, and the
-// natural map. tests/bench/verify/extended_precision_test.cpp compares it with a solution in 128
-// bits.
+// natural map. tests/bench/verify/extended_precision_test.cpp compares it with 128 bits.
 #pragma once
 
 #include "assembly/dual_system.hpp"

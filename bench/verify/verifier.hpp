@@ -49,8 +49,7 @@ struct Verification {
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
 
 // For a displacement method, whose discrete problem has no reference: judges displacements and
-// forces at the control points (control_points.hpp). No error_stress, error_force, complementary
-// energy.
+// forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
 //                         points, over the largest nodal force of an element
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance

@@ -1,6 +1,5 @@
-// hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: solves an exported body (--format=npz) for
-// edge displacements and contact forces, by hybridized equilibrium elements over the ranks of
-// mpirun.
+// hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of
+// an exported body (--format=npz), by hybridized equilibrium elements over the ranks of mpirun.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -75,8 +74,7 @@ void write(const std::filesystem::path& file, std::string_view text, std::string
   if (!out.flush()) throw FileError(file.string() + ": cannot be written");
 }
 
-// At rank 0, per edge of the file: x, y at the low vertex, x, y at the high one, mm, with the rigid
-// motion.
+// At rank 0, in file order: x, y at an edge's low and high vertex, mm, with the rigid motion.
 Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows,
                                       const Eigen::VectorXd& u) {
   const Numbering& edges = part.edges;
