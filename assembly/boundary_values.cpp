@@ -31,7 +31,6 @@ bool acts(const std::optional<LinearValue<Value>>& given) {
   return given && !(is_zero(given->values[0]) && is_zero(given->values[1]));
 }
 
-// Refuses keys that are not `role`'s.
 void check_role(const std::string& label, BoundaryRole role, const BoundaryValues& given) {
   const auto only = [&](BoundaryRole of, const char* key, bool is_given) {
     if (!is_given || role == of) return;
@@ -73,9 +72,9 @@ void check_labels(const BoundaryConditions& conditions, const Mesh& mesh) {
                            " (its groups: " + valid + ")");
 }
 
-// Refuses rollers that are all parallel: every edge holds a body's rotation and one translation.
+// Refuses rollers that are all parallel: an edge holds the rotation and one translation only.
 void check_held(const Mesh& mesh, const std::vector<bool>& rollers) {
-  std::optional<Eigen::Vector2d> along;  // what the rollers so far leave free
+  std::optional<Eigen::Vector2d> along;  // direction that the rollers so far leave free
   for (std::size_t row = 0; row < mesh.boundary.size(); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::displacement) continue;
     if (!rollers[row]) return;
@@ -100,7 +99,7 @@ void check_values(const BoundaryConditions& conditions) {
     check(label + ": pressure_MPa", given.pressure_MPa);
     check(label + ": displacement_mm", given.displacement_mm);
     check(label, given.contact);
-    // A label that is none is no group of the mesh; which are, the mesh will say.
+    // apply() refuses other labels: they name no group of a mesh.
     if (const auto known = parse_boundary_label(label)) check_role(label, known->role, given);
   }
 }

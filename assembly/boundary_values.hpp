@@ -1,4 +1,4 @@
-// What a scene prescribes on groups of boundary edges, by their labels (boundary_label).
+// Values that a scene prescribes on groups of boundary edges, by their labels (boundary_label).
 #pragma once
 
 #include <map>
@@ -10,7 +10,7 @@
 
 namespace airybench {
 
-// Constant, or linear between two points and beyond, and constant across:
+// Constant, or linear along p_0 p_1 and beyond, constant across:
 //   v(x) = v_0 + s (v_1 − v_0),   s = (x − p_0)·(p_1 − p_0) / |p_1 − p_0|²
 template <typename Value>
 struct LinearValue {
@@ -24,17 +24,17 @@ struct LinearValue {
   }
 };
 
-// Of a group of contact edges; what is missing is the scene's (contact_conditions.hpp).
+// On a group of contact edges; the scene has the missing values (contact_conditions.hpp).
 struct ContactValues {
   std::optional<double> friction, clearance_mm;
   std::optional<Wall> wall, face;
 };
 
 struct BoundaryValues {
-  // On a force boundary at most one of these; a pressure p is the traction −p n.
+  // On a force boundary, at most one of these. A pressure p is the traction −p n.
   std::optional<LinearValue<Eigen::Vector2d>> traction_MPa;
   std::optional<LinearValue<double>> pressure_MPa;
-  // On a displacement boundary; without a displacement, that of the scene.
+  // On a displacement boundary; without a displacement, the scene's holds.
   std::optional<LinearValue<Eigen::Vector2d>> displacement_mm;
   enum class Support { full, normal };  // normal: a roller, u_n = n·displacement, σ_t = 0
   std::optional<Support> support;
@@ -44,13 +44,13 @@ using BoundaryConditions = std::map<std::string, BoundaryValues>;
 
 // Both throw TransformError, "label: key: value (allowed: …)".
 
-// Refuses what is impossible on any mesh: numbers that are not finite, two points that are one, a
-// key that the label's role does not have, traction and pressure at once.
+// Refuses what is impossible on any mesh: non-finite numbers, two equal points, a key that the
+// label's role does not have, traction and pressure together.
 void check_values(const BoundaryConditions& conditions);
 
-// u0, f and rollers of `loads`. displacement_mm: of displacement edges without one of their own.
-// Refuses a group that the mesh does not have, and supports that leave a rigid motion free (contact
-// does not count: it may open).
+// Sets u0, f and rollers of `loads`. displacement_mm: for displacement edges without a value.
+// Refuses groups that the mesh lacks, and supports that leave a rigid motion free (contact may
+// open, so it does not count).
 void apply(const BoundaryConditions& conditions, const Eigen::Vector2d& displacement_mm,
            const Mesh& mesh, Loads& loads);
 

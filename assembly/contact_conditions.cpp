@@ -10,9 +10,8 @@
 namespace airybench {
 namespace {
 
-using ThreePoints = std::array<double, 3>;  // of an edge: start, middle, end
+using ThreePoints = std::array<double, 3>;  // at start, middle and end of an edge
 
-// An edge's own values, those of the scene where its group has none.
 struct EdgeValues {
   double friction, clearance_mm;
   const std::optional<Wall>&wall, &face;
@@ -32,14 +31,13 @@ std::array<Eigen::Vector2d, 3> points_of(const Mesh& mesh, int row) {
   return {a, (a + b) / 2, b};
 }
 
-// Of an edge whose group has a wall.
 FacingEdge facing(const Mesh& mesh, int row, const EdgeValues& values) {
   const std::array<Eigen::Vector2d, 3> x = points_of(mesh, row);
   return {x[0], x[2], edge_frame(x[0], x[2]).normal, *values.wall, values.face};
 }
 
-// From the face to the wall at three points, without clearance. Where a point meets none, the
-// largest of the others; where none does, of all that lies between them.
+// Distances from face to wall without clearance. A point that meets no wall gets the largest of the
+// other two; if none does, the largest between them.
 ThreePoints wall_distances(const FacingEdge& edge, const std::vector<GapPiece>& pieces) {
   const std::array<std::optional<double>, 3> met = {edge.gap_mm(0), edge.gap_mm(0.5),
                                                     edge.gap_mm(1)};
@@ -80,10 +78,9 @@ void check_interference(const std::string& label, const Eigen::Vector2d& at, dou
              " mm)");
 }
 
-// g0 on an edge.
 struct EdgeGap {
   double clearance_mm = 0;
-  Eigen::Vector2d middle = {0, 0};  // of the crown
+  Eigen::Vector2d middle = {0, 0};  // middle of the crown
   double curvature = 0;
   std::optional<ThreePoints> wall;
   Eigen::Vector2d start = {0, 0}, along = {0, 0};  // s = (x − start)·along
@@ -107,7 +104,7 @@ ReachableContact with_reachable_contact(Mesh mesh, const Scene& scene) {
   const MeshExtent extent = extent_of(mesh);
   const double diameter = std::hypot(extent.width_mm, extent.height_mm);
   std::vector<int> free;
-  std::map<std::string, int> met;  // edges of groups with a wall
+  std::map<std::string, int> met;  // edges that reach their wall, per group
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     if (mesh.boundary[row].role != BoundaryRole::contact) continue;
     const std::string label = boundary_label(mesh, mesh.boundary[row]);

@@ -39,7 +39,7 @@ ControlPoints control_points(const Problem& problem) {
         const Eigen::Vector2d& m = roller->second;
         const Eigen::Vector2d along(-m.y(), m.x());
         const double cosine = normal.dot(along);
-        if (std::abs(cosine) < straight_roller) continue;  // in line: the roller holds u_n
+        if (std::abs(cosine) < straight_roller) continue;  // parallel: the roller holds u_n
         const Eigen::Vector2d held = prescribed->u.col(nodes[k]) + offsets[k].motion_mm;
         add(nodes[k], cosine > 0 ? along : Eigen::Vector2d(-along), true, row,
             {.gap_mm = (offsets[k].gap_mm - normal.dot(held)) / std::abs(cosine)});

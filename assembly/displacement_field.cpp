@@ -11,7 +11,7 @@ namespace {
 
 using LocalCoefficients = Eigen::Matrix<double, 2, 6>;
 
-// Without their mean: a translation has no strain, and less cancels.
+// Without the mean: a translation has no strain, and less cancels.
 LocalCoefficients local_coefficients(const Problem& problem, const DisplacementField& u,
                                      int triangle) {
   const std::array<int, 6> nodes = triangle_nodes(problem, triangle);
@@ -21,7 +21,7 @@ LocalCoefficients local_coefficients(const Problem& problem, const DisplacementF
   return local;
 }
 
-// A roller's n·u = d. Two rollers around a corner hold their vertex fully.
+// Holds n·u = d. Two rollers that are not parallel hold their common vertex fully.
 void hold_along(const Eigen::Vector2d& n, double d, int node, PrescribedDisplacement& prescribed) {
   const auto [other, is_first] = prescribed.normal.try_emplace(node, n);
   if (is_first) {
@@ -94,7 +94,7 @@ DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w)
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
   for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
-  // ρ is linear: an edge's coefficient is its value at the middle.
+  // ρ is linear, so an edge's coefficient is its value at the middle.
   for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
     w.col(vertices + e) += problem.motion.at((x[a] + x[b]) / 2);
@@ -122,7 +122,7 @@ StressField stress_of_displacement(const Problem& problem, const DisplacementFie
 NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
   NodalForces forces{Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem))};
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    Eigen::Matrix3d corners;  // the stress is linear: its values at the vertices say all
+    Eigen::Matrix3d corners;  // values at the vertices; the stress is linear
     corners << stress[t].col(0), stress[t].col(3), stress[t].col(6);
     const Eigen::Matrix3d dual =
         problem.area_mm2(t) / 12 * (corners.colwise() + corners.rowwise().sum());
@@ -173,7 +173,7 @@ PrescribedDisplacement prescribed_displacement(const Problem& problem) {
     const auto &a = problem.mesh.vertices[on_edge[0]], &b = problem.mesh.vertices[on_edge[2]];
     return edge_coefficients(u0(a, row), u0((a + b) / 2, row), u0(b, row));
   };
-  for (const bool rollers : {true, false})  // where both meet, what is held fully stays
+  for (const bool rollers : {true, false})  // full supports last: they win
     for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
       if (problem.mesh.boundary[row].role != BoundaryRole::displacement ||
           problem.is_roller(row) != rollers)

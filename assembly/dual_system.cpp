@@ -9,7 +9,6 @@
 namespace airybench {
 namespace {
 
-// Rows of C_F or C_C in the making, each with the force that belongs to it.
 struct ForceRows {
   std::vector<Eigen::Triplet<double>> entries;
   std::vector<double> force;
@@ -30,7 +29,6 @@ struct ForceRows {
   }
 };
 
-// One boundary edge: its ends, frame, and force functionals in the scaled unknowns.
 struct EdgeFunctionals {
   int row;  // of Mesh::boundary
   std::array<Eigen::Vector2d, 2> end;

@@ -6,16 +6,16 @@
 //   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
 //
 // with the contact law (contact_problem.hpp) between F_C and r = ū_C − ḡ at every contact point,
-// two per edge, its ends. ū_C belongs to w, ḡ has g0 and the rigid motion in it (problem.hpp).
+// two per edge, its ends. ū_C belongs to w; ḡ contains g0 and the rigid motion (problem.hpp).
 //
-// Forces and displacements on edges are those of edge_forces.hpp. As an unknown the φ here is
-// x = φ/scale: S is equilibrated, its diagonal is 1, and q, C_F, C_C are scaled alike. Rows are
-// numbered by Cuthill–McKee and the gauge is removed, so n = n_φ − 3 and S is symmetric positive
-// definite; C = [C_F; C_C] has full rank.
+// edge_forces.hpp defines forces and displacements on edges. The unknown here is x = φ/scale: S is
+// equilibrated to the diagonal 1; q, C_F and C_C are scaled alike. Rows are numbered by
+// Cuthill–McKee without the gauge, so n = n_φ − 3, S is symmetric positive definite, and C = [C_F;
+// C_C] has full rank.
 //
-// What a scene does not need is not built: an empty vector is zero. Without friction the tangential
-// contact forces are prescribed to zero: their rows come in C_F after those of Γ_F. Behind them are
-// the tangential forces on rollers, zero too.
+// Blocks that a scene does not need are not built: an empty vector is zero. Without friction the
+// tangential contact forces are prescribed as zero; their rows follow those of Γ_F in C_F. The
+// tangential forces on rollers, also zero, come last.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -31,7 +31,7 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
-// Both components where there is friction anywhere; ḡ by the moments of the offset.
+// Two components if there is friction anywhere; ḡ from the moments of the offset.
 ContactPoints contact_points(const Problem& problem);
 
 struct DualSystem {
@@ -51,17 +51,16 @@ struct DualSystem {
   std::size_t bytes() const;  // of all blocks
 };
 
-// Which blocks a method needs: all of them, or, when it does not work with the Airy function, the
-// contact points only (the rest stays empty).
+// The blocks that a method needs; contact_points leaves the rest empty.
 enum class Blocks { airy, contact_points };
-// Why a body has none of these; empty: it has them. Around a hole on which forces have a resultant
-// or a moment, φ comes back changed by an affine function (Michell 1899): three unknowns per hole
-// that are not here. Without them a hole's rows of C are dependent.
+// Why a body lacks these blocks; empty: it has them. Around a hole whose forces have a resultant or
+// a moment φ changes by an affine function (Michell 1899): three unknowns per hole that are not
+// here. Without them a hole's rows of C are dependent.
 std::string why_no_blocks(const Mesh& mesh, Blocks blocks);
-// Throws std::invalid_argument with that reason.
+// Throws std::invalid_argument with the reason of why_no_blocks().
 DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy);
-// Another load case of the same body (same_body): q, F, F0 and the contact points anew, S as it is.
-// Costs the boundary, and with a body force a pass over the triangles.
+// Another load case of the same body (same_body): rebuilds q, F, F0 and the contact points, keeps
+// S. Costs the boundary, and with a body force a pass over the triangles.
 void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem);
 
 // From x to φ, φ,x, φ,y of every vertex, then ∂φ/∂n of every edge (3V + E values).

@@ -1,17 +1,17 @@
 // Generalised forces on an edge.
 //
 // Walk an edge a→b of length L counter-clockwise around its triangle: tangent s = (b−a)/L, outward
-// normal n = (s_y, −s_x). The traction is t = σn = d/ds (φ,y, −φ,x). Along the edge ∇φ is
-// quadratic, so t is linear, and its end values say all. The generalised forces are F^k = (L/2)
-// t(x_k), in N. Their work partners are ū_k = (2/L) ∫ N_k u ds with the linear N_k:  ∫ u·t ds = Σ_k
-// F^k·ū_k.
+// normal n = (s_y, −s_x). The traction is t = σn = d/ds (φ,y, −φ,x). ∇φ is quadratic along the
+// edge, so t is linear and given by its end values. The generalised forces are F^k = (L/2) t(x_k),
+// N, and their work partners ū_k = (2/L) ∫ N_k u ds with the linear N_k:
+//   ∫ u·t ds = Σ_k F^k·ū_k
 //
-// With g_a, g_b the end gradients and g_m the middle one — tangential part from the cubic Hermite
-// of φ, normal part the edge's own degree of freedom — and R = [0 1; −1 0]:
+// With the end gradients g_a, g_b, the middle one g_m (tangential part from the cubic Hermite of φ,
+// normal part the edge's degree of freedom) and R = [0 1; −1 0]:
 //   F^a = R (−3 g_a + 4 g_m − g_b) / 2      F^b = R (g_a − 4 g_m + 3 g_b) / 2
 //
 // Templates are instantiated for double and long double. Coordinates are exact (exact_data.hpp);
-// their differences are taken in the scalar.
+// their differences are taken in Scalar.
 #pragma once
 
 #include <Eigen/Core>
@@ -45,8 +45,8 @@ template <typename Scalar = double>
 EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2<Data<Scalar>>& a,
                                  const Eigen::Vector2<Data<Scalar>>& b, Data<Scalar> outward);
 
-// ū_a, ū_b (rows) of a field sampled at the edge's start, middle and end (columns): Simpson's rule,
-// exact for quadratic fields.
+// ū_a, ū_b of a field sampled at the edge's start, middle and end; Simpson's rule, exact for
+// quadratic fields:
 //   ū_a = u_a/3 + 2 u_m/3,  ū_b = 2 u_m/3 + u_b/3
 template <typename Value>
 std::pair<Value, Value> edge_moments(const Value& start, const Value& middle, const Value& end) {

@@ -1,4 +1,4 @@
-// The formula of edge_forces.hpp, for whoever instantiates it for a scalar of their own.
+// Definitions of edge_forces.hpp, to instantiate them for further scalars.
 #pragma once
 
 #include <array>

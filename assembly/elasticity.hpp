@@ -5,8 +5,7 @@
 //         E' ⎣  0   0    2(1+ν')  ⎦
 //
 // σᵀ C τ is the paper's A⁻¹σ·τ. C is symmetric positive definite for E > 0, −1 < ν < 1/2. Its
-// entries are rounded to double here, once; from then on they are exact data, for computations with
-// more digits too.
+// entries are rounded to double here, once; then they are exact data, also in higher precision.
 #pragma once
 
 #include <Eigen/Core>

@@ -1,6 +1,5 @@
-// The data of a discrete problem — coordinates, compliances, signs — are doubles and exact,
-// whatever scalar is computed in. A scalar that is several numbers side by side (solvers/base/
-// pack.hpp) takes as many.
+// The data of a discrete problem (coordinates, compliances, signs) are exact doubles for every
+// scalar of computation. A scalar that packs several numbers (solvers/base/pack.hpp) has as many.
 #pragma once
 
 namespace airybench {

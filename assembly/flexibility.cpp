@@ -8,14 +8,14 @@
 namespace airybench {
 namespace {
 
-// The pattern of the lower triangle by blocks: node j's columns hold its own lower triangle, then
-// the unknowns of each later neighbour.
+// Pattern of the lower triangle by blocks: node j's columns hold its own triangle, then the
+// unknowns of each later neighbour.
 struct BlockPattern {
-  std::vector<int> first, size;  // per node: its first unknown, how many (0: the gauge)
-  std::vector<int> start;        // per node: its range in `later` and `offset`
-  std::vector<int> later;        // neighbours that come later in the numbering, in that order
+  std::vector<int> first, size;  // per node: first unknown, count (0: gauge)
+  std::vector<int> start;        // per node: range in `later` and `offset`
+  std::vector<int> later;        // neighbours later in the numbering, in that order
   std::vector<int> offset;       // unknowns of the later neighbours before this one
-  std::vector<int> below;        // per node: unknowns of all its later neighbours
+  std::vector<int> below;        // per node: unknowns of all later neighbours
 };
 
 BlockPattern block_pattern(const Problem& problem, const DofNumbering& dofs, const NodeGraph& graph,
@@ -73,7 +73,7 @@ Eigen::SparseMatrix<double> lay_out(const BlockPattern& p, int n) {
   return S;
 }
 
-// Where node `low`'s column block keeps the rows of node `high`, counted after its own triangle.
+// Row offset of node `high` in node `low`'s columns, after its own triangle.
 int offset_of(const BlockPattern& p, int low, int high) {
   for (int k = p.start[low];; ++k)
     if (p.later[k] == high) return p.offset[k];

@@ -7,9 +7,8 @@
 
 namespace airybench {
 
-// The lower triangle of S, n×n in the given numbering, columns sorted. The pattern is laid out
-// first, from the node graph; element matrices are then added in place.
-// node_position: as given to number_dofs().
+// The lower triangle of S, n×n in the given numbering, columns sorted. The node graph gives the
+// pattern; element matrices are added in place. node_position: as given to number_dofs().
 Eigen::SparseMatrix<double> assemble_flexibility(const Problem& problem, const DofNumbering& dofs,
                                                  const NodeGraph& graph,
                                                  const std::vector<int>& node_position);

@@ -1,23 +1,25 @@
 // Hsieh–Clough–Tocher triangle: a C¹ piecewise cubic for the Airy function φ.
 //
-// The triangle V1 V2 V3 is split at its centroid V4 into three thirds; third t lies on edge
-// V_t V_{t+1}. On each third φ is a cubic in Bernstein form, and the coefficients follow from
+// The triangle V1 V2 V3 is split at its centroid V4 into three thirds; third t lies on edge V_t
+// V_{t+1}. On each third φ is a cubic in Bernstein form with coefficients from
 //
 //   12 degrees of freedom, in this order:
 //     φ, φ,x, φ,y at V1, V2, V3,  then ∂φ/∂n at the middle of edges V1V2, V2V3, V3V1
 //
-// Edge normals are oriented once for the whole mesh: for an edge from its low to its high vertex
-// with tangent s, n = (s_y, −s_x). Every cubic is reproduced; φ is C¹ across thirds and elements.
+// Edge normals are oriented once per mesh: for an edge from its low to its high vertex with tangent
+// s, n = (s_y, −s_x). Every cubic is reproduced; φ is C¹ across thirds and elements. The stress
 //
-// Stress σxx = φ,yy  σyy = φ,xx  σxy = −φ,xy is linear on each third, so its values at the third's
-// corners say all. It is divergence-free inside thirds, with continuous traction everywhere.
+//   σxx = φ,yy   σyy = φ,xx   σxy = −φ,xy
+//
+// is linear on each third and given by its corner values. It is divergence-free inside thirds, with
+// continuous traction everywhere.
 //
 // Clough & Tocher 1965; Bernadou & Hassan, Int. J. Numer. Methods Eng. 17 (1981), 784–789,
 // doi:10.1002/nme.1620170510; Lai & Schumaker, Spline Functions on Triangulations, ch. 6 (2007).
 //
-// The functions are templates over the scalar they compute in, instantiated for double and long
-// double (for others: hct_templates.hpp); without an argument it is double. Coordinates are exact
-// (exact_data.hpp): the first thing formed are their differences, in the scalar.
+// Functions are templates over the scalar, by default double, instantiated for double and long
+// double (others: hct_templates.hpp). Coordinates are exact (exact_data.hpp); their differences are
+// formed first, in the scalar.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +34,7 @@ namespace airybench {
 template <typename Scalar>
 using TriangleVerticesFor = Eigen::Matrix<Data<Scalar>, 2, 3>;
 using TriangleVertices = TriangleVerticesFor<double>;
-// +1: the edge's global normal is outward here, −1: inward.
+// +1: the edge's global normal is outward, −1: inward.
 template <typename Scalar>
 using EdgeSignsFor = std::array<Data<Scalar>, 3>;
 using EdgeSigns = EdgeSignsFor<double>;
@@ -52,9 +54,8 @@ HctCoefficientsIn<Scalar> hct_coefficients(const TriangleVerticesFor<Scalar>& v,
 // 300 030 003 210 120 201 021 111 102 012 of the barycentric exponents on V_t, V_{t+1}, V4.
 std::array<int, 10> hct_third(int t);
 
-// Rows (3 corner + component) with corner = 3 t + (0: V_t, 1: V_{t+1}, 2: V4) and component xx, yy,
-// xy; columns: degrees of freedom, all 12 or the last ones. Product with them: stress in MPa when φ
-// is in N.
+// Rows: 3 corner + component, with corner = 3 t + (0: V_t, 1: V_{t+1}, 2: V4) and component xx, yy,
+// xy. Columns: all 12 degrees of freedom or the last ones. Times φ in N: stress in MPa.
 template <typename Scalar, int dofs = 12>
 using HctStressIn = Eigen::Matrix<Scalar, 27, dofs>;
 using HctStress = HctStressIn<double>;
@@ -62,10 +63,10 @@ template <typename Scalar = double, int dofs = 12>
 HctStressIn<Scalar, dofs> hct_stress(const TriangleVerticesFor<Scalar>& v,
                                      const EdgeSignsFor<Scalar>& outward);
 
-// ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick: the element's flexibility.
+// ∫ σ(φ_i) : compliance : σ(φ_j) over the triangle, 1 mm thick, for the columns of `stress`.
 // compliance: 3×3 in (xx, yy, xy), see elasticity.hpp. Exact: on a third of area a with corner
 // values σ_m, ∫ = a/12 (Σσ_m : Σσ_m + Σ σ_m : σ_m). Symmetric, positive semidefinite; kernel:
-// affine φ. Of the degrees of freedom whose columns `stress` has.
+// affine φ.
 using HctFlexibility = Eigen::Matrix<double, 12, 12>;
 template <typename Scalar, int dofs>
 Eigen::Matrix<Scalar, dofs, dofs> hct_flexibility(const Eigen::Matrix<Scalar, 27, dofs>& stress,

@@ -1,5 +1,4 @@
-// The matrix of hct_stress() and its transpose applied to vectors, never put together: a tenth of
-// the operations.
+// hct_stress() and its transpose applied without forming the matrix: a tenth of the operations.
 #pragma once
 
 #include <array>
@@ -61,7 +60,7 @@ class HctAction {
  private:
   using Coefficients = Eigen::Matrix<Scalar, 19, 1>;
 
-  // The product of hct_coefficients() with φ.
+  // hct_coefficients() times φ.
   Coefficients coefficients(const Dofs& phi) const {
     using namespace hct_formulas;
     Coefficients c;
@@ -82,7 +81,7 @@ class HctAction {
     return c;
   }
 
-  // The lines of coefficients() from the last to the first, each transposed.
+  // The transposed lines of coefficients(), in reverse order.
   Dofs transposed_coefficients(Coefficients c) const {
     using namespace hct_formulas;
     const Scalar two = 2, three = 3;
@@ -114,7 +113,7 @@ class HctAction {
     return phi;
   }
 
-  std::array<Eigen::Vector2<Scalar>, 3> to_centroid_, edge_;  // thirds of the ways
+  std::array<Eigen::Vector2<Scalar>, 3> to_centroid_, edge_;  // a third of each way
   std::array<Eigen::Vector3<Scalar>, 3> alpha_;
   std::array<Scalar, 3> outward_;
   std::array<Eigen::Matrix<Scalar, 3, 6>, 3> weights_;

@@ -1,4 +1,4 @@
-// The formulas of hct.hpp, for whoever instantiates them for a scalar of their own.
+// Definitions of hct.hpp, to instantiate them for further scalars.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,7 @@ constexpr int next(int i) { return (i + 1) % 3; }
 template <typename Scalar>
 using Corners = Eigen::Matrix<Scalar, 2, 3>;  // columns V1 V2 V3
 
-// The row of a coefficient: the one at a vertex, plus the derivative there along a direction.
+// Row of a coefficient: the value at a vertex plus the derivative there along a direction.
 template <typename Scalar>
 void extrapolate(HctCoefficientsIn<Scalar>& c, int row, int vertex,
                  const Eigen::Vector2<Scalar>& direction) {
@@ -37,7 +37,7 @@ Corners<Scalar> barycentric_gradients(const Eigen::Vector2<Scalar>& a,
   return gradients / (ab.x() * ac.y() - ab.y() * ac.x());
 }
 
-// The triangle moved to the origin: far from it, sums of coordinates would lose digits.
+// Moves the triangle to the origin; far from it sums of coordinates lose digits.
 template <typename Scalar>
 Corners<Scalar> at_origin(const TriangleVerticesFor<Scalar>& v) {
   const Corners<Scalar> corners = v.template cast<Scalar>();
@@ -60,13 +60,14 @@ Eigen::Vector3<Scalar> normal_direction(const Eigen::Vector2<Scalar>& i,
   return barycentric_gradients<Scalar>(i, j, centroid).transpose() * normal;
 }
 
-// Where hct_third() keeps the coefficient with exponents e_m + e_p + e_q, for corner m and
-// (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
-// Internal: kernels of several instruction sets share no symbol.
+// Place in hct_third() of the coefficient with exponents e_m + e_p + e_q, for corner m and
+//   (p, q) = (0,0) (1,1) (2,2) (0,1) (0,2) (1,2).
+// Internal linkage: kernels of several instruction sets share no symbol.
 constexpr int near_corner[3][6] = {{0, 4, 8, 3, 5, 7}, {3, 1, 9, 4, 7, 6}, {5, 6, 2, 7, 8, 9}};
 
-// The stress at corner m of a third from those six: second derivatives are
-// 6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}. Rows φ,yy  φ,xx  −φ,xy.
+// Stress at corner m of a third from those six: second derivatives are
+//   6 Σ_pq ∇λ_p ∇λ_qᵀ c_{e_m+e_p+e_q}.
+// Rows φ,yy  φ,xx  −φ,xy.
 template <typename Scalar>
 Eigen::Matrix<Scalar, 3, 6> stress_weights(const Corners<Scalar>& gradients) {
   const Corners<Scalar>& g = gradients;
@@ -81,15 +82,15 @@ Eigen::Matrix<Scalar, 3, 6> stress_weights(const Corners<Scalar>& gradients) {
   return weights * Scalar(6);
 }
 
-// The coefficients in rows 12 to 18, from those before them. at(row) is one; normal(t) is 4/3 of
-// the outward derivative at the middle of edge t.
+// Rows 12 to 18 from the earlier ones. at(row): a coefficient; normal(t): 4/3 of the outward
+// derivative at the middle of edge t.
 template <typename Scalar, typename At, typename Normal>
 void complete_coefficients(const std::array<Eigen::Vector3<Scalar>, 3>& alpha, At at,
                            Normal normal) {
   const Scalar two = 2, three = 3;
   for (int t = 0; t < 3; ++t) {
     const int i = t, j = next(t), near_i = 3 + 2 * t, near_j = 4 + 2 * t;
-    // Solved for c_111, which comes with α_2.
+    // Solved for c_111, whose factor is α_2.
     Scalar inner = normal(t);
     inner -= alpha[t](0) * (at(i) + two * at(near_i) + at(near_j));
     inner -= alpha[t](1) * (at(near_i) + two * at(near_j) + at(j));

@@ -26,7 +26,7 @@ LoadScale load_scale(const Problem& problem) {
         displacement =
             std::max(displacement, problem.is_roller(row) ? std::abs(normal.dot(u0)) : u0.norm());
       }
-      // An interference is a displacement.
+      // An interference acts as a displacement.
       if (edge.role == BoundaryRole::contact)
         displacement = std::max(displacement, -problem.offset_at(x, row).gap_mm);
       if (edge.role == BoundaryRole::force && loads.traction_MPa)

@@ -1,5 +1,5 @@
-// The size of what the loads, the rigid motion with them, could do to a body: for bodies that they
-// leave without any stress. Only there errors are relative to it.
+// The size of what the loads and the rigid motion could do to a body. Errors are relative to it
+// only if they leave the body without stress.
 #pragma once
 
 #include "assembly/problem.hpp"
@@ -12,10 +12,10 @@ struct LoadScale {
 };
 LoadScale load_scale(const Problem& problem);
 
-// error / quantity, or error / scale where the quantity is zero. A zero error is zero.
+// error / quantity; error / scale if the quantity is zero; 0 if the error is zero.
 double relative_error(double error, double quantity, double scale);
 
-// NaN where one of them is: an error that cannot be told is the worst.
+// NaN if one of them is: an unknown error is the worst.
 double larger_error(double one, double other);
 
 }  // namespace airybench

@@ -16,7 +16,7 @@ void take_out_rigid_motion(Problem& problem) {
   problem.loads.displacement_mm = std::move(split.rest_mm);
 }
 
-// Empty where there is none.
+// Empty without friction.
 std::vector<double> friction_on_contact(const Mesh& mesh, std::vector<double> friction) {
   for (std::size_t row = 0; row < friction.size(); ++row)
     if (mesh.boundary[row].role != BoundaryRole::contact) friction[row] = 0;

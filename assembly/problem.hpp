@@ -5,14 +5,13 @@
 //     σ_n ≤ 0,  u_n ≤ g0,  σ_n (u_n − g0) = 0;   |σ_t| ≤ −μ σ_n, sliding only at equality, opposed.
 // Parts of Γ_D may be rollers: u_n = n·u0, σ_t = 0.
 //
-// The rigid motion ρ that is nearest to u0 is taken out: unknown is w = u − ρ, with u0 − ρ on Γ_D;
-// on Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those
-// of w: with b or f they differ from those of u by the constant work of these on ρ.
+// The rigid motion ρ nearest to u0 is taken out: the unknown is w = u − ρ, with u0 − ρ on Γ_D; on
+// Γ_C, u = w + ρ puts ρ into the gap, normal and tangential (ContactOffset). Energies are those of
+// w: with b or f they differ from those of u by the constant work on ρ.
 //
 // Every method starts from here; assembly turns it into the Airy system (dual_system.hpp).
-//
-// Coordinates, compliances and the values of the loads are doubles and exact: they are the data of
-// the discrete problem. What is a template over Scalar computes from them in Scalar.
+// Coordinates, compliances and load values are exact doubles, the data of the discrete problem;
+// templates over Scalar compute from them in Scalar.
 #pragma once
 
 #include <array>
@@ -30,53 +29,52 @@
 
 namespace airybench {
 
-// Boundary data, of x on an edge of Mesh::boundary, and body force. An empty function is zero and
+// Boundary data at x on an edge of Mesh::boundary, and body force. An empty function is zero and
 // costs nothing.
 struct Loads {
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, int boundary_row)>
-      displacement_mm;  // on Γ_D: u0, or what a Problem has left of it
+      displacement_mm;  // u0 on Γ_D; in a Problem without ρ
   std::function<Eigen::Vector2d(const Eigen::Vector2d& x, const Eigen::Vector2d& normal,
                                 int boundary_row)>
       traction_MPa;  // f on Γ_F; linear on every edge
   std::function<double(const Eigen::Vector2d& x, int boundary_row)>
-      gap_mm;                           // g0 on Γ_C, quadratic on every edge …
-  std::vector<WallDetail> wall_detail;  // … and what that leaves out, per row; empty: nothing
-  std::vector<bool> rollers;  // per row of Mesh::boundary: an edge of Γ_D that rolls; empty: none
-  // Per row of Mesh::boundary: u_t on Γ_C that slip is measured from, that of the load step before,
-  // as Bernstein coefficients at start, middle and end of the edge's walk; empty: zero.
+      gap_mm;                           // g0 on Γ_C, quadratic on every edge
+  std::vector<WallDetail> wall_detail;  // what gap_mm omits, per row; empty: nothing
+  std::vector<bool> rollers;  // per row of Mesh::boundary: rolling edges of Γ_D; empty: none
+  // Per row of Mesh::boundary: u_t on Γ_C from which slip is measured, that of the previous load
+  // step, as Bernstein coefficients at start, middle and end of the edge's walk; empty: zero.
   std::vector<std::array<double, 3>> slid_mm;
   Eigen::Vector2d body_force_N_per_mm3 = {0, 0};  // b, constant
 
   bool has_body_force() const { return !body_force_N_per_mm3.isZero(0); }
 };
 
-// What is known on a boundary edge, component by component.
 enum class Known : std::uint8_t { displacement, force, contact_law };
 struct EdgeCondition {
-  bool in_frame;  // components along the edge's outward normal and its tangent; else along x and y
+  bool in_frame;  // components: outward normal and tangent; else x and y
   std::array<Known, 2> component;
 };
 
-// Outward normals that the contact law of an edge is about: at the nodes of quadratic
-// displacements, start, middle and end, and for the forces and moments of its two ends at the
-// centres of their weights N_a and N_b, the edge's thirds. On a wall of one direction all are one;
-// on a round one a body can turn in it without strain, since ∫ N_a ωJx ds ∥ J x_third.
+// Outward normals of an edge's contact law: at the nodes of quadratic displacements (start, middle,
+// end), and for the forces and moments of both ends at the centres of their weights N_a and N_b,
+// the edge's thirds. On a flat wall all are equal. In a round wall a body can then turn without
+// strain, since ∫ N_a ωJx ds ∥ J x_third.
 struct ContactNormals {
   std::array<Eigen::Vector2d, 3> at_node;
   std::array<Eigen::Vector2d, 2> at_moment;
 };
 
-// Rollers are parallel when their directions differ by a smaller sine than this.
+// Rollers are parallel if the sine between their directions is smaller.
 inline constexpr double straight_roller = 1e-6;
 
-// How far the body may go at a point of Γ_C before the contact law acts: wall, crown and clearance,
-// the load step's rigid motion, and the slip of earlier steps.
+// How far the body may move at a point of Γ_C before the contact law acts: wall, crown and
+// clearance, the load step's rigid motion, and the slip of earlier steps.
 struct ContactOffset {
   double gap_mm = 0;                   // g0
-  double slid_mm = 0;                  // s0: u_t that slip is measured from
+  double slid_mm = 0;                  // s0: u_t from which slip is measured
   Eigen::Vector2d motion_mm = {0, 0};  // ρ
 
-  // Of w, along an outward normal and, without slipping, its tangent: (g0 − ρ_n, s0 − ρ_t).
+  // For w, along an outward normal and, without slip, its tangent: (g0 − ρ_n, s0 − ρ_t).
   Eigen::Vector2d along(const Eigen::Vector2d& n) const {
     const Eigen::Vector2d t(-n.y(), n.x());
     return {gap_mm - n.dot(motion_mm), slid_mm - t.dot(motion_mm)};
@@ -91,10 +89,10 @@ struct Problem {
   RigidMotion motion = {};                  // ρ
   std::vector<double> friction = {};  // μ ≥ 0 per row of Mesh::boundary, 0 off Γ_C; empty: none
   std::vector<ContactNormals> contact_normals = {};  // per row; empty: the edges' own
-  // Load steps after this one, each with all of u0. Slip is measured from the step before: they are
-  // posed one by one (load_steps.hpp).
+  // Load steps after this one, with the whole u0. Slip is measured from the previous step, so they
+  // are posed one by one (load_steps.hpp).
   std::vector<Loads> later_steps = {};
-  int central_vertex = 0;  // nearest to the centroid; φ and the particular stress start from there
+  int central_vertex = 0;  // nearest to the centroid; origin of φ and of the particular stress
 
   const Eigen::Matrix3d& compliance_of(int triangle) const {
     return compliance[mesh.triangle_body[triangle]];
@@ -112,20 +110,19 @@ struct Problem {
   }
   bool has_friction() const { return !friction.empty(); }
   bool has_gap() const { return loads.gap_mm || !loads.slid_mm.empty() || !motion.is_zero(); }
-  // What the quadratic gap of an edge of Γ_C leaves out of its wall.
   WallDetail wall_detail_at(int boundary_row) const {
     return loads.wall_detail.empty() ? WallDetail{}
                                      : loads.wall_detail[static_cast<std::size_t>(boundary_row)];
   }
-  // On an edge of Γ_C: at x, and the Bernstein coefficients at its start, middle and end.
+  // On an edge of Γ_C: at x; as Bernstein coefficients at start, middle and end.
   ContactOffset offset_at(const Eigen::Vector2d& x, int boundary_row) const;
   std::array<ContactOffset, 3> offset_coefficients(int boundary_row) const;
 
-  // Whether the law's normal changes along an edge. Stresses and displacements are admissible then
-  // but for the square of that angle.
+  // True if the law's normal changes along an edge. Stresses and displacements are then admissible
+  // up to the square of that angle.
   bool contact_turns() const;
-  // Of a row of Mesh::boundary: the edge's own, on Γ_C the contact law's, for the moment of its
-  // start (0) or end (1), or at its start, middle or end (0, 1, 2).
+  // The edge's own frame, on Γ_C the contact law's. end: moment of the start (0) or end (1); node:
+  // start, middle, end (0, 1, 2).
   template <typename Scalar = double>
   EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int end) const {
     return turned(own_frame<Scalar>(boundary_row), boundary_row,
@@ -141,8 +138,7 @@ struct Problem {
   bool is_roller(int boundary_row) const {
     return !loads.rollers.empty() && loads.rollers[static_cast<std::size_t>(boundary_row)];
   }
-  // ū0 (edge_forces.hpp) at the start and the end of an edge of Γ_D, in mm; of a roller the normal
-  // part.
+  // ū0 (edge_forces.hpp) at start and end of an edge of Γ_D, mm; on a roller its normal part.
   std::array<Eigen::Vector2d, 2> prescribed_moments(int boundary_row) const;
 
   // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
@@ -170,19 +166,19 @@ struct Problem {
   }
 };
 
-// Whether two problems differ in loads, gap and friction at most: the same mesh, materials and
-// known components on every boundary edge. (Without friction others are known than with it.)
+// True if two problems differ in loads, gap and friction at most: same mesh, materials and known
+// components on every boundary edge. (With friction others are known than without.)
 bool same_body(const Problem& a, const Problem& b);
 
-// Takes a valid mesh (see validate()), one compliance per body, the loads with all of u0, and μ on
+// Takes a valid mesh (see validate()), one compliance per body, loads with the whole u0, and μ on
 // Γ_C, per row of Mesh::boundary or one for all.
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      const std::vector<double>& friction);
 Problem make_problem(Mesh mesh, std::vector<Eigen::Matrix3d> compliance, Loads loads,
                      double friction);
-// u0 of a problem that has all of it, on its boundary.
+// For a problem with the whole u0.
 SplitDisplacement split_rigid_motion(const Problem& problem);
-// The same body under other loads, with all of u0; without later steps.
+// The same body under other loads with the whole u0; without later steps.
 Problem with_loads(const Problem& problem, Loads loads);
 
 // Traction σn of a stress (xx, yy, xy).

@@ -15,9 +15,9 @@ SplitDisplacement split_rigid_motion(const EdgeDisplacement& displacement_mm,
   struct Sample {
     Eigen::Vector2d x, u;
     double weight;
-    Eigen::Matrix2d part;  // that is prescribed: all, or along a roller's normal
+    Eigen::Matrix2d part;  // prescribed: all, or along a roller's normal
   };
-  // Without the displacement of one point: what a translation leaves is exactly zero then.
+  // Relative to one point's displacement, so that a translation leaves exactly zero.
   const Eigen::Vector2d base = displacement_mm(edges.front().start, edges.front().number);
   std::vector<Sample> samples;
   double total = 0, largest = base.cwiseAbs().maxCoeff();
@@ -37,12 +37,12 @@ SplitDisplacement split_rigid_motion(const EdgeDisplacement& displacement_mm,
     }
   }
   centre /= total;
-  // Normal equations of t and ω. Without rollers they are diagonal but for rounding, as ∫ d = 0.
+  // Normal equations of t and ω. Without rollers they are diagonal up to rounding, as ∫ d = 0.
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   Eigen::Vector3d b = Eigen::Vector3d::Zero();
   for (const Sample& s : samples) {
     const Eigen::Vector2d d = s.x - centre;
-    Eigen::Matrix<double, 2, 3> motion;  // t + ω J d, its prescribed part
+    Eigen::Matrix<double, 2, 3> motion;  // prescribed part of t + ω J d
     motion << s.part, s.part * Eigen::Vector2d(-d.y(), d.x());
     A += s.weight * motion.transpose() * motion;
     b += s.weight * motion.transpose() * s.u;

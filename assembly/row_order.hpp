@@ -1,5 +1,4 @@
-// The order of the rows of C_F and C_C: the edges of one role after another, each as they come
-// along the boundary, of an edge its two ends, of an end its two components.
+// The order of the rows of C_F and C_C: by role, edges along the boundary, ends, components.
 #pragma once
 
 #include <array>
@@ -11,7 +10,6 @@ namespace airybench {
 inline constexpr std::array<BoundaryRole, 3> row_order = {
     BoundaryRole::force, BoundaryRole::contact, BoundaryRole::displacement};
 
-// visit(row of the boundary) in that order.
 template <typename Visit>
 void for_each_boundary_row(const Mesh& mesh, const Visit& visit) {
   for (const BoundaryRole role : row_order)

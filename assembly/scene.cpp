@@ -11,7 +11,7 @@
 namespace airybench {
 namespace {
 
-// Geometry given in a scene must agree with the mesh to this relative accuracy.
+// Relative tolerance of a scene's geometry against the mesh.
 constexpr double geometry_tolerance = 1e-6;
 
 [[noreturn]] void fail(const Scene& scene, const std::string& key, const auto& value,
@@ -29,7 +29,6 @@ void check_length(const Scene& scene, const std::string& key, std::optional<doub
   fail(scene, key, *given, why.str());
 }
 
-// What `change` refuses was asked for by the scene.
 auto of_scene(const Scene& scene, const std::string& key, auto change) {
   try {
     return change();
@@ -48,7 +47,7 @@ ReachableContact contact_of(const Scene& scene, Mesh mesh) {
 struct Face {
   Eigen::Vector2d middle;  // of the segment between the face's ends
   double half_height;      // half that segment's length
-  bool is_closed;          // around a hole, or all of the boundary: without ends
+  bool is_closed;          // no ends: around a hole, or the whole boundary
 };
 
 std::vector<Face> contact_faces(const Mesh& mesh) {
@@ -133,7 +132,6 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
          "(allowed: finite numbers)");
 }
 
-// A face is measured to a wall.
 void check_faces(const Scene& scene) {
   constexpr const char* why = "without a wall (allowed: beside one)";
   bool used = scene.wall.has_value();
@@ -145,7 +143,6 @@ void check_faces(const Scene& scene) {
   if (scene.face && !used) fail(scene, "face", "given", why);
 }
 
-// Counted from 1, as the scene file lists them.
 std::string step_prefix(std::size_t k) { return "load_steps: " + std::to_string(k + 1) + ": "; }
 
 void check_steps(const Scene& scene) {
@@ -197,7 +194,6 @@ void scale(std::optional<LinearValue<Value>>& value, double part) {
     for (Value& at : value->values) at *= part;
 }
 
-// All but the gap.
 Scene part_of(Scene scene, double part) {
   scene.displacement_mm *= part;
   scene.body_force_N_per_mm3 *= part;
@@ -220,7 +216,6 @@ Loads loads_of(const Scene& scene, const std::string& prefix, const Mesh& mesh,
   return loads;
 }
 
-// Of every step, the first included.
 std::vector<Loads> loads_of_steps(const Scene& scene, const ReachableContact& contact) {
   std::vector<Loads> steps;
   const Mesh& mesh = contact.mesh;

@@ -1,5 +1,5 @@
-// Cholesky factorisation S = L Lᵀ of a small matrix, written out: Eigen's, made for large ones too,
-// takes the compiler seconds for every scalar.
+// Cholesky factorisation S = L Lᵀ of a small matrix. Eigen's, made for large ones too, costs
+// seconds of compile time per scalar.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,7 +39,7 @@ class SmallCholesky {
     for (int j = 0; j < n; ++j) {
       result.L_(j, j) = sqrt(dot(M, j, j));
       result.reciprocal_(j) = 1 / result.L_(j, j);
-      // In this order what is not a number stays: the last column has it, too.
+      // In this order min() keeps a NaN, which the later columns have, too.
       result.independence_ = min(Scalar(result.L_(j, j) / length(j)), result.independence_);
       M.col(j) *= result.reciprocal_(j);
       for (int i = j + 1; i < n; ++i) {
@@ -49,10 +49,10 @@ class SmallCholesky {
     }
     return result;
   }
-  // Of M's columns: the smallest sine of the angle between one and those before it. Below a few
-  // roundings they are not independent, and S is not positive definite.
+  // The smallest sine of the angle between a column of M and those before it. Below a few roundings
+  // they are dependent, and S is not positive definite.
   const Scalar& independence() const { return independence_; }
-  // Positive if S is positive definite to rounding: from the first pivot that is not, no other is.
+  // Positive if S is positive definite to rounding: after a pivot that is not positive, none is.
   const Scalar& last_pivot() const { return L_(n - 1, n - 1); }
   const Eigen::Matrix<Scalar, n, n>& L() const { return L_; }
 
@@ -80,7 +80,7 @@ class SmallCholesky {
   }
 
  private:
-  // Of two columns; four sums at a time, which do not wait for each other.
+  // Four independent sums, so that no addition waits for the previous one.
   template <int rows>
   static Scalar dot(const Eigen::Matrix<Scalar, rows, n>& M, int a, int b) {
     constexpr int sums = 4;

@@ -1,4 +1,4 @@
-// What a sparse matrix in compressed rows or columns takes, analytically.
+// Bytes of a sparse matrix in compressed rows or columns, from its counts.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -6,7 +6,6 @@
 
 namespace airybench {
 
-// Values, inner indices, and where each row or column begins.
 template <typename Scalar, int order>
 std::size_t bytes_of(const Eigen::SparseMatrix<Scalar, order>& matrix) {
   return static_cast<std::size_t>(matrix.nonZeros()) * (sizeof(Scalar) + sizeof(int)) +

@@ -1,4 +1,4 @@
-// The formulas of stress_field.hpp, for whoever instantiates them for a scalar of their own.
+// Definitions of stress_field.hpp, to instantiate them for further scalars.
 #pragma once
 
 #include "assembly/edge_forces.hpp"

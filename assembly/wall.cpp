@@ -7,7 +7,6 @@
 namespace airybench {
 namespace {
 
-// Where x + t m crosses a curve, and the curve's normal there, out of the wall.
 struct Crossing {
   double t;
   Eigen::Vector2d normal;
@@ -21,8 +20,7 @@ std::vector<Crossing> crossings(const FlatWall& wall, const Eigen::Vector2d& x,
   return {{n.dot(wall.point_mm - x) / slope, n}};
 }
 
-// |d + t m|² = R², d = x − c: t = −d·m ± √((d·m)² − |d|² + R²), the smaller root without
-// cancellation.
+// |d + t m|² = R², d = x − c: t = −d·m ± √((d·m)² − |d|² + R²), without cancellation.
 std::vector<Crossing> crossings(const CircularWall& wall, const Eigen::Vector2d& x,
                                 const Eigen::Vector2d& m) {
   const Eigen::Vector2d d = x - wall.centre_mm;
@@ -39,7 +37,7 @@ std::vector<Crossing> crossings(const CircularWall& wall, const Eigen::Vector2d&
 
 std::vector<Crossing> crossings(const PolylineWall& wall, const Eigen::Vector2d& x,
                                 const Eigen::Vector2d& m) {
-  constexpr double slack = 1e-12;  // of a piece, so that nothing passes between two
+  constexpr double slack = 1e-12;  // share of a piece; closes gaps between pieces
   std::vector<Crossing> all;
   for (std::size_t k = 0; k + 1 < wall.points_mm.size(); ++k) {
     const Eigen::Vector2d &a = wall.points_mm[k], along = wall.points_mm[k + 1] - a;

@@ -9,7 +9,7 @@
 namespace airybench {
 namespace {
 
-// Where the rays from the edge, each to the wall in its own direction, pass through p.
+// Place on the edge whose ray to the wall passes through p.
 std::optional<double> seen_from(const FacingEdge& edge, const Eigen::Vector2d& p) {
   const auto* round = std::get_if<CircularWall>(&edge.wall);
   const Eigen::Vector2d ray =
@@ -19,7 +19,7 @@ std::optional<double> seen_from(const FacingEdge& edge, const Eigen::Vector2d& p
   return cross(p - edge.a, ray) / slope;
 }
 
-// Where g0 may have a kink or a jump: corners, and where parallel rays touch a circle.
+// Places where g0 may kink or jump: corners, and where parallel rays touch a circle.
 void add_kinks(const FacingEdge& edge, const Wall& curve, std::vector<double>& places) {
   const auto add = [&](const Eigen::Vector2d& p) {
     if (const std::optional<double> s = seen_from(edge, p); s && *s > 0 && *s < 1)
@@ -34,7 +34,7 @@ void add_kinks(const FacingEdge& edge, const Wall& curve, std::vector<double>& p
   }
 }
 
-// Of the coordinates that a distance is computed from, mm.
+// Size of the curve's coordinates, mm; bounds the rounding of distances.
 double size_of(const Wall& curve) {
   if (const auto* flat = std::get_if<FlatWall>(&curve)) return flat->point_mm.norm();
   if (const auto* round = std::get_if<CircularWall>(&curve))
@@ -47,7 +47,7 @@ double size_of(const Wall& curve) {
 
 bool is_round(const Wall& curve) { return std::holds_alternative<CircularWall>(curve); }
 
-// Halves a part until one quadratic is g0 on it. Samples are inside: g0 may jump at the ends.
+// Halves a part until one quadratic is g0 on it. Samples lie inside, as g0 may jump at the ends.
 class Pieces {
  public:
   explicit Pieces(const FacingEdge& edge)
@@ -70,21 +70,21 @@ class Pieces {
     GapPiece piece{start, end, met == 5, {0, 0, 0}, 0};
     bool done = met == 0;
     if (piece.is_met) {
-      // v = (u − 1/2) / (3/8) for u from 0 to 1: −1, 0, 1 at the samples of which q is made.
+      // v = (u − 1/2) / (3/8) for u from 0 to 1: −1, 0, 1 at the samples that define q.
       const double slope = (g[4] - g[0]) / 2, bend = (g[0] - 2 * g[2] + g[4]) / 2;
       const auto q = [&](double u) {
         const double v = (u - 0.5) / 0.375;
         return g[2] + slope * v + bend * v * v;
       };
       piece.gap_mm = {q(0), 2 * g[2] - (q(0) + q(1)) / 2, q(1)};
-      // The term of third order is 2.8 times as large at the ends.
+      // The third-order term is 2.8 times as large at the ends.
       constexpr double at_ends = 4;
       piece.off_mm =
           at_ends * std::max(std::abs(q(places[1]) - g[1]), std::abs(q(places[3]) - g[3]));
-      // What is not finite ends here, too: no part of it would be better.
+      // Non-finite values end here, too: halving does not help.
       done = !(piece.off_mm > allowed_mm(g)) || !std::isfinite(piece.off_mm);
     }
-    if (!done && piece.is_met && depth >= most) {  // a jump, which its neighbours end at
+    if (!done && piece.is_met && depth >= most) {  // a jump, where the neighbours end
       piece.gap_mm.fill(std::ranges::min(g));
       piece.off_mm = 0;
     }
@@ -98,7 +98,7 @@ class Pieces {
   std::vector<GapPiece> take() { return std::move(pieces_); }
 
  private:
-  // Rounding; on curves what is good enough.
+  // Rounding; for curves a sufficient accuracy.
   double allowed_mm(const std::array<double, 5>& g) const {
     const double share = curved_ ? 1e-6 : 1e-9;
     return 1e-12 * size_mm_ + share * (length_mm_ + std::abs(g[2]));
@@ -110,7 +110,7 @@ class Pieces {
   std::vector<GapPiece> pieces_;
 };
 
-// Bernstein coefficients over [start, end] of a quadratic that has c over [0, 1].
+// Bernstein coefficients over [start, end] of the quadratic with c over [0, 1].
 std::array<double, 3> restricted(const std::array<double, 3>& c, double start, double end) {
   const auto polar = [&](double s, double t) {
     return (1 - s) * (1 - t) * c[0] + ((1 - s) * t + s * (1 - t)) * c[1] + s * t * c[2];
@@ -128,7 +128,7 @@ double largest_of(const std::array<double, 3>& c) {
 // WallDetail::lowered_mm. rise: max (q − g0).
 std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::array<double, 3>& q,
                               double rise) {
-  // Lines between these are below g0 on every piece: control points of a Bernstein form are.
+  // A convex function below these control points is below g0 on every piece.
   std::vector<std::pair<double, double>> below;  // s, mm
   for (const GapPiece& piece : pieces)
     for (int k = 0; k < 3 && piece.is_met; ++k)
@@ -141,7 +141,7 @@ std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::ar
     if (s == below.front().first) first = std::min(first, gap);
     if (s == below.back().first) last = std::min(last, gap);
   }
-  // At most the mean: then it is convex, and below the lines where it is below the points.
+  // At most the mean, so that the quadratic is convex.
   double middle = (first + last) / 2;
   for (const auto& [s, gap] : below)
     if (s > 0 && s < 1)
@@ -162,7 +162,7 @@ std::array<double, 3> lowered(const std::vector<GapPiece>& pieces, const std::ar
 std::optional<double> FacingEdge::gap_mm(double s) const {
   constexpr double least_cosine = 0.05;
   const Eigen::Vector2d x = at(s), n = direction_at(x);
-  if (!(n.dot(m) > least_cosine)) return {};  // it faces away
+  if (!(n.dot(m) > least_cosine)) return {};  // faces away
   std::optional<double> t = distance_along(wall, x, n);
   if (t && face) *t -= distance_to_either_side(*face, x, n).value_or(0);
   return t;
@@ -204,7 +204,7 @@ WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<dou
     std::array<double, 3> above = restricted(of_edge, piece.start, piece.end);  // q − g0
     for (std::size_t k = 0; k < 3; ++k) above[k] -= piece.gap_mm[k];
     rise = std::max(rise, largest_of(above) + piece.off_mm);
-    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {  // cubic: exact
+    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {  // exact for cubics
       const double u = (1 + xi) / 2, s = middle + half * xi;
       const double below = piece.off_mm - ((1 - u) * (1 - u) * above[0] +
                                            2 * u * (1 - u) * above[1] + u * u * above[2]);

@@ -11,12 +11,12 @@
 namespace airybench {
 namespace {
 
-constexpr int most_rows = 20000;  // W whole: 3.2 GB
+constexpr int most_rows = 20000;  // a dense W of 3.2 GB
 
 class FclibFile {
  public:
   explicit FclibFile(const std::filesystem::path& path) : path_(path.string()) {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages from libhdf5
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
       throw FileError(path_ + ": cannot be opened: no such file");
@@ -31,7 +31,7 @@ class FclibFile {
                          const std::string& allowed) const {
     throw FileError(fmt::format("{}: {}: {} (allowed: {})", path_, place, what, allowed));
   }
-  // Every group on the way must be there, too.
+  // H5Lexists() fails unless every group on the path exists.
   bool has(const std::string& name) const {
     for (std::size_t slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
       if (H5Lexists(file_, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -70,7 +70,7 @@ class FclibFile {
     const Handle set(opened, H5Dclose);
     const Handle space(H5Dget_space(set), H5Sclose), stored(H5Dget_type(set), H5Tclose);
     const hssize_t there = H5Sget_simple_extent_npoints(space);
-    constexpr std::size_t most_bytes = 16;  // of one number; libhdf5 believes any
+    constexpr std::size_t most_bytes = 16;  // per number; libhdf5 accepts any
     if (H5Tget_class(stored) != kind || H5Tget_size(stored) > most_bytes)
       fail(name, "values of another kind", allowed);
     if (there != count) fail(name, fmt::format("{} values", there), allowed);
@@ -82,9 +82,8 @@ class FclibFile {
   hid_t file_ = -1;
 };
 
-// The entries of W as they are stored.
 struct Stored {
-  std::vector<int> p;  // where rows or columns begin; of triplets one index of each entry
+  std::vector<int> p;  // starts of rows or columns; for triplets one index per entry
   std::vector<int> i;
   Eigen::VectorXd x;
   enum class Form { rows, columns, triplets } form = Form::rows;
@@ -140,7 +139,7 @@ Eigen::MatrixXd read_matrix(const FclibFile& file, const std::string& place) {
 }
 
 void check_law(const FclibFile& file, const contact::Problem& problem) {
-  constexpr double rounding = 1e-5;  // of programs that write few digits
+  constexpr double rounding = 1e-5;  // some programs write few digits
   const Eigen::VectorXd diagonal = problem.D.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal(i) > 0))

@@ -15,7 +15,7 @@ void check(herr_t result) {
   if (result < 0) throw std::runtime_error("HDF5: something cannot be written");
 }
 
-// Without times: the same problem is the same file.
+// No times, so that the same problem gives the same file.
 void write(hid_t place, const std::string& name, hid_t type, const Handle& space,
            const void* values) {
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -64,7 +64,6 @@ void write_array(hid_t place, const ProblemArray& array) {
     write_rows(std::get<Eigen::MatrixXd>(array.values), H5T_NATIVE_DOUBLE);
 }
 
-// Symmetric, so its columns are its rows.
 void write_matrix(hid_t place, const Eigen::MatrixXd& W) {
   const Handle matrix = group(place, "W");
   const int m = static_cast<int>(W.rows());
@@ -81,7 +80,7 @@ void write_matrix(hid_t place, const Eigen::MatrixXd& W) {
   write(matrix, "x", W.reshaped());
 }
 
-// Two components per contact point: of a vector the tangential ones are zero where there are none.
+// Adds the tangential components: zero in a vector, the identity in a matrix.
 Eigen::VectorXd with_tangents(const ContactPoints& contact, const Eigen::VectorXd& vector) {
   if (contact.components == 2) return vector;
   Eigen::VectorXd both = Eigen::VectorXd::Zero(2 * contact.count);
@@ -143,7 +142,7 @@ std::string image_of(hid_t file) {
 
 std::string fclib_file(const contact::Problem& problem, const Eigen::VectorXd& answer,
                        const std::vector<ProblemArray>& arrays, const std::string& title) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it prints otherwise
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages from libhdf5
   const double s = 1 / problem.D.diagonal().mean();
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth_bytes = 1 << 20;

@@ -6,7 +6,6 @@
 
 namespace airybench {
 
-// A thing of HDF5 that is open.
 class Handle {
  public:
   Handle(hid_t id, herr_t (*close)(hid_t)) : id_(id), close_(close) {

@@ -1,6 +1,6 @@
 // The Matrix Market exchange format, https://math.nist.gov/MatrixMarket/formats.html: coordinate
-// (sparse) and array (dense, by columns), real or integer, of a symmetric matrix the lower
-// triangle. Numbers are written so that they come back to the last bit.
+// (sparse) or array (dense, by columns), real or integer, lower triangle of a symmetric matrix.
+// Numbers read back to the last bit.
 #pragma once
 
 #include <string>

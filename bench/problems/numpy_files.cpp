@@ -59,7 +59,7 @@ std::string all_of(zip_source_t* source) {
   return bytes;
 }
 
-// Without compression, and without today's date: the same problem is the same file.
+// No compression and no date, so that the same problem gives the same file.
 std::string zip_of(const std::vector<File>& files) {
   const std::unique_ptr<zip_source_t, Discard> buffer(
       zip_source_buffer_create(nullptr, 0, 0, nullptr));
@@ -67,7 +67,7 @@ std::string zip_of(const std::vector<File>& files) {
   std::unique_ptr<zip_t, Discard> archive(
       zip_open_from_source(buffer.get(), ZIP_TRUNCATE, nullptr));
   check(archive != nullptr, "zip_open_from_source");
-  zip_source_keep(buffer.get());  // the archive has one reference, this function the other
+  zip_source_keep(buffer.get());  // one reference for the archive, one for this function
   for (const auto& [name, bytes] : files) {
     zip_source_t* source = zip_source_buffer(archive.get(), bytes.data(), bytes.size(), 0);
     const zip_int64_t index = zip_file_add(archive.get(), name.c_str(), source, ZIP_FL_ENC_UTF_8);
@@ -80,7 +80,7 @@ std::string zip_of(const std::vector<File>& files) {
           "zip_file_set_dostime");
   }
   check(zip_close(archive.get()) == 0, "zip_close");
-  archive.release();  // which zip_close() has freed
+  archive.release();  // zip_close() has freed it
   return all_of(buffer.get());
 }
 

@@ -29,7 +29,7 @@ SparseRows whole(const SparseColumns& lower_triangle) {
   return SparseColumns(lower_triangle.selfadjointView<Eigen::Lower>());
 }
 
-// Per unknown: 0 phi, 1 phi,x, 2 phi,y of a vertex, 3 dphi/dn of an edge; and which.
+// Per unknown: kind (0 phi, 1 phi,x, 2 phi,y, 3 dphi/dn), then vertex or edge.
 Eigen::MatrixXi unknown_table(const DofNumbering& dofs) {
   Eigen::MatrixXi table(dofs.count, 2);
   for (int v = 0; v < static_cast<int>(dofs.of_vertex.size()); ++v)

@@ -25,10 +25,10 @@ namespace {
 struct Exported {
   std::string title;  // "Mesh0/default"
   std::vector<ProblemArray> arrays = {};
-  const contact::Problem* condensed = nullptr;  // null: there is none
-  Eigen::VectorXd answer = {};                  // F_C to compare with; empty: none is given away
-  std::vector<ProblemArray> of_condensed = {};  // are among `arrays`, too
-  bool airy = false;                            // these have the Airy system
+  const contact::Problem* condensed = nullptr;  // may be null
+  Eigen::VectorXd answer = {};                  // F_C to compare with; may be empty
+  std::vector<ProblemArray> of_condensed = {};  // also in `arrays`
+  bool airy = false;                            // `arrays` has the Airy system
 
   void append(std::vector<ProblemArray> more) {
     std::ranges::move(more, std::back_inserter(arrays));
@@ -43,8 +43,8 @@ struct Exported {
   }
 };
 
-// Adds files; returns per array, in their order, the file that has it; empty: none, it has no rows,
-// which some readers of Matrix Market files refuse.
+// Adds files and returns the file of each array. Empty: the array has no rows and thus no file,
+// since some readers of Matrix Market files refuse it.
 using Writer = std::vector<std::string> (*)(const Exported& problem, Files& files);
 
 std::vector<std::string> write_matrix_market(const Exported& problem, Files& files) {
@@ -85,7 +85,6 @@ std::vector<std::string> write_fclib(const Exported& problem, Files& files) {
 }
 #endif
 
-// The writer of a format; null: this build is without it.
 Writer writer_of(std::string_view format) {
   if (format == "matrix-market") return write_matrix_market;
 #ifdef AIRYBENCH_HAS_LIBZIP
@@ -133,7 +132,6 @@ Json equations(const Exported& problem, bool fclib) {
   return all;
 }
 
-// The files of a format, and what describes them.
 Files write(const Exported& exported, const std::string& format, Json description) {
   Files files;
   const std::vector<std::string> places = writer_of(format)(exported, files);
@@ -156,7 +154,7 @@ Files write(const Exported& exported, const std::string& format, Json descriptio
   return files;
 }
 
-// Throws InputError: a reference that cannot be had.
+// Throws InputError if there is no reference.
 Reference reference_of(const DualSystem& points, const std::string& title) {
   if (points.contact.count == 0)
     throw InputError(title + ": no contact points (allowed: a scene with contact)");

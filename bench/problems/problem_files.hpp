@@ -1,11 +1,10 @@
-// The files of a posed problem: what another solver needs to solve it.
+// The files of a posed problem, for other solvers:
 //
 //   matrix-market  NAME.mtx for every array (matrix_market.hpp)
 //   npz            S.npz, C_F.npz, C_C.npz, and problem.npz with all dense arrays (numpy_files.hpp)
 //   fclib          problem.hdf5, the condensed problem (fclib.hpp)
 //
-// and problem.json, which describes them: equations, signs, and of every array its file, shape,
-// unit and meaning.
+// problem.json describes them: equations, signs; file, shape, unit and meaning of every array.
 #pragma once
 
 #include <array>
@@ -22,24 +21,23 @@ namespace airybench {
 
 inline constexpr std::array<std::string_view, 3> all_problem_formats = {"matrix-market", "npz",
                                                                         "fclib"};
-std::vector<std::string_view> problem_formats();  // those whose library this build has
-// Throws UsageError: no such format, or one whose library this build is without.
+std::vector<std::string_view> problem_formats();  // those in this build
+// Throws UsageError: unknown format, or one that this build is without.
 void check_problem_format(const std::string& format);
 
 struct ProblemFiles {
   Files files;
-  std::vector<std::string> notes;  // a line each: what is not in them, and why
+  std::vector<std::string> notes;  // one line per omission, with the reason
 };
-// Throws InputError: the problem has nothing that this format can hold.
+// Throws InputError if the format can hold nothing of the problem.
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
 
-// A contact problem from a file (fclib.hpp). Throws FileError; UsageError: this build is without
-// HDF5.
+// Reads an fclib file (fclib.hpp). Throws FileError; UsageError if the build is without HDF5.
 contact::Problem read_contact_problem(const std::filesystem::path& file);
 
-// What another solver is handed of a case, in a format that there is. No answer is in it.
+// Input for another solver, without an answer. format: of problem_formats().
 Files airy_files(const DualSystem& system, const std::string& format);     // with gap and mu
-Files contact_files(const contact::Problem& problem, const Problem* body,  // null: there is none
+Files contact_files(const contact::Problem& problem, const Problem* body,  // may be null
                     const std::string& format);
 Files body_files(const Problem& problem, const std::string& format);
 

@@ -13,18 +13,18 @@ namespace airybench {
 namespace {
 
 constexpr double same_time = 1.5;      // factor within which two times are "the same"
-constexpr double same_memory = 1.5;    // and two memories
+constexpr double same_memory = 1.5;    // the same for memory
 constexpr double slow = 2;             // factor from which a preconditioner is "slow"
 constexpr double omega_radius = 0.25;  // "near 1"
 constexpr double contact_share = 0.01;
 constexpr Interval longer = {1, infinity};
 
-// Of Figs 4, 5.
+// Figs 4 and 5.
 const std::vector<std::string> with_dtic = {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6"};
 const std::vector<std::string> seven = {"SDTIC3", "3STEPCG3", "SDTIC6", "3STEPCG6",
                                         "SSKY",   "3STEPD",   "ALM"};
 
-// SYMMLQ, which Fig. 3 shows, and 3STEPCG where it has records of the preconditioner too.
+// SYMMLQ (Fig. 3), and 3STEPCG if it has records of the preconditioner.
 std::vector<std::string> families_with(const Evidence& evidence, const std::string& mesh,
                                        const std::string& preconditioner) {
   const bool both = std::ranges::any_of(evidence.cases().cases_on(mesh), [&](const Record* record) {
@@ -33,7 +33,6 @@ std::vector<std::string> families_with(const Evidence& evidence, const std::stri
   return both ? std::vector<std::string>{"SYMMLQ", "3STEPCG"} : std::vector<std::string>{"SYMMLQ"};
 }
 
-// FAMILY:PRECONDITIONERx from the first x to the last, those that have a time.
 std::map<int, CaseTime> times_of_levels(Evidence& evidence, const std::string& mesh,
                                         const std::string& family, const std::string& name,
                                         int first, int last) {
@@ -60,7 +59,6 @@ void larger_x_makes_dtic_faster(Evidence& evidence) {
   }
 }
 
-// Both ends are slower than the best inner level.
 void flic_is_fastest_near_3(Evidence& evidence) {
   const std::string mesh = evidence.cases().preconditioner_mesh();
   for (const std::string& family : families_with(evidence, mesh, "FLIC")) {
@@ -75,7 +73,7 @@ void flic_is_fastest_near_3(Evidence& evidence) {
   }
 }
 
-// 4 as in the paper; where its memory is not DTIC3's, the level whose memory is nearest. 0: none.
+// 4 as in the paper, or the level whose memory is nearest to DTIC3's. 0: no records.
 int flic_level_of_equal_memory(Evidence& evidence, const std::string& mesh,
                                const std::string& family) {
   const auto dtic = evidence.bytes(mesh, family + ":DTIC3", "storage_bytes");
@@ -129,8 +127,8 @@ std::map<double, CaseTime> ssor_times(Evidence& evidence, const std::string& mes
     const std::string_view name = record->preconditioner;
     if (record->family != family || !name.starts_with("SSOR")) continue;
     const std::optional<double> omega = parse_number(name.substr(4));
-    if (!omega) continue;  // a variant of ours
-    std::string why;       // an omega that gives no answer is not the best one
+    if (!omega) continue;  // not one of the paper's
+    std::string why;       // an ω without an answer is not the best
     const auto time = evidence.cases().time(mesh, record->general_name, &why);
     if (time) times[*omega] = *time;
     texts.push_back(fmt::format("ω={} {}", *omega, time ? time->text : why));
@@ -139,7 +137,7 @@ std::map<double, CaseTime> ssor_times(Evidence& evidence, const std::string& mes
   return times;
 }
 
-// Those that may be the best are near 1, and there are some on both sides that are not.
+// Every ω that may be the best must be near 1; needs times near 1 and on both sides of it.
 void best_omega_is_near_one(Evidence& evidence, const std::string& family,
                             const std::map<double, CaseTime>& times, double best) {
   if (std::ranges::none_of(times, is_near_one, &std::pair<const double, CaseTime>::first) ||
@@ -216,7 +214,6 @@ void alm_is_slightly_faster_than_3stepd(Evidence& evidence) {
   evidence.over_meshes("beside the claim: (ALM + its tuning)/3STEPD", meshes, with_tuning, {});
 }
 
-// ALM below every other one; the figure shows it next to 3STEPD and the least other one.
 void alm_needs_the_least_memory(Evidence& evidence) {
   std::vector<Ratio> to_least;
   for (const std::string& mesh : evidence.cases().meshes_with(seven)) {
@@ -243,7 +240,6 @@ void alm_needs_the_least_memory(Evidence& evidence) {
     evidence.interval("ALM/least of the others " + show_ratio(spread(to_least)));
 }
 
-// Of the paper's families that condense on the contact boundary.
 bool is_condensing(const Record* record) {
   constexpr std::array<std::string_view, 4> condensing = {"3STEPD", "BLIND", "3STEPCG", "SYMMLQ"};
   return std::ranges::find(condensing, record->family) != condensing.end();
@@ -252,7 +248,7 @@ bool is_condensing(const Record* record) {
 void gauss_seidel_takes_under_1_percent(Evidence& evidence) {
   int cases = 0, below = 0, without_time = 0;
   Interval range = {1, 0};
-  std::vector<std::string> largest_shares;  // on each mesh
+  std::vector<std::string> largest_shares;  // one per mesh
   for (const std::string& mesh : evidence.cases().meshes()) {
     double largest = -1;
     std::string text;

@@ -23,7 +23,6 @@ std::string scene_of(const std::vector<Record>& records, const std::string& sour
   return *scenes.begin();
 }
 
-// At most four.
 std::string some_of(std::vector<std::string> names) {
   constexpr std::size_t most_named = 4;
   if (names.size() <= most_named) return joined(names);
@@ -188,7 +187,7 @@ std::optional<CaseTime> Evidence::time(const std::string& mesh, const std::strin
 std::optional<CaseBytes> Evidence::bytes(const std::string& mesh, const std::string& method,
                                          const char* field) {
   const Record* record = cases_.find(mesh, method);
-  // What stands there after a timeout is only what there was until then.
+  // After a timeout the field holds the value at that moment only.
   const bool answered = record != nullptr && has_answer(record->status);
   const auto bytes = answered ? number_in(*record, field_named(field)) : std::nullopt;
   if (bytes) return CaseBytes{*bytes, show_bytes(std::llround(*bytes)) + remark(*record)};

@@ -18,7 +18,6 @@ namespace {
 
 using RecordList = std::vector<const Record*>;
 
-// Of one case, in the runs that have it.
 struct CaseRuns {
   RecordList a, b;
 };
@@ -45,9 +44,9 @@ double kernel_time(const RecordList& runs) {
   return median(std::move(times));
 }
 
-// Runs without a date, or that began within the same second, may have been in any order.
+// Runs without a date or of the same second may have any order.
 bool are_interleaved(const CaseRuns& runs) {
-  std::map<std::string, int> lead;  // date → runs of B begun then less those of A
+  std::map<std::string, int> lead;  // date → runs of B minus runs of A
   for (const Record* record : runs.a) --lead[context_word(*record, "date")];
   for (const Record* record : runs.b) ++lead[context_word(*record, "date")];
   int sum = 0;
@@ -57,7 +56,7 @@ bool are_interleaved(const CaseRuns& runs) {
   });
 }
 
-// Has the ratio gone up by enough? For the other direction with reciprocals.
+// For the other direction, pass reciprocals.
 bool exceeds(double ratio, double corrected, double drift, double minimum_effect) {
   return std::min(ratio, corrected) > 1 + minimum_effect && corrected > std::max(drift, 1 / drift);
 }
@@ -100,7 +99,6 @@ void compare_means(Comparison& result) {
   result.mean_interval = interval_of(logs_b, logs_a);
 }
 
-// Status, errors, memory, iterations: what is not equal.
 std::vector<std::string> other_changes(const ComparedCase& one) {
   std::vector<std::string> changes;
   const std::string name = name_of(one.a).text();
@@ -127,7 +125,6 @@ Json interval_json(const std::optional<Interval>& interval) {
   return interval ? Json{interval->low, interval->high} : Json();
 }
 
-// The header, then a row for each case; those without times say so.
 std::vector<std::vector<std::string>> table_of(const Comparison& comparison) {
   std::vector<std::vector<std::string>> rows = {
       {"case", "A", "B", "B/A", "95 %", "/drift", "p", "verdict"}};
@@ -196,7 +193,7 @@ Comparison compare(const Runs& a, const Runs& b, const CompareRules& rules) {
   result.rules = rules;
   result.runs_a = a.size();
   result.runs_b = b.size();
-  std::vector<std::string> names;  // in the order in which runs have them, A first
+  std::vector<std::string> names;  // in order of appearance, A first
   std::map<std::string, CaseRuns> cases;
   const auto add = [&](const Runs& runs, RecordList CaseRuns::*side) {
     for (const std::vector<Record>& run : runs) {

@@ -33,7 +33,6 @@ Json to_json(const Finding& finding) {
           {"sentence", finding.sentence}};
 }
 
-// Reads the values of an object's keys. Messages give place, key, value and what is allowed.
 class ObjectReader {
  public:
   ObjectReader(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
@@ -50,7 +49,6 @@ class ObjectReader {
     throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place_, key,
                                   shortened(json_text(at(key))), allowed));
   }
-  // What nlohmann's conversion accepts.
   template <typename T>
   T value(const char* key, const char* allowed) const {
     try {
@@ -89,7 +87,6 @@ Finding finding_of(const ObjectReader& verdict) {
           verdict.text("sentence")};
 }
 
-// 2026-11-21T03:00:00Z
 bool is_date(const std::string& text) {
   return std::ranges::equal(
       text, std::string_view("dddd-dd-ddTdd:dd:ddZ"),
@@ -154,7 +151,7 @@ TrackedRun parse_tracked_run(const std::string& text, const fs::path& file) {
     run.findings.push_back(finding_of(
         ObjectReader(one, fmt::format("{}: verdict {}", place, run.findings.size() + 1))));
   run.failed = all.flag("failed");
-  run.times_judged = !all.has("times_judged") || all.flag("times_judged");  // older files: none
+  run.times_judged = !all.has("times_judged") || all.flag("times_judged");  // old files lack it
   return run;
 }
 

@@ -6,7 +6,7 @@
 namespace airybench {
 namespace {
 
-// Weighted sums over points, about their means: x = log n, y = log value.
+// Weighted, about the means of x = log n, y = log value.
 struct Moments {
   std::size_t count;
   double weight = 0, mean_x = 0, mean_y = 0, xx = 0, xy = 0, yy = 0;
@@ -32,7 +32,6 @@ struct Moments {
       yy += w * dy * dy;
     }
   }
-  // s², of a law with so many parameters fitted to the points.
   double variance_about(double b, std::size_t parameters, double least_scatter) const {
     const double least = least_scatter * least_scatter;
     if (count <= parameters) return least;

@@ -16,21 +16,21 @@ namespace {
 
 using RecordList = std::vector<const Record*>;
 
-// What is predicted, empty where a record does not tell it, and standard deviations of its
-// logarithm, at least: of one case between runs on a machine that does other work as well, of power
-// laws of direct and iterative methods, and of another method.
+// `of` is empty if a record lacks the value. The rest are least standard deviations of its
+// logarithm: of a case between runs on a busy machine, of power laws of direct and of iterative
+// methods, and of another method's values.
 struct Quantity {
   std::optional<double> (*of)(const Record&);
   double measured, direct, iterative, relative;
 };
 
-// With these, 52 of the 54 cases of direct methods on Mesh5..Mesh7 in results/paper and
-// results/direct lie in the interval from the other meshes of their folder. An extrapolated timeout
-// and a relative are trusted to a factor of four.
+// Calibration: 52 of the 54 cases of direct methods on Mesh5..Mesh7 in results/paper and
+// results/direct lie in the interval from the folder's other meshes. An extrapolated timeout and a
+// relative are trusted to a factor of four.
 constexpr Quantity time_quantity = {
     [](const Record& r) { return r.time_s ? r.time_s : r.extrapolated_time_s; }, 0.15, 0.15, 0.3,
     0.7};
-// No tuning is not a time of zero: it says nothing about its growth.
+// Zero means no tuning and says nothing about its growth.
 constexpr Quantity tuning_quantity = {
     [](const Record& r) { return r.tuning_s.value_or(0) > 0 ? r.tuning_s : std::nullopt; }, 0.15,
     0.15, 0.3, 0.7};
@@ -41,7 +41,6 @@ constexpr Quantity heap_quantity = {[](const Record& r) {
                                     },
                                     0.01, 0.1, 0.1, 0.35};
 
-// A method as it is run.
 struct Variant {
   std::string family, method, stop, knob;
   bool iterative = false;
@@ -58,7 +57,6 @@ struct Variant {
     if (!stop.empty()) result += " with stop " + stop;
     return knob.empty() ? result : result + ", " + knob;
   }
-  // How much another one is like this one, most important first.
   auto likeness(const Variant& other) const {
     const auto common = std::ranges::mismatch(method, other.method).in1 - method.begin();
     return std::tuple(method == other.method && knob == other.knob, other.knob.empty(), common,
@@ -69,11 +67,10 @@ struct Variant {
 struct Grounded {
   Estimate estimate;
   std::string basis;
-  const Variant* variant;             // whose records they are
-  const Record* same_case = nullptr;  // that of the case itself
+  const Variant* variant;             // source of the records
+  const Record* same_case = nullptr;  // record of the case itself
 };
 
-// "7 records, Mesh0..Mesh6, 2 extrapolated": the smallest and the largest mesh.
 std::string extent_of(const RecordList& records) {
   const auto [smallest, largest] = std::ranges::minmax_element(records, {}, &Record::n_phi);
   std::string text = fmt::format("{} record{}, {}", records.size(), records.size() == 1 ? "" : "s",
@@ -104,7 +101,7 @@ class Past {
   }
 
   std::optional<Grounded> estimate(const Record& c, const Quantity& quantity) const {
-    if (!c.n_phi) return {};  // no body whose size would tell
+    if (!c.n_phi) return {};  // no body, no size
     const Variant own(c);
     if (auto result = from(variants_.find(own), c, quantity)) return result;
     auto closest = variants_.end();
@@ -121,7 +118,7 @@ class Past {
     return result;
   }
 
-  // From the variant that the time is from; zero where most of its cases needed none.
+  // Of the variant that gave the time; empty if most of its cases had none.
   std::optional<Estimate> tuning(const Record& c, const Grounded& time) const {
     const auto found = variants_.find(*time.variant);
     if (time.same_case != nullptr) {
@@ -207,14 +204,13 @@ Prediction predict(const Record& c, const Past& past, const RunLimits& limits) {
   return result;
 }
 
-// "3.4 MiB"; more than any machine has, at the largest number of bytes there is.
+// Capped: far extrapolations exceed the largest integer.
 std::string show_heap(const std::optional<Estimate>& bytes) {
   if (!bytes) return "-";
   constexpr double most = 9e18;
   return show_bytes(std::llround(std::min(bytes->value, most)));
 }
 
-// "43.2 s", "2 min 05 s"; far extrapolations may be of any size.
 std::string show_time(double seconds) {
   return seconds < 100 || seconds > 1e9 ? show_seconds(seconds) : show_duration(seconds);
 }
@@ -270,7 +266,7 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
                               stability_scenes = data_folder("scenes/stability");
   std::vector<std::filesystem::path> folders = {committed / "paper", committed / "direct",
                                                 committed / "size", committed / "growth", besides};
-  // The largest file, and only two meshes: elsewhere no law of a size comes from it.
+  // Largest file, only two meshes: skip it for other scenes.
   const bool of_stability = std::ranges::any_of(cases, [&](const Record& c) {
     std::error_code error;
     return c.scene != "default" &&
@@ -291,8 +287,7 @@ double run_seconds(double time_s, double tuning_s, const RunLimits& limits) {
 
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits) {
-  // The reference takes this many times as long as HYBRID, from which it starts: 2.8 on Mesh0, 1.9
-  // on Mesh6.
+  // The reference starts from HYBRID and takes this many times as long: 2.8 on Mesh0, 1.9 on Mesh6.
   constexpr double reference_per_hybrid = 2.5;
   const Past past(records);
   Forecast result;

@@ -1,13 +1,12 @@
-// Time and memory of planned cases, predicted from earlier records.
-//
-// In this order, for time, tuning and memory each:
+// Time and memory of planned cases, predicted from earlier records. Time, tuning and memory each
+// use the first of these that exists:
 //   1. the latest record of the same case (mesh, size, scene, method, stop, parameter of a study);
-//   2. the power law over the method's other meshes (power_law.hpp), of the same scene where that
-//      has two sizes;
+//   2. the power law over the method's other meshes (power_law.hpp), of the same scene if that has
+//      two sizes;
 //   3. with one size only: that, with the exponent common to all methods;
-//   4. else the same from the method's closest relative: the other stop, then the name in the same
-//      family that begins most alike.
-// A record of a timeout counts with its extrapolated time. A case that will be skipped takes none.
+//   4. the same from the closest relative: the other stop, then the name in the family with the
+//      longest common beginning.
+// A timeout counts with its extrapolated time. A skipped case takes no time.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +19,6 @@
 
 namespace airybench {
 
-// What a run allows and repeats.
 struct RunLimits {
   int repetitions = 5;
   double timeout_s = 900, long_case_s = 30;
@@ -32,40 +30,38 @@ enum class LimitMark { below, may_pass, above };
 
 struct Prediction {
   std::optional<Estimate> time_s;  // of one solve; empty: unknown
-  double tuning_s = 0;             // before it
+  double tuning_s = 0;             // before the solve
   std::optional<Estimate> peak_heap_bytes;
-  std::optional<double> run_s;  // what the case costs the run, all its solves together
+  std::optional<double> run_s;  // total of the case, all solves
   std::string basis;            // "measured", "7 records, Mesh0..Mesh6", "no record"
   LimitMark timeout = LimitMark::below, memory_limit = LimitMark::below;
 };
 
 struct Forecast {
-  std::vector<Prediction> cases;       // as planned
-  std::optional<double> references_s;  // one per mesh and scene; empty: unknown for one of them
+  std::vector<Prediction> cases;       // in the order of the cases
+  std::optional<double> references_s;  // one per mesh and scene; empty: one is unknown
 };
 
-// The records of these folders, studies included, oldest first. Folders without records are passed
-// over, also files that cannot be used, with a line that says why: a prediction is no reason to
-// refuse a run.
+// The records of these folders, studies included, oldest first. Skips folders without records, and
+// unusable files with a line that says why: a prediction must not stop a run.
 struct PastRecords {
   std::vector<Record> records;
   std::vector<std::string> passed_over;
 };
 PastRecords read_past_records(const std::vector<std::filesystem::path>& folders);
-// Of the committed runs that have such cases, and of one more folder.
 PastRecords read_committed_records(const std::vector<Record>& cases,
                                    const std::filesystem::path& besides);
 
-// Cases are blank records. Of several records of one case the last one counts, but a study's only
-// where there is no other: its runs do more than the method alone.
+// cases: blank records. The last record of a case counts; a study's only if there is no other,
+// since it does more than the method alone.
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
 
-// Seconds that a case takes: tuning, then the detail run, and for a solve up to long_case_s the
-// memory run and repetitions until they add up to that. A solve ends at its --timeout.
+// Seconds per case: tuning, the detail run, and for a solve up to long_case_s the memory run and
+// repetitions until they add up to that. A solve ends at its --timeout.
 double run_seconds(double time_s, double tuning_s, const RunLimits& limits);
 
-// A row per case, totals, and a line for each case that may pass a limit.
+// One row per case, totals, and one line per case that may exceed a limit.
 std::string prediction_table(const std::vector<Record>& cases, const Forecast& forecast,
                              const RunLimits& limits);
 

@@ -22,7 +22,7 @@ bool same_libraries(const TrackedRun& a, const TrackedRun& b) {
       library_keys, [&](const char* key) { return a.context_value(key) == b.context_value(key); });
 }
 
-// The case in the last earlier run where has(run, record); null: none.
+// The case in the last earlier run with has(run, record); null: none.
 template <typename Has>
 const Record* earlier(const std::vector<TrackedRun>& runs, const std::string& name,
                       const Has& has) {
@@ -86,7 +86,6 @@ void compare_case(const std::vector<TrackedRun>& runs, const Record& now,
     add(Lane::errors, "answer_hash", record->answer_hash, now.answer_hash, Kind::changed);
 }
 
-// Cases that the last run had and this one has not, and libraries that changed.
 void compare_contexts(const TrackedRun& before, const TrackedRun& now,
                       std::vector<Finding>& findings) {
   for (const Record& record : before.cases)
@@ -112,7 +111,7 @@ double log_time(const Record* record) {
   return has_time ? std::log(*record->time_s) : std::nan("");
 }
 
-// The first run after the last change of the case's time that an earlier run reported.
+// First run after the last reported change of the case's time.
 std::size_t start_of(const std::vector<TrackedRun>& runs, const std::string& case_name) {
   for (std::size_t t = runs.size() - 1; t-- > 0;)
     for (const Finding& finding : runs[t].findings)
@@ -138,7 +137,6 @@ TimeTable time_table(const std::vector<TrackedRun>& runs) {
   return table;
 }
 
-// Median of the times of these runs in seconds; null: none was measured.
 Json median_time(const std::vector<double>& log_times, std::size_t first, std::size_t end) {
   std::vector<double> times;
   for (std::size_t t = first; t < end; ++t)

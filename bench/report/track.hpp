@@ -1,17 +1,16 @@
-// The newest run of a history against earlier ones of the same machine: status, counters and errors
-// do not scatter, and any worsening counts at once; times are searched for changes of level
+// Compares the newest run of a history with earlier ones of the same machine. Status, counters and
+// errors do not scatter, so any worsening counts at once; times are searched for changes of level
 // (track_times.hpp).
 //
 //   status     ok → anything else is worse
 //   counters   iterations, factor entries, flops, storage: any growth is worse. Heap figures and
-//              instructions depend on the libraries as well: they are compared only with a run of
-//              the same compiler and libraries. Bytes of heap may vary by 0.1 % (how far a block is
-//              rounded up depends on what is free: tens of bytes), instructions by 1 %
-//              (interrupts).
-//   errors     growth by more than 1 % and by more than 1e-11 is worse. Below that it is rounding:
-//              the errors of direct methods are 1e-12 to 1e-10, and another order of summation
-//              moves them by their own size; 1e-11 is a hundred thousandth of the target error.
-//   answer     another answer_hash where no error has changed: changed, no failure
+//              instructions depend on the libraries: only runs with the same compiler and libraries
+//              are compared. Heap may vary by 0.1 % (rounding of blocks depends on what is free),
+//              instructions by 1 % (interrupts).
+//   errors     growth by more than 1 % and more than 1e-11 is worse. Less is rounding: errors of
+//              direct methods are 1e-12 to 1e-10, and another order of summation moves them by
+//              their own size. 1e-11 is a hundred thousandth of the target error.
+//   answer     another answer_hash with unchanged errors: changed, no failure
 #pragma once
 
 #include <vector>
@@ -21,12 +20,12 @@
 
 namespace airybench {
 
-// Fills in findings and `failed` of the last run. Each value is compared with the last earlier run
-// that has it; a change of times is reported once, as earlier runs' findings say which level
-// counts. Not for an empty history.
+// Fills in findings and `failed` of the last run. Compares each value with the last earlier run
+// that has it. Reports a change of times once: earlier findings say which level counts. history
+// must not be empty.
 void track_newest(std::vector<TrackedRun>& history, const TimeRules& rules);
 
-// By more than is tolerated of this field, a counter or an error.
+// True if a counter or an error grew by more than its tolerance.
 bool grew(const Field& field, double before, double after);
 
 }  // namespace airybench

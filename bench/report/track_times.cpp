@@ -11,13 +11,13 @@ namespace {
 
 constexpr double outlier_share = 0.1;    // ε
 constexpr double outlier_scale = 0.25;   // ω
-constexpr double least_scale = 0.005;    // clocks and caches scatter at least so much
-constexpr double common_weight = 10;     // runs that the common scale counts for
+constexpr double least_scale = 0.005;    // from clocks and caches
+constexpr double common_weight = 10;     // of the common scale, in runs
 constexpr double agreeing_share = 0.75;  // of the runs after a change
-constexpr double standard_errors = 1.1;  // by which the effect must be above the least one
-constexpr double rises_share = 0.9;      // a slowdown matters more than its opposite
+constexpr double standard_errors = 1.1;  // of margin above the least effect
+constexpr double rises_share = 0.9;      // slowdowns matter more than their opposite
 
-// φ(e; s) without the factor (2 π)^-1/2, which cancels everywhere.
+// φ(e; s) without (2 π)^-1/2, which cancels.
 double bell(double e, double s) { return std::exp(-e * e / (2 * s * s)) / s; }
 double usual(double e, double scale) { return (1 - outlier_share) * bell(e, scale); }
 double density(double e, double scale) {
@@ -26,13 +26,13 @@ double density(double e, double scale) {
 
 struct Level {
   double value = 0, scale = 0;
-  double runs = 0;  // that are no outliers
+  double runs = 0;  // without outliers
 };
 
-// Maximum likelihood under g from the median on, by expectation maximisation: each value counts
-// with the probability that it is no outlier.
+// Maximum likelihood under g by expectation maximisation: each value is weighted with the
+// probability that it is no outlier.
 Level level_of(const std::vector<double>& values, double scale, bool scale_is_known) {
-  constexpr int iterations = 6;  // the level is known to a tenth of σ/√n then
+  constexpr int iterations = 6;  // then the level is known to a tenth of σ/√n
   Level level{median(values), scale, 0};
   for (int i = 0; i < iterations; ++i) {
     double runs = 0, sum = 0, squares = 0;
@@ -51,9 +51,8 @@ Level level_of(const std::vector<double>& values, double scale, bool scale_is_kn
   return level;
 }
 
-// Between the series' own scale and the common one, by the runs that each rests on.
 Level level_before(const std::vector<double>& before, double common_scale) {
-  // The robust start keeps outliers from being taken for the scale.
+  // The robust start keeps outliers out of the scale.
   const double start = std::max({least_scale, common_scale / 2, robust_standard_deviation(before)});
   const double own = level_of(before, start, false).scale;
   const auto weight = static_cast<double>(before.size());
@@ -68,7 +67,6 @@ double log_likelihood(const std::vector<double>& values, double level, double sc
   return sum;
 }
 
-// λ of the normal quantile: z² / 2.
 double least_lambda(double false_alarm_level) {
   const double z = boost::math::quantile(complement(boost::math::normal(), false_alarm_level));
   return z * z / 2;
@@ -79,9 +77,9 @@ std::vector<double> measured(std::vector<double> series) {
   return series;
 }
 
-// Rows: cases, of which the runs that do not count are NaN.
+// rows: cases; runs that do not count are NaN.
 std::vector<double> common_factor(const std::vector<std::vector<double>>& rows, std::size_t runs) {
-  constexpr int sweeps = 3;  // changes are below a tenth of a per cent then
+  constexpr int sweeps = 3;  // then changes are below 0.1 %
   std::vector<double> factor(runs, 0.0), levels(rows.size());
   for (int sweep = 0; sweep < sweeps; ++sweep) {
     for (std::size_t c = 0; c < rows.size(); ++c) {
@@ -115,7 +113,7 @@ std::optional<TimeChange> find_change(const std::vector<double>& series, double 
   const double normal_95 = boost::math::quantile(boost::math::normal(), 0.975);
   const std::size_t most_after = std::max<std::size_t>(14, 2 * rules.least_after);
   std::optional<TimeChange> change;
-  double largest = 0;  // of λ above what is needed
+  double largest = 0;  // λ above its threshold
   std::size_t first = series.size();
   for (std::size_t n = 1; n <= most_after && n + rules.least_before <= values.size(); ++n) {
     do {
@@ -124,7 +122,7 @@ std::optional<TimeChange> find_change(const std::vector<double>& series, double 
     if (n < rules.least_after) continue;
     const std::vector<double> before(values.begin(), values.end() - n);
     const std::vector<double> after(values.end() - n, values.end());
-    // Most runs end here; a median is not far from the level.
+    // Skips most candidates cheaply: a median is not far from the level.
     if (std::abs(median(after) - median(before)) < 0.8 * least_shift) continue;
     const Level old_level = level_before(before, common_scale);
     const Level new_level = level_of(after, old_level.scale, true);

@@ -16,7 +16,7 @@ namespace {
 
 using Tree = boost::property_tree::ptree;
 
-// XML 1.0 has no other control characters, not even escaped.
+// XML 1.0 allows no other control characters, not even escaped.
 std::string allowed_in_xml(const std::string& text) {
   std::string allowed;
   for (const char c : text)
@@ -89,7 +89,7 @@ Tree testsuite(const std::vector<Record>& cases, const Record& first) {
   return suite;
 }
 
-// The numbers that trackers get, and their units there in those of the record.
+// What trackers get; github_units and bencher_units convert from the record's units.
 struct Measure {
   const char *field, *github_name, *github_unit, *bencher_name;
   double github_units, bencher_units;

@@ -11,7 +11,7 @@ namespace {
 
 std::string digits(double value) { return value == 0 ? "0" : fmt::format("{:.4e}", value); }
 
-// The share of a value beside another, between −1 and 1.
+// value / (|value| + |other|) in steps of 1e-5.
 std::string share(double value, double other) {
   const double sum = std::abs(value) + std::abs(other);
   return fmt::format("{}", sum > 0 ? std::llround(value / sum * 1e5) : 0);

@@ -16,7 +16,7 @@ EdgeFrame frame_of(const Mesh& mesh, int row) {
   return edge_frame(mesh.vertices[a], mesh.vertices[b]);
 }
 
-// Γ_C has one normal and no vertex on Γ_D.
+// True if Γ_C has one normal and no vertex on Γ_D.
 bool can_be_moved_as_one(const Mesh& mesh) {
   std::optional<Eigen::Vector2d> normal;
   std::vector<bool> is_held(mesh.vertices.size(), false);
@@ -34,7 +34,7 @@ bool can_be_moved_as_one(const Mesh& mesh) {
   return normal.has_value();
 }
 
-// v: 0 on Γ_D, n or t on Γ_C (without friction n·v = 1 alone). Empty where nothing comes of it.
+// v = 0 on Γ_D, v = n or t on Γ_C (without friction only n·v = 1). Empty if HYBRID fails.
 std::optional<DisplacementField> lifted(const Problem& problem, bool tangential) {
   Mesh mesh = problem.mesh;
   Loads loads;
@@ -77,7 +77,6 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
   return Bracket{work - half, work + half};
 }
 
-// Where the pressure at the ends of contact edges is largest.
 struct LargestPressure {
   double pressure_MPa = -std::numeric_limits<double>::infinity();
   int triangle = 0;
@@ -111,7 +110,7 @@ void set_largest_pressure(const Problem& problem, const StressField& stress,
   const LargestPressure of_u = largest_pressure(problem, stress_of_displacement(problem, u));
   const int t = of_stress.triangle;
   const Eigen::Vector2d& n = of_stress.normal;
-  const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // as a strain
+  const Eigen::Vector3d nn(n.x() * n.x(), n.y() * n.y(), 2 * n.x() * n.y());  // n⊗n as a strain
   const double stiffness_MPa = nn.dot(elasticity_of(problem.compliance_of(t)) * nn),
                delta = std::sqrt(std::max(0.0, error.of_triangle_Nmm[t]) * stiffness_MPa /
                                  problem.area_mm2(t));
@@ -119,7 +118,6 @@ void set_largest_pressure(const Problem& problem, const StressField& stress,
   result.largest_pressure_within_MPa = Bracket{std::max(0.0, low - delta), high + delta};
 }
 
-// The pressure along a face as it is walked, linear on every edge.
 class PressureAlongFace {
  public:
   PressureAlongFace(const DualSystem& system, const Eigen::VectorXd& F_C,
@@ -127,7 +125,7 @@ class PressureAlongFace {
     const Mesh& mesh = system.problem->mesh;
     const bool is_closed =
         mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
-    for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // it goes on before and behind
+    for (int turn = 0; turn < (is_closed ? 3 : 1); ++turn)  // repeats before and after
       for (const int row : rows) {
         const double length = frame_of(mesh, row).length_mm;
         const int m = system.contact.components, p = m * point_of_row[row];
@@ -148,8 +146,8 @@ class PressureAlongFace {
   double highest() const { return highest_; }
 
   ContactIntervals::Peak peak() const {
-    constexpr double slower = 0.8;     // than at a cusp as √x
-    constexpr double smallest = 0.01;  // of the mean: below, noise
+    constexpr double slower = 0.8;     // ratio of growths; a √x cusp has 0.7
+    constexpr double smallest = 0.01;  // share of the mean; less is noise
     constexpr int windows = 4;
     if (std::ldexp(shortest_, windows - 1) > length_) return ContactIntervals::Peak::not_seen;
     std::array<double, windows> mean{};
@@ -186,7 +184,7 @@ ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::Vecto
   std::vector<int> point_of_row(mesh.boundary.size(), 0);
   for (int p = 0; p < system.contact.count; p += 2) point_of_row[system.contact.boundary[p]] = p;
   double highest = 0;
-  ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // without any pressure
+  ContactIntervals::Peak peak = ContactIntervals::Peak::bounded;  // also without pressure
   for (const std::vector<int>& rows : boundary_chains(mesh, BoundaryRole::contact)) {
     const PressureAlongFace face(system, F_C, rows, point_of_row);
     if (face.highest() > highest) {
@@ -197,16 +195,16 @@ ContactIntervals::Peak kind_of_peak(const DualSystem& system, const Eigen::Vecto
   return peak;
 }
 
-// The ends on one face; rows of Mesh::boundary as it is walked.
+// rows: of Mesh::boundary, in walking order.
 void add_ends(const Mesh& mesh, const std::vector<int>& rows,
               const std::vector<std::array<ContactState, 2>>& of_row, int face,
               std::vector<ContactEnd>& ends) {
-  std::vector<double> along = {0};  // where edges begin and end
+  std::vector<double> along = {0};  // ends of edges, mm
   for (const int row : rows) along.push_back(along.back() + frame_of(mesh, row).length_mm);
   const int count = static_cast<int>(rows.size());
   const bool is_closed =
       mesh.boundary[rows.front()].vertices[0] == mesh.boundary[rows.back()].vertices[1];
-  const auto at = [&](int k) {  // a closed face goes on before its start and behind its end
+  const auto at = [&](int k) {  // wraps around a closed face
     if (!is_closed) return along[std::clamp(k, 0, count)];
     const int turns = k < 0 ? -1 : k / count;
     return turns * along.back() + along[k - turns * count];
@@ -221,7 +219,7 @@ void add_ends(const Mesh& mesh, const std::vector<int>& rows,
     ContactEnd end{face, state(point - 1), state(point), {0, 0}, {}};
     end.along_face_mm = {at((point + 1) / 2 - 2), at(point / 2 + 2)};
     if (ends.size() > first && ends.back().along_face_mm.high > end.along_face_mm.low) {
-      ends.back().along_face_mm.high = end.along_face_mm.high;  // one end, not told more closely
+      ends.back().along_face_mm.high = end.along_face_mm.high;  // intervals overlap: one end
       ends.back().after = end.after;
     } else {
       ends.push_back(end);

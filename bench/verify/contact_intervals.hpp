@@ -1,23 +1,24 @@
-// What one asks of a contact problem, each with an interval: resultants of the contact forces, the
-// largest pressure, where points of one state end and those of another begin.
+// Quantities of interest of a contact problem, each with an interval: resultants of the contact
+// forces, the largest pressure, and the points where the contact state changes.
 //
-// *Resultants.* Let v be a displacement that is 0 on Γ_D and n on Γ_C (or t, with friction). By
-// virtual work Σ F_n of the exact stress is ∫ σ:ε(v) − ∫ b·v − ∫_{Γ_F} f·v; with the mean m of both
-// stresses (discretisation_error.hpp) in its place it is off by at most
+// *Resultants.* Let v be a displacement with v = 0 on Γ_D and v = n on Γ_C (or t, with friction).
+// By virtual work the exact Σ F_n is ∫ σ:ε(v) − ∫ b·v − ∫_{Γ_F} f·v. With the mean m of both
+// stresses (discretisation_error.hpp) instead of σ its error is at most
 //
 //   ‖m − σ_exact‖ ‖Aε(v)‖
 //
-// which is guaranteed where the bound of the mean is: without friction. Any v will do; the one with
-// little energy is recovered from HYBRID's answer to the problem that prescribes it. There is none
-// where Γ_C has several normals or meets Γ_D.
+// This bound is guaranteed if that of m is, that is without friction. Any v is valid; one with
+// little energy is recovered from HYBRID's solution of the problem that prescribes it. There is
+// none if Γ_C has several normals or meets Γ_D. The other intervals are estimates.
 //
-// The others are estimates. *Pressure:* its largest value at contact points by σ and by Aε(u), and
-// beyond both δ with δ² = A_nnnn e_T² / |T|, what e_T² of the triangle there allows for on average.
-// At the edge of a punch or a kink of a wall the exact pressure is infinite, and there is no such
-// interval: it is told from the mean pressure over windows of 1, 2, 4 … edge lengths about the
-// peak. Towards the peak each doubles the detail: at a smooth one the mean grows by a quarter of
-// the step before, at a cusp as √x by 0.7, where it grows as log x by as much, as x^−α by more.
-// *Ends:* between two contact points of different states, an edge more on each side.
+// *Pressure:* the largest values of σ and Aε(u) at contact points, widened on both sides by δ with
+// δ² = A_nnnn e_T² / |T|, the average error that the triangle's e_T² allows. At the edge of a punch
+// or a kink of a wall the exact pressure is infinite and has no interval. Such a peak shows in the
+// mean pressure over windows of 1, 2, 4 … edge lengths around it. With each halving of the window
+// the mean grows: at a smooth peak by a quarter of the step before, at a √x cusp by 0.7 of it, at a
+// log x peak by as much, at an x^−α peak by more.
+//
+// *Ends:* between two contact points of different states, plus one edge on each side.
 #pragma once
 
 #include <optional>
@@ -32,21 +33,20 @@ struct Bracket {
   double low, high;
 };
 
-// Along a contact face as its boundary is walked, from its start; an interval around the start of a
-// closed face begins below zero.
+// Positions along a face count from its start; near the start of a closed face they may be < 0.
 struct ContactEnd {
   int face = 0;  // from 0, in the order of boundary_chains()
   ContactState before, after;
-  Eigen::Vector2d at_mm;  // in the middle of the interval
+  Eigen::Vector2d at_mm;  // middle of the interval
   Bracket along_face_mm{};
 };
 
 struct ContactIntervals {
-  bool guaranteed = false;  // the resultants'
+  bool guaranteed = false;  // of the resultants
   std::optional<Bracket> normal_resultant_N, tangential_resultant_N;
   double largest_pressure_MPa = 0;                                         // of σ
   enum class Peak { bounded, unbounded, not_seen } peak = Peak::not_seen;  // not seen: few edges
-  std::optional<Bracket> largest_pressure_within_MPa;                      // of a bounded one
+  std::optional<Bracket> largest_pressure_within_MPa;                      // if bounded
   std::vector<ContactEnd> ends;
 };
 
@@ -55,14 +55,13 @@ constexpr const char* name_of(ContactIntervals::Peak peak) {
   return names[static_cast<std::size_t>(peak)];
 }
 
-// The displacements v of a body that the resultants are found by, whatever its loads. Empty: there
-// are none.
+// The displacements v of the resultants; they do not depend on the loads. Empty: there is none.
 struct ResultantLifts {
   std::optional<DisplacementField> normal, tangential;
 };
 ResultantLifts resultant_lifts(const Problem& problem);
 
-// Empty without contact. stress, F_C, u: what `error` has been made of.
+// Empty without contact. stress, F_C and u are those that `error` was computed from.
 std::optional<ContactIntervals> contact_intervals(
     const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts);

@@ -1,4 +1,4 @@
-// The contact law's part of the judge: of bodies, and of contact problems that have none.
+// The contact law's part of the judge, for bodies and for contact problems without one.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,6 @@
 namespace airybench {
 namespace {
 
-// The nearest point of |t| ≤ μ n.
 Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
   const double normal = r.x(), tangential = std::abs(r.y());
   if (tangential <= mu * normal) return r;
@@ -19,7 +18,7 @@ Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
   return {n, std::copysign(mu * n, r.y())};
 }
 
-// Verification::siconos_error of r = −F, u = W r + q; the offset is q, DF is D F.
+// Verification::siconos_error with r = −F, u = W r + q; offset is q, DF is D F.
 double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
                      const Eigen::VectorXd& F, const Eigen::VectorXd& DF) {
   const Eigen::VectorXd r = -F, u = offset - DF;
@@ -34,7 +33,6 @@ double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
   return scale > 0 ? std::sqrt(squared) / scale : 0;
 }
 
-// Verification::friction_coupling.
 double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
   double coupling = 0;
   for (int p = 0; p < contact.count; ++p)
@@ -108,7 +106,7 @@ void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const E
 
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {
   const Eigen::VectorXd DF = times(problem.D, F), offset = contact_offset(problem);
-  LoadScale scale;  // forces that would undo the offset point by point
+  LoadScale scale;  // forces that cancel the offset point by point
   scale.force_N = offset.cwiseQuotient(problem.D.diagonal()).norm();
   Verification result;
   result.equilibrium_residual.reset();

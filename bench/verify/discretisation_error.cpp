@@ -18,16 +18,16 @@ double value_at(const EdgeValues& c, double s) {
   return (1 - s) * (1 - s) * c[0] + 2 * s * (1 - s) * c[1] + s * s * c[2];
 }
 
-// The places in (0, 1) where the quadratic changes its sign, with the ends 0 and 1.
+// 0, the sign changes in (0, 1), and 1.
 std::vector<double> sign_changes(const EdgeValues& c) {
-  // a s² + 2 h s + c_0 by the stable formula: q = −(h + sgn(h) √(h² − a c_0)), roots q/a, c_0/q.
+  // Stable roots of a s² + 2 h s + c_0: q = −(h + sgn(h) √(h² − a c_0)), roots q/a, c_0/q.
   const double a = c[0] - 2 * c[1] + c[2], h = c[1] - c[0];
   std::vector<double> places = {0};
   const double discriminant = h * h - a * c[0];
   if (discriminant > 0) {
     const double q = -(h + std::copysign(std::sqrt(discriminant), h));
     double first = q / a, second = c[0] / q;
-    if (!(first < second)) std::swap(first, second);  // a = 0: the first is infinite
+    if (!(first < second)) std::swap(first, second);  // if a = 0, first is infinite
     for (const double root : {first, second})
       if (root > places.back() && root < 1) places.push_back(root);
   }
@@ -35,8 +35,8 @@ std::vector<double> sign_changes(const EdgeValues& c) {
   return places;
 }
 
-// ∫ (μ|σ_n||u_t| + σ_t u_t) ds on an edge; forces (L/2) σ at its ends. Between sign changes of u_t
-// the integrand is a cubic: two Gauss points.
+// ∫ (μ|σ_n||u_t| + σ_t u_t) ds over an edge; forces are (L/2) σ at its ends. Between sign changes
+// of u_t the integrand is cubic, so two Gauss points are exact.
 double friction_gap(double mu, const Eigen::Vector2d& normal, const Eigen::Vector2d& tangential,
                     const EdgeValues& u_t) {
   double sum = 0;
@@ -44,7 +44,7 @@ double friction_gap(double mu, const Eigen::Vector2d& normal, const Eigen::Vecto
   for (std::size_t i = 1; i < places.size(); ++i) {
     const double middle = (places[i - 1] + places[i]) / 2, half = (places[i] - places[i - 1]) / 2;
     for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
-      // |u| (t sgn(u) − μ n), the bracket at the ends first: zero where they slip, however far.
+      // |u| (t sgn(u) − μ n): computing the bracket at the ends first gives exactly zero for slip.
       const double s = middle + half * xi, u = value_at(u_t, s);
       const Eigen::Vector2d left = std::copysign(1, u) * tangential - mu * normal;
       sum += 2 * half * std::abs(u) * ((1 - s) * left(0) + s * left(1));  // 2/L · L/2 · (…) · 2
@@ -58,11 +58,10 @@ double work_of_detail(const WallDetail& detail, const Eigen::Vector2d& normal) {
   return normal(0) * detail.moments_mm[0] + normal(1) * detail.moments_mm[1];
 }
 
-// The terms of an edge on Γ_C, and whether both fields keep to its inequalities.
 struct ContactTerms {
   double normal, tangential;
   double beyond_wall_N;               // ∫ σ_n where the edge meets no wall
-  double highest_gap, highest_force;  // of u_n − g0 and F_n: ≤ 0 when admissible
+  double highest_gap, highest_force;  // largest u_n − g0 and F_n; admissible: ≤ 0
 };
 
 ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::VectorXd& F_C,
@@ -94,7 +93,6 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   return terms;
 }
 
-// Both fields may leave Γ_C's inequalities by the rounding of what solved them, and no more.
 void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u, double highest_gap,
                          double highest_force, ConstitutiveError& error) {
   constexpr double rounding = 1e-9;
@@ -106,7 +104,7 @@ void judge_admissibility(const Eigen::VectorXd& F_C, const DisplacementField& u,
     error.flaw = fmt::format("e² is {:.1e} N mm", error.squared_Nmm());
 }
 
-// Both fields, with their strain energies, N mm.
+// Energies: strain energies, N mm.
 struct Fields {
   const StressField& stress;
   const Eigen::VectorXd& F_C;
@@ -114,8 +112,7 @@ struct Fields {
   double energy, energy_of_u;
 };
 
-// What is left of the inequalities' violation, and rounding, could have moved each bound by the
-// allowance.
+// The allowance covers rounding and the remaining violation of the inequalities.
 void note_bounds(const DualSystem& system, const Fields& fields, double highest_gap,
                  ConstitutiveError& error) {
   constexpr double rounding = 1e-12;

@@ -14,10 +14,9 @@ namespace {
 
 using LocalCoefficients = VertexStars::OfTriangle;
 
-// The L² projection on linear fields of a stress that is linear on each third; columns: corners.
+// L² projection of a stress that is linear on each third on linear fields; columns: corners.
 Eigen::Matrix3d linear_stress(const ElementStress& stress) {
-  // ∫ σ λ_i up to area/36: σ's moments against a third's own linear functions, of which λ_i is a
-  // third part at the centroid.
+  // ∫ σ λ_i up to area/36, from moments with each third's linear functions; λ_i(centroid) = 1/3.
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   for (int t = 0; t < 3; ++t) {
     const Eigen::Matrix3d corners = stress.middleCols<3>(3 * t);
@@ -30,8 +29,8 @@ Eigen::Matrix3d linear_stress(const ElementStress& stress) {
   return (moments.colwise() - sum / 4) / 3;
 }
 
-// A displacement with this linear strain (columns: corners), by its polar form: u(p, p) is the
-// displacement at p, u(p, q) the Bernstein coefficient of the edge pq. Points from the centroid.
+// A displacement with this linear strain (columns: corners) in polar form: u(p, p) is its value at
+// p, u(p, q) the Bernstein coefficient of the edge pq. Points are relative to the centroid.
 class IntegratedStrain {
  public:
   IntegratedStrain(const Eigen::Matrix3d& strain, const Eigen::Matrix<double, 2, 3>& gradients)
@@ -51,7 +50,6 @@ class IntegratedStrain {
   Eigen::Matrix<double, 3, 2> slope_;  // rows xx, yy, 2xy; columns ∂x, ∂y
 };
 
-// Corners from the centroid, and ∇λ at them.
 struct Shape {
   Eigen::Matrix<double, 2, 3> corner, gradient;
 };
@@ -68,7 +66,7 @@ Shape shape_of(const TriangleVertices& v) {
   return shape;
 }
 
-// Adds to w the rigid motion by which its edge moments are nearest to those given.
+// Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
 void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
                       const Eigen::Matrix4Xd& edge_moments, LocalCoefficients& w) {
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();
@@ -82,7 +80,6 @@ void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
       const bool low = corners[here] < corners[there];
       const Eigen::Vector2d missing =
           moments.segment<2>(low ? 0 : 2) - (w.col(here) / 2 + w.col(3 + k) / 3 + w.col(there) / 6);
-      // The moment of a linear field is its value here.
       const Eigen::Vector2d arm = (2 * shape.corner.col(here) + shape.corner.col(there)) / 3;
       translation += missing / 6;
       turned += arm.x() * missing.y() - arm.y() * missing.x();
@@ -111,7 +108,7 @@ LocalCoefficients local_displacement(const Problem& problem, int triangle, const
   return w;
 }
 
-// Per node of a triangle the diagonal of its stiffness, the mean of x and y.
+// Diagonal of the triangle's stiffness per node, the mean of x and y.
 Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, const Shape& shape) {
   const Eigen::Matrix3d& c = problem.compliance_of(triangle);
   const double along = c(0, 0) / (c(0, 0) * c(0, 0) - c(0, 1) * c(0, 1)), shear = 1 / c(2, 2);
@@ -125,7 +122,7 @@ Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, co
   return stiffness;
 }
 
-// Half the gradient of ‖σ − Aε(w)‖², N: Σ K_e (w − w_e) with the triangles' own displacements w_e.
+// Half the gradient of ‖σ − Aε(w)‖², N: Σ K_e (w − w_e) with the displacements w_e in `own`.
 Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCoefficients>& own,
                                const DisplacementField& w) {
   std::vector<Eigen::Matrix3d> elasticity;
@@ -149,7 +146,6 @@ Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCo
   return gradient;
 }
 
-// n·w ≤ limit, at a node of Γ_C by one edge there.
 struct Barrier {
   Eigen::Vector2d normal;
   double limit;
@@ -159,7 +155,7 @@ struct ContactNode {
   std::vector<Barrier> walls;  // one or two
   ContactOffset offset;
   Eigen::Vector2d force = {0, 0};                             // ∫ σn B over Γ_C, N
-  double friction = std::numeric_limits<double>::infinity();  // the smaller μ of its edges
+  double friction = std::numeric_limits<double>::infinity();  // smallest μ of its edges
 };
 
 std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
@@ -192,7 +188,6 @@ std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::
   return contact;
 }
 
-// The nearest point behind one or two walls.
 Eigen::Vector2d behind(const std::vector<Barrier>& walls, const Eigen::Vector2d& w) {
   const auto moved = [](const Barrier& wall, const Eigen::Vector2d& x) {
     return Eigen::Vector2d(x - std::max(0.0, wall.excess(x)) * wall.normal);
@@ -208,9 +203,9 @@ Eigen::Vector2d behind(const std::vector<Barrier>& walls, const Eigen::Vector2d&
          sine;
 }
 
-// The minimiser of ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||Δ| + F_t Δ, Δ = w_t + ρ_t − s, behind
-// the walls: the two contact terms of e² and what moving w costs in the first one. A closed node
-// goes to the wall, a sticking one back to where it was.
+// Minimises ½ k |w − w_0|² + F_n (w_n − g) + μ|F_n||Δ| + F_t Δ, Δ = w_t + ρ_t − s, behind the
+// walls: both contact terms of e² plus the cost of moving w in the first term. A closed node moves
+// to the wall, a sticking one back to its old place.
 Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vector2d& w_0) {
   Eigen::Vector2d n = node.walls.front().normal;
   if (node.walls.size() == 2) n = (n + node.walls.back().normal).normalized();
@@ -222,13 +217,11 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   return behind(node.walls, w_n * n + w_t * t);
 }
 
-// What a displacement must keep to: u = u0 on Γ_D, of rollers the normal part, and u_n ≤ g0 on Γ_C.
 class Constraints {
  public:
   Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)
       : given_(prescribed_displacement(*system.problem)), contact_(contact_nodes(system, F_C)) {}
 
-  // Per node: it has some.
   std::vector<bool> nodes() const {
     std::vector<bool> nodes = given_.at;
     for (const auto& [node, normal] : given_.normal) nodes[static_cast<std::size_t>(node)] = true;

@@ -1,31 +1,28 @@
-// An admissible displacement from an equilibrium method's own answer, by local work: what a
-// constitutive relation error needs (discretisation_error.hpp) without a second global solve.
+// An admissible displacement from an equilibrium method's answer by local work. The constitutive
+// relation error (discretisation_error.hpp) then needs no second global solve.
 //
-// On each triangle the quadratic displacement whose stress is nearest to σ in the energy norm.
-// Strains of quadratic displacements are all linear fields, and C is constant on a triangle: so
+// On each triangle w is the quadratic displacement whose stress is nearest to σ in the energy norm.
+// Strains of quadratic displacements are all linear fields and C is constant on a triangle, so
 //   ε(w) = C Π σ,   Π the L² projection on linear fields,
-// which is integrated in closed form. The rigid motion that this leaves free is the one by which w
-// is nearest to the edge displacements ū in their moments (least squares over the edges' ends).
+// which is integrated in closed form. Its free rigid motion is fitted to the moments of the edge
+// displacements ū (least squares over the edges' ends).
 //
-// The coefficients of a vertex or an edge are then averaged over its triangles, weighted by the
-// diagonals k of their stiffnesses, and set to u0 on Γ_D. On Γ_C they take the proximal step of the
-// contact terms of e²: with F = ∫ σn B, w_n moves by −F_n/k towards the wall and no further, w_t by
-// −F_t/k and then up to μ|F_n|/k back to where the body has not slid. Terms that would be of first
-// order in the error of w, as σ_n (u_n − g0) where the contact is closed, so become quadratic.
-// Every contact edge's own u_n ≤ g0 holds, on curved faces, too, and between the points that its
-// quadratic gap knows: another one is below all of the wall (wall_gap.hpp).
+// The coefficients of a vertex or edge are averaged over its triangles with the diagonals k of
+// their stiffnesses as weights, and set to u0 on Γ_D. On Γ_C they take the proximal step of the
+// contact terms of e²: with F = ∫ σn B, w_n moves by −F_n/k, at most to the wall; w_t moves by
+// −F_t/k and then up to μ|F_n|/k back towards zero slip. Terms that would be of first order in the
+// error of w, such as σ_n (u_n − g0) in closed contact, become quadratic. Every contact edge
+// satisfies u_n ≤ g0, also on curved faces and between the points of its quadratic gap: a second
+// quadratic stays below the whole wall (wall_gap.hpp).
 //
-// One damped Jacobi step on ‖σ − Aε(w)‖² follows, with the same on Γ_D and Γ_C. e is then about 1.1
-// times that with P2's displacement, which without friction is the least (measured; 1.4 without
-// this step).
-//
-// Where ν is near ½, two sweeps over vertex stars (vertex_stars.hpp) then move all that no
-// constraint is on; e is at most 1.7 times that with P2's displacement up to ν = 0.4999 (14
+// One damped Jacobi step on ‖σ − Aε(w)‖² and the same treatment of Γ_D and Γ_C follow. e is then
+// about 1.1 times that of P2's displacement, the least one without friction (measured; 1.4 times
+// without this step). For ν near ½, two sweeps over vertex stars (vertex_stars.hpp) improve all
+// unconstrained coefficients; e is at most 1.7 times that of P2 up to ν = 0.4999 (14 times
 // without).
 //
-// The idea of averaging is Zienkiewicz & Zhu's (1987), that of going from stresses to an admissible
-// displacement Ladevèze's (discretisation_error.hpp): whatever the field, if it is admissible, e is
-// the error that is said there.
+// Averaging is due to Zienkiewicz & Zhu (1987), admissible displacements from stresses to Ladevèze
+// (discretisation_error.hpp). Any admissible field gives a valid e.
 #pragma once
 
 #include "assembly/displacement_field.hpp"
@@ -33,12 +30,12 @@
 
 namespace airybench {
 
-// Coefficients of w, as P2 gives them. stress, F_C, edge_moments: of one Solution.
+// Coefficients of w. stress, F_C and edge_moments belong to one Solution.
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::Matrix4Xd& edge_moments);
 
-// The admissible displacement nearest to the given one in the same way: Γ_D and Γ_C as above.
+// Makes w admissible: applies the treatment of Γ_D and Γ_C above.
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w);
 

@@ -15,7 +15,6 @@ Corners corners_of(const Mesh& mesh, int t) {
 double area_of(const Corners& x) { return cross_area(x[0], x[1], x[2]) / 2; }
 Eigen::Vector2d centroid_of(const Corners& x) { return (x[0] + x[1] + x[2]) / 3; }
 
-// Cut from the middle of its longest edge.
 std::array<Corners, 2> halves(const Corners& x) {
   std::array<double, 3> length{};
   for (std::size_t k = 0; k < 3; ++k) length[k] = (x[(k + 1) % 3] - x[k]).squaredNorm();
@@ -25,7 +24,6 @@ std::array<Corners, 2> halves(const Corners& x) {
   return {Corners{a, middle, c}, Corners{middle, b, c}};
 }
 
-// Around a vertex: the triangles at it, or those behind these.
 struct Ring {
   double squared = 0, cubes = 0, distance = 0, area = 0;  // Σ e_T², A³, A |x_T − v|, A
   void add(double part, double A, double to_vertex) {
@@ -47,13 +45,13 @@ std::vector<bool> inside_contact(const Mesh& mesh) {
   return inside;
 }
 
-// Of every vertex κ of the triangles at it, and s; 0: the stress is smooth.
+// κ of the triangles at a vertex, and s (0: smooth stress).
 struct AtVertex {
   double kappa = 0, exponent = 0;
 };
 std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
                                        const std::vector<double>& parts) {
-  constexpr double falls = 2.5;  // like r^−2.5 or faster: singular
+  constexpr double falls = 2.5;  // κ falls as r^−2.5 or faster: singular
   constexpr double of_singular = 6 - 2 * 0.7;
   std::vector<Ring> at(mesh.vertices.size()), behind(mesh.vertices.size());
   std::vector<std::array<int, 2>> of_edge(static_cast<std::size_t>(edges.count()), {-1, -1});
@@ -113,12 +111,12 @@ double ExpectedParts::of(const TrianglePart& part) const {
 
 ExpectedParts::Finer ExpectedParts::cut_until(
     const std::function<bool(const Finer&)>& is_enough) const {
-  struct Parts {  // equal ones of a triangle
+  struct Parts {  // equal parts of one triangle
     double part, count;
     int triangle;
-    Corners corners;  // of one of them; where the stress is smooth of the triangle
+    Corners corners;  // of one part; if smooth, of the whole triangle
   };
-  std::vector<Parts> heap;  // the largest in front
+  std::vector<Parts> heap;  // largest first
   Finer finer;
   for (int t = 0; t < static_cast<int>(triangles_.size()); ++t) {
     const Corners x = corners_of(mesh_, t);

@@ -1,24 +1,22 @@
-// How an error would be spread over a finer mesh, told from one solution: so that a mesh can be
-// made several times as fine at once, with no solve for each bisection.
+// Predicts from one solution how the error would spread over a finer mesh, so that a mesh can be
+// refined several times at once without a solve for each bisection.
 //
-// Stresses are linear on thirds of a triangle T; of e² it has a part of e_T² ~ |∇²σ|² A³, A its
-// area. So κ = e_T² / A³ is a property of the solution and not of the mesh where the stress is
-// smooth: a half of T has an eighth of its part. Near a vertex v where the stress is singular like
-// r^(λ−1), κ ~ r^−s with s = 6 − 2λ: a part of T, of area A' and with its centroid at x, is
-// expected to have
+// Stresses are linear on thirds of a triangle T of area A, so its part of e² is e_T² ~ |∇²σ|² A³.
+// Where the stress is smooth, κ = e_T² / A³ depends on the solution and not on the mesh: a half of
+// T has an eighth of its part. Near a vertex v where the stress is singular like r^(λ−1), κ ~ r^−s
+// with s = 6 − 2λ. A part of T with area A' and centroid x is expected to have
 //
-//   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T T's centroid
+//   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T: centroid of T
 //
-// which at v gives a half of T 2^−λ of its part, as it must be (in slivers, too: the first bracket
-// counts as √(A'/A) at least). Which vertices are singular is told
-// by how κ falls from the triangles at a vertex to those behind them; how strongly cannot be told
-// from so few, and λ = 0.7 is taken for all (corners have 0.5 … 0.8; a cut too many at a vertex
-// costs a few triangles). Inside Γ_C, where contact ends, λ = 3/2, and the ends move: left to the
-// next mesh.
+// At v this gives a half of T 2^−λ of its part, as required (the ratio counts as at least √(A'/A),
+// for slivers). A vertex is singular if κ falls fast from its triangles to those behind them. The
+// strength cannot be measured from so few triangles: λ = 0.7 for all (corners have 0.5 … 0.8; extra
+// cuts at a vertex cost few triangles). At ends of contact inside Γ_C λ = 3/2, but the ends move,
+// so they wait for the next mesh.
 //
-// Of all meshes with so many triangles the one whose triangles have equal parts has the least error
-// (e² ~ Σ κ A³ for given Σ 1; it is what bulk marking leads to, too): so triangles are to be cut
-// until no part is expected to have more than a common threshold.
+// Of all meshes with a given number of triangles the one with equal parts has the least error (e² ~
+// Σ κ A³ for given Σ 1; bulk marking leads there too). So triangles are cut until no expected part
+// exceeds a common threshold.
 #pragma once
 
 #include <array>
@@ -36,12 +34,11 @@ class ExpectedParts {
 
   double of(const TrianglePart& part) const;
 
-  // A finer mesh: how many triangles, Σ of their parts, and the largest part. Neighbours that
-  // conformity cuts are left out.
+  // Of a finer mesh: number of triangles, sum and maximum of their parts. Ignores conformity cuts.
   struct Finer {
     double triangles = 0, squared = 0, largest = 0;
   };
-  // The triangle with the largest part is cut, and again, until the mesh is fine enough.
+  // Cuts the triangle with the largest part until is_enough().
   Finer cut_until(const std::function<bool(const Finer&)>& is_enough) const;
 
  private:
@@ -58,9 +55,9 @@ class ExpectedParts {
   std::vector<Triangle> triangles_;
 };
 
-// The fewest triangles that hold `fraction` of the sum, largest parts first (bulk marking; Dörfler,
-// SIAM J. Numer. Anal. 33, 1996); of equal parts the lower number. Ascending numbers; negative
-// parts, which rounding makes, count as zero. 0 < fraction ≤ 1.
+// The fewest triangles that hold `fraction` of the sum, 0 < fraction ≤ 1, as ascending numbers
+// (bulk marking; Dörfler, SIAM J. Numer. Anal. 33, 1996). Ties go to the lower number. Negative
+// parts, due to rounding, count as zero.
 std::vector<int> bulk_marks(const std::vector<double>& parts, double fraction);
 
 }  // namespace airybench

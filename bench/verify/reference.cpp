@@ -13,7 +13,7 @@
 namespace airybench {
 namespace {
 
-// F_C, G and u to rounding; returns the relative error of F_C as the next step would have it.
+// Solves for F_C, G and u to rounding; returns the relative change of F_C in the next step.
 double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
                                  const LoadScale& scale, const Eigen::VectorXd& start,
                                  const MultifrontalFactor& factor, Reference& reference,
@@ -21,7 +21,7 @@ double solve_contact_to_rounding(const HybridizedSystemIn<long double>& system,
   constexpr int most_steps = 20;
   const Eigen::MatrixXd& D = reference.condensed.D;
   const ContactPoints& contact = reference.condensed.points;
-  ContactPoints without_gap = contact;  // its displacement is r
+  ContactPoints without_gap = contact;  // displacement minus gap is r
   without_gap.gap.resize(0);
   Eigen::VectorXd F = start;
   Refined at_F;

@@ -1,15 +1,15 @@
-// The answer against which every method's error is measured: the hybridized solution of the same
+// The answer that every method's error is measured against: the hybridized solution of the same
 // discrete problem (hybridized.hpp), refined in long double.
 //
-// Element matrices, residuals and stresses are long doubles; the factor of K in double is only what
-// corrections are made with (refinement.hpp). For contact forces F the refined system gives ū_C(F).
-// The law is first solved with D and G from the factor, as methods do it; then active-set steps
-// follow, with the r of the refined system (a defect correction: D is off by 1e-12, r is not),
-// until the natural map no longer halves.
+// Element matrices, residuals and stresses are long double; the double factor of K serves only for
+// corrections (refinement.hpp). For contact forces F the refined system gives ū_C(F). The law is
+// first solved with D and G from the factor, as methods do. Active-set steps with r from the
+// refined system follow until the natural map no longer halves (a defect correction: D is off by
+// 1e-12, r is not).
 //
-// How far that is from the exact solution of the discrete problem, it says itself: the last
+// The reference estimates its distance from the exact solution of the discrete problem: the last
 // correction of the displacements and the next one of the forces, in the energy norm, and the
-// natural map. Compared with the same in 128 bits: tests/bench/verify/extended_precision_test.cpp.
+// natural map. tests/bench/verify/extended_precision_test.cpp compares it with 128 bits.
 #pragma once
 
 #include "assembly/dual_system.hpp"
@@ -23,12 +23,12 @@ struct Reference {
   Eigen::VectorXd F_C;              // N
   StressField stress;               // MPa
   double natural_map_residual = 0;  // of F_C with the refined ū_C, relative
-  double error_estimate = 0;        // relative: the largest of the three
+  double error_estimate = 0;        // largest of the three estimates, relative
 };
 
-// Throws Breakdown when the factorisation fails. The caller decides which error is small enough.
-// start: contact forces that the law's solver begins with; empty: zero. A solution is refined as it
-// is: where the problem has several, the one found is near it.
+// Throws Breakdown if the factorisation fails or the law has no finite solution. The caller decides
+// which error is small enough. start: initial contact forces; empty: zero. StartIs::solution
+// refines `start` as it is: of several solutions the one near it is found.
 enum class StartIs { guess, solution };
 Reference compute_reference(const DualSystem& system, const Eigen::VectorXd& start = {},
                             StartIs start_is = StartIs::guess);

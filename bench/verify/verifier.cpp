@@ -13,11 +13,10 @@
 namespace airybench {
 namespace {
 
-// What the element stresses say of the edges. Sums over an edge's elements: at its low and high
-// vertex (columns), x and y (rows), N.
+// Edge forces of the element stresses, N. Columns: low and high vertex; rows: x, y.
 struct EdgeBalance {
   std::vector<Eigen::Matrix2d> sum;
-  double largest = 0;     // of all forces that went in, N
+  double largest = 0;     // largest single force, N
   double divergence = 0;  // largest resultant of ∇·σ + b in a third, N
 };
 
@@ -26,7 +25,7 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
   balance.sum.assign(static_cast<std::size_t>(problem.edges.count()), Eigen::Matrix2d::Zero());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     TriangleVertices v = problem.vertices_of(t);
-    v.colwise() -= v.col(0).eval();  // a body far from the origin keeps its digits
+    v.colwise() -= v.col(0).eval();  // keeps digits far from the origin
     const Eigen::Vector2d centroid = v.rowwise().mean();
     for (int k = 0; k < 3; ++k) {
       const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];
@@ -38,7 +37,7 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
       else
         sum += force.rowwise().reverse();
 
-      // ∫ (∇·σ + b) over the third = Σ of its sides' tractions + b · area, side by side.
+      // ∫ (∇·σ + b) over the third = Σ of its sides' tractions + b · area.
       const std::array<Eigen::Vector2d, 3> corner = {v.col(k), v.col((k + 1) % 3), centroid};
       Eigen::Vector2d resultant = problem.area_mm2(t) / 3 * problem.loads.body_force_N_per_mm3;
       for (int side = 0; side < 3; ++side) {
@@ -54,7 +53,7 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
   return balance;
 }
 
-// Force on a boundary edge as the walk of Mesh::boundary has it: at its start, at its end.
+// Force on a boundary edge in walking order; columns: start, end.
 Eigen::Matrix2d walked(const Problem& problem, const EdgeBalance& balance, int row) {
   const auto [a, b] = problem.mesh.boundary[row].vertices;
   const Eigen::Matrix2d& sum = balance.sum[problem.edges.of_boundary[row]];
@@ -128,7 +127,6 @@ double work_of_prescribed(const DualSystem& system, const StressField& stress,
 
 namespace {
 
-// Moments in the components of EdgeUnknowns.
 Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (!problem.condition(row).in_frame) continue;
@@ -233,7 +231,7 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
     }
   }
   const PrescribedDisplacement prescribed = prescribed_displacement(problem);
-  for (const auto& [node, n] : prescribed.normal)  // what a roller gives
+  for (const auto& [node, n] : prescribed.normal)  // the roller's reaction
     balance.sum.col(node) -= n * n.dot(balance.sum.col(node));
   double unbalanced = 0;
   for (std::size_t node = 0; node < prescribed.at.size(); ++node)

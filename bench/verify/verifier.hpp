@@ -1,12 +1,11 @@
-// The judge: looks at a solution from outside, with nothing of the method that made it. No solver
-// may call it.
+// The judge: checks a solution independently of the method that made it. No solver may call it.
 //
-// It works from the element stresses, the contact forces and the reference. Errors are relative:
+// It uses the element stresses, the contact forces and the reference. Errors are relative:
 //   error_stress          ‖σ − σ_ref‖ / ‖σ_ref‖   in the energy norm, ‖σ‖² = ∫ σ:C:σ
 //   error_force           ‖F_C − F_ref‖ / ‖F_ref‖  in the D-norm, ‖F‖² = Fᵀ D F
-//   equilibrium_residual  largest unbalanced force of the stresses — across inner edges, against
-//                         what Γ_F prescribes, against F_C on Γ_C — and largest resultant of
-//                         ∇·σ + b in a third, over the largest edge force
+//   equilibrium_residual  largest unbalanced force of the stresses (across inner edges, against f
+//                         on Γ_F, against F_C on Γ_C) and largest resultant of ∇·σ + b on a third,
+//                         over the largest edge force
 //   natural_map_residual  ‖F − P(F − ρ r)‖ / ‖F‖, r from the reference's D and G (coulomb_law.hpp)
 #pragma once
 
@@ -21,17 +20,16 @@
 
 namespace airybench {
 
-// Empty: does not apply (no contact, no reference, no body).
+// Empty: not applicable (no contact, no reference, no body).
 struct Verification {
   std::optional<double> error_stress;
   std::optional<double> error_force;
   std::optional<double> error_stress_absolute;  // ‖σ − σ_ref‖, √(N mm)
-  std::optional<double> reference_error;        // of the reference, by its own estimate
-  // Without a reference, of an answer with edge moments: how far its stresses are from those of the
-  // moments, relative in the energy norm. No error: see check_moments().
+  std::optional<double> reference_error;        // the reference's own estimate
+  // Without a reference: distance of the stresses from those of the edge moments, relative in the
+  // energy norm. Not an error: see check_moments().
   std::optional<double> stress_of_moments_off;
-  // The body has no stress: the reference's is zero, or that of a displacement method. Errors are
-  // relative to the loads then.
+  // The stress of the reference or displacement method is zero; errors are relative to the loads.
   bool unstressed = false;
   std::optional<double> equilibrium_residual = std::numeric_limits<double>::infinity();
   std::optional<double> natural_map_residual;
@@ -39,50 +37,46 @@ struct Verification {
   std::optional<double> coulomb_violation_N;     // largest tangential component
   std::optional<double> normal_resultant_N;      // Σ F_n
   std::optional<double> tangential_resultant_N;  // Σ F_t
-  double strain_energy_Nmm = 0;                  // ½ ∫ σ:C:σ; without a body ½ Fᵀ D F
-  std::optional<double> complementary_energy_Nmm;  // Π* = that − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
+  double strain_energy_Nmm = 0;                  // W = ½ ∫ σ:C:σ; without a body ½ Fᵀ D F
+  std::optional<double> complementary_energy_Nmm;  // Π* = W − ∫_{Γ_D} u0·σn − ∫_{Γ_C} g0 σ_n
   std::optional<int> n_open, n_stick, n_slip;  // contact points
-  // The largest μ|D_nt| / D_nn of a contact point. From 1 on, its law may have several solutions.
+  // Largest μ|D_nt| / D_nn of a contact point. From 1 on the law may have several solutions.
   std::optional<double> friction_coupling;
   std::optional<double> siconos_error;  // without a body
 };
 
-// reference: may be null. The contact law is then checked with the answer's own edge moments, where
-// it has any, and ρ = 1/rough_compliance.
+// reference: may be null; then edge moments, if any, and ρ = 1/rough_compliance check the law.
 Verification verify(const DualSystem& system, const Solution& solution, const Reference* reference);
 
-// The same for a displacement method, another discrete problem that has no reference: judged by its
-// displacements and its forces at the control points (control_points.hpp). No error_stress, no
-// error_force, no complementary energy.
+// For a displacement method, whose discrete problem has no reference: judges displacements and
+// forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
 //                         points, over the largest nodal force of an element
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 
-// Of a contact problem without a body: the contact law's part, and the measure that Siconos stops
-// on (fc2d_compute_error; with r = −F, u = W r + q)
+// For a contact problem without a body: the contact law, and the measure that Siconos stops on
+// (fc2d_compute_error; with r = −F, u = W r + q)
 //   siconos_error  ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖),  û_n = u_n + μ|u_t|
 // where P projects on Coulomb's cone. It depends on the units of W.
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F_C);
 
-// What stands in for a reference where a body is too large for one: whether an answer's stresses
-// are those of its edge displacements, which make a compatible field, and these meet the contact
-// law. With the equilibrium of the stresses that is all that the discrete problem asks for. It
-// bounds no error: how far the answer is from the exact one, only the method's own estimate tells.
-inline constexpr int largest_with_reference = 1'000'000;  // n_φ; above, there is none
+// Replaces the reference for large bodies: are the stresses those of the edge displacements, a
+// compatible field, and do these satisfy the contact law? With equilibrium this is the whole
+// discrete problem. It bounds no error; only the method's own estimate does.
+inline constexpr int largest_with_reference = 1'000'000;  // n_φ
 struct MomentsCheck {
   StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
-  Eigen::VectorXd contact_displacement;  // ū_C, mm; in the rows of F_C
+  Eigen::VectorXd contact_displacement;  // ū_C, mm; rows as in F_C
 };
-// From Solution::edge_moments, by the elements of hybridized.hpp in double.
 MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments);
 
-// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n, N mm, what Π* lacks of the energy; F_C at the contact points.
+// ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = W − Π*, N mm; F_C at the contact points.
 double work_of_prescribed(const DualSystem& system, const StressField& stress,
                           const Eigen::VectorXd& F_C);
 
-// The parts of these: resultants and states of contact forces; how far F and u_C are from the
-// contact law, with ρ = 1/D_diagonal; both with D, and the friction coupling.
+// The parts of verify(): resultants and states of F; violation of the law by F and u_C with ρ =
+// 1/D_diagonal; both with D, plus the friction coupling.
 void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
                          Verification& result);
 void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
@@ -93,7 +87,7 @@ void note_contact(const ContactPoints& contact, const Eigen::MatrixXd& D, const 
                   const Eigen::VectorXd& displacement, const LoadScale& scale,
                   Verification& result);
 
-// The largest of the relative measures that decide between ok and inaccurate.
+// The largest relative measure; it decides between ok and inaccurate.
 struct WorstMeasure {
   const char* name;
   double value;
@@ -106,7 +100,7 @@ constexpr const char* name_of(ContactState state) {
   return names[static_cast<std::size_t>(state)];
 }
 // Open: |F_n| ≤ 1e-9 of the largest normal force; slip: |F_t| ≥ (1 − 1e-9) μ|F_n|. Without friction
-// a closed point slips.
+// closed points slip.
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C);
 
 }  // namespace airybench

@@ -40,7 +40,7 @@ void VertexStars::sweep(DisplacementField& w) {
 bool VertexStars::are_needed(const Problem& problem) {
   constexpr double most = 5;
   return std::ranges::any_of(problem.compliance, [](const Eigen::Matrix3d& c) {
-    return c(2, 2) > most * 2 * (c(0, 0) + c(0, 1));  // shear against change of area
+    return c(2, 2) > most * 2 * (c(0, 0) + c(0, 1));  // bulk modulus > most × shear modulus
   });
 }
 
@@ -81,7 +81,7 @@ void VertexStars::improve(int vertex, DisplacementField& w) {
     }
   }
   const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(K);
-  if (factor.info() == Eigen::Success) {  // else it stays as it is
+  if (factor.info() == Eigen::Success) {  // else w stays
     factor.solveInPlace(r);
     for (std::size_t k = 0; k < free_.size(); ++k)
       w.col(free_[k]) += r.segment<2>(2 * static_cast<Eigen::Index>(k));

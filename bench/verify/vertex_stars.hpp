@@ -1,11 +1,11 @@
-// Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after the other, the
-// coefficients of it and of its edges together, all others as they are.
+// Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after another, the coefficients
+// of the vertex and its edges together.
 //
-// Where ν is near ½, a coefficient by itself can hardly move, since its triangles would change
-// their volume, and what is averaged or smoothed point by point keeps changes of volume that cost
-// up to 1/(1 − 2ν) times their share. A star's displacements include those that keep its triangles'
-// volumes, as the smoothers of Arnold, Falk & Winther (2000) for div have it. On Mesh0 with ν =
-// 0.4999 the distance falls from 14 times the least to 2.2 times by one sweep, 1.6 by two.
+// For ν near ½ a single coefficient can hardly move without changing the volume of its triangles.
+// Averaging or smoothing point by point leaves changes of volume that cost up to 1/(1 − 2ν) times
+// their share. A star's displacements include some that keep the volumes, as in the smoothers of
+// Arnold, Falk & Winther (2000) for div. On Mesh0 with ν = 0.4999 the distance falls from 14 times
+// the minimum to 2.2 times in one sweep, 1.6 in two.
 #pragma once
 
 #include <vector>
@@ -17,16 +17,15 @@ namespace airybench {
 
 class VertexStars {
  public:
-  using OfTriangle = Eigen::Matrix<double, 2, 6>;  // coefficients, as triangle_nodes() has them
+  using OfTriangle = Eigen::Matrix<double, 2, 6>;  // in the order of triangle_nodes()
 
-  // own: of every triangle the displacement whose stress is Πσ, σ's nearest that is linear there.
-  // held: nodes that stay.
+  // own: per triangle, the displacement with stress Πσ, the linear field nearest to σ. held: fixed.
   VertexStars(const Problem& problem, const std::vector<OfTriangle>& own,
               const std::vector<bool>& held);
   void sweep(DisplacementField& w);
 
-  // Whether a material asks for it: a bulk modulus of more than five shear moduli, ν > 0.4 in plane
-  // strain. Below, the averages alone come within 1.2 times the least.
+  // True if a bulk modulus exceeds five shear moduli (ν > 0.4 in plane strain). Below, averages
+  // alone come within 1.2 times the minimum.
   static bool are_needed(const Problem& problem);
 
  private:
@@ -34,9 +33,9 @@ class VertexStars {
 
   const Problem& problem_;
   const std::vector<OfTriangle>& own_;
-  ElementMatrices K_;                  // unknowns: 2 node + component, or held
-  std::vector<int> first_, triangle_;  // of vertex v: triangle_[first_[v]] …
-  std::vector<int> free_, number_;     // nodes of a star; of a node there, else −1
+  ElementMatrices K_;                  // unknowns: 2 node + component; −1: held
+  std::vector<int> first_, triangle_;  // triangles of vertex v from triangle_[first_[v]]
+  std::vector<int> free_, number_;     // nodes of a star; node → place there, or −1
   std::vector<double> matrix_;
 };
 

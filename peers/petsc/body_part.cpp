@@ -11,7 +11,6 @@ namespace {
 
 using namespace parallel;
 
-// The boundary's arrays, a row per edge of it.
 struct BoundaryArrays {
   Eigen::MatrixXi edges, roles, rollers;
   Eigen::MatrixXd u0_mm, traction_MPa, gap_mm, normals, moment_normals, friction;
@@ -32,12 +31,11 @@ struct BoundaryArrays {
   }
 };
 
-// What is given at nodes of boundary edges, 0 at the start, 1 in the middle, 2 at the end: loads
-// are asked for there only.
+// Data at nodes of boundary edges (0 start, 1 middle, 2 end); loads are evaluated only there.
 struct GivenData {
   std::shared_ptr<const BoundaryArrays> arrays;
   std::vector<int> row;                                            // → row of the arrays
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> along;  // start, edge
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> along;  // start, edge vector
 
   int node(const Eigen::Vector2d& x, int of) const {
     const auto& [start, edge] = along[of];
@@ -68,7 +66,6 @@ Loads loads_of(const std::shared_ptr<const GivenData>& given, const Eigen::Vecto
   return loads;
 }
 
-// What the boundary says, for these of its rows, on a mesh that has their vertices.
 Problem with_boundary(Mesh mesh, MeshEdges edges, std::vector<Eigen::Matrix3d> compliance,
                       const std::shared_ptr<const BoundaryArrays>& arrays, std::vector<int> rows,
                       const Eigen::Vector2d& body_force) {
@@ -85,7 +82,7 @@ Problem with_boundary(Mesh mesh, MeshEdges edges, std::vector<Eigen::Matrix3d> c
     for (int k = 0; k < 3; ++k) normals.at_node[k] = given->pair(arrays->normals, of, k);
     for (int k = 0; k < 2; ++k) normals.at_moment[k] = given->pair(arrays->moment_normals, of, k);
   }
-  // Whether there is friction at all is asked of the whole boundary.
+  // Friction anywhere on the boundary makes has_friction() true on every rank.
   if (friction && problem.friction.empty()) problem.friction.push_back(0);
   problem.loads = loads_of(given, body_force);
   problem.mesh = std::move(mesh);
@@ -98,7 +95,7 @@ using Ends = std::array<int, 2>;  // low and high vertex
 
 Ends low_first(int a, int b) { return {std::min(a, b), std::max(a, b)}; }
 
-// Local numbers of these vertices of the file, −1 where the part has none.
+// Local numbers of vertices of the file; −1: not in the part.
 std::vector<int> local_vertices(const std::vector<int>& vertices, const Numbering& numbers) {
   std::vector<int> local;
   for (const int vertex : vertices) {
@@ -133,7 +130,6 @@ std::vector<ContactEdge> contact_edges(const BodyPart& part) {
   return edges;
 }
 
-// Every slot its own unknown, but for those that are prescribed.
 HybridizedSystem system_of_slots(const Problem& problem) {
   HybridizedSystem system;
   number_unknowns(problem, {}, system.unknown);

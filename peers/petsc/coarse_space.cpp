@@ -89,7 +89,7 @@ void CoarseSpace::create_prolongation() {
   assemble(P_);
 }
 
-// Near the boundary zeros, too: held components change.
+// Near the boundary also stores zeros, since held components change.
 void CoarseSpace::fill_prolongation(const std::vector<int>& edges) {
   for (const int edge : edges) {
     const auto& ends = own_.nodes_of(edge);
@@ -152,7 +152,7 @@ bool CoarseSpace::set_laws(const std::vector<PointLaw>& laws) {
   fill_prolongation(at_boundary_);
   assemble(P_);
 
-  // A matrix that holds a few nodes too many or too few costs an iteration, setting it up several.
+  // A few nodes held too many or too few cost an iteration, a new setup several.
   std::size_t changes = 0;
   for (std::size_t node = 0; node < held_.size(); ++node)
     for (int k = 0; k < 2; ++k) changes += held_[node][k] != held_by_matrix_[node][k];

@@ -1,6 +1,6 @@
 // Coarse displacements of nodes (solvers/two_level/coarse_nodes.hpp) and their problem PᵀKP over
-// the ranks. A component is held where the slots of its edges are: P leaves it out, and its rows
-// and columns in PᵀKP have a diagonal only.
+// the ranks. A component is held if the slots of its edges are: P omits it, and its rows and
+// columns of PᵀKP are diagonal.
 #pragma once
 
 #include "peers/petsc/body_part.hpp"
@@ -11,14 +11,14 @@ namespace airybench {
 
 class CoarseSpace {
  public:
-  // Of the kind that the materials ask for, or -coarse_space linear|per_edge.
+  // Kind: as the materials need, or -coarse_space linear|per_edge.
   explicit CoarseSpace(const BodyPart& part);
 
-  // Adds a triangle of the part; what is prescribed in its K_e is diagonal.
+  // K_e is diagonal in its prescribed slots.
   void add(int triangle, const ElementMatrices::Matrix& K_e);
   void end_assembly();  // collective
 
-  // Holds what these laws hold; collective. Whether PᵀKP is other than before.
+  // Holds what these laws hold; collective. True if PᵀKP changed.
   bool set_laws(const std::vector<PointLaw>& laws);
 
   Mat matrix() const { return held_matrix_; }
@@ -40,14 +40,14 @@ class CoarseSpace {
 
   const BodyPart& part_;
   CoarseNodes whole_;            // of the whole boundary
-  std::vector<int> block_;       // of a local edge: itself
+  std::vector<int> block_;       // local edge → itself
   std::vector<int> node_there_;  // local node → node of the whole boundary, or none
   CoarseNodes own_;
-  std::vector<int> at_boundary_;                   // edges of this rank with a node on the boundary
-  Components prescribed_, held_, held_by_matrix_;  // of nodes of the whole boundary
+  std::vector<int> at_boundary_;                   // own edges with a node on the boundary
+  Components prescribed_, held_, held_by_matrix_;  // per node of the whole boundary
   parallel::OwnedMat matrix_, held_matrix_, P_;
   bool matrix_is_held_ = false;
-  PetscReal share_of_changes_ = 0.01;  // of the contact rows: fewer leave the matrix as it is
+  PetscReal share_of_changes_ = 0.01;  // of the contact rows; fewer changes keep the matrix
 };
 
 }  // namespace airybench

@@ -10,14 +10,14 @@ namespace {
 
 using namespace parallel;
 
-struct Side {  // of a triangle, asked for its edge; or an edge of the file, triangle −1
+struct Side {  // of a triangle; or an edge of the file, with triangle −1
   int low, high, triangle, side_or_edge;
 };
 struct Meeting {
   int triangle, side, edge, neighbour;
 };
 
-// Sides that meet are next to one another once they are sorted, their edge before them.
+// Sorting puts sides that meet next to each other, after their edge.
 std::vector<Meeting> meetings_of(std::vector<Side> sides, std::vector<int>& to,
                                  PetscInt triangles) {
   std::ranges::sort(sides, {}, [](const Side& s) { return std::array{s.low, s.high, s.triangle}; });
@@ -39,7 +39,6 @@ std::vector<Meeting> meetings_of(std::vector<Side> sides, std::vector<int>& to,
   return found;
 }
 
-// Rank of every own triangle.
 std::vector<int> parts_of(const MeshSlices& slices) {
   const auto own = static_cast<PetscInt>(slices.own.size());
   std::vector<int> part(slices.own.size(), 0);
@@ -72,7 +71,7 @@ std::vector<int> parts_of(const MeshSlices& slices) {
   return part;
 }
 
-// Of entities in the order in which their owner is to number them; all: in the file.
+// input: in the order in which the owner numbers them. all: count in the file.
 Numbering number_entities(std::vector<PetscInt> input, PetscInt all) {
   Numbering result;
   result.all = all;

@@ -1,5 +1,5 @@
 // hybrid-petsc INPUT OUTPUT TOLERANCE [PETSc's options]: edge displacements and contact forces of
-// an exported body (--format=npz) by hybridized equilibrium elements over the ranks of mpirun.
+// an exported body (--format=npz), by hybridized equilibrium elements over the ranks of mpirun.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -18,7 +18,6 @@ namespace {
 
 using namespace parallel;
 
-// Seconds of every stage, by its name in answer.json.
 struct Stages {
   double start = clock_s(), last = start;
   std::map<std::string, double> spent;
@@ -33,13 +32,12 @@ struct Stages {
   }
 };
 
-// The whole body's, by which an error counts where there is no stress.
 LoadScale scale_of(const BodyPart& part) {
   const LoadScale own = load_scale(part.problem);
   return {std::sqrt(sum(own.energy_norm * own.energy_norm)), largest(own.force_N)};
 }
 
-// The largest relative error that the answer's stresses and F_C have; adds its iterations.
+// Largest relative error of the answer's stresses and F_C; adds the iterations it needs.
 double estimate_error(const BodyPart& part, RankRows& rows, const LoadScale& scale,
                       RowsResult& answer) {
   UnbalancedForces unbalanced;
@@ -76,8 +74,7 @@ void write(const std::filesystem::path& file, std::string_view text, std::string
   if (!out.flush()) throw FileError(file.string() + ": cannot be written");
 }
 
-// At rank 0, of the file's edges: x, y at the low vertex, x, y at the high one; with the rigid
-// motion; mm.
+// At rank 0, in file order: x, y at an edge's low and high vertex, mm, with the rigid motion.
 Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows,
                                       const Eigen::VectorXd& u) {
   const Numbering& edges = part.edges;
@@ -99,8 +96,7 @@ Eigen::Matrix4Xd gather_displacements(const BodyPart& part, const RankRows& rows
   return all;
 }
 
-// What bench reads: edge_displacements_mm.npy, F_C.mtx, log.txt, and answer.json at last.
-// Collective; rank 0 writes.
+// Writes edge_displacements_mm.npy, F_C.mtx, log.txt and, last, answer.json. Collective.
 void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u,
                   const RowsResult& answer, double estimate, const CoarseSpace* coarse,
                   const Stages& stages) {
@@ -146,7 +142,7 @@ void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u
 void solve(const char* input, const char* output, const char* tolerance_text) {
   RunControl control;
   control.tolerance = tolerance_in(tolerance_text);
-  control.target_error = 1e-9;  // no tolerance below a thousandth of this can be reached
+  control.target_error = 1e-9;  // tolerances below a thousandth of this are out of reach
   std::unique_ptr<NpzSlices> file;
   each_by_itself(
       [&] { file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz"); });

@@ -6,8 +6,8 @@ namespace airybench {
 
 using namespace parallel;
 
-// Blocks per own row: in columns of this rank, and of others. What others know of a row of ours
-// they send, as both: a column that is not theirs may be ours. A pair on the border counts twice.
+// Blocks per own row, in columns of this rank and of others. Other ranks send their blocks of our
+// rows as both, since a column that is not theirs may be ours. A pair on the border counts twice.
 OwnedMat square_matrix(const Numbering& entities, int unknowns, const std::vector<Pair>& pairs,
                        const char* type, int block_size, const char* prefix) {
   std::vector<PetscInt> in(entities.global.size(), 0), out(in);

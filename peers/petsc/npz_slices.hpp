@@ -1,5 +1,4 @@
-// Arrays of an .npz file without compression, <i4 or <f8, row by row: every rank reads its own
-// rows.
+// Arrays of an uncompressed .npz file, <i4 or <f8; every rank reads its own rows.
 #pragma once
 
 #include <zip.h>
@@ -16,7 +15,7 @@ namespace airybench {
 
 class NpzSlices {
  public:
-  // Throws FileError: the file, and what is wrong.
+  // Throws FileError with the file and the reason.
   explicit NpzSlices(const std::filesystem::path& file) : name_(file.string()) {
     int error = 0;
     archive_.reset(zip_open(name_.c_str(), ZIP_RDONLY, &error));
@@ -33,7 +32,7 @@ class NpzSlices {
     if (end == all) end = of.rows;
     if (of.whole_numbers != std::is_integral_v<Scalar>) fail(name + ": is of another type");
     constexpr auto width = static_cast<std::int64_t>(sizeof(Scalar));
-    // Columns of the file's memory: they are the array's, or its rows.
+    // Columns in the file's memory: those of the array, or its rows.
     const std::int64_t lines = of.by_columns ? of.columns : 1;
     const std::int64_t first = of.by_columns ? begin : begin * of.columns;
     Eigen::MatrixX<Scalar> values(of.by_columns ? end - begin : of.columns,

@@ -1,4 +1,4 @@
-// What the ranks of one run do together: exchange records, sum small arrays, agree on failures.
+// Operations of all ranks: exchange records, sum small arrays, agree on failures.
 #pragma once
 
 #include <petscksp.h>
@@ -16,7 +16,6 @@
 
 namespace airybench::parallel {
 
-// PETSc's first message about an error on this rank.
 inline std::string& said_by_petsc() {
   static std::string said;
   return said;
@@ -29,15 +28,13 @@ inline PetscErrorCode keep_what_is_said(MPI_Comm, int, const char* function, con
   return code;
 }
 
-// After an error of PETSc nothing of it can be used, not even to destroy objects: one line, the
-// end.
+// After an error PETSc is unusable, even for destroying objects: print one line and abort.
 inline void check(PetscErrorCode error) {
   if (error == 0) return;
   std::cerr << "hybrid-petsc: PETSc: " << said_by_petsc() << '\n' << std::flush;
   MPI_Abort(PETSC_COMM_WORLD, 3);
 }
 
-// A PETSc object with one owner.
 template <typename Handle, PetscErrorCode (*destroy)(Handle*)>
 class Owned {
  public:
@@ -61,7 +58,6 @@ using OwnedVec = Owned<Vec, VecDestroy>;
 using OwnedKsp = Owned<KSP, KSPDestroy>;
 using OwnedSf = Owned<PetscSF, PetscSFDestroy>;
 
-// Of PETSc's database; none: it is not given.
 inline std::optional<std::string> option(const std::string& name) {
   std::array<char, 256> value{};
   PetscBool given = PETSC_FALSE;
@@ -70,7 +66,7 @@ inline std::optional<std::string> option(const std::string& name) {
   return value.data();
 }
 
-// A vector of PETSc whose numbers are this one's.
+// Shares the memory of `values`.
 inline OwnedVec as_vec(const Eigen::VectorXd& values) {
   OwnedVec vec;
   check(VecCreateMPIWithArray(PETSC_COMM_WORLD, 1, static_cast<PetscInt>(values.size()),
@@ -89,7 +85,7 @@ inline int rank_count() {
   return count;
 }
 
-// Rank r has the rows from ⌊total r / ranks⌋ on; and who has a row.
+// Rank r has the rows from ⌊total r / ranks⌋ on.
 inline PetscInt slice_begin(PetscInt total, int rank) {
   return static_cast<PetscInt>(static_cast<std::int64_t>(total) * rank / rank_count());
 }
@@ -97,7 +93,7 @@ inline int slice_owner(PetscInt total, PetscInt row) {
   return static_cast<int>(((static_cast<std::int64_t>(row) + 1) * rank_count() - 1) / total);
 }
 
-// Record k goes to rank to[k]; what comes is ordered by its sender, then as it was there.
+// Sends record k to rank to[k]. Results are ordered by sender, then as sent.
 template <typename Record>
 std::vector<Record> exchanged(const std::vector<Record>& records, const std::vector<int>& to) {
   const auto ranks = static_cast<std::size_t>(rank_count());
@@ -123,7 +119,7 @@ inline void assemble(Mat matrix) {
   check(MatAssemblyEnd(matrix, MAT_FINAL_ASSEMBLY));
 }
 
-// Which row of an array over the ranks every local value belongs to; `own` rows of it are here.
+// Maps every local value to its row of a distributed array with `own` rows on this rank.
 inline OwnedSf rows_of(PetscInt own, const std::vector<PetscInt>& row_of_value) {
   OwnedSf forest;
   PetscLayout layout = nullptr;
@@ -134,7 +130,6 @@ inline OwnedSf rows_of(PetscInt own, const std::vector<PetscInt>& row_of_value) 
   check(PetscLayoutDestroy(&layout));
   return forest;
 }
-// Of the slots of an edge.
 struct FourNumbers {
   MPI_Datatype type;
   FourNumbers() {
@@ -144,7 +139,7 @@ struct FourNumbers {
   ~FourNumbers() { MPI_Type_free(&type); }
 };
 
-// From its row to every value, and what values make of their row.
+// Rows to their values; values reduced to their rows.
 inline void to_values(PetscSF forest, MPI_Datatype type, const void* rows, void* values) {
   check(PetscSFBcastBegin(forest, type, rows, values, MPI_REPLACE));
   check(PetscSFBcastEnd(forest, type, rows, values, MPI_REPLACE));
@@ -168,7 +163,7 @@ inline double largest(double value) {
   return value;
 }
 
-// Work that talks to no other rank; where it fails on one, all throw that.
+// Runs work that does not communicate. If it fails on a rank, all ranks throw that error.
 template <typename Work>
 void each_by_itself(Work work) {
   std::string wrong;

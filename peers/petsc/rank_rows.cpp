@@ -13,8 +13,8 @@ namespace {
 using namespace parallel;
 using ElementVector = Eigen::Matrix<double, 12, 1>;
 
-// √cond(M⁻¹K) of two levels, about (solvers/two_level/preconditioner.hpp), with room for a coarse
-// problem that is not solved exactly.
+// About √cond(M⁻¹K) of two levels (solvers/two_level/preconditioner.hpp), with a margin for an
+// inexact coarse solve.
 constexpr double preconditioned_condition = 4;
 
 PC preconditioner_of(KSP ksp) {
@@ -123,7 +123,7 @@ void RankRows::add_element(int triangle, const ElementMatrices::Matrix& K_e) {
     for (PetscInt k = 0; k < per_edge; ++k)
       blocks[count++] = per_edge * part_.edges.global[edge] + k;
   check(MatSetValuesBlocked(A_, count, blocks.data(), count, blocks.data(), K_e.data(),
-                            ADD_VALUES));  // symmetric: rows or columns first
+                            ADD_VALUES));  // symmetric, so storage order does not matter
 }
 
 void RankRows::find_contact_triangles() {
@@ -139,7 +139,7 @@ void RankRows::find_contact_triangles() {
 }
 
 void RankRows::create_solvers() {
-  // Laws that settle at a linear error may change at a smaller one: soon seen, little is lost.
+  // Laws that settle at a linear error may change at a smaller one; a loose target shows it early.
   next_target = 0.01;
   for (OwnedKsp* ksp : {&symmetric_, &slipping_}) {
     check(KSPCreate(PETSC_COMM_WORLD, ksp->put()));

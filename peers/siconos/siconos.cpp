@@ -1,11 +1,11 @@
-// Siconos' solvers of the plane contact problem with friction, on a problem in FCLIB's format:
+// Solves a plane frictional contact problem in FCLIB's format with Siconos:
 //
 //   siconos nsgs|cpg|lemke INPUT OUTPUT TOLERANCE   |   siconos --version
 //
 //   u = W r + q,  r_n ≥ 0,  u_n ≥ 0,  r_n u_n = 0,  |r_t| ≤ μ r_n,  r_t against u_t when it slips
 //
-// Status and error_estimate are what Siconos reports, right or not. Its measure of the error is
-// ‖r − P(r − û)‖ / max(‖r‖, ‖u‖, ‖q‖) with û_n = u_n + μ |u_t|.
+// Status and error_estimate are Siconos' own, unchecked. Its error is ‖r − P(r − û)‖ / max(‖r‖,
+// ‖u‖, ‖q‖) with û_n = u_n + μ |u_t|.
 #include <FrictionContactProblem.h>
 #include <Friction_cst.h>
 #include <NonSmoothDrivers.h>
@@ -35,7 +35,7 @@ std::vector<Value> read(hid_t file, const std::string& name) {
   return values;
 }
 
-// From compressed rows to the full columns that CPG and Lemke ask for.
+// CPG and Lemke need full columns.
 std::vector<double> dense(hid_t file, int size) {
   const auto p = read<int>(file, "W/p"), column = read<int>(file, "W/i");
   const auto x = read<double>(file, "W/x");
