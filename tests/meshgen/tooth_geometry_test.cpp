@@ -180,9 +180,9 @@ TEST(BoundaryPolygon, RefusesImpossibleDimensionsAndTooFewEdges) {
       {rack(4), {6, 40, 3}, "contact edges: 3; at least 4 needed, one per tooth"},
   };
   for (const auto& [dimensions, counts, complaint] : cases)
-    EXPECT_EQ(
-        testing::complaint_of<std::invalid_argument>([&] { boundary_polygon(dimensions, counts); }),
-        complaint);
+    EXPECT_EQ(testing::complaint_of<std::invalid_argument>(
+                  [&of = dimensions, &with = counts] { boundary_polygon(of, with); }),
+              complaint);
 }
 
 using Counts = std::vector<int>;
