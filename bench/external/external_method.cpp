@@ -298,10 +298,10 @@ Method external_method(const Declaration& declaration,
       break;
     case Declaration::Returns::contact_forces:
       method = select_methods("HYBRID").front();
-      solve = [of_body = method.solve](const Caller& caller, const DualSystem& s,
+      solve = [of_body = method.solve](const Caller& by, const DualSystem& s,
                                        const RunControl& given) {
         return solve_contact_law(
-            caller, [&](const RunControl& c) { return of_body(s, c); }, s.problem.get(), given);
+            by, [&](const RunControl& c) { return of_body(s, c); }, s.problem.get(), given);
       };
       method.solve_contact =
           with_no_answer([caller, own = condensed_contact().solve_contact](

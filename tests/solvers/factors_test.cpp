@@ -88,7 +88,9 @@ TEST_P(Factor, SolvesForAnyNumberOfColumnsWithAnOuterStride) {
         EXPECT_LE(testing::residual(A, wide.topRows(A.rows()), b),
                   (constraints > 0 ? 1e-12 : 1e-13) * b.norm())
             << side << ", " << constraints << " constraints, " << columns << " columns";
-        EXPECT_TRUE(wide.bottomRows(5).isZero(0));
+        if (columns > 0) {  // a matrix without entries has no rows to point to
+          EXPECT_TRUE(wide.bottomRows(5).isZero(0));
+        }
       }
       Eigen::MatrixXd zero = Eigen::MatrixXd::Zero(A.rows(), 2);
       solve(zero, {});
