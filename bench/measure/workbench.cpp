@@ -22,12 +22,6 @@ bool is_zero(const StressField& stress) {
   return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
 }
 
-template <typename Wanted>
-std::shared_ptr<const Wanted> held(const PosedProblem& posed) {
-  const auto* const found = std::get_if<std::shared_ptr<const Wanted>>(&posed);
-  return found != nullptr ? *found : nullptr;
-}
-
 }  // namespace
 
 Workbench::Workbench(PosedProblem problem, const Options& options, LeftOut left_out)

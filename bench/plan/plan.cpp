@@ -47,14 +47,11 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
   return cases;
 }
 
-const Problem* body_of(const PosedProblem& problem) {
-  const auto* const body = std::get_if<std::shared_ptr<const Problem>>(&problem);
-  return body != nullptr ? body->get() : nullptr;
-}
+const Problem* body_of(const PosedProblem& problem) { return held<Problem>(problem).get(); }
 
 std::string mesh_name_of(const PosedProblem& problem) {
   const Problem* const body = body_of(problem);
-  return body != nullptr ? body->mesh.name : std::get<1>(problem)->name;
+  return body != nullptr ? body->mesh.name : held<contact::Problem>(problem)->name;
 }
 
 CaseName Case::name() const {

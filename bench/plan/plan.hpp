@@ -24,6 +24,12 @@ struct AdaptedMesh {
 
 using PosedProblem =
     std::variant<std::shared_ptr<const Problem>, std::shared_ptr<const contact::Problem>>;
+// What is posed, if it is of this type; else null.
+template <typename Wanted>
+std::shared_ptr<const Wanted> held(const PosedProblem& problem) {
+  const auto* const found = std::get_if<std::shared_ptr<const Wanted>>(&problem);
+  return found != nullptr ? *found : nullptr;
+}
 const Problem* body_of(const PosedProblem& problem);  // null without a body
 std::string mesh_name_of(const PosedProblem& problem);
 
