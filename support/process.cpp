@@ -283,6 +283,11 @@ class Guardian {
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
     std::signal(SIGCHLD, SIG_DFL);
+    std::array<int, 2> until_executed;  // its writing end is closed by execvp()
+    if (pipe2(until_executed.data(), O_CLOEXEC) != 0) {
+      end_.start_error = errno;
+      return;
+    }
     const auto begun = std::chrono::steady_clock::now();
     program_pid_ = start(WhenParentEnds::end, [&] {
       become(program_, limits_, before);
@@ -293,6 +298,9 @@ class Guardian {
       end_.start_error = errno;
       return;
     }
+    // Until then its memory is a copy of ours, which must not be counted.
+    close(until_executed[1]);
+    for (char nothing; read(until_executed[0], &nothing, 1) < 0 && errno == EINTR;) continue;
     while (!is_over(seconds_since(begun)) && getppid() == parent)
       wait_for_child(seconds_since(begun));
     end_.wall_s = seconds_since(begun);
