@@ -236,7 +236,7 @@ Solution solve_contact_law(const Caller& caller,
                            const Problem* body, const RunControl& given) {
   std::optional<ProgramSolve> program;
   RunControl control = given;
-  control.contact_by = [&](const contact::Problem& problem, const RunControl&) {
+  control.contact.by = [&](const contact::Problem& problem) {
     const std::string& format = caller.declaration.format;
     program.emplace(
         caller, [&] { return contact_files(problem, body, format); }, given);

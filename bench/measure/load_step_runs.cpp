@@ -75,7 +75,7 @@ Solution answer_of(const Reference& reference) {
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most) {
   ReferencePath path;
   const Solve solve = [&](const DualSystem& system, const RunControl& control) {
-    path.steps.push_back(compute_reference(system, control.start));
+    path.steps.push_back(compute_reference(system, control.contact.start));
     const double estimate = path.steps.back().error_estimate;
     Solution answer = answer_of(path.steps.back());
     const double residual = *verify(system, answer, nullptr).equilibrium_residual;

@@ -87,11 +87,11 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.histories = in_detail;
   control.threads = options_.threads;
   control.stop = options_.stop;
-  control.contact = options_.contact.value_or(control.contact);
+  control.contact.solver = options_.contact.value_or(control.contact.solver);
   control.target_error = options_.target_error;
   control.condition = in_detail && options_.study.condition;
   control.tolerance = choice.tolerance;
-  control.contact_acceptable = std::max(control.contact_tolerance, options_.target_error / 1000);
+  control.contact.acceptable = std::max(control.contact.tolerance, options_.target_error / 1000);
   const bool rss_is_reset = rss::reset_peak();
   const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
   const MemoryWatch watch(of_blocks);

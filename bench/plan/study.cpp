@@ -125,7 +125,7 @@ std::vector<TurnedMethod> contact_points(const Method& method) {
   std::vector<TurnedMethod> points;
   for (const ContactSolver solver : all_contact_solvers)
     points.push_back(turned(method, {"", {}, {}, solver},
-                            [solver](RunControl& control) { control.contact = solver; }));
+                            [solver](RunControl& control) { control.contact.solver = solver; }));
   return points;
 }
 
@@ -149,15 +149,15 @@ std::vector<TurnedMethod> error_points(const Method& method) {
       points = turned_to(method, "uzawa iterations", {2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000},
                          [](RunControl& control, double value) {
                            control.tolerance = 0;
-                           control.uzawa_iterations = static_cast<int>(value);
+                           control.most_iterations = static_cast<int>(value);
                          });
       points.push_back(at_paper_stop(method));
       return points;
     case AccuracyKnob::contact_sweeps:
       points = turned_to(method, std::string(sweeps_knob), {1, 3, 10, 30, 100, 300, 1000},
                          [](RunControl& control, double value) {
-                           control.contact_sweeps = static_cast<int>(value);
-                           control.contact = ContactSolver::gauss_seidel;
+                           control.contact.most_iterations = static_cast<int>(value);
+                           control.contact.solver = ContactSolver::gauss_seidel;
                          });
       points.push_back({method, {}});
       return points;

@@ -68,10 +68,9 @@ Reference compute_reference(const DualSystem& airy, const Eigen::VectorXd& start
     reference.condensed.G = factor.load(system.b.cast<double>());
     reference.condensed.D = factor.compliance();
     reference.condensed.points = airy.contact;
-    RunControl control;
-    control.start = start;
-    const Eigen::VectorXd F =
-        start_is == StartIs::solution ? start : solve_contact(reference.condensed, control).F_C;
+    const Eigen::VectorXd F = start_is == StartIs::solution
+                                  ? start
+                                  : solve_contact(reference.condensed, {.start = start}).F_C;
     force_error =
         solve_contact_to_rounding(system, scale, F, factor.cholesky(), reference, refined);
   } else {

@@ -140,9 +140,8 @@ void write_answer(const std::filesystem::path& folder, const Eigen::Matrix4Xd& u
 }
 
 void solve(const char* input, const char* output, const char* tolerance_text) {
-  RunControl control;
-  control.tolerance = tolerance_in(tolerance_text);
-  control.target_error = 1e-9;  // tolerances below a thousandth of this are out of reach
+  constexpr double in_reach = 1e-12;
+  const RowsOptions options = {tolerance_in(tolerance_text), in_reach};
   std::unique_ptr<NpzSlices> file;
   each_by_itself(
       [&] { file = std::make_unique<NpzSlices>(std::filesystem::path(input) / "problem.npz"); });
@@ -158,7 +157,7 @@ void solve(const char* input, const char* output, const char* tolerance_text) {
   const LoadScale scale = scale_of(part);
   stages.end("precondition");
 
-  RowsResult answer = solve_contact_on_rows(rows, scale.energy_norm, control);
+  RowsResult answer = solve_contact_on_rows(rows, scale.energy_norm, options);
   answer.F_C = project_on_coulomb(part.contact, answer.F_C);
   stages.end("contact");
   double estimate = 0;

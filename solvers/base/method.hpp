@@ -32,8 +32,8 @@ struct Tuning {
 enum class AccuracyKnob {
   none,              // a direct method: it has one accuracy
   krylov_tolerance,  // RunControl::tolerance
-  uzawa_iterations,  // RunControl::uzawa_iterations
-  contact_sweeps,    // RunControl::contact_sweeps
+  uzawa_iterations,  // RunControl::most_iterations
+  contact_sweeps,    // ContactOptions::most_iterations
   stop               // RunControl::stop; parameters are chosen for it
 };
 

@@ -137,6 +137,19 @@ class Deadline {
   std::optional<std::chrono::steady_clock::time_point> end_;
 };
 
+// Of the solvers of a condensed contact law (contact_result.hpp).
+struct ContactOptions {
+  ContactSolver solver = ContactSolver::newton;
+  double tolerance = 1e-12;  // ‖natural map‖ ≤ tolerance · ‖F_C‖
+  double acceptable = 1e-12;  // ‖natural map‖ ≤ acceptable · ‖F_C‖, when iterations have ended
+  int most_iterations = 100000;  // sweeps, where the solver makes these
+  bool history = false;
+  Eigen::VectorXd start = {};  // contact forces, N; empty: zero
+  // Another's contact solver, instead of ours.
+  std::function<ContactResult(const contact::Problem&)> by = {};
+};
+
+// What a method is told. Its solvers take options of their own, which it makes from this.
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
@@ -144,17 +157,11 @@ struct RunControl {
   bool keep_body = false;  // for other load cases; the deadline then is one for all of them
   int threads = 1;         // for right-hand sides in parallel
   Stop stop = Stop::target;
-  double target_error = 1e-6;         // a method that knows that it misses this must say so
-  double tolerance = 1e-10;           // of linear and Uzawa iterations, relative; see each method
-  double contact_tolerance = 1e-12;   // natural map residual ≤ tolerance · ‖F_C‖
-  double contact_acceptable = 1e-12;  // the same, when the sweeps get no further
-  int contact_sweeps = 100000;        // at most, or iterations of another contact solver
-  int uzawa_iterations = 20000;       // at most
-  ContactSolver contact = ContactSolver::newton;  // with the paper's stop: Gauss–Seidel
-  // Contact forces, N, that our solvers of the condensed law begin with; empty: zero.
-  Eigen::VectorXd start = {};
-  // Another's contact solver, instead of these.
-  std::function<ContactResult(const contact::Problem&, const RunControl&)> contact_by = {};
+  double target_error = 1e-6;  // error_estimate ≤ target_error, or the method says `inaccurate`
+  // Of the method's iteration: KrylovOptions, RowsOptions, UzawaOptions.
+  double tolerance = 1e-10;
+  std::optional<int> most_iterations = {};  // Krylov's per right-hand side, Uzawa's; else their own
+  ContactOptions contact = {};              // with the paper's stop its solver is Gauss–Seidel
 };
 
 // What all checks end with: the estimate into the solution, and `inaccurate` where it is above the

@@ -34,12 +34,11 @@ void MultifrontalStiffness::count(Solution& solution) const {
 
 contact::Problem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
                                         const ContactPoints& points, const std::string& system,
-                                        const RunControl& control, Solution& solution) {
+                                        const Deadline& deadline, Solution& solution) {
   run_stage(solution.times, Stage::order, MemoryOwner::factor, [&] { factor.analyse(); });
-  control.deadline.check("the ordering of the " + system);
-  run_stage(solution.times, Stage::factor, MemoryOwner::factor,
-            [&] { factor.factor(control.deadline); });
-  control.deadline.check("the factorisation of the " + system);
+  deadline.check("the ordering of the " + system);
+  run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] { factor.factor(deadline); });
+  deadline.check("the factorisation of the " + system);
   contact::Problem condensed{.points = points};
   run_stage(solution.times, Stage::condense, MemoryOwner::condensed, [&] {
     condensed.G = factor.load(b);

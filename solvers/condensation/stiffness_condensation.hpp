@@ -60,6 +60,6 @@ class MultifrontalStiffness final : public StiffnessFactor {
 // takes. system: what messages call it.
 contact::Problem factorise_and_condense(StiffnessFactor& factor, const Eigen::VectorXd& b,
                                         const ContactPoints& points, const std::string& system,
-                                        const RunControl& control, Solution& solution);
+                                        const Deadline& deadline, Solution& solution);
 
 }  // namespace airybench

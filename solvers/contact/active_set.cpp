@@ -60,10 +60,10 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   return next;
 }
 
-void finish_by_active_set(const contact::Problem& problem, const RunControl& control,
-                          ContactResult& result) {
+void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
+                          const Deadline& deadline, ContactResult& result) {
   constexpr int most_steps = 100, patience = 15;  // steps without a smaller natural map
-  const double enough = control.contact_tolerance / 100;
+  const double enough = options.tolerance / 100;
   Eigen::VectorXd F = result.F_C;
   int since_best = 0;
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
@@ -78,35 +78,33 @@ void finish_by_active_set(const contact::Problem& problem, const RunControl& con
     }
     // Below the tolerance for as long as it still falls: errors are a multiple of the map.
     const double best = result.natural_map_residual;
-    if (best <= enough || (best <= control.contact_tolerance && step > 0 && best > before / 2))
-      break;
+    if (best <= enough || (best <= options.tolerance && step > 0 && best > before / 2)) break;
     F = active_set_step(problem.D, problem.points, F, relative_to_gap(problem.points, u));
     ++result.active_set_steps;
-    control.deadline.check("the active sets of the contact law");
+    deadline.check("the active sets of the contact law");
   }
-  result.converged = result.natural_map_residual <=
-                     std::max(control.contact_tolerance, control.contact_acceptable);
+  result.converged = result.natural_map_residual <= std::max(options.tolerance, options.acceptable);
 }
 
-ContactResult solve_contact_by_newton(const contact::Problem& problem, const RunControl& control) {
+ContactResult solve_contact_by_newton(const contact::Problem& problem,
+                                      const ContactOptions& options, const Deadline& deadline) {
   constexpr int first_sweeps = 10;  // from fewer, active sets may cycle
   ContactResult best;
-  ContactResult swept;
-  swept.F_C = control.start;
-  RunControl part = control;
+  ContactOptions part = options;
   int sweeps = 0, steps = 0;
   std::vector<double> history;
   for (int next = first_sweeps;; next *= 10) {
-    part.contact_sweeps = std::min(next, control.contact_sweeps - sweeps);
-    swept = solve_contact_by_gauss_seidel(problem, part, swept.F_C);
+    part.most_iterations = std::min(next, options.most_iterations - sweeps);
+    const ContactResult swept = solve_contact_by_gauss_seidel(problem, part, deadline);
+    part.start = swept.F_C;
     sweeps += swept.iterations;
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
-    finish_by_active_set(problem, control, result);
+    finish_by_active_set(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
       best = std::move(result);
-    if (best.converged || sweeps >= control.contact_sweeps || !swept.F_C.allFinite()) break;
+    if (best.converged || sweeps >= options.most_iterations || !swept.F_C.allFinite()) break;
   }
   best.iterations = sweeps;
   best.active_set_steps = steps;

@@ -24,14 +24,15 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r);
 
 // Goes on from a result, and replaces it by a better one, if it finds one: until the natural map is
-// a hundredth of control.contact_tolerance, or, below that tolerance, no longer halves. converged:
-// it meets contact_tolerance, or else contact_acceptable.
-void finish_by_active_set(const contact::Problem& problem, const RunControl& control,
-                          ContactResult& result);
+// a hundredth of options.tolerance, or, below that tolerance, no longer halves.
+void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
+                          const Deadline& deadline, ContactResult& result);
 
 // A few sweeps, then active sets; where these do not end, ten times as many sweeps, and active sets
 // again: what sweeps alone solve is solved.
-ContactResult solve_contact_by_newton(const contact::Problem& problem, const RunControl& control);
+ContactResult solve_contact_by_newton(const contact::Problem& problem,
+                                      const ContactOptions& options = {},
+                                      const Deadline& deadline = {});
 
 // How wrong F is, with displacements ū_C that belong to it and are more accurate than D F − G. One
 // more step gives ΔF, the error to first order, where the statuses are right.

@@ -7,8 +7,8 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_admm(const contact::Problem& problem, const RunControl& control,
-                                    const Eigen::VectorXd& start) {
+ContactResult solve_contact_by_admm(const contact::Problem& problem, const ContactOptions& options,
+                                    const Deadline& deadline) {
   constexpr double apart = 10, factor = 2;
   const int m = problem.points.components;
   const Eigen::VectorXd offset = contact_offset(problem);
@@ -26,7 +26,7 @@ ContactResult solve_contact_by_admm(const contact::Problem& problem, const RunCo
   factorise();
   Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.points.size());
   int iteration = 0, next_change = 1, pause = 1;
-  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& z) {
+  return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& z) {
     Eigen::VectorXd F = offset + weight.cwiseProduct(z - y);
     solve_by_cholesky(L, F);
     const Eigen::VectorXd projected = project_on_coulomb(problem.points, F + y);

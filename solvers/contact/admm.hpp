@@ -17,7 +17,8 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_admm(const contact::Problem& problem, const RunControl& control,
-                                    const Eigen::VectorXd& start = {});
+ContactResult solve_contact_by_admm(const contact::Problem& problem,
+                                    const ContactOptions& options = {},
+                                    const Deadline& deadline = {});
 
 }  // namespace airybench

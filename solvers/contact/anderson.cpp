@@ -5,14 +5,15 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_anderson(const contact::Problem& problem, const RunControl& control,
-                                        const Eigen::VectorXd& start) {
+ContactResult solve_contact_by_anderson(const contact::Problem& problem,
+                                        const ContactOptions& options, const Deadline& deadline) {
   constexpr int memory = 10;
   const Eigen::VectorXd offset = contact_offset(problem);
   AndersonAcceleration acceleration(problem.points.size(), memory);
-  Eigen::VectorXd from = start.size() > 0 ? start : Eigen::VectorXd::Zero(problem.points.size());
+  Eigen::VectorXd from = options.start;
+  if (from.size() == 0) from.setZero(problem.points.size());
   // F is what a sweep gave, so that it meets the law's bounds; `from` is where the next one begins.
-  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& F) {
+  return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& F) {
     F = from;
     const double change = gauss_seidel_sweep(problem, offset, F);
     from = acceleration.next(F, F - from);

@@ -6,7 +6,8 @@
 
 namespace airybench {
 
-ContactResult solve_contact_by_anderson(const contact::Problem& problem, const RunControl& control,
-                                        const Eigen::VectorXd& start = {});
+ContactResult solve_contact_by_anderson(const contact::Problem& problem,
+                                        const ContactOptions& options = {},
+                                        const Deadline& deadline = {});
 
 }  // namespace airybench

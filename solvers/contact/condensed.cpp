@@ -29,21 +29,22 @@ double relative_natural_map(const contact::Problem& problem, const Eigen::Vector
                               times(problem.D, F) - problem.G);
 }
 
-ContactResult solve_contact(const contact::Problem& problem, const RunControl& control) {
+ContactResult solve_contact(const contact::Problem& problem, const ContactOptions& options,
+                            const Deadline& deadline) {
   const int size = problem.points.size();
-  if (control.start.size() != 0 && control.start.size() != size)
-    throw std::invalid_argument("RunControl::start: " + std::to_string(control.start.size()) +
+  if (options.start.size() != 0 && options.start.size() != size)
+    throw std::invalid_argument("ContactOptions::start: " + std::to_string(options.start.size()) +
                                 " contact forces (allowed: none or " + std::to_string(size) + ")");
-  if (control.contact_by) return control.contact_by(problem, control);
-  switch (control.stop == Stop::paper ? ContactSolver::gauss_seidel : control.contact) {
+  if (options.by) return options.by(problem);
+  switch (options.solver) {
     case ContactSolver::newton:
-      return solve_contact_by_newton(problem, control);
+      return solve_contact_by_newton(problem, options, deadline);
     case ContactSolver::gauss_seidel:
-      return solve_contact_by_gauss_seidel(problem, control, control.start);
+      return solve_contact_by_gauss_seidel(problem, options, deadline);
     case ContactSolver::anderson:
-      return solve_contact_by_anderson(problem, control, control.start);
+      return solve_contact_by_anderson(problem, options, deadline);
     case ContactSolver::admm:
-      return solve_contact_by_admm(problem, control, control.start);
+      return solve_contact_by_admm(problem, options, deadline);
   }
   throw std::logic_error("no such contact solver");
 }
@@ -55,7 +56,10 @@ void solve_condensed_contact(const contact::Problem& problem, const RunControl& 
   if (problem.points.size() == 0) return;
   const StageTimer timer(solution.times, Stage::contact);
   const OwnerScope scope(MemoryOwner::condensed);
-  ContactResult result = solve_contact(problem, control);
+  ContactOptions options = control.contact;
+  options.history = control.histories;
+  if (control.stop == Stop::paper) options.solver = ContactSolver::gauss_seidel;
+  ContactResult result = solve_contact(problem, options, control.deadline);
   solution.F_C = std::move(result.F_C);
   solution.contact_iterations = result.iterations;
   solution.newton_steps = result.active_set_steps;
@@ -68,7 +72,7 @@ void solve_condensed_contact(const contact::Problem& problem, const RunControl& 
     std::ostringstream message;
     message << "contact law: natural map residual " << result.natural_map_residual << " after "
             << result.iterations << " iterations and " << result.active_set_steps
-            << " active sets (tolerance " << control.contact_tolerance << ")";
+            << " active sets (tolerance " << options.tolerance << ")";
     solution.status = Status::not_converged;
     solution.message = message.str();
   }

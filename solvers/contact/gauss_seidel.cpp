@@ -45,10 +45,10 @@ double gauss_seidel_sweep(const contact::Problem& problem, const Eigen::VectorXd
 }
 
 ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,
-                                            const RunControl& control,
-                                            const Eigen::VectorXd& start) {
+                                            const ContactOptions& options,
+                                            const Deadline& deadline) {
   const Eigen::VectorXd offset = contact_offset(problem);
-  return iterate_contact(problem, control, start, [&](Eigen::VectorXd& F) {
+  return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& F) {
     return gauss_seidel_sweep(problem, offset, F);
   });
 }

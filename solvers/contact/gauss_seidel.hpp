@@ -13,10 +13,9 @@ namespace airybench {
 double gauss_seidel_sweep(const contact::Problem& problem, const Eigen::VectorXd& offset,
                           Eigen::VectorXd& F);
 
-// Starts from `start`; empty: F_C = 0. Not converged after control.contact_sweeps, or when a force
-// is not finite.
+// Not converged after options.most_iterations, or when a force is not finite.
 ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,
-                                            const RunControl& control,
-                                            const Eigen::VectorXd& start = {});
+                                            const ContactOptions& options = {},
+                                            const Deadline& deadline = {});
 
 }  // namespace airybench

@@ -24,12 +24,12 @@ void count_factor(const SkylineFactor& factor, Solution& solution) {
   solution.factor_flops = factor.profile.factor_flops;
 }
 
-SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const RunControl& control,
+SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const Deadline& deadline,
                                Solution& solution) {
   SkylineProfile profile = run_stage(solution.times, Stage::order, MemoryOwner::factor,
                                      [&] { return analyse_skyline(lower); });
   SkylineFactor factor = run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] {
-    return factor_ldlt(std::move(profile), lower, control.deadline);
+    return factor_ldlt(std::move(profile), lower, deadline);
   });
   count_factor(factor, solution);
   return factor;

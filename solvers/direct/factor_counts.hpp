@@ -12,7 +12,7 @@ namespace airybench {
 void count_factor(const SkylineFactor& factor, Solution& solution);
 void count_factor(const MultifrontalFactor& factor, Solution& solution);
 // Makes it, too, in the stages `order` and `factor`.
-SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const RunControl& control,
+SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const Deadline& deadline,
                                Solution& solution);
 // After the solves: their workspace stays, and counts.
 void count_factor(const CholmodFactor& factor, Solution& solution);

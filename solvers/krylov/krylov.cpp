@@ -50,6 +50,7 @@ void Lanes::check_time(const Deadline& deadline, const char* solver, const LaneS
 KrylovOptions krylov_options(const RunControl& control, int lanes) {
   KrylovOptions options;
   options.tolerance = control.tolerance;
+  options.most_iterations = control.most_iterations.value_or(options.most_iterations);
   options.lanes = lanes;
   options.threads = control.threads;
   return options;

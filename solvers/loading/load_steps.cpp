@@ -130,7 +130,7 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
     loads.slid_mm = slid_after(system, answer);
     set_load_case(system, std::make_shared<const Problem>(with_loads(*first, std::move(loads))));
     RunControl from_here = control;
-    if (answer.F_C.allFinite()) from_here.start = std::move(answer.F_C);
+    if (answer.F_C.allFinite()) from_here.contact.start = std::move(answer.F_C);
     answer = run(again, system, from_here);
     if (visit) visit(static_cast<int>(k) + 1, system, answer);
   }

@@ -92,7 +92,7 @@ Solution solve_blind_skyline(const DualSystem& system, const RunControl& control
   body->blind = run_stage(solution.times, Stage::order, MemoryOwner::system_matrix, [&] {
     return make_blind_system(system, BlindNumbering::multipliers_after_unknowns);
   });
-  body->factor = factor_in_stages(body->blind.lower, control, solution);
+  body->factor = factor_in_stages(body->blind.lower, control.deadline, solution);
   check_inertia(static_cast<int>((body->factor.diagonal.array() < 0).count()),
                 system.n_f() + system.n_c());
   solution.storage[MemoryOwner::system_matrix] = body->blind.bytes();

@@ -52,7 +52,7 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Mak
   });
   solution.storage[MemoryOwner::system_matrix] = system.bytes() + body->factor->matrix_bytes();
   body->condensed = factorise_and_condense(*body->factor, system.b, airy.contact,
-                                           "hybridized system", control, solution);
+                                           "hybridized system", control.deadline, solution);
   if (control.condition)
     solution.condition_estimate = estimate_condition(
         lower_triangle(system.K),

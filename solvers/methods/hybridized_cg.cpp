@@ -112,10 +112,11 @@ void finish_iteratively(const DualSystem& airy, const RunControl& control, Krylo
   M.times() = {};
   const Stage stage = has_contact ? Stage::contact : Stage::recover;
   SlotRows slots = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return SlotRows(problem, airy.contact, body.system, body.matrix, M, control);
+    return SlotRows(problem, airy.contact, body.system, body.matrix, M, control.deadline);
   });
   RowsResult rows = run_stage(solution.times, stage, MemoryOwner::iteration, [&] {
-    return solve_contact_on_rows(slots, load_scale(problem).energy_norm, control);
+    return solve_contact_on_rows(slots, load_scale(problem).energy_norm,
+                                 {control.tolerance, control.target_error / 1000});
   });
   note_rows(rows, control, solution);
   if (has_contact) {

@@ -38,7 +38,7 @@ Solution solve_quadratic_displacements(const DualSystem& airy, const RunControl&
   solution.storage[MemoryOwner::system_matrix] = system.bytes();
   body->factor = std::make_unique<MultifrontalStiffness>(system.K, system.n_c());
   body->condensed = factorise_and_condense(*body->factor, system.b, system.control.law,
-                                           "displacement system", control, solution);
+                                           "displacement system", control.deadline, solution);
   finish_quadratic(airy, control, *body, solution);
   keep_if_told(airy, control, body, finish_quadratic, solution);
   return solution;

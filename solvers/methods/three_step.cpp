@@ -13,7 +13,7 @@ Solution solve_with_skyline(const DualSystem& system, const RunControl& control,
                             Refine refine) {
   Solution solution;
   const auto factor =
-      std::make_shared<const SkylineFactor>(factor_in_stages(system.S, control, solution));
+      std::make_shared<const SkylineFactor>(factor_in_stages(system.S, control.deadline, solution));
   const auto solve_S = [own = factor.get(), deadline = control.deadline,
                         threads = control.threads](Eigen::Ref<Eigen::MatrixXd> X) {
     solve_in_place(*own, X, deadline, threads);

@@ -17,8 +17,8 @@ int iterations_at_once(Eigen::Index rows) {
 
 class RowsNewton {
  public:
-  RowsNewton(ContactRows& rows, double scale, const RunControl& control)
-      : rows_(rows), scale_(scale), control_(control) {
+  RowsNewton(ContactRows& rows, double scale, const RowsOptions& options)
+      : rows_(rows), scale_(scale), options_(options) {
     now_.u.setZero(rows.slots());
     best_.natural_map_residual = std::numeric_limits<double>::infinity();
     if (rows.contact.count > 0) now_.laws = rows.first_laws(now_.sweeps);
@@ -39,13 +39,12 @@ class RowsNewton {
       hold_laws();
       solve_linear(target);
       if (choose_laws()) {
-        target = std::clamp(now_.natural_map_residual / 10, control_.tolerance, 1e-2);
+        target = std::clamp(now_.natural_map_residual / 10, options_.tolerance, 1e-2);
       } else {
-        now_.converged =
-            now_.linear_error <= std::max(control_.tolerance, control_.target_error / 1000);
-        if (now_.converged || target <= control_.tolerance) return std::move(now_);
+        now_.converged = now_.linear_error <= std::max(options_.tolerance, options_.acceptable);
+        if (now_.converged || target <= options_.tolerance) return std::move(now_);
         target =
-            std::max(control_.tolerance, rows_.next_target * std::min(target, now_.linear_error));
+            std::max(options_.tolerance, rows_.next_target * std::min(target, now_.linear_error));
       }
     }
     for (const auto count : {&RowsResult::steps, &RowsResult::sweeps}) best_.*count = now_.*count;
@@ -79,7 +78,7 @@ class RowsNewton {
       now_.most_in_a_step = std::max(now_.most_in_a_step, now_.iterations - before);
       now_.u += correction_;
       measure();
-      const double left = rows_.error_left(linear, unbalanced_, target <= control_.tolerance);
+      const double left = rows_.error_left(linear, unbalanced_, target <= options_.tolerance);
       now_.linear_error = relative_error(left, size_, scale_);
       now_.history.push_back(now_.linear_error);
       if (now_.linear_error <= target) return;
@@ -92,7 +91,7 @@ class RowsNewton {
     now_.F_C = forces_under(rows_.contact, now_.laws, -rows_.of_contact(unbalanced_));
     if (rows_.contact.count == 0) return false;
     LawChoice::Next next = choice_.after(rows_.contact, rows_.compliance, now_.laws, now_.F_C,
-                                         rows_.of_contact(now_.u), control_.tolerance);
+                                         rows_.of_contact(now_.u), options_.tolerance);
     now_.natural_map_residual = next.natural_map;
     if (now_.natural_map_residual < best_.natural_map_residual) best_ = now_;
     if (next.laws.empty()) return false;
@@ -102,7 +101,7 @@ class RowsNewton {
 
   ContactRows& rows_;
   double scale_;
-  const RunControl& control_;
+  const RowsOptions options_;
   RowsResult now_, best_;
   std::vector<PointLaw> held_laws_;
   Eigen::VectorXd unbalanced_, correction_;
@@ -112,8 +111,8 @@ class RowsNewton {
 
 }  // namespace
 
-RowsResult solve_contact_on_rows(ContactRows& rows, double scale, const RunControl& control) {
-  return RowsNewton(rows, scale, control).solve();
+RowsResult solve_contact_on_rows(ContactRows& rows, double scale, const RowsOptions& options) {
+  return RowsNewton(rows, scale, options).solve();
 }
 
 }  // namespace airybench

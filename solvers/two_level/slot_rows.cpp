@@ -9,11 +9,11 @@ namespace airybench {
 
 SlotRows::SlotRows(const Problem& problem, const ContactPoints& points,
                    const HybridizedSystem& system, const EdgeMatrix& K, TwoLevelPreconditioner& M,
-                   const RunControl& control)
+                   const Deadline& deadline)
     : ContactRows(points, rough_compliance(problem, points), two_level_condition),
       K_(K),
       M_(M),
-      control_(control),
+      deadline_(deadline),
       b_(to_slots(K, system.unknown, system.b)),
       prescribed_u_(prescribed_in_slots(K, system)),
       prescribed_(prescribed_slots(K, system.unknown)) {
@@ -36,11 +36,8 @@ std::vector<PointLaw> SlotRows::first_laws(int& sweeps) {
   const CoarseContact coarse = M_.coarse().contact_problem(contact, b_);
   const auto& [D, G, points, unnamed] = coarse.problem;
   if (points.count == 0) return laws;
-  RunControl rough = control_;
-  rough.contact_tolerance = 1e-6;
-  rough.contact_sweeps = 1000;
-  rough.histories = false;
-  const ContactResult of_coarse = solve_contact_by_newton(coarse.problem, rough);
+  const ContactOptions rough = {.tolerance = 1e-6, .most_iterations = 1000};
+  const ContactResult of_coarse = solve_contact_by_newton(coarse.problem, rough, deadline_);
   sweeps = of_coarse.iterations;
   const Eigen::VectorXd& F = of_coarse.F_C;
   const Eigen::VectorXd r = relative_to_gap(points, Eigen::VectorXd(times(D, F) - G));
@@ -93,8 +90,8 @@ GmresResult SlotRows::solve(Eigen::VectorXd r, const GmresOptions& options, Eige
         K_.multiply(v, y);
         reduce(y);
       },
-      [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { M_.apply(v, y); }, r, own,
-      control_.deadline, space_, x);
+      [&](const Eigen::VectorXd& v, Eigen::VectorXd& y) { M_.apply(v, y); }, r, own, deadline_,
+      space_, x);
 }
 
 Eigen::VectorXd SlotRows::of_contact(const Eigen::VectorXd& x) const {

@@ -9,7 +9,7 @@ namespace airybench {
 class SlotRows : public ContactRows {
  public:
   SlotRows(const Problem& problem, const ContactPoints& contact, const HybridizedSystem& system,
-           const EdgeMatrix& K, TwoLevelPreconditioner& M, const RunControl& control);
+           const EdgeMatrix& K, TwoLevelPreconditioner& M, const Deadline& deadline);
 
   Eigen::Index slots() const override { return K_.slots(); }
   // Those of the coarse displacements.
@@ -36,7 +36,7 @@ class SlotRows : public ContactRows {
 
   const EdgeMatrix& K_;
   TwoLevelPreconditioner& M_;
-  const RunControl& control_;
+  const Deadline deadline_;
   Eigen::VectorXd b_;                         // N, without contact forces; −K ū0 is in it
   Eigen::VectorXd prescribed_u_, K_times_u_;  // ū0, mm; K ū0
   std::vector<Eigen::Index> prescribed_;

@@ -45,7 +45,7 @@ AugmentedFactor factor_augmented(const DualSystem& system, double r, const Deadl
 
 struct UzawaOptions {
   Stop stop = Stop::target;
-  double tolerance = 1e-8;
+  double tolerance = 1e-8;  // of the stop `target`, as above
   int most_iterations = 20000;
   static constexpr double paper_stop_N = 1e-3;
 };

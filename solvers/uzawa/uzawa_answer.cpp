@@ -35,7 +35,7 @@ UzawaOptions uzawa_options(const RunControl& control) {
   UzawaOptions options;
   options.stop = control.stop;
   options.tolerance = control.tolerance;
-  options.most_iterations = control.uzawa_iterations;
+  options.most_iterations = control.most_iterations.value_or(options.most_iterations);
   return options;
 }
 

@@ -108,6 +108,16 @@ TEST(Methods, APreconditionerHasOneSpelling) {
     EXPECT_EQ(select_methods(name).front().preconditioner, spelling) << name;
 }
 
+TEST(Methods, TooFewIterationsAreNotConvergedWithTheirNumber) {
+  RunControl control;
+  control.most_iterations = 3;
+  for (const char* method : {"ALM:AUTO", "3STEPCG:DTIC6", "SYMMLQ:DTIC6"}) {
+    const Solution solution = testing::solved_by(method, testing::system_of(), control);
+    EXPECT_EQ(solution.status, Status::not_converged) << method;
+    EXPECT_NE(solution.message.find("after 3 iterations"), std::string::npos) << solution.message;
+  }
+}
+
 TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
   const DualSystem system = assemble(testing::posed({}), Blocks::contact_points);
   const auto status = [&](const Solve& solve) { return run(solve, system, {}).status; };

@@ -153,12 +153,11 @@ TEST_P(EveryKindOfMethod, TooFewSweepsIsNotConverged) {
   if (GetParam().name.starts_with("ALM") || GetParam().name == "HYBRID:CG")
     GTEST_SKIP() << "it makes no sweeps";
   RunControl control;
-  control.contact_sweeps = 1;
-  control.contact = ContactSolver::gauss_seidel;
+  control.contact = {.solver = ContactSolver::gauss_seidel, .most_iterations = 1};
   const Solution solution = solve(posed({}), control);
   EXPECT_EQ(solution.status, Status::not_converged);
   EXPECT_NE(solution.message.find("natural map residual"), std::string::npos);
-  control.contact = ContactSolver::newton;  // it needs no more sweeps
+  control.contact.solver = ContactSolver::newton;  // it needs no more sweeps
   EXPECT_EQ(solve(posed({}), control).status, Status::ok);
 }
 

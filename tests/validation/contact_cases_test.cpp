@@ -57,7 +57,7 @@ struct Face {
         scene, read_msh(testing::test_data(std::string("validation/") + mesh + ".msh")));
     system = assemble(problem, Blocks::contact_points);
     RunControl control;
-    control.contact_sweeps = 50;  // then active sets
+    control.contact.most_iterations = 50;  // then active sets
     Solution solution;
     const contact::Problem condensed = testing::condensed(*problem, system.contact);
     solve_condensed_contact(condensed, control, solution);

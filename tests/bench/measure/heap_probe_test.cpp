@@ -97,11 +97,10 @@ TEST(Allocations, NoneInsideAContactSweep) {
     if (components == 2) contact.friction.assign(static_cast<std::size_t>(contact.count), 0.3);
     const contact::Problem problem = condensed(40, contact);
     const auto allocations = [&](int sweeps) {
-      RunControl control;
-      control.contact_tolerance = 0;  // never met: all sweeps are made
-      control.contact_sweeps = sweeps;
+      // Its tolerance is never met: all sweeps are made.
+      const ContactOptions options = {.tolerance = 0, .most_iterations = sweeps};
       return allocations_of(
-          [&] { EXPECT_EQ(solve_contact_by_gauss_seidel(problem, control).iterations, sweeps); });
+          [&] { EXPECT_EQ(solve_contact_by_gauss_seidel(problem, options).iterations, sweeps); });
     };
     EXPECT_EQ(allocations(3), allocations(30)) << components;
   }

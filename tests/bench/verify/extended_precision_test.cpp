@@ -143,7 +143,7 @@ TEST_P(ExtendedPrecision, ErrorsOfTheReferenceAndOfHybrid) {
     EXPECT_LE(reference.error_estimate, 1e-14);
 
     RunControl control;
-    control.contact_tolerance = 1e-14;  // sweeps to rounding: the error is that of D, G and stress
+    control.contact.tolerance = 1e-14;  // to rounding: the error is that of D, G and stress
     const Solution hybrid = run(select_methods("HYBRID").front(), system, control);
     const Errors of_hybrid = errors(*problem, exact, hybrid.F_C, hybrid.stress);
     const double of_D =
