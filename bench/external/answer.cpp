@@ -10,8 +10,10 @@
 #include <regex>
 #include <sstream>
 
-#include "bench/external/json_file.hpp"
+#include "bench/records/json_value.hpp"
+#include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -27,17 +29,19 @@ std::string text_of(const std::filesystem::path& folder, const std::string& name
   return file_text(folder / name);
 }
 
-bool is_amount(const Json& value) { return value.is_number() && value.get<double>() >= 0; }
+JsonKey text_key(const char* name, std::string& text) {
+  return {name, [&text](const JsonValue& value) {
+            read(value, text);
+            text = shortened(text, 300);
+          }};
+}
 
-template <typename Whole>
-void read_count(JsonFile& json, const char* key, std::optional<Whole>& count) {
-  constexpr std::int64_t most = std::numeric_limits<Whole>::max();
-  json.read(key, JsonFile::Need::may_be_left_out, fmt::format("a whole number from 0 to {}", most),
-            [&](const Json& value) {
-              if (!value.is_number_integer() || value < 0 || value > most) return false;
-              count = value.get<Whole>();
-              return true;
-            });
+template <typename Number>
+JsonKey amount_key(const std::string& name, Number& amount, const char* allowed) {
+  return {name, [&amount, allowed](const JsonValue& value) {
+            if (!value.json.is_number() || !(value.json >= 0)) value.fail(allowed);
+            amount = value.json.get<double>();
+          }};
 }
 
 // "\x93NUMPY", version 1 0, two bytes of length, the header as a Python dictionary, the numbers.
@@ -75,52 +79,37 @@ Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string&
 }  // namespace
 
 Answer read_answer(const std::filesystem::path& folder) {
-  constexpr auto needed = JsonFile::Need::must_be_there, optional = JsonFile::Need::may_be_left_out;
   constexpr std::array<Status, 4> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
                                               Status::breakdown};
   constexpr const char* seconds = "seconds, at least 0";
-  JsonFile json("answer.json", text_of(folder, "answer.json"));
+  const Json json = json_of_file("answer.json", text_of(folder, "answer.json"));
   Answer answer;
-  json.read("status", needed, fmt::format("{}", fmt::join(names_of(statuses), ", ")),
-            [&](const Json& value) {
-              const auto status = std::ranges::find_if(
-                  statuses, [&](Status possible) { return value == name_of(possible); });
-              if (status != statuses.end()) answer.status = *status;
-              return status != statuses.end();
-            });
-  const auto into = [](std::string& text) {
-    return [&text](const Json& value) {
-      if (value.is_string()) text = shortened(value.get<std::string>(), 300);
-      return value.is_string();
-    };
+  const auto read_status = [&](const JsonValue& value) {
+    answer.status = value.one_of(statuses, [](Status status) { return name_of(status); });
   };
-  json.read("message", optional, "a text", into(answer.message));
-  json.read("parameters", optional, "a text", into(answer.parameters));
-  json.read("time_s", needed, seconds, [&](const Json& value) {
-    if (is_amount(value)) answer.time_s = value;
-    return is_amount(value);
-  });
-  double sum = 0;
-  json.read("stages", optional, "an object: stage to seconds", [&](const Json& stages) {
-    if (!stages.is_object()) return false;
-    for (const auto& [name, value] : stages.items()) {
-      const auto stage = std::ranges::find(all_stages, name, [](Stage s) { return name_of(s); });
-      if (stage == all_stages.end())
-        json.fail("stages", name, fmt::format("{}", fmt::join(names_of(all_stages), ", ")));
-      if (!is_amount(value)) json.fail("stages", value, seconds);
-      sum += answer.stages[*stage] = value;
-    }
-    return true;
-  });
-  constexpr double rounding = 1e-3;
-  if (sum > (1 + rounding) * answer.time_s)
-    json.fail("stages", sum, fmt::format("together at most time_s, {}", answer.time_s));
-  read_count(json, "linear_iterations", answer.linear_iterations);
-  read_count(json, "contact_iterations", answer.contact_iterations);
-  json.read("error_estimate", optional, "a number, at least 0", [&](const Json& value) {
-    if (is_amount(value)) answer.error_estimate = value.get<double>();
-    return is_amount(value);
-  });
+  const auto read_stages = [&](const JsonValue& value) {
+    std::array<std::optional<double>, all_stages.size()> times;
+    std::vector<JsonKey> keys;
+    for (std::size_t k = 0; k < times.size(); ++k)
+      keys.push_back(amount_key(std::string(name_of(all_stages[k])), times[k], seconds));
+    value.object(keys);
+    double sum = 0;
+    for (std::size_t k = 0; k < times.size(); ++k)
+      if (times[k]) sum += answer.stages[all_stages[k]] = *times[k];
+    constexpr double rounding = 1e-3;
+    if (sum > (1 + rounding) * answer.time_s)
+      value.refuse(sum, fmt::format("together at most time_s, {}", answer.time_s));
+  };
+  JsonValue("answer.json", "", json)
+      .object_with_other_keys(
+          {required({"status", read_status}),
+           text_key("message", answer.message),
+           text_key("parameters", answer.parameters),
+           required(amount_key("time_s", answer.time_s, seconds)),
+           {"stages", read_stages},
+           whole("linear_iterations", answer.linear_iterations, 0),
+           whole("contact_iterations", answer.contact_iterations, 0),
+           amount_key("error_estimate", answer.error_estimate, "a number, at least 0")});
   return answer;
 }
 

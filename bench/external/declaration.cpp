@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <fstream>
 
-#include "bench/external/json_file.hpp"
 #include "bench/problems/problem_files.hpp"
+#include "bench/records/json_value.hpp"
 #include "support/atomic_file.hpp"
+#include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -26,16 +28,20 @@ constexpr std::array<Kind, 4> kinds = {{
     {Returns::contact_forces, "contact_forces", "condensed"},
 }};
 
-template <typename Words>
-std::string list_of(const Words& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
+void read_text(const JsonValue& value, std::string& text) {
+  read(value, text);
+  if (text.empty()) value.fail("a text");
 }
 
-bool is_text(const Json& value) { return value.is_string() && !value.get<std::string>().empty(); }
-
-bool is_command(const Json& value) {
-  return value.is_array() && !value.empty() && is_text(value.front()) &&
-         std::ranges::all_of(value, [](const Json& word) { return word.is_string(); });
+JsonKey command_key(const char* name, std::vector<std::string>& command) {
+  return {name, [&command](const JsonValue& value) {
+            const auto is_text = [](const Json& word) { return word.is_string(); };
+            const Json& json = value.json;
+            if (!json.is_array() || json.empty() || !std::ranges::all_of(json, is_text) ||
+                json.front() == "")
+              value.fail("a list of texts, the program first");
+            command = json.get<std::vector<std::string>>();
+          }};
 }
 
 // Excludes globs, lists and parts of paths, so that a user can select the name.
@@ -74,64 +80,51 @@ std::string version_of(const std::filesystem::path& file, const std::filesystem:
 }  // namespace
 
 Declaration read_declaration(const std::filesystem::path& file) {
-  constexpr auto needed = JsonFile::Need::must_be_there, optional = JsonFile::Need::may_be_left_out;
-  constexpr const char* a_command = "a list of texts, the program first";
-  JsonFile json(file.string(), file_text(file));
+  const Json json = json_of_file(file.string(), file_text(file));
   Declaration declaration;
   declaration.folder = std::filesystem::absolute(file).parent_path();
-  const auto into = [](std::string& text) {
-    return [&text](const Json& value) {
-      if (is_text(value)) text = value.get<std::string>();
-      return is_text(value);
-    };
-  };
-  json.read("name", needed, "a text", into(declaration.name));
-  if (!is_plain(declaration.name))
-    json.fail("name", declaration.name, "letters, digits, '-', '_' and '.'");
-  json.read("summary", optional, "a text", into(declaration.summary));
-
   std::string reads;
-  json.read("reads", needed, "airy, body, condensed", [&](const Json& value) {
-    return into(reads)(value) && std::ranges::find(kinds, reads, &Kind::reads) != kinds.end();
-  });
-  std::vector<std::string_view> formats = problem_formats();
-  if (reads != "condensed") std::erase(formats, "fclib");
-  json.read("format", needed, list_of(formats), [&](const Json& value) {
-    return into(declaration.format)(value) &&
-           std::ranges::find(formats, declaration.format) != formats.end();
-  });
-  std::vector<std::string_view> returned;
-  for (const Kind& kind : kinds)
-    if (kind.reads == reads) returned.push_back(kind.name);
-  json.read("returns", needed, list_of(returned) + ", as it reads " + reads,
-            [&](const Json& value) {
-              const auto kind = std::ranges::find_if(
-                  kinds, [&](const Kind& k) { return k.reads == reads && value == k.name; });
-              if (kind != kinds.end()) declaration.returns = kind->returns;
-              return kind != kinds.end();
-            });
-
-  const auto command_into = [](std::vector<std::string>& command) {
-    return [&command](const Json& value) {
-      if (is_command(value)) command = value.get<std::vector<std::string>>();
-      return is_command(value);
-    };
-  };
-  json.read("command", needed, a_command, command_into(declaration.command));
-  if (const std::string* word = unknown_placeholder(declaration.command))
-    json.fail("command", *word, list_of(placeholder::all));
   std::vector<std::string> version;
-  json.read("version", optional, a_command, command_into(version));
-  json.read("first_tolerance", optional, "a number > 0", [&](const Json& value) {
-    if (value.is_number()) declaration.first_tolerance = value;
-    return declaration.first_tolerance > 0;
-  });
-  if (declaration.first_tolerance > 0 &&
-      std::ranges::none_of(declaration.command, [](const std::string& word) {
-        return word.find(placeholder::tolerance) != word.npos;
-      }))
-    json.fail("first_tolerance", declaration.first_tolerance, "with {tolerance} in the command");
-  json.refuse_other_keys();
+  const auto read_name = [&](const JsonValue& value) {
+    read_text(value, declaration.name);
+    if (!is_plain(declaration.name)) value.fail("letters, digits, '-', '_' and '.'");
+  };
+  const auto read_format = [&](const JsonValue& value) {
+    std::vector<std::string_view> formats = problem_formats();
+    if (reads != "condensed") std::erase(formats, "fclib");
+    declaration.format = value.one_of(formats);
+  };
+  const auto read_returns = [&](const JsonValue& value) {
+    std::vector<Kind> of_it;
+    std::ranges::copy_if(kinds, std::back_inserter(of_it),
+                         [&](const Kind& kind) { return kind.reads == reads; });
+    declaration.returns = value.one_of(of_it, &Kind::name, ", as it reads " + reads).returns;
+  };
+  const auto read_command = [&](const JsonValue& value) {
+    command_key("command", declaration.command).take(value);
+    if (const std::string* word = unknown_placeholder(declaration.command))
+      value.refuse(*word, fmt::format("{}", fmt::join(placeholder::all, ", ")));
+  };
+  const auto read_tolerance = [&](const JsonValue& value) {
+    positive("first_tolerance", declaration.first_tolerance).take(value);
+    if (std::ranges::none_of(declaration.command, [](const std::string& word) {
+          return word.find(placeholder::tolerance) != word.npos;
+        }))
+      value.fail("with {tolerance} in the command");
+  };
+  // A key comes after those that its reader uses.
+  JsonValue(file.string(), "", json)
+      .object({required({"name", read_name}),
+               {"summary", [&](const JsonValue& value) { read_text(value, declaration.summary); }},
+               required({"reads",
+                         [&](const JsonValue& value) {
+                           reads = value.one_of(std::array{"airy", "body", "condensed"});
+                         }}),
+               required({"format", read_format}),
+               required({"returns", read_returns}),
+               required({"command", read_command}),
+               command_key("version", version),
+               {"first_tolerance", read_tolerance}});
   if (!version.empty()) declaration.version = version_of(file, declaration.folder, version);
   return declaration;
 }

@@ -13,7 +13,7 @@ struct SceneFile {
   Scene scene;
   std::string definition = "{}";
 };
-// Scene::name is the file's stem. Throws SceneError, one line: file, key, value, allowed values.
+// Scene::name is the file's stem. Throws InputError, one line: file, key, value, allowed values.
 SceneFile read_scene_file(const std::filesystem::path& file);
 Scene read_scene(const std::filesystem::path& file);
 // Outside the catalogue of meshes, a flat wall replaces the default crown.

@@ -1,6 +1,7 @@
 // Tables of a scene file's keys: the key's name, the member that it sets, its range.
 // check_values() (assembly/scene.hpp) checks the ranges that hold for any scene.
-#include "bench/plan/scene_value.hpp"
+#include "assembly/scene.hpp"
+#include "bench/records/json_value.hpp"
 
 namespace airybench {
 namespace {
@@ -13,12 +14,19 @@ enum class Curve { obstacle, face };
 
 // Argument-dependent lookup must find read(), so no overload is in the unnamed namespace.
 
-static void read(const SceneValue& value, Material& material) {
+static void read(const JsonValue& value, Eigen::Vector2d& vector) {
+  const Json& json = value.json;
+  if (!json.is_array() || json.size() != 2 || !json[0].is_number() || !json[1].is_number())
+    value.fail("two numbers [x, y]");
+  vector = {json[0].get<double>(), json[1].get<double>()};
+}
+
+static void read(const JsonValue& value, Material& material) {
   value.object({key("young_MPa", material.young_MPa), key("poisson", material.poisson)});
 }
 
 template <typename Value>
-void read(const SceneValue& value, LinearValue<Value>& linear) {
+void read(const JsonValue& value, LinearValue<Value>& linear) {
   if (value.json.is_object()) {
     value.object({key("at_mm", linear.at_mm), key("values", linear.values)},
                  "{\"at_mm\": [[x, y], [x, y]], \"values\": [..., ...]}, both given");
@@ -29,72 +37,71 @@ void read(const SceneValue& value, LinearValue<Value>& linear) {
   linear.values.fill(constant);
 }
 
-static void read(const SceneValue& value, FlatWall& wall) {
+static void read(const JsonValue& value, FlatWall& wall) {
   value.object({key("point_mm", wall.point_mm), key("normal", wall.normal)},
                "{\"point_mm\": [x, y], \"normal\": [x, y]}, both given");
 }
 
-static void read(const SceneValue& value, PolylineWall& wall) {
+static void read(const JsonValue& value, PolylineWall& wall) {
   if (!value.json.is_array()) value.fail("a list of points [x, y], or in a file a file's name");
   wall.points_mm.resize(value.json.size());
   for (std::size_t k = 0; k < wall.points_mm.size(); ++k) read(value.item(k), wall.points_mm[k]);
 }
 
-static void read_circle(const SceneValue& value, Curve curve, CircularWall& wall) {
+static void read_circle(const JsonValue& value, Curve curve, CircularWall& wall) {
   using enum CircularWall::Bodies;
-  std::vector<SceneKey> keys = {key("centre_mm", wall.centre_mm),
-                                positive("radius_mm", wall.radius_mm)};
+  std::vector<JsonKey> keys = {key("centre_mm", wall.centre_mm),
+                               positive("radius_mm", wall.radius_mm)};
   if (curve == Curve::face) {
     value.object(keys, "{\"centre_mm\": [x, y], \"radius_mm\": ...}, both given");
     return;
   }
-  keys.push_back(either("bodies", wall.bodies, "inside", inside, "outside", outside));
+  keys.push_back(choice("bodies", wall.bodies, {{"inside", inside}, {"outside", outside}}));
   value.object(keys,
                "{\"centre_mm\": [x, y], \"radius_mm\": ..., \"bodies\": \"inside\" or "
                "\"outside\"}, all given");
 }
 
-static SceneKey curve_key(const char* name, std::optional<Wall>& target, Curve curve) {
-  return {
-      name, [&target, curve](const SceneValue& value) {
-        Wall wall;
-        value.object(
-            {{"flat", [&](const SceneValue& v) { read(v, wall.emplace<FlatWall>()); }},
-             {"circle",
-              [&](const SceneValue& v) { read_circle(v, curve, wall.emplace<CircularWall>()); }},
-             {"polyline", [&](const SceneValue& v) { read(v, wall.emplace<PolylineWall>()); }}});
-        if (value.json.size() != 1) value.fail("one of flat, circle, polyline");
-        target = std::move(wall);
-      }};
+static JsonKey curve_key(const char* name, std::optional<Wall>& target, Curve curve) {
+  return {name, [&target, curve](const JsonValue& value) {
+            Wall wall;
+            value.object(
+                {{"flat", [&](const JsonValue& v) { read(v, wall.emplace<FlatWall>()); }},
+                 {"circle",
+                  [&](const JsonValue& v) { read_circle(v, curve, wall.emplace<CircularWall>()); }},
+                 {"polyline", [&](const JsonValue& v) { read(v, wall.emplace<PolylineWall>()); }}});
+            if (value.json.size() != 1) value.fail("one of flat, circle, polyline");
+            target = std::move(wall);
+          }};
 }
 
-static void read(const SceneValue& value, BoundaryConditions& conditions) {
+static void read(const JsonValue& value, BoundaryConditions& conditions) {
   using enum BoundaryValues::Support;
   value.each("an object with a boundary group as each key", [&](const std::string& label,
-                                                                const SceneValue& of_group) {
+                                                                const JsonValue& of_group) {
     BoundaryValues& values = conditions[label];
     ContactValues& contact = values.contact;
     of_group.object({key("traction_MPa", values.traction_MPa),
                      key("pressure_MPa", values.pressure_MPa),
                      key("displacement_mm", values.displacement_mm),
-                     either("support", values.support, "full", full, "normal", normal),
+                     choice("support", values.support, {{"full", full}, {"normal", normal}}),
                      key("friction", contact.friction), key("clearance_mm", contact.clearance_mm),
                      curve_key("wall", contact.wall, Curve::obstacle),
                      curve_key("face", contact.face, Curve::face)});
   });
 }
 
-static void read(const SceneValue& value, Grading& grading) {
+static void read(const JsonValue& value, Grading& grading) {
   value.object({key("at_mm", grading.at_mm), key("ratio", grading.ratio)},
                "{\"at_mm\": [x, y], \"ratio\": ...}, both given");
 }
 
-static void read(const SceneValue& value, Slivers& slivers) {
+static void read(const JsonValue& value, Slivers& slivers) {
   value.object({key("aspect", slivers.aspect), whole("count", slivers.count, 1, most)},
                "{\"aspect\": ..., \"count\": ...}, both given");
 }
 
-static void read(const SceneValue& value, MeshTransform& mesh) {
+static void read(const JsonValue& value, MeshTransform& mesh) {
   value.object({whole("refine", mesh.refine, 0, most_refinements), key("grade", mesh.grade),
                 key("slivers", mesh.slivers), positive("scale", mesh.scale),
                 key("stretch", mesh.stretch), key("move_mm", mesh.move_mm),
@@ -104,16 +111,16 @@ static void read(const SceneValue& value, MeshTransform& mesh) {
 }
 
 template <typename Item>
-static SceneKey list(const char* name, std::vector<Item>& items, const Item& preset,
-                     const char* allowed) {
-  return {name, [&items, preset, allowed](const SceneValue& value) {
+static JsonKey list(const char* name, std::vector<Item>& items, const Item& preset,
+                    const char* allowed) {
+  return {name, [&items, preset, allowed](const JsonValue& value) {
             if (!value.json.is_array() || value.json.empty()) value.fail(allowed);
             items.assign(value.json.size(), preset);
             for (std::size_t k = 0; k < items.size(); ++k) read(value.item(k), items[k]);
           }};
 }
 
-static void read_layers(const SceneValue& value, Scene& scene) {
+static void read_layers(const JsonValue& value, Scene& scene) {
   Layers& layers = scene.layers;
   value.object({key("normal", layers.normal), whole("count", layers.count, 1, most_layers),
                 list("interfaces_mm", layers.interfaces_mm, 0., "a list of numbers, ascending"),
@@ -122,13 +129,13 @@ static void read_layers(const SceneValue& value, Scene& scene) {
     value.fail("either count or interfaces_mm");
 }
 
-static void read(const SceneValue& value, LoadStep& step) {
+static void read(const JsonValue& value, LoadStep& step) {
   value.object({key("displacement_mm", step.displacement_mm),
                 key("body_force_N_per_mm3", step.body_force_N_per_mm3),
                 key("clearance_mm", step.clearance_mm), key("boundary", step.boundary)});
 }
 
-static void read_load_steps(const SceneValue& value, Scene& scene) {
+static void read_load_steps(const JsonValue& value, Scene& scene) {
   const Json& json = value.json;
   if (json.is_number_integer() && json >= 1 && json <= most_load_steps) {
     scene.equal_steps = json.get<int>();
@@ -142,42 +149,43 @@ static void read_load_steps(const SceneValue& value, Scene& scene) {
     read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
 }
 
-void read(const SceneValue& value, Scene& scene) {
+void read(const JsonValue& value, Scene& scene) {
   Material& material = scene.material;
   // Keys from which others take their defaults come first.
-  value.object({whole("teeth", scene.teeth, 1, most),
-                positive("root_half_height_mm", scene.root_half_height_mm),
-                positive("length_mm", scene.length_mm),
-                positive("tip_half_height_mm", scene.tip_half_height_mm),
-                key("young_MPa", material.young_MPa),
-                key("poisson", material.poisson),
-                either("plane", scene.plane, "strain", Plane::strain, "stress", Plane::stress),
-                key("friction", scene.friction),
-                {"crown_radius_mm",
-                 [&](const SceneValue& v) {
-                   if (v.json.is_null())
-                     scene.crown_radius_mm.reset();
-                   else
-                     read(v, scene.crown_radius_mm);
-                 }},
-                curve_key("wall", scene.wall, Curve::obstacle),
-                curve_key("face", scene.face, Curve::face),
-                key("clearance_mm", scene.clearance_mm),
-                key("displacement_mm", scene.displacement_mm),
-                key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
-                {"load_steps", [&](const SceneValue& v) { read_load_steps(v, scene); }},
-                {"materials",
-                 [&](const SceneValue& v) {
-                   v.each("an object with a body's name as each key",
-                          [&](const std::string& region, const SceneValue& of_region) {
-                            read(of_region, scene.materials[region] = material);
-                          });
-                 }},
-                key("boundary", scene.boundary),
-                key("mesh", scene.mesh),
-                {"layers", [&](const SceneValue& v) { read_layers(v, scene); }},
-                key("group", scene.group),
-                key("about", scene.about)});
+  value.object(
+      {whole("teeth", scene.teeth, 1, most),
+       positive("root_half_height_mm", scene.root_half_height_mm),
+       positive("length_mm", scene.length_mm),
+       positive("tip_half_height_mm", scene.tip_half_height_mm),
+       key("young_MPa", material.young_MPa),
+       key("poisson", material.poisson),
+       choice("plane", scene.plane, {{"strain", Plane::strain}, {"stress", Plane::stress}}),
+       key("friction", scene.friction),
+       {"crown_radius_mm",
+        [&](const JsonValue& v) {
+          if (v.json.is_null())
+            scene.crown_radius_mm.reset();
+          else
+            read(v, scene.crown_radius_mm);
+        }},
+       curve_key("wall", scene.wall, Curve::obstacle),
+       curve_key("face", scene.face, Curve::face),
+       key("clearance_mm", scene.clearance_mm),
+       key("displacement_mm", scene.displacement_mm),
+       key("body_force_N_per_mm3", scene.body_force_N_per_mm3),
+       {"load_steps", [&](const JsonValue& v) { read_load_steps(v, scene); }},
+       {"materials",
+        [&](const JsonValue& v) {
+          v.each("an object with a body's name as each key",
+                 [&](const std::string& region, const JsonValue& of_region) {
+                   read(of_region, scene.materials[region] = material);
+                 });
+        }},
+       key("boundary", scene.boundary),
+       key("mesh", scene.mesh),
+       {"layers", [&](const JsonValue& v) { read_layers(v, scene); }},
+       key("group", scene.group),
+       key("about", scene.about)});
 }
 
 }  // namespace airybench

@@ -1,14 +1,11 @@
 #include "bench/plan/study.hpp"
 
 #include <algorithm>
-#include <map>
-#include <stdexcept>
 
 #include "bench/records/case_name.hpp"
-#include "bench/records/json.hpp"
+#include "bench/records/json_value.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
-#include "support/errors.hpp"
 #include "support/file_text.hpp"
 
 namespace airybench {
@@ -63,33 +60,31 @@ std::vector<std::filesystem::path> json_files(const std::filesystem::path& folde
   return files;
 }
 
+}  // namespace
+
 Study study_of(const std::filesystem::path& file) {
   using enum Study::Points;
-  static const std::map<std::string, Study::Points> points = {
-      {"", one}, {"accuracy", accuracy}, {"contact", contact}, {"threads", threads}};
-  try {
-    const Json json = parse_json(file_text(file));
-    Study study;
-    study.name = file.stem().string();
-    study.about = json.at("about").get<std::string>();
-    study.methods = json.value("method", "");
-    study.scenes = json.value("scenes", "");
-    study.points = points.at(json.value("points", ""));
-    const Json options = json.value("options", Json::object());
-    for (const auto& [option, value] : options.items())
-      study.options.emplace_back(option, value.get<std::string>());
-    study.once = json.value("once", false);
-    study.condition = json.value("condition", false);
-    study.bounds = json.value("bounds", false);
-    return study;
-  } catch (const Json::exception& wrong) {
-    throw FileError(file.string() + ": no study: " + without_prefix(wrong));
-  } catch (const std::out_of_range&) {
-    throw FileError(file.string() + ": points (allowed: accuracy, contact, threads)");
-  }
+  Study study;
+  study.name = file.stem().string();
+  const Json json = json_of_file(file.string(), file_text(file));
+  const auto read_options = [&study](const JsonValue& options) {
+    options.each("an object: option to value",
+                 [&](const std::string& name, const JsonValue& value) {
+                   read(value, study.options.emplace_back(name, "").second);
+                 });
+  };
+  JsonValue(file.string(), "", json)
+      .object({required(key("about", study.about)),
+               choice("points", study.points,
+                      {{"accuracy", accuracy}, {"contact", contact}, {"threads", threads}}),
+               key("method", study.methods),
+               {"options", read_options},
+               key("scenes", study.scenes),
+               key("once", study.once),
+               key("condition", study.condition),
+               key("bounds", study.bounds)});
+  return study;
 }
-
-}  // namespace
 
 std::vector<Study> all_studies() {
   std::vector<Study> studies;

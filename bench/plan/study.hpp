@@ -30,7 +30,8 @@ struct Study {
   bool once = false, condition = false, bounds = false;
 };
 
-std::vector<Study> all_studies();  // sorted by name; throws FileError
+Study study_of(const std::filesystem::path& file);  // throws FileError
+std::vector<Study> all_studies();                   // sorted by name; throws FileError
 std::optional<Study> study_named(const std::string& name);
 std::string default_methods(const Study& study);  // as for --method
 // Sorted by name. Throws std::invalid_argument if the study's folder has no scene file.

@@ -16,6 +16,7 @@
 #include "bench/records/summary.hpp"
 #include "bench/run/runner.hpp"
 #include "mesh/msh_format.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
@@ -141,6 +142,27 @@ TEST(Study, AllCanBePlanned) {
       EXPECT_TRUE(names.insert(c.name().text()).second) << c.name().text();
     EXPECT_FALSE(names.empty());
   }
+}
+
+TEST(Study, AFilesComplaintNamesKeyValueAndWhatIsAllowed) {
+  const testing::TemporaryFolder folder;
+  const auto complaint = [&](const std::string& text) {
+    const std::filesystem::path file = testing::write_text(folder / "mine.json", text);
+    const auto what = testing::complaint_of<FileError>([&] { study_of(file); });
+    EXPECT_TRUE(what.starts_with(file.string() + ": ")) << what;
+    return what.substr(file.string().size() + 2);
+  };
+  EXPECT_EQ(complaint(R"({"about": "a", "methods": "P2"})"),
+            "methods: unknown key (allowed: about, points, method, options, scenes, once, "
+            "condition, bounds)");
+  EXPECT_EQ(complaint("{}"), "about: is missing (allowed: a text)");
+  EXPECT_EQ(complaint(R"({"about": "a", "points": "all"})"),
+            "points: \"all\" (allowed: accuracy, contact, threads)");
+  EXPECT_EQ(complaint(R"({"about": "a", "once": 1})"), "once: 1 (allowed: true, false)");
+  EXPECT_EQ(complaint(R"({"about": "a", "options": {"--timeout": 60}})"),
+            "options: --timeout: 60 (allowed: a text)");
+  EXPECT_EQ(complaint(R"({"about": "a", "about": "b"})"), "about: given twice");
+  EXPECT_TRUE(complaint("{").starts_with("not JSON: parse error"));
 }
 
 TEST(Study, LoadStepsGoByTheScenes) {

@@ -1,0 +1,121 @@
+// Reads the keys of a JSON file. A value that does not fit throws FileError, one line: file, key,
+// value, allowed values.
+#pragma once
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "bench/records/json.hpp"
+
+namespace airybench {
+
+class JsonValue;
+
+struct JsonKey {
+  std::string name;
+  std::function<void(const JsonValue&)> take;
+  bool is_required = false;  // a missing value is passed to take, which must fail
+};
+
+class JsonValue {
+ public:
+  // key: "boundary: force: pressure_MPa"; empty for the whole file.
+  JsonValue(std::string file, std::string key, const Json& value)
+      : json(value), file_(std::move(file)), key_(std::move(key)) {}
+
+  const Json& json;  // discarded if the key is missing
+
+  JsonValue at(const std::string& key, const Json& value) const {
+    return {file_, key_.empty() ? key : key_ + ": " + key, value};
+  }
+  JsonValue item(std::size_t k) const { return {file_, key_, json[k]}; }
+
+  // Calls the takers of the keys that are present, in the order of `keys`. If `all` is not empty,
+  // every key is required, and `all` names the allowed values.
+  void object(const std::vector<JsonKey>& keys, const std::string& all = "") const;
+  void object_with_other_keys(const std::vector<JsonKey>& keys) const;
+  void each(const std::string& allowed,
+            const std::function<void(const std::string&, const JsonValue&)>& take) const;
+
+  // The item that this value names.
+  template <typename Items, typename Name = std::identity>
+  const auto& one_of(const Items& items, Name name = {}, const std::string& condition = "") const {
+    const auto found = std::ranges::find_if(
+        items, [&](const auto& item) { return json == std::invoke(name, item); });
+    if (found != std::ranges::end(items)) return *found;
+    std::vector<std::string_view> names;
+    for (const auto& item : items) names.emplace_back(std::invoke(name, item));
+    fail(fmt::format("{}{}", fmt::join(names, ", "), condition));
+  }
+  [[noreturn]] void fail(const std::string& allowed) const { refuse(json, allowed); }
+  [[noreturn]] void refuse(const Json& value, const std::string& allowed) const;
+
+ private:
+  std::string file_, key_;
+};
+
+// Throws FileError, also for a key that is given twice.
+Json json_of_file(const std::string& name, const std::string& text);
+
+void read(const JsonValue& value, double& number);
+void read(const JsonValue& value, bool& flag);
+void read(const JsonValue& value, std::string& text);
+template <typename T>
+void read(const JsonValue& value, std::optional<T>& target) {
+  read(value, target.emplace());
+}
+template <typename T>
+void read(const JsonValue& value, std::array<T, 2>& pair) {
+  if (!value.json.is_array() || value.json.size() != 2) value.fail("a list of two");
+  for (std::size_t k = 0; k < 2; ++k) read(value.item(k), pair[k]);
+}
+
+// Each keeps a reference to its target.
+template <typename T>
+JsonKey key(const char* name, T& target) {
+  return {name, [&target](const JsonValue& value) { read(value, target); }};
+}
+inline JsonKey required(JsonKey key) {
+  key.is_required = true;
+  return key;
+}
+template <typename T>
+JsonKey positive(const char* name, T& target) {
+  return {name, [&target](const JsonValue& value) {
+            if (!value.json.is_number() || !(value.json > 0)) value.fail("a number > 0");
+            target = value.json.get<double>();
+          }};
+}
+template <typename Int>
+JsonKey whole(const char* name, Int& target, std::type_identity_t<Int> least,
+              std::type_identity_t<Int> most) {
+  return {name, [&target, least, most](const JsonValue& value) {
+            const Json& json = value.json;
+            if (!json.is_number_integer() || json < least || json > most)
+              value.fail(fmt::format("a whole number from {} to {}", least, most));
+            target = json.get<Int>();
+          }};
+}
+template <typename Int>
+JsonKey whole(const char* name, std::optional<Int>& target, std::type_identity_t<Int> least,
+              std::type_identity_t<Int> most = std::numeric_limits<Int>::max()) {
+  return {name, [name, &target, least, most](const JsonValue& value) {
+            whole(name, target.emplace(), least, most).take(value);
+          }};
+}
+template <typename Word>
+JsonKey choice(const char* name, Word& target,
+               const std::vector<std::pair<std::string_view, Word>>& words) {
+  return {name, [&target, words](const JsonValue& value) {
+            target = value.one_of(words, &std::pair<std::string_view, Word>::first).second;
+          }};
+}
+
+}  // namespace airybench
