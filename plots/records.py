@@ -4,18 +4,19 @@ What does not fit its key is refused in one line: file, line, key, value, and wh
 """
 import csv
 import gzip
-import io
 import json
 import sys
 import zlib
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, make_dataclass
+from itertools import count
 from pathlib import Path
 
 import pandas as pd
 
 from catalogue import Look, with_bodies, with_looks
 
+LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
@@ -257,29 +258,44 @@ def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]
 
 def cells_of(path: Path) -> list[list[str]]:
     """Of a CSV, line by line; as many in each as in the first."""
+    lines: list[list[str]] = []
     try:
-        lines = list(csv.reader(io.StringIO(text_of(path)), strict=True))
+        for cells in csv.reader(lines_of(path), strict=True):
+            lines.append(cells)
+            if len(cells) != len(lines[0]):
+                raise RecordsError(f"{path}:{len(lines)}: {len(cells)} values, expected "
+                                   f"{len(lines[0])} as in line 1")
     except csv.Error as error:
         raise RecordsError(f"{path}: cannot be read: not CSV text: {error}")
-    for line, cells in enumerate(lines, 1):
-        if len(cells) != len(lines[0]):
-            raise RecordsError(f"{path}:{line}: {len(cells)} values, expected {len(lines[0])} as "
-                               "in line 1")
     return lines
 
 
 def read_lines(path: Path) -> list[object]:
-    text = text_of(path)
-    lines = text.removesuffix("\n").split("\n") if text else []  # U+2028 ends none
-    return [json_of(words, f"{path}:{line}") for line, words in enumerate(lines, 1)]
+    return [json_of(line.removesuffix("\n"), f"{path}:{number}")
+            for number, line in enumerate(lines_of(path), 1)]
 
 
 def text_of(path: Path) -> str:
+    return "".join(lines_of(path))
+
+
+def lines_of(path: Path) -> Iterator[str]:
+    """With their ends; U+2028 ends none. A line that is too long is not unpacked to its end."""
     if path.exists() and not path.is_file():  # a pipe would be waited for
         raise RecordsError(f"{path}: is no regular file; expected what bench writes")
+    length = 0
     try:
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8") as file:
-            return file.read()
+            for number in count(1):
+                line = file.readline(LONGEST_LINE + 1)
+                length += len(line)
+                if len(line) > LONGEST_LINE or length > LONGEST_FILE:
+                    raise RecordsError(f"{path}:{number}: too long; expected at most "
+                                       f"{LONGEST_LINE >> 20} MiB in a line, "
+                                       f"{LONGEST_FILE >> 30} GiB in a file, unpacked")
+                if not line:
+                    return
+                yield line
     except (gzip.BadGzipFile, EOFError, zlib.error):
         raise RecordsError(f"{path}: cannot be read: not of gzip, or damaged; expected what gzip "
                            "made of records.jsonl")

@@ -311,25 +311,11 @@ class WrongInputTest(unittest.TestCase):
                     results)
 
     def test_a_file_that_cannot_be_written(self) -> None:
-        status, _, err = run(page_program, self.history, "--out=/nowhere/page.html")
-        self.assertEqual(status, 2)
-        self.assertEqual(len(err.splitlines()), 1)
-
-    def test_what_is_no_regular_file_is_not_replaced(self) -> None:
-        pipe, link, device = (self.folder / name for name in ("pipe", "link", "device"))
+        pipe = self.folder / "pipe"
         os.mkfifo(pipe)
-        link.symlink_to(pipe)
-        device.symlink_to("/dev/null")
-        for out in (pipe, link, device):
+        for out, why in (("/nowhere/page.html", "/nowhere: No such file or directory; expected a file "
+                          "to write"),
+                         (pipe, f"{pipe}: is no regular file; expected one, or a name that is not "
+                          "there")):
             status, _, err = run(page_program, self.history, f"--out={out}")
-            self.assertEqual(status, 2)
-            self.assertEqual(err, f"page.py: {out}: is no regular file; expected one, or a name "
-                                  "that is not there\n")
-            self.assertFalse(out.is_file())
-        self.assertTrue(pipe.is_fifo())
-        (self.folder / "there").mkdir()
-        page = self.folder / "page.html"
-        page.symlink_to("there/page.html")
-        self.assertEqual(run(page_program, self.history, f"--out={page}")[0], 0)
-        self.assertTrue(page.is_symlink())
-        self.assertGreater((self.folder / "there/page.html").stat().st_size, 1000)
+            self.assertEqual((status, err), (2, f"page.py: {why}\n"))

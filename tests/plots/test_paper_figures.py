@@ -12,7 +12,6 @@ from matplotlib.figure import Figure
 
 import made_up  # finds plots
 
-import command
 import drawing as sheets
 import drawn
 import figures
@@ -235,16 +234,6 @@ class PaperFiguresTest(FolderTest):
                 status, _, err = run(figures, self.results, *arguments)
             self.assertEqual((status, err.count("\n")), (2, 1), err)
             self.assertIn(part, err)
-
-    def test_nothing_is_left_of_a_run_that_fails(self) -> None:
-        def fail(path: Path) -> None:
-            raise OSError(28, "No space left on device", str(path))
-        self.figures.mkdir()
-        (self.figures / "a").write_text("earlier")
-        with self.assertRaises(OSError):
-            command.replace_all(self.figures, {"a": Path.touch, "b": fail})
-        self.assertEqual([path.name for path in self.figures.iterdir()], ["a"])
-        self.assertEqual((self.figures / "a").read_text(), "earlier")
 
 
 class LayoutTest(unittest.TestCase):

@@ -2,6 +2,7 @@
 import gzip
 import json
 import unittest
+from unittest import mock
 
 import made_up  # finds plots
 
@@ -48,6 +49,16 @@ class ReaderTest(FolderTest):
         for damaged in (packed.read_bytes()[:-9], b"{}\n"):
             packed.write_bytes(damaged)
             self.assert_refused(f"{packed}: cannot be read: not of gzip", file=packed.name)
+
+    def test_what_unpacks_to_too_much_is_not_read_to_its_end(self) -> None:
+        for name in ("records.jsonl", "records.jsonl.gz", "results.csv"):
+            pack = gzip.compress if name.endswith(".gz") else bytes
+            for text, line in ((b"{}\n" + b" " * (records.LONGEST_LINE + 1), 2), (b"{}\n" * 100, 67)):
+                (self.results / name).write_bytes(pack(text))
+                with mock.patch.object(records, "LONGEST_FILE", 2 * records.LONGEST_LINE
+                                       if line == 2 else 200):
+                    self.assert_refused(f"{name}:{line}: too long; expected at most 16 MiB in a line",
+                                        file=name)
 
     def test_line_separators_of_unicode_end_no_line(self) -> None:
         self.lines.write_text("".join(
