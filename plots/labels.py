@@ -47,10 +47,6 @@ class Labels:
              **style: object) -> None:
         """Draws a curve; `name_lines` names it, at its end rather than at its beginning."""
         self.axes.plot(x, y, color=color, **style)
-        self.name_later(words, x, y, color, formula)
-
-    def name_later(self, words: str, x: list[float], y: list[float], color: object,
-                   formula: bool = False) -> None:
         self.avoid(x, y)
         self.lines.append((words, x[::-1], y[::-1], formula, color))
 
