@@ -12,8 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
-from fields import Fields
-from unrolled import BY_LENGTH, unrolled
+from fields import BY_LENGTH, Fields, unrolled
 from words import columns_of, csv_of, plain
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26

@@ -20,6 +20,7 @@ LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/reco
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
+VERIFIED = ("", "ok", "other_solution")  # outcomes of an ok case that count as solved
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
 CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
@@ -151,6 +152,10 @@ class Case:
     @property
     def completed(self) -> bool:
         return self.status in COMPLETED
+
+    @property
+    def solved(self) -> bool:
+        return self.status == "ok" and self.outcome in VERIFIED and self.time_s is not None
 
     def status_words(self) -> str:
         """'timeout, 12 % done'."""

@@ -11,7 +11,6 @@ from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
 from figure import scaling as scaling_figure
 from figures import drawings_of
-from thread_scaling import points_of
 
 
 def levels(mesh: str, count: int) -> list[dict]:
@@ -152,7 +151,7 @@ def threaded(times: dict = THREADED, **cells: object) -> list[dict]:
 
 class ScalingTest(unittest.TestCase):
     def points(self, cases: list[dict]) -> dict:
-        return {(point.row.mesh, point.row.threads): point for point in points_of(made_up.read_lines(cases))}
+        return {(point.row.mesh, point.row.threads): point for point in scaling_figure.points_of(made_up.read_lines(cases))}
 
     def test_by_hand(self) -> None:
         points = self.points(threaded())

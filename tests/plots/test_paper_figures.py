@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 
 import made_up  # finds plots
 
+import documents
 import drawing as sheets
 import drawn
 import figures
@@ -216,7 +217,7 @@ class PaperFiguresTest(FolderTest):
     def test_records_without_any_figure_are_no_error(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         with mock.patch.object(figures, "drawings_of", lambda rows: []), \
-                mock.patch.object(figures, "table1", lambda rows: None):
+                mock.patch.object(documents, "table1", lambda rows: None):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("measured.md\n", out)
