@@ -45,6 +45,9 @@ class Drawing:
     vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
 
+    def figure(self) -> Figure | str:
+        return self.draw(self.rows, **self.options)
+
     @property
     def suffixes(self) -> tuple[str, ...]:
         return (".svg", ".png", ".csv") if self.vector else (".png", ".csv")

@@ -72,7 +72,7 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
     for drawing in drawings:
         if drawing.name not in names:
             continue
-        result = drawing.draw(drawing.rows, **drawing.options)
+        result = drawing.figure()
         if isinstance(result, str):
             old = [drawing.name + suffix for suffix in drawing.suffixes
                    if (out / (drawing.name + suffix)).exists()]

@@ -13,7 +13,7 @@ import made_up  # finds plots
 
 import drawn
 import figures
-from drawing import PAGE_WIDTH, STYLE, Drawing, axes_at, log_log
+from drawing import PAGE_WIDTH, STYLE, axes_at, log_log
 from labels import LEADER_NAME, Labels, crossing
 from words import csv_of
 
@@ -62,7 +62,7 @@ class PageTest(unittest.TestCase):
         cls.rows = made_up.read_lines(of_all_kinds())
         cls.drawings = {drawing.name: drawing for drawing in figures.drawings_of(cls.rows)}
         cls.figures = {name: figure for name, drawing in cls.drawings.items()
-                       if isinstance(figure := drawing.draw(drawing.rows, **drawing.options), Figure)}
+                       if isinstance(figure := drawing.figure(), Figure)}
         with drawn.without_minor_ticks():
             cls.painted = {name: drawn.paint(figure) for name, figure in cls.figures.items()}
 
@@ -108,9 +108,6 @@ class PageTest(unittest.TestCase):
             self.assertGreater(len(lines), 1, name)
             self.assertTrue({"mesh", "method"} & set(lines[0]), name)
 
-    def table(self, drawing: Drawing) -> list[dict[str, str]]:
-        return list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
-
     def points(self, name: str, axes: int) -> set[tuple[float, float]]:
         return {tuple(point) for line in self.figures[name].axes[axes].lines
                 for point in line.get_xydata()}
@@ -121,17 +118,17 @@ class PageTest(unittest.TestCase):
                                   ("all_methods", "n_phi", "time_s", 1)):
             points = np.array([point for k in range(len(self.figures[name].axes))
                               for point in self.points(name, k)])
-            for line in self.table(self.drawings[name]):
+            for line in drawn.table_of(self.drawings[name]):
                 if float(line[y]):
                     wanted = float(line[x]) * scale, float(line[y])
                     self.assertTrue(np.isclose(points, wanted, rtol=1e-12, atol=0).all(1).any(),
                                     f"{name}: {line}")
 
     def test_marks_of_the_tables(self) -> None:
-        powers = {cells["exponent"] for cells in self.table(self.drawings["figure4"])
+        powers = {cells["exponent"] for cells in drawn.table_of(self.drawings["figure4"])
                   if cells["method"] == "3STEPD:CHOLMOD"}
         self.assertEqual({f"{float(power):.2f}" for power in powers}, {"1.30"})
-        best = [cells for cells in self.table(self.drawings["pareto"])
+        best = [cells for cells in drawn.table_of(self.drawings["pareto"])
                 if cells["on_front_in_time_s"] == "true" and cells["body"] == "rack of four teeth"]
         errors = [float(cells["error_total"]) for cells in
                   sorted(best, key=lambda cells: float(cells["time_s"]))]

@@ -145,7 +145,7 @@ class PaperFiguresTest(FolderTest):
         rows = power_laws()
         time, _ = size_figure.drawings(read(rows))
         with mock.patch.object(size_figure, "draw_point") as point:
-            time.draw(time.rows, **time.options)
+            time.figure()
         drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
                  for call in point.call_args_list}
         self.assertEqual(drawn, {(row["mesh"], row["method"]): row["time_s"] for row in rows})
@@ -261,7 +261,7 @@ class LayoutTest(unittest.TestCase):
         rows = read(power_laws() + preconditioners())
         for drawing in (*preconditioner_figure.drawings(rows), *size_figure.drawings(rows)):
             with matplotlib.rc_context(STYLE):
-                figure = drawing.draw(drawing.rows, **drawing.options)
+                figure = drawing.figure()
                 drawn.assert_readable(self, figure, *drawn.paint(figure), overlap=0.5)
 
 

@@ -1,5 +1,4 @@
 """Performance and data profiles of made-up records.  /usr/bin/python3 -m unittest FILE"""
-import csv
 import unittest
 
 import numpy as np
@@ -9,7 +8,6 @@ import made_up  # finds plots
 import drawn
 from figure import profile as profile_figure
 import records
-from figures import drawings_of
 
 # By hand: seconds of each method on four cases; None: not solved.
 TIMES = {"3STEPD": (1.0, 4.0, 3.0, None), "HYBRID": (2.0, 1.0, None, None),
@@ -115,17 +113,15 @@ class ProfilesTest(unittest.TestCase):
         self.assertIsNone(profile_figure.order_depends_on_best(costs[:, :2]))
 
     def test_the_figure_says_what_it_cannot_tell(self) -> None:
-        drawing, = (d for d in drawings_of(made_up.read_lines(lines())) if d.name == "profiles")
-        figure = drawing.draw(drawing.rows)
-        words = drawn.words_of(figure)
+        words = drawn.words_of(drawn.plan(made_up.read_lines(lines()), "profiles").figure())
         for part in ("3 methods on 4 cases", "Gould & Scott 2016", "status ok and verified", *TIMES):
             self.assertIn(part, words)
         self.assertNotIn("bootstrap", words)
 
     def test_its_table_has_every_step(self) -> None:
         drawing, = profile_figure.drawings(made_up.read_lines(lines()))
-        figure = drawing.draw(drawing.rows)
-        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        figure = drawing.figure()
+        table = drawn.table_of(drawing)
         steps = {(float(line["factor_of_best"]), float(line["share_solved"])) for line in table
                  if (line["profile"], line["quantity"], line["method"])
                  == ("performance", "time_s", "BLIND")}
@@ -138,7 +134,7 @@ class ProfilesTest(unittest.TestCase):
                               (lines({m: own[:2] for m, own in TIMES.items()}), "3 methods on 2 case"),
                               (lines({m: (None,) * 4 for m in TIMES}), "none of its 4 cases")):
             drawing, = profile_figure.drawings(made_up.read_lines(cases))
-            self.assertIn(reason, drawing.draw(drawing.rows))
+            self.assertIn(reason, drawing.figure())
 
     def test_studies_have_profiles_of_their_own(self) -> None:
         rows = made_up.read_lines(lines() + lines(stop="paper") + lines(

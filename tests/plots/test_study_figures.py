@@ -236,9 +236,9 @@ class ParetoTest(StudiesTest):
                                time_s=0.01 * 2**k, error_total=0.1 * rate**k)
                   for kind, rate in (("adapt", 0.3), ("refined", 0.7)) for k in range(4)]
         rows = read(study + levels)
-        plan = [d for d in figures.drawings_of(rows) if d.name == "pareto"]
-        self.assertEqual([len(study) + len(levels)], [len(d.rows) for d in plan])
-        words = words_of(plan[0].draw(plan[0].rows))
+        drawing = drawn.plan(rows, "pareto")
+        self.assertEqual(len(study) + len(levels), len(drawing.rows))
+        words = words_of(drawing.figure())
         self.assertIn("adapted: HYBRID", words)
         self.assertIn("refined everywhere: HYBRID", words)
         self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
