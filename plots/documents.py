@@ -22,7 +22,6 @@ COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_
 
 
 def documents_of(rows: list[Row]) -> dict[str, dict[str, str]]:
-    """Name -> suffix -> text."""
     sizes, cases = table1([row for row in rows if not row.study]), cases_of(rows)
     found = {"table1": {".md": sizes}} if sizes else {}
     if cases:

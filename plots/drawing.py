@@ -118,7 +118,6 @@ def panel_at(figure: Figure, left: float, top: float, width: float, height: floa
 
 def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,
                  gap: float, right: float = 0.1) -> list[Axes]:
-    """A row of panels; the first has the numbers of the y-axis."""
     titles = list(titles)
     width = (figure.get_size_inches()[0] - left - right - (len(titles) - 1) * gap) / len(titles)
     row = []

@@ -145,8 +145,6 @@ def letter_of(k: int) -> str:
 
 def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place: Place,
               scales: drawing.Scales, letter: str) -> None:
-    """A strip of elements with the contact points, below it the pressure; its letter in both
-    pictures."""
     line = unrolled(s.edges[face])
     start, end = line.along[0, 0], line.along[-1, 1]
     limits = (start - BESIDE * (end - start), end + BESIDE * (end - start))

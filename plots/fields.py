@@ -97,7 +97,6 @@ class Unrolled:
 
     @property
     def closed(self) -> bool:
-        """Around a hole, or a whole body."""
         return bool((self.edges[0, 0] == self.edges[-1, 1]).all())
 
     def of(self, points: np.ndarray) -> np.ndarray:

@@ -84,7 +84,6 @@ class Labels:
                        va="center", fontsize=size, zorder=8, path_effects=[HALO], **text)
 
     def best(self, anchors: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Anchor and centre of the box that hides least and is nearest."""
         box = self.axes.get_window_extent()
         low, high = np.array([[box.x0, box.y0], [box.x1, box.y1]]) * 72 / self.axes.figure.dpi
         around = np.linspace(0, 2 * np.pi, DIRECTIONS, endpoint=False)

@@ -67,7 +67,6 @@ NIGHT = {"date": DATE, "context": instance(dict, "an object of texts"),
 
 
 def read_history(folder: Path) -> list[Night]:
-    """The nights by date, one at least; throws RecordsError."""
     files = sorted((folder / "nights").glob("*.json"))
     if not files:
         raise RecordsError(f"{folder / 'nights'}: no *.json; expected what bench track writes")

@@ -327,7 +327,6 @@ def rows_of(table: pd.DataFrame) -> list[Row]:
 
 
 def lines_file(folder: Path) -> Path | None:
-    """records.jsonl, or what gzip made of it, where one is there."""
     files = (folder / name for name in ("records.jsonl", "records.jsonl.gz"))
     return next((file for file in files if file.exists()), None)
 

@@ -114,7 +114,6 @@ def order(row: Row) -> tuple[int, str]:
 
 
 def by_method(rows: list[Row], x: str) -> dict[str, list[Row]]:
-    """In the order of families, each by the value of this key."""
     return grouped(sorted(rows, key=lambda row: (order(row), getattr(row, x))),
                    lambda row: row.method)
 

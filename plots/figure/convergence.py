@@ -61,7 +61,6 @@ def rate(points: list[Row]) -> float | None:
 
 
 def fitted(points: list[Row]) -> tuple[np.ndarray, np.ndarray]:
-    """Ends of the power law, over two meshes or more."""
     h, errors = map(np.array, line_of(points))
     power = rate(points)
     ends = np.array([h.min(), h.max()])

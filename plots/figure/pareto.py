@@ -226,7 +226,6 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
 
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
-    """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
     stops = [row for row in rows if is_paper_stop(row) and not given(row)]
     for method, own in grouped(stops, lambda row: row.method).items():
         x, y = line_of(own, column, "error_total")

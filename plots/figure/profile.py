@@ -149,7 +149,6 @@ def profiles_of(cases: Cases) -> list[Profile]:
 
 
 def table_of(rows: list[Row]) -> str:
-    """A line per method and step of its curve."""
     cases = cases_of(rows)
     lines = [(profile, method, *step) for profile in profiles_of(cases)
              for s, method in enumerate(cases.methods)

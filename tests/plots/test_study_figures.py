@@ -24,12 +24,11 @@ from figure import memory as memory_figure
 from figure import pareto as pareto_figure
 from figure import stop as stop_figure
 from figure import work_precision as work_precision_figure
-from labels import Labels
 from made_up import read
 from records import Row
 from running import FolderTest, run
 from selection import front
-from words import percent, seconds
+from words import percent
 
 
 def words_of(figure: Figure) -> str:
@@ -333,24 +332,3 @@ class OtherFiguresTest(StudiesTest):
         curve, = stop_figure.curves_of(rows).values()
         self.assertEqual([stop_figure.parameters_of(row)[0] for row in curve], [5, 20, 80, 320, 1280])
         self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows)))
-
-    def test_labels_keep_apart_and_inside(self) -> None:
-        figure = Figure(figsize=(6, 4))
-        axes = figure.add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
-        labels = Labels(axes)
-        for k, (x, y) in enumerate(np.random.default_rng(2).uniform(0, 1, (25, 2))):
-            labels.add(f"method {k}", x, y)
-        box = axes.get_window_extent().bounds
-        low = np.array(box[:2]) * 72 / figure.dpi
-        high = low + np.array(box[2:]) * 72 / figure.dpi
-        for k, a in enumerate(labels.boxes):
-            self.assertTrue((a[:2] >= low - 1e-9).all() and (a[2:] <= high + 1e-9).all())
-            for b in labels.boxes[:k]:
-                self.assertTrue((a[:2] >= b[2:]).any() or (b[:2] >= a[2:]).any())
-
-    def test_words_for_numbers(self) -> None:
-        for value, words in ((0.0712, "7.1 %"), (0.2, "20 %"), (7e-4, "0.07 %"), (6e-6, "6e-6"),
-                             (1.5, "1.5")):
-            self.assertEqual(percent(value).replace("\u00a0", " "), words)
-        for value, words in ((0.0031, "3.1 ms"), (0.25, "0.25 s"), (150, "150 s")):
-            self.assertEqual(seconds(value).replace("\u00a0", " "), words)
