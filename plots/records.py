@@ -17,6 +17,7 @@ import pandas as pd
 from catalogue import Look, with_bodies, with_looks
 
 LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
+LONGEST_SHOWN = 200  # of a value in a message
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
@@ -175,7 +176,11 @@ Row = make_dataclass("Row", [("line", int, 0), *((name, object, kind.empty) for 
 
 
 def shown(value: object) -> str:
-    return f"'{value}'" if isinstance(value, str) else json.dumps(value)
+    """In one line, what is too long cut off: as support/shortened.hpp."""
+    text = value if isinstance(value, str) else json.dumps(value)
+    text = "".join(letter if letter.isprintable() else "?" for letter in text)
+    text = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN - 1] + "…"
+    return f"'{text}'" if isinstance(value, str) else text
 
 
 def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
@@ -235,9 +240,9 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
                 raise RecordsError(f"{place(k)}: {name} is {shown(items[k].get(name))}, expected a "
                                    f"number above 0, since status is {table.status[k]}")
     for k in table.index[table.duplicated(IDENTITY)]:
-        case = [value for value in table.loc[k, IDENTITY] if value not in ("", None)]
+        case = ", ".join(str(value) for value in table.loc[k, IDENTITY] if value not in ("", None))
         same = table[IDENTITY].astype(str).eq(table.loc[k, IDENTITY].astype(str)).all(axis=1)
-        raise RecordsError(f"{place(k)}: the case '{', '.join(map(str, case))}' is that of line "
+        raise RecordsError(f"{place(k)}: the case {shown(case)} is that of line "
                            f"{table.line[same.idxmax()]}; expected a row per case")
     return with_derived(table)
 

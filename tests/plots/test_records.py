@@ -106,7 +106,9 @@ class ReaderTest(FolderTest):
         for wrong, part in (({"time_s": "1"}, "time_s is '1', expected a number above 0"),
                             ({"in_paper": None}, "in_paper is null, expected true or false"),
                             ({"n_phi": True}, "n_phi is true, expected a whole number"),
-                            ({"mesh": 3}, "mesh is 3, expected a name")):
+                            ({"mesh": 3}, "mesh is 3, expected a name"),
+                            ({"time_s": "\n\u2028"}, "time_s is '??', expected a number above 0"),
+                            ({"stop": "a" * 999}, f"stop is '{'a' * 199}…', expected one of")):
             made_up.write_lines(self.lines, [good, good | wrong])
             self.assert_refused(f"{self.lines}:2: {part}", file="records.jsonl")
         made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": 10**400}])
