@@ -24,6 +24,5 @@ def words_of_file(stem: str) -> str:
 
 
 def file_of(name: str) -> str:
-    """The stem of the case's files, of each case another."""
     name = re.sub("[%+]|(?<![^-/])-|-(?![^-/])", lambda found: f"%{ord(found[0]):02X}", name)
     return name.replace("/", "--").replace(":", "+")

@@ -1,15 +1,18 @@
 """What the programs share: wrong input ends them with one line and exit status 2, and files are
 written whole."""
 import argparse
+import fcntl
 import os
+import shutil
 import sys
-import tempfile
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import partial
 from pathlib import Path
 
 from records import RecordsError
+
+PARTS = ".airybench.part"  # a folder of files that are not whole yet
 
 
 def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
@@ -29,6 +32,8 @@ def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
         fail(error)
     except OSError as error:
         fail(f"{error.filename}: {error.strerror}; expected {expected}")
+    except MemoryError:
+        fail("out of memory")
 
 
 def results_and_out(parser: argparse.ArgumentParser) -> None:
@@ -38,19 +43,36 @@ def results_and_out(parser: argparse.ArgumentParser) -> None:
 
 def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> None:
     """All files or none: each is written next to its place, links followed; when all are on disk
-    they are moved. What is no regular file is not replaced."""
+    they are moved. What is no regular file is not replaced. Throws OSError with the file's name."""
     places = {name: place_of(folder / name) for name in writers}
-    with ExitStack() as temporaries:
-        temporary = {parent: Path(temporaries.enter_context(
-            tempfile.TemporaryDirectory(dir=parent, prefix=".new-")))
-            for parent in {place.parent for place in places.values()}}
+    with ExitStack() as parts:
+        parts_in = {parent: parts.enter_context(locked_parts(parent))
+                    for parent in sorted({place.parent for place in places.values()})}
         for name, write in writers.items():
-            write(temporary[places[name].parent] / name)
-            synchronise(temporary[places[name].parent] / name)
+            part = parts_in[places[name].parent] / name
+            try:
+                write(part)
+                synchronise(part)
+            except OSError as error:
+                raise OSError(error.errno, error.strerror or str(error), str(folder / name))
         for name, place in places.items():
-            os.replace(temporary[place.parent] / name, place)
-        for parent in temporary:
-            synchronise(parent)
+            os.replace(parts_in[place.parent] / name, place)
+
+
+@contextmanager
+def locked_parts(folder: Path) -> Iterator[Path]:
+    """Who locks the folder waits for others that write there, so parts in it are of a killed run."""
+    descriptor, parts = os.open(folder, os.O_RDONLY), folder / PARTS
+    try:
+        with suppress(OSError):  # not every file system locks folders
+            fcntl.flock(descriptor, fcntl.LOCK_EX)
+        shutil.rmtree(parts, ignore_errors=True)
+        parts.mkdir()
+        yield parts
+        os.fsync(descriptor)
+    finally:
+        shutil.rmtree(parts, ignore_errors=True)
+        os.close(descriptor)
 
 
 def text_writer(text: str) -> Callable[[Path], object]:

@@ -45,6 +45,9 @@ class Drawing:
     vector: bool = False               # as .svg and .png; else as a small .png
     options: dict[str, object] = field(default_factory=dict)
 
+    def figure(self) -> Figure | str:
+        return self.draw(self.rows, **self.options)
+
     @property
     def suffixes(self) -> tuple[str, ...]:
         return (".svg", ".png", ".csv") if self.vector else (".png", ".csv")
@@ -115,7 +118,6 @@ def panel_at(figure: Figure, left: float, top: float, width: float, height: floa
 
 def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,
                  gap: float, right: float = 0.1) -> list[Axes]:
-    """A row of panels; the first has the numbers of the y-axis."""
     titles = list(titles)
     width = (figure.get_size_inches()[0] - left - right - (len(titles) - 1) * gap) / len(titles)
     row = []

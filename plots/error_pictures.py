@@ -79,7 +79,6 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
 
 
 def map_table(s: Fields, share: np.ndarray) -> str:
-    """A line per triangle; x, y: of its centroid."""
     lines = zip(range(1, len(share) + 1), *s.triangles.mean(axis=1).T, areas(s), share)
     names = ("triangle", "x_mm", "y_mm", "area_mm2", "error_share")
     return csv_of(lines, *((name, lambda line, k=k: float(line[k]) if k else line[k])

@@ -158,7 +158,6 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    """A band outside the face, named where there is room."""
     place = halves(s)
     box = axes.get_window_extent()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]

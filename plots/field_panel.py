@@ -12,8 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
-from fields import Fields
-from unrolled import BY_LENGTH, unrolled
+from fields import BY_LENGTH, Fields, unrolled
 from words import columns_of, csv_of, plain
 
 TITLE, GAP, TRACTION, LABELS, LEFT, RIGHT = 0.26, 0.2, 0.75, 0.42, 0.5, 0.26
@@ -146,8 +145,6 @@ def letter_of(k: int) -> str:
 
 def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place: Place,
               scales: drawing.Scales, letter: str) -> None:
-    """A strip of elements with the contact points, below it the pressure; its letter in both
-    pictures."""
     line = unrolled(s.edges[face])
     start, end = line.along[0, 0], line.along[-1, 1]
     limits = (start - BESIDE * (end - start), end + BESIDE * (end - start))

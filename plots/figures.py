@@ -22,11 +22,9 @@ from pathlib import Path
 
 import matplotlib
 
-import budgets
 import command
+from documents import documents_of
 from drawing import STYLE, Drawing
-from measured import paragraph
-from paper_sizes import table1
 from records import RecordsError, Row, read_run, rows_of
 from selection import grouped
 from words import cases_by_reason
@@ -66,16 +64,6 @@ def selected(only: str | None, names: list[str]) -> list[str]:
     return [name for name in names if any(fnmatchcase(name, glob) for glob in globs)]
 
 
-def documents_of(rows: list[Row]) -> dict[str, dict[str, str]]:
-    """Name -> suffix -> text."""
-    sizes = table1([row for row in rows if not row.study])
-    cases = budgets.cases_of(rows)
-    found = {"table1": {".md": sizes}} if sizes else {}
-    if cases:
-        found["budget"] = {".csv": budgets.csv_table(cases), ".md": budgets.markdown(cases)}
-    return found | {"measured": {".md": paragraph(rows)}}
-
-
 def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
     report, drawn = [], []
     writers: dict[str, Callable[[Path], object]] = {}
@@ -84,7 +72,7 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
     for drawing in drawings:
         if drawing.name not in names:
             continue
-        result = drawing.draw(drawing.rows, **drawing.options)
+        result = drawing.figure()
         if isinstance(result, str):
             old = [drawing.name + suffix for suffix in drawing.suffixes
                    if (out / (drawing.name + suffix)).exists()]

@@ -61,7 +61,6 @@ def compose(rows: list[list[Fields]]) -> Figure:
 
 
 def write(figure: Figure, path: Path) -> None:
-    """A small PNG, or an SVG with the triangles as images."""
     if path.suffix == ".svg":
         figure.savefig(path, dpi=120, metadata={"Date": None})
     else:

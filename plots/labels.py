@@ -47,10 +47,6 @@ class Labels:
              **style: object) -> None:
         """Draws a curve; `name_lines` names it, at its end rather than at its beginning."""
         self.axes.plot(x, y, color=color, **style)
-        self.name_later(words, x, y, color, formula)
-
-    def name_later(self, words: str, x: list[float], y: list[float], color: object,
-                   formula: bool = False) -> None:
         self.avoid(x, y)
         self.lines.append((words, x[::-1], y[::-1], formula, color))
 
@@ -88,7 +84,6 @@ class Labels:
                        va="center", fontsize=size, zorder=8, path_effects=[HALO], **text)
 
     def best(self, anchors: np.ndarray, half: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Anchor and centre of the box that hides least and is nearest."""
         box = self.axes.get_window_extent()
         low, high = np.array([[box.x0, box.y0], [box.x1, box.y1]]) * 72 / self.axes.figure.dpi
         around = np.linspace(0, 2 * np.pi, DIRECTIONS, endpoint=False)

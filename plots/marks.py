@@ -53,7 +53,6 @@ class Quantity:
         return row.extrapolated_time_s, "open" if sure else "bound"
 
     def marked(self, rows: Iterable[Row]) -> list[tuple[Row, float | None, str]]:
-        """With value and mark, those that have one."""
         return [(row, value, mark) for row in rows for value, mark in [self.of(row)]
                 if mark != "none"]
 
@@ -66,7 +65,6 @@ HEAP = Quantity("memory", "peak heap, MiB", heap_caption)
 
 
 def notes_of(cases: Iterable[tuple[str, Row]], quantity: Quantity) -> list[str]:
-    """The cases that a figure has no point for, and those without a value."""
     titles: dict[str, dict[str, list[str]]] = {"no point": {}, "no estimate": {}}
     for case, row in cases:
         value, mark = quantity.of(row)

@@ -9,7 +9,6 @@ from itertools import chain
 
 import numpy as np
 
-from profiles import solved
 from records import NOT_NEGATIVE, Row
 from words import counted, percent, span, targets
 
@@ -60,8 +59,8 @@ def cases(rows: list[Row]) -> Iterator[str]:
                                for key in ("general_name", "mesh", "scene"))
     yield (f"The records have {counted(len(rows), 'case')}: {counted(methods, 'method')}, "
            f"{counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}.")
-    good = sum(map(solved, rows))
-    others = Counter(row.outcome or row.status for row in rows if not solved(row))
+    good = sum(row.solved for row in rows)
+    others = Counter(row.outcome or row.status for row in rows if not row.solved)
     yield (f"{good} of them ended ok and verified" + ("; the others ended " + ", ".join(
         f"{outcome.replace('_', ' ')} ({count})" for outcome, count in others.most_common())
         if others else "") + ".")

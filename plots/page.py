@@ -17,8 +17,7 @@ import json
 from pathlib import Path
 
 import command
-from night_history import OF_A_CASE, read_history
-from page_data import page_data
+from page_data import OF_A_CASE, page_data, read_history
 from records import RecordsError, lines_file, read
 
 PARTS = Path(__file__).resolve().parent / "page"

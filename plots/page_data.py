@@ -1,12 +1,18 @@
-"""What the page shows, from the nights of a history: series, marks, the last run, its context."""
-from collections.abc import Iterator
+"""Reads a history, a folder with nights/*.json as `bench track` writes them, checks it, and makes what
+the page shows: series, marks, the last run, its context."""
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import datetime, timezone
+from pathlib import Path
 
 import pandas as pd
 
 from case_names import case_name
-from night_history import Night, moment
-from records import FIELDS, with_derived
+from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError, checked, is_text,
+                     json_of, one_of, text_of, with_derived)
 
+FORMAT = "airybench-night-1"
+OF_A_CASE = ("mesh", "scene", "method", "status")  # what the page does not do without
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
 QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
 # The table's columns, in the order shown.
@@ -14,9 +20,76 @@ COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time
            *(key for key in QUANTITIES if key != "time_s"))
 HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
 OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
-OF_A_CASE = ["name", "mesh", "scene", "family", "body"]  # its name, and by what cases are grouped
+GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # its name, and by what cases are grouped
 # Different in every night, so that a difference says nothing.
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
+
+
+@dataclass(frozen=True)
+class Night:
+    date: str                  # ISO 8601
+    context: dict[str, str]    # where and with what
+    noise: dict                # median_s, mad_s of the same kernel, night by night
+    cases: pd.DataFrame        # as of records.jsonl
+    verdicts: list[dict]       # case, lane, quantity, kind, since, sentence
+    failed: bool
+    times_judged: bool = True  # False: too few nights of this machine
+
+    @property
+    def revision(self) -> str:
+        return self.context.get("git_revision", "unknown")
+
+
+def moment(date: str) -> datetime:
+    """Dates compare as moments: with and without an offset, which then is UTC."""
+    parsed = datetime.fromisoformat(date)
+    return parsed if parsed.tzinfo else parsed.replace(tzinfo=timezone.utc)
+
+
+def is_date(value: object) -> bool:
+    try:
+        return is_text(value) and bool(moment(value))
+    except ValueError:
+        return False
+
+
+def instance(kind: type, allowed: str) -> Kind:
+    return Kind(allowed, lambda value: isinstance(value, kind), empty=None, may_be_empty=False)
+
+
+DATE = Kind("a date in ISO 8601", is_date, may_be_empty=False)
+VERDICT = {"case": NAME, "lane": one_of(("counters", "errors", "times", "status"), False),
+           "quantity": NAME, "kind": one_of(("worse", "better", "changed"), False), "since": DATE,
+           "sentence": TEXT}
+NIGHT = {"date": DATE, "context": instance(dict, "an object of texts"),
+         "noise": instance(dict, "an object"), "cases": instance(list, "a list"),
+         "verdicts": instance(list, "a list"), "failed": FLAG, "times_judged": FLAG}
+
+
+def read_history(folder: Path) -> list[Night]:
+    files = sorted((folder / "nights").glob("*.json"))
+    if not files:
+        raise RecordsError(f"{folder / 'nights'}: no *.json; expected what bench track writes")
+    return sorted(map(read_night, files), key=lambda night: moment(night.date))
+
+
+def read_night(file: Path) -> Night:
+    night = json_of(text_of(file), str(file))
+    if not isinstance(night, dict) or night.get("format") != FORMAT:
+        raise RecordsError(f"{file}: not a night; expected an object with format {FORMAT}")
+    night = {"noise": {}, "verdicts": [], "times_judged": True} | night
+
+    def of(items: str = "") -> Callable[[int], str]:
+        return lambda k: f"{file}: {items}[{k}]" if items else str(file)
+
+    checked([night], NIGHT, NIGHT, of())
+    context, noise = night["context"], night["noise"]
+    checked([context], dict.fromkeys(context, TEXT), context, of())
+    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of())
+    verdicts = checked(night["verdicts"], VERDICT, VERDICT, of("verdicts"))
+    cases = checked(night["cases"], KEYS, OF_A_CASE, of("cases"))
+    return Night(night["date"], context, noise, cases, verdicts.to_dict("records"),
+                 night["failed"], night["times_judged"])
 
 
 def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
@@ -40,7 +113,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
         "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
                     if run[key].map(is_there).any()],
         "rows": [{key: value for key, value in row.items() if is_there(value)}
-                 for row in run[list(dict.fromkeys((*OF_A_CASE, *COLUMNS, "status_reason")))]
+                 for row in run[list(dict.fromkeys((*GROUPED_BY, *COLUMNS, "status_reason")))]
                  .to_dict("records")],
         "context": environment(last, before),
     }
@@ -66,7 +139,7 @@ def series(cases: pd.DataFrame, nights: int) -> Iterator[dict]:
         by_night = own.drop_duplicates("night", keep="last").set_index("night") \
             .reindex(range(nights)).astype(object)
         by_night = by_night.where(by_night.notna(), None)
-        yield own.iloc[-1][OF_A_CASE].to_dict() | {
+        yield own.iloc[-1][GROUPED_BY].to_dict() | {
             "method": name.split("/", 2)[2], "status": list(by_night.status),
             "values": {key: list(by_night[key]) for key in OF_SERIES
                        if by_night[key].notna().any()}}

@@ -37,7 +37,7 @@ from pathlib import Path
 import pandas as pd
 
 from case_names import case_name
-from command import replace_all, text_writer
+from command import replace_all, run, text_writer
 from records import KEYS, RecordsError, Row, read, rows_of
 from selection import grouped
 from selection import value_of as value_of_row
@@ -58,7 +58,7 @@ EXPRESSION = re.compile(
     r"(?P<filters>(?:, \w+=\S*?)*)(?: in (?P<unit>\S+))?")
 
 
-class QuoteError(Exception):
+class QuoteError(RecordsError):
     """A quotation or an expression with which nothing can be done: place and reason."""
 
 
@@ -91,7 +91,6 @@ def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
 
 @cache
 def value_of(expression: str, runs: Runs) -> tuple[float, str]:
-    """What the records give, and how it is rounded."""
     match = EXPRESSION.fullmatch(expression)
     if not match:
         raise QuoteError(f"'{expression}' cannot be read; expected FOLDER: [at most|at least] "
@@ -318,27 +317,28 @@ def rewrite(project: Path, by_file: dict[str, list[Difference]]) -> None:
         replace_all(path.parent, {path.name: text_writer(text)})
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("--check", action="store_true",
                       help="list the numbers that the records do not give; exit status 1 if any")
     what.add_argument("--write", action="store_true",
                       help="rewrite them; exit status 1 if words next to them no longer hold")
     parser.add_argument("--project", type=Path, default=PROJECT, help="default: this one")
-    arguments = parser.parse_args()
-    try:
-        by_file = differences(arguments.project)
-        if arguments.write:
-            rewrite(arguments.project, by_file)
-    except (QuoteError, RecordsError, OSError) as error:
-        print(f"quoted_numbers: {error}", file=sys.stderr)
-        sys.exit(2)
+
+
+def check_or_write(arguments: argparse.Namespace) -> None:
+    by_file = differences(arguments.project)
+    if arguments.write:
+        rewrite(arguments.project, by_file)
     every = list(chain.from_iterable(by_file.values()))
     for difference in every:
         print(difference.sentence())
     if any(difference.replacement is None or arguments.check for difference in every):
         sys.exit(1)
+
+
+def main() -> None:
+    run(__doc__, add_arguments, check_or_write, "a file of the project")
 
 
 if __name__ == "__main__":

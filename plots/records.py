@@ -4,21 +4,24 @@ What does not fit its key is refused in one line: file, line, key, value, and wh
 """
 import csv
 import gzip
-import io
 import json
 import sys
 import zlib
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, make_dataclass
+from itertools import count
 from pathlib import Path
 
 import pandas as pd
 
 from catalogue import Look, with_bodies, with_looks
 
+LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
+LONGEST_SHOWN = 200  # of a value in a message
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
+VERIFIED = ("", "ok", "other_solution")  # outcomes of an ok case that count as solved
 OUTCOMES = ("ok", "other_solution", *STATUSES[1:5], "unverified", "wrong_success", *STATUSES[5:])
 STOPS = ("target", "paper")
 CONTACT_SOLVERS = ("newton", "gauss-seidel", "anderson", "admm")
@@ -151,6 +154,10 @@ class Case:
     def completed(self) -> bool:
         return self.status in COMPLETED
 
+    @property
+    def solved(self) -> bool:
+        return self.status == "ok" and self.outcome in VERIFIED and self.time_s is not None
+
     def status_words(self) -> str:
         """'timeout, 12 % done'."""
         text = self.status.replace("_", " ")
@@ -169,7 +176,11 @@ Row = make_dataclass("Row", [("line", int, 0), *((name, object, kind.empty) for 
 
 
 def shown(value: object) -> str:
-    return f"'{value}'" if isinstance(value, str) else json.dumps(value)
+    """In one line, what is too long cut off: as support/shortened.hpp."""
+    text = value if isinstance(value, str) else json.dumps(value)
+    text = "".join(letter if letter.isprintable() else "?" for letter in text)
+    text = text if len(text) <= LONGEST_SHOWN else text[:LONGEST_SHOWN - 1] + "…"
+    return f"'{text}'" if isinstance(value, str) else text
 
 
 def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
@@ -229,9 +240,9 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
                 raise RecordsError(f"{place(k)}: {name} is {shown(items[k].get(name))}, expected a "
                                    f"number above 0, since status is {table.status[k]}")
     for k in table.index[table.duplicated(IDENTITY)]:
-        case = [value for value in table.loc[k, IDENTITY] if value not in ("", None)]
+        case = ", ".join(str(value) for value in table.loc[k, IDENTITY] if value not in ("", None))
         same = table[IDENTITY].astype(str).eq(table.loc[k, IDENTITY].astype(str)).all(axis=1)
-        raise RecordsError(f"{place(k)}: the case '{', '.join(map(str, case))}' is that of line "
+        raise RecordsError(f"{place(k)}: the case {shown(case)} is that of line "
                            f"{table.line[same.idxmax()]}; expected a row per case")
     return with_derived(table)
 
@@ -257,29 +268,44 @@ def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]
 
 def cells_of(path: Path) -> list[list[str]]:
     """Of a CSV, line by line; as many in each as in the first."""
+    lines: list[list[str]] = []
     try:
-        lines = list(csv.reader(io.StringIO(text_of(path)), strict=True))
+        for cells in csv.reader(lines_of(path), strict=True):
+            lines.append(cells)
+            if len(cells) != len(lines[0]):
+                raise RecordsError(f"{path}:{len(lines)}: {len(cells)} values, expected "
+                                   f"{len(lines[0])} as in line 1")
     except csv.Error as error:
         raise RecordsError(f"{path}: cannot be read: not CSV text: {error}")
-    for line, cells in enumerate(lines, 1):
-        if len(cells) != len(lines[0]):
-            raise RecordsError(f"{path}:{line}: {len(cells)} values, expected {len(lines[0])} as "
-                               "in line 1")
     return lines
 
 
 def read_lines(path: Path) -> list[object]:
-    text = text_of(path)
-    lines = text.removesuffix("\n").split("\n") if text else []  # U+2028 ends none
-    return [json_of(words, f"{path}:{line}") for line, words in enumerate(lines, 1)]
+    return [json_of(line.removesuffix("\n"), f"{path}:{number}")
+            for number, line in enumerate(lines_of(path), 1)]
 
 
 def text_of(path: Path) -> str:
+    return "".join(lines_of(path))
+
+
+def lines_of(path: Path) -> Iterator[str]:
+    """With their ends; U+2028 ends none. A line that is too long is not unpacked to its end."""
     if path.exists() and not path.is_file():  # a pipe would be waited for
         raise RecordsError(f"{path}: is no regular file; expected what bench writes")
+    length = 0
     try:
         with (gzip.open if path.suffix == ".gz" else open)(path, "rt", encoding="utf-8") as file:
-            return file.read()
+            for number in count(1):
+                line = file.readline(LONGEST_LINE + 1)
+                length += len(line)
+                if len(line) > LONGEST_LINE or length > LONGEST_FILE:
+                    raise RecordsError(f"{path}:{number}: too long; expected at most "
+                                       f"{LONGEST_LINE >> 20} MiB in a line, "
+                                       f"{LONGEST_FILE >> 30} GiB in a file, unpacked")
+                if not line:
+                    return
+                yield line
     except (gzip.BadGzipFile, EOFError, zlib.error):
         raise RecordsError(f"{path}: cannot be read: not of gzip, or damaged; expected what gzip "
                            "made of records.jsonl")
@@ -306,7 +332,6 @@ def rows_of(table: pd.DataFrame) -> list[Row]:
 
 
 def lines_file(folder: Path) -> Path | None:
-    """records.jsonl, or what gzip made of it, where one is there."""
     files = (folder / name for name in ("records.jsonl", "records.jsonl.gz"))
     return next((file for file in files if file.exists()), None)
 

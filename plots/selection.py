@@ -1,6 +1,7 @@
 """Which cases belong in a figure, by the columns of their records."""
 import re
 from collections.abc import Callable, Hashable, Iterable
+from operator import attrgetter
 from typing import TypeVar
 
 import numpy as np
@@ -83,13 +84,12 @@ def is_paper_stop(row: Row) -> bool:
     return row.iterative and row.stop == "paper"
 
 
-def front(rows: list[Row], cost: Callable[[Row], float | None], error: Callable[[Row], float],
-          gain: float = 0) -> list[Row]:
+def front(rows: list[Row], cost: str, error: str, gain: float = 0) -> list[Row]:
     """Those that no cheaper one equals in error, the cheapest first; a gain of the error of less
     than this part of it is none."""
     found: list[Row] = []
-    for row in sorted((row for row in rows if cost(row)), key=lambda row: (cost(row), error(row))):
-        if not found or error(row) < (1 - gain) * error(found[-1]):
+    for row in sorted((row for row in rows if getattr(row, cost)), key=attrgetter(cost, error)):
+        if not found or getattr(row, error) < (1 - gain) * getattr(found[-1], error):
             found.append(row)
     return found
 
@@ -114,7 +114,6 @@ def order(row: Row) -> tuple[int, str]:
 
 
 def by_method(rows: list[Row], x: str) -> dict[str, list[Row]]:
-    """In the order of families, each by the value of this key."""
     return grouped(sorted(rows, key=lambda row: (order(row), getattr(row, x))),
                    lambda row: row.method)
 
@@ -125,8 +124,12 @@ def value_of(row: Row, key: str) -> float | None:
     return value / 2**20 if value and key == "peak_heap_bytes" else value
 
 
-def exponent(n_phi: list[int], values: list[float], least: int = 3) -> float | None:
-    """p of the power law value ~ n_phi^p by least squares of logarithms; needs `least` points."""
-    if len(values) < least or len(set(n_phi)) < 2:
+def line_of(rows: list[Row], x: str, y: str) -> tuple[list[float], list[float]]:
+    return [value_of(row, x) for row in rows], [value_of(row, y) for row in rows]
+
+
+def exponent(x: list[float], y: list[float], least: int = 3) -> float | None:
+    """p of the power law y ~ x^p by least squares of logarithms; needs `least` points."""
+    if len(y) < least or len(set(x)) < 2:
         return None
-    return float(np.polyfit(np.log(n_phi), np.log(values), 1)[0])
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])

@@ -5,6 +5,7 @@
     validation_profiles.py --table          prints the tables of docs/validation.md
 """
 import argparse
+from functools import partial
 from pathlib import Path
 
 import matplotlib
@@ -13,6 +14,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from command import replace_all, run
 from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
@@ -139,19 +141,24 @@ def draw(table: pd.DataFrame) -> Figure:
     return figure
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--out", type=Path, default=PROJECT / "docs/images/validation.png")
     parser.add_argument("--table", action="store_true")
-    given = parser.parse_args()
+
+
+def make(args: argparse.Namespace) -> None:
     table = read_profiles()
-    if given.table:
+    if args.table:
         for rows in (block_rows, cattaneo_rows, other_rows):
             print("\n".join(rows(table)), end="\n\n")
         return
     with matplotlib.rc_context(STYLE):
-        write_small_png(draw(table), DPI, given.out, colours=COLOURS)
+        replace_all(args.out.parent, {args.out.name: partial(write_small_png, draw(table), DPI,
+                                                             colours=COLOURS)})
+
+
+def main() -> None:
+    run(__doc__, add_arguments, make, "a file to write")
 
 
 if __name__ == "__main__":

@@ -126,7 +126,6 @@ def no_point(rows: list[Row]) -> str:
 
 
 def targets(rows: list[Row]) -> list[str]:
-    """The target errors of a run, as far as its rows tell."""
     found = {row.target_error for row in rows} - {None}
     for row in rows:
         told = re.search(r"above the target (\d+(?:\.\d+)?(?:e[+-]?\d+)?)", row.status_reason)

@@ -8,7 +8,8 @@ from drawing import Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from marks import WIDTH
 from records import Row
-from selection import by_body, exponent, grouped, is_paper_stop, kind_of, of_scene
+from selection import (by_body, by_mesh, exponent, grouped, is_paper_stop, kind_of, line_of,
+                       of_scene)
 from words import CASE, csv_of, plain, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.62, 0.45, 0.42, 2.5, 0.15, 0.5  # inches
@@ -35,8 +36,7 @@ def table_of(rows: list[Row]) -> str:
 
 
 def best_of(rows: list[Row]) -> list[Row]:
-    meshes = grouped(sorted(rows, key=lambda row: row.n_phi), lambda row: row.mesh)
-    return [min(own, key=lambda row: row.error_total) for own in meshes.values()]
+    return [min(own, key=lambda row: row.error_total) for own in by_mesh(rows).values()]
 
 
 def draw(rows: list[Row]) -> Figure:
@@ -75,13 +75,12 @@ def draw_unknowns(axes: Axes, rows: list[Row]) -> None:
     labels = Labels(axes)
     for kind, colour in COLOURS.items():
         best = best_of([row for row in rows if kind_of(row) == kind])
-        if not best:
-            continue
         late = [row for row in best if kind != "adapted" or row.n_phi >= 1.5 * best[0].n_phi]
-        power = exponent([row.n_phi for row in late], [row.error_total for row in late], least=2)
-        labels.line(kind if power is None else f"{kind}: $N^{{{power:.2f}}}$",
-                    [row.n_phi for row in best], [row.error_total for row in best], colour,
-                    formula=True, **style(best[0], "o", colour))
+        power = exponent(*line_of(late, "n_phi", "error_total"), least=2)
+        if best:
+            labels.line(kind if power is None else f"{kind}: $N^{{{power:.2f}}}$",
+                        *line_of(best, "n_phi", "error_total"), colour, formula=True,
+                        **style(best[0], "o", colour))
     labels.name_lines(weight="bold")
 
 
@@ -92,8 +91,7 @@ def draw_times(axes: Axes, rows: list[Row]) -> None:
                      lambda row: (row.method, kind_of(row)))
     for (method, _), own in sorted(curves.items(), key=lambda item: item[0][1] != "adapted"):
         own.sort(key=lambda row: row.n_phi)
-        look = own[0].look
-        line = [row.time_s for row in own], [row.error_total for row in own]
+        look, line = own[0].look, line_of(own, "time_s", "error_total")
         axes.plot(*line, color=look.colour, **style(own[0], look.marker, look.colour))
         labels.avoid(*line)
         if method not in named:

@@ -36,7 +36,6 @@ def table_of(rows: list[Row]) -> str:
 
 
 def power(line: list[Row], column: str) -> float | None:
-    """Over n_phi, of a line's positive values."""
     known = [row for row in line if value_of(row, column)]
     return exponent([row.n_phi for row in known], [value_of(row, column) for row in known])
 

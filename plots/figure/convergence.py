@@ -1,7 +1,7 @@
 """Discretisation error against the mesh size, and the bounds of the energy."""
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from itertools import cycle
 
 import numpy as np
@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from drawing import PAGE_WIDTH, Drawing, axes_at, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
-from selection import by_mesh, exponent, scene_of
+from selection import by_body, by_mesh, exponent, scene_of
 from words import columns_of, csv_of, percent, plain
 
 LEFT, TOP, HEIGHT, BELOW, BOTTOM, GAP = 0.72, 0.4, 3.8, 2.6, 0.55, 0.85  # inches
@@ -22,19 +22,6 @@ MARKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#00805C", "^"), ("#8A3FA0", "D"),
 H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
 
 
-@dataclass(frozen=True)
-class Point:
-    mesh: str
-    n_phi: int
-    error: float  # relative
-    lower_bound_Nmm: float | None
-    upper_bound_Nmm: float | None
-
-    @property
-    def h(self) -> float:
-        return 1 / math.sqrt(self.n_phi)
-
-
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "error"]
     if study:
@@ -43,43 +30,44 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 def table_of(rows: list[Row]) -> str:
     """Of the scene drawn, then of that of the bounds, if it is another. rate: of the body."""
-    lines = [(scene, body, point, rate(points))
+    lines = [(point, rate(points))
              for scene in dict.fromkeys([scene_of(rows), bounded_of(rows)[0] or scene_of(rows)])
-             for body, points in points_of(rows, scene).items() for point in points]
-    return csv_of(lines, ("scene", lambda line: line[0]), ("body", lambda line: line[1]),
-                  *columns_of(lambda line: line[2], "mesh", "n_phi"),
-                  ("error_discretisation", lambda line: line[2].error),
-                  *columns_of(lambda line: line[2], "lower_bound_Nmm", "upper_bound_Nmm"),
-                  ("rate", lambda line: line[3]))
+             for points in points_of(rows, scene).values() for point in points]
+    return csv_of(lines, *columns_of(lambda line: line[0], "scene", "body", "mesh", "n_phi",
+                                     "error_discretisation", "lower_bound_Nmm", "upper_bound_Nmm"),
+                  ("rate", lambda line: line[1]))
 
 
-def points_of(rows: list[Row], scene: str) -> dict[str, list[Point]]:
-    """Body -> its meshes, the coarsest first. The error is of mesh and scene: any row has it."""
+def points_of(rows: list[Row], scene: str) -> dict[str, list[Row]]:
+    """Body -> a row per mesh, the coarsest first. The error is of mesh and scene: any row has it."""
     known = [row for row in rows if row.scene == scene and row.error_discretisation and row.n_phi]
-    bodies: dict[str, list[Point]] = {}
-    for mesh, own in by_mesh(known).items():
-        bounds = [(row.lower_bound_Nmm, row.upper_bound_Nmm) for row in own
-                  if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]
+    points = []
+    for own in by_mesh(known).values():
+        bounded = [row for row in own if None not in (row.lower_bound_Nmm, row.upper_bound_Nmm)]
         error = float(np.median([row.error_discretisation for row in own]))
-        bodies.setdefault(own[0].body, []).append(
-            Point(mesh, own[0].n_phi, error, *(bounds or [(None, None)])[0]))
-    return bodies
+        bounds = {} if bounded else dict(lower_bound_Nmm=None, upper_bound_Nmm=None)
+        points.append(replace((bounded or own)[0], error_discretisation=error, **bounds))
+    return by_body(points)
 
 
-def rate(points: list[Point]) -> float | None:
+def line_of(points: list[Row]) -> tuple[list[float], list[float]]:
+    """h ~ n_phi^-1/2, relative error."""
+    return [1 / math.sqrt(p.n_phi) for p in points], [p.error_discretisation for p in points]
+
+
+def rate(points: list[Row]) -> float | None:
     """p of error ~ h^p by least squares of logarithms; needs two meshes."""
-    return exponent([point.h for point in points], [point.error for point in points], least=2)
+    return exponent(*line_of(points), least=2)
 
 
-def fitted(points: list[Point]) -> tuple[np.ndarray, np.ndarray]:
-    """Ends of the power law, over two meshes or more."""
-    h, errors = np.array([p.h for p in points]), np.array([p.error for p in points])
+def fitted(points: list[Row]) -> tuple[np.ndarray, np.ndarray]:
+    h, errors = map(np.array, line_of(points))
     power = rate(points)
     ends = np.array([h.min(), h.max()])
     return ends, np.exp(np.mean(np.log(errors) - power * np.log(h))) * ends**power
 
 
-def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Point]]]:
+def bounded_of(rows: list[Row]) -> tuple[str, dict[str, list[Row]]]:
     """The scene to draw, else the first that has bounds, and its bodies with bounds on two meshes
     or more."""
     scenes = sorted({row.scene for row in rows})
@@ -118,20 +106,19 @@ def draw(rows: list[Row]) -> Figure | str:
     return figure
 
 
-def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
+def draw_errors(axes: Axes, bodies: dict[str, list[Row]],
                 marks: dict[str, tuple[str, str]]) -> None:
-    every = [point for points in bodies.values() for point in points]
-    log_log(axes, xlim=log_limits([point.h for point in every], 1.25),
-            ylim=log_limits([point.error for point in every], 1.4), xlabel=H,
+    h, errors = line_of([point for points in bodies.values() for point in points])
+    log_log(axes, xlim=log_limits(h, 1.25), ylim=log_limits(errors, 1.4), xlabel=H,
             ylabel="relative discretisation error of the stresses, 1")
     labels = Labels(axes)
     for points in bodies.values():
-        labels.avoid([p.h for p in points], [p.error for p in points])
+        labels.avoid(*line_of(points))
         if rate(points):
             labels.avoid(*fitted(points))
     for body, points in bodies.items():
         colour, marker = marks[body]
-        h, errors = [p.h for p in points], [p.error for p in points]
+        h, errors = line_of(points)
         power = rate(points)
         axes.plot(h, errors, color=colour, marker=marker, markersize=6,
                   linestyle="none" if power else "-")
@@ -139,16 +126,15 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Point]],
         if power:
             axes.plot(*fitted(points), color=colour, linewidth=1.2, zorder=1.5)
             words += f": $h^{{{power:.2f}}}$"
-        for point in points:
-            labels.add(f"{point.mesh}, {percent(point.error)}", point.h, point.error,
-                       color="0.25")
+        for point, *at in zip(points, h, errors):
+            labels.add(f"{point.mesh}, {percent(point.error_discretisation)}", *at, color="0.25")
         middle = len(points) // 2
         labels.add(words, h[middle:] + h[:middle], errors[middle:] + errors[:middle],
                    formula=True, color=colour, fontsize=10)
 
 
-def draw_bounds(axes: Axes, body: str, points: list[Point], colour: str) -> None:
-    h = [point.h for point in points]
+def draw_bounds(axes: Axes, body: str, points: list[Row], colour: str) -> None:
+    h, _ = line_of(points)
     lower, upper = zip(*((point.lower_bound_Nmm, point.upper_bound_Nmm) for point in points))
     axes.set_xlim(0, 1.25 * max(h))
     axes.fill_between(h, lower, upper, color=colour, alpha=0.15, linewidth=0)

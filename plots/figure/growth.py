@@ -52,7 +52,6 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def lines_of(rows: list[Row]) -> dict[str, list[Row]]:
-    """Method -> its completed rows by size."""
     return by_method([row for row in rows if row.completed], "n_phi")
 
 

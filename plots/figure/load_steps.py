@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
-from selection import by_mesh, by_method
+from selection import by_mesh, by_method, line_of
 from words import csv_of, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
@@ -47,7 +47,7 @@ def draw(rows: list[Row]) -> Figure | str:
         labels = Labels(axes)
         for method, line in by_method(own, "load_steps").items():
             look = line[0].look
-            labels.line(method, [row.load_steps for row in line], [row.time_s for row in line],
-                        look.colour, marker=look.marker, markersize=5, linewidth=1.2)
+            labels.line(method, *line_of(line, "load_steps", "time_s"), look.colour,
+                        marker=look.marker, markersize=5, linewidth=1.2)
         labels.name_lines(weight="bold")
     return figure

@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
-from selection import by_body, grouped, kind_of, of_scene, order
+from selection import by_body, grouped, kind_of, line_of, of_scene, order
 from words import CASE, csv_of, short, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.72, 0.6, 0.45, 3.7, 0.15  # inches
@@ -78,8 +78,7 @@ def draw(rows: list[Row]) -> Figure:
         labels = Labels(axes)
         for curve in curves[body]:
             look = curve.rows[0].look
-            labels.line(curve.words, [row.time_s for row in curve.rows],
-                        [row.error_total for row in curve.rows], look.colour,
+            labels.line(curve.words, *line_of(curve.rows, "time_s", "error_total"), look.colour,
                         linestyle=curve.dashes, linewidth=1.4, marker=look.marker, markersize=5,
                         markerfacecolor=look.colour if curve.filled else "white")
         if loop:

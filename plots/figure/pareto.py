@@ -5,12 +5,12 @@ from collections.abc import Iterator
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import selection
 from drawing import PAGE_WIDTH, STOP, Drawing, log_limits, log_log, sheet, side_by_side, text_at
 from figure.work_precision import AXES
 from labels import Labels
 from records import Row
-from selection import by_body, given, grouped, is_paper_stop, kind_of, of_scene, value_of
+from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_scene,
+                       value_of)
 from words import (CASE, KNOB, csv_of, mebibytes, percent, plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
@@ -42,7 +42,8 @@ def table_of(rows: list[Row]) -> str:
     known = known_of(rows)
     stress = [row for row in known if not row.in_displacements]
     fronts = {column: {row.line for own in grouped(stress, lambda row: (row.body, kind_of(row)))
-                       .values() for row in front(own, column)} for column in AXES}
+                       .values() for row in front(own, column, "error_total", GAIN)}
+              for column in AXES}
     return csv_of(known, *CASE, *KNOB, ("kind_of_mesh", kind_of), *AXES, "error_discretisation",
                   "error_stress", "error_total",
                   *((f"on_front_in_{column}", lambda row, own=own: row.line in own)
@@ -58,12 +59,6 @@ def highest_of(rows: list[Row]) -> float:
     """Total error drawn, at most 1: nothing of such an answer is right."""
     floor = max((row.error_discretisation or 0 for row in rows), default=0)
     return min(max(HIGHEST, OVER_FLOOR * floor), 1)
-
-
-def front(rows: list[Row], column: str) -> list[Row]:
-    """Those that no cheaper one equals in total error, the cheapest first; GAIN is no gain."""
-    return selection.front(rows, lambda row: value_of(row, column), lambda row: row.error_total,
-                           GAIN)
 
 
 def levels(errors: list[float]) -> list[float]:
@@ -169,16 +164,16 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
     for row in stress:
         axes.plot(value_of(row, column), row.error_total, color=row.look.colour,
                   marker=row.look.marker, markersize=2.5, alpha=0.35, markeredgewidth=0, zorder=2)
-    fronts = {kind: front([row for row in stress if kind_of(row) == kind], column)
-              for kind in kinds}
+    fronts = {kind: front([row for row in stress if kind_of(row) == kind], column, "error_total",
+                          GAIN) for kind in kinds}
     for kind, best in fronts.items():
         if best:
-            draw_front(axes, labels, line_of(best, column), best, kind)
+            draw_front(axes, labels, line_of(best, column, "error_total"), best, kind)
     displacements = grouped(
         sorted((row for row in rows if row.in_displacements), key=lambda row: row.n_phi),
         lambda row: (displacements_of(rows).index(row.method), kinds.index(kind_of(row))))
     for (_, k), own in sorted(displacements.items()):
-        line, look = line_of(own, column), own[0].look
+        line, look = line_of(own, column, "error_total"), own[0].look
         axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
                   zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
         labels.avoid(*line)
@@ -187,12 +182,8 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
     for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
         meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
-        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column), weight="bold",
-                   color=own[0].look.colour)
-
-
-def line_of(rows: list[Row], column: str) -> tuple[list[float], list[float]]:
-    return [value_of(row, column) for row in rows], [row.error_total for row in rows]
+        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column, "error_total"),
+                   weight="bold", color=own[0].look.colour)
 
 
 def joined(meshes: list[str]) -> str:
@@ -235,10 +226,9 @@ def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
 
 
 def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None:
-    """Methods that chose r and rho, ended by the paper's stop, on each mesh."""
     stops = [row for row in rows if is_paper_stop(row) and not given(row)]
     for method, own in grouped(stops, lambda row: row.method).items():
-        x, y = line_of(own, column)
+        x, y = line_of(own, column, "error_total")
         for at in zip(x, y):
             axes.plot(*at, markerfacecolor=own[0].look.colour, **STOP | {"markersize": 12})
             labels.avoid(*at)

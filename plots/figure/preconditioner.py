@@ -96,7 +96,6 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
 
 
 def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -> None:
-    """Of a mesh: a column per family, time above memory."""
     columns, places = columns_of(rows), places_of(rows)
     width = (WIDTH - LEFT - RIGHT - GAP * (len(columns) - 1)) / len(columns)
     limits = dict(xlim=(-0.7, max(places.values()) + 0.7))
@@ -131,7 +130,6 @@ def limits_of(rows: list[Row], quantity: Quantity) -> tuple[float, float]:
 
 def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
                 quantity: Quantity, scale: ErrorScale) -> None:
-    """Points, those of a group joined; memory on stems."""
     groups = list(dict.fromkeys(group for group, _ in places))
     for group in groups:
         own = [column[slot] for slot in places if slot[0] == group and slot in column]

@@ -1,24 +1,113 @@
-"""Performance and data profiles: the share of cases that a method solves within so much of the best."""
-from collections.abc import Iterator
+"""Performance profiles (Dolan & Moré 2002) and data profiles (Moré & Wild 2009) of methods over cases.
+
+Methods s = 1..S on cases p = 1..P with costs c_ps, infinite where s does not solve p:
+    performance profile  ρ_s(τ) = |{p : c_ps <= τ min_s c_ps}| / P,
+    data profile         d_s(t) = |{p : c_ps <= t}| / P.
+ρ depends on all methods compared: with more than two, the order of those that are not the best can
+change when one is left out (Gould & Scott, ACM Trans. Math. Softw. 43, 2016, 15). d does not.
+"""
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-import profiles
 from catalogue import DASHES
 from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
 from labels import DASHED, LEFT, draw_names
-from profiles import Cases
 from records import Row
-from selection import grouped
+from selection import compared, grouped
 from words import counted, csv_of, threads, width_of
 
 TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
 SETS = {"": "", "stability": "_stability", "adapted": "_adapted",
         "load-steps": "_load_steps"}  # study -> end of the file's name
+ROOM = 12  # methods
+FEWEST = 3  # cases
+RESAMPLES, SEED, CONFIDENCE = 400, 1, 0.95
+
+Case = tuple[str, str, str, float | None]  # mesh, scene, stop, target error
+
+
+@dataclass(frozen=True)
+class Cases:
+    methods: list[str]
+    cases: list[Case]
+    rows: dict[tuple[Case, str], Row]
+    absent: list[str]  # methods with records of too few of them
+    dropped: int       # cases of which some method has no record
+
+    def costs(self, of: Callable[[Row], float | None]) -> np.ndarray:
+        """(P, S); infinite: not solved."""
+        return np.array([[of(self.rows[case, method]) if self.rows[case, method].solved else np.inf
+                          for method in self.methods] for case in self.cases], float)
+
+    def resampled(self) -> np.ndarray:
+        """(RESAMPLES, P, S) medians of samples_s, drawn with replacement; where there are no two
+        of them, time_s."""
+        random = np.random.default_rng(SEED)
+        times = np.tile(self.costs(lambda row: row.time_s), (RESAMPLES, 1, 1))
+        for p, case in enumerate(self.cases):
+            for s, method in enumerate(self.methods):
+                samples = self.rows[case, method].samples_s
+                if len(samples or ()) > 1 and np.isfinite(times[0, p, s]):
+                    times[:, p, s] = np.median(random.choice(samples, (RESAMPLES, len(samples))), 1)
+        return times
+
+
+def case_of(row: Row) -> Case:
+    return row.mesh, row.scene, row.stop, row.target_error
+
+
+def cases_of(rows: list[Row]) -> Cases:
+    """Of the methods worth comparing, those with most cases first: each that leaves half of all cases,
+    and FEWEST, which all have."""
+    shown = compared([row for row in rows if not row.in_displacements], ROOM)
+    every = list(dict.fromkeys(map(case_of, shown)))
+    methods = [{case_of(row): row for row in own}
+               for own in grouped(shown, lambda row: row.general_name).values()]
+    needed = max(len(every) / 2, min(FEWEST, len(every)))
+    common, kept, absent = set(every), [], []
+    for own in sorted(methods, key=len, reverse=True):
+        fits = not kept or len(common & own.keys()) >= needed
+        (kept if fits else absent).append(own)
+        common &= own.keys() if fits else common
+    name = {id(own): next(iter(own.values())).method for own in methods}
+    cases = [case for case in every if case in common]
+    return Cases([name[id(own)] for own in kept], cases,
+                 {(case, name[id(own)]): own[case] for own in kept for case in cases},
+                 [name[id(own)] for own in absent], len(every) - len(cases))
+
+
+def ratios(costs: np.ndarray) -> np.ndarray:
+    """(..., P, S) costs over the least of their case; infinite where nobody solves it."""
+    best = costs.min(axis=-1, keepdims=True)
+    return np.divide(costs, best, out=np.full_like(costs, np.inf), where=np.isfinite(costs))
+
+
+def fractions(values: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """(..., P), (m,) -> (..., m): the share of values that are at most so large."""
+    return (values[..., None, :] <= at[:, None]).mean(-1)
+
+
+def band(values: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """(RESAMPLES, P), (m,) -> lower and upper ends (m,) of the pointwise interval."""
+    low, high = np.quantile(fractions(values, at), [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2], 0)
+    return low, high
+
+
+def order_depends_on_best(costs: np.ndarray, factor: float = 2) -> bool | None:
+    """Whether ρ(factor) puts any two of the others the other way round without the method that leads
+    there; None: there are not three."""
+    if costs.shape[1] < 3:
+        return None
+    with_all = fractions(ratios(costs).T, np.array([factor]))[:, 0]
+    leader = int(with_all.argmax())
+    before = np.delete(with_all, leader)
+    after = fractions(ratios(np.delete(costs, leader, axis=1)).T, np.array([factor]))[:, 0]
+    return bool((np.sign(before[:, None] - before) * np.sign(after[:, None] - after) < 0).any())
 
 
 @dataclass(frozen=True)
@@ -27,16 +116,10 @@ class Profile:
     quantity: str         # of Row
     axis: str
     values: np.ndarray    # (P, S): factors of the best, or seconds
-    resampled: np.ndarray | None  # (RESAMPLES, P, S)
-
-    def every(self, s: int) -> np.ndarray:
-        """All the values that the method has, in (RESAMPLES, P)."""
-        return (self.values if self.resampled is None else self.resampled)[..., s]
+    resampled: np.ndarray  # (RESAMPLES, P, S); (1, P, S): without repetitions
 
     def shares(self, s: int, at: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        share = profiles.fractions(self.values[:, s], at)
-        return (share, share, share) if self.resampled is None else \
-            (share, *profiles.band(self.every(s), at))
+        return fractions(self.values[:, s], at), *band(self.resampled[..., s], at)
 
 
 def jumps(values: np.ndarray) -> np.ndarray:
@@ -51,23 +134,22 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def profiles_of(cases: Cases) -> list[Profile]:
-    times, again = cases.costs(lambda row: row.time_s), None
-    if any(len(row.samples_s or ()) > 1 for row in cases.rows.values()):
-        again = cases.resampled()
+    times = cases.costs(lambda row: row.time_s)
+    repeated = any(len(row.samples_s or ()) > 1 for row in cases.rows.values())
+    again = cases.resampled() if repeated else times[None]
     found = [Profile("performance", "time_s", "time over that of the fastest method, 1",
-                     profiles.ratios(times), None if again is None else profiles.ratios(again)),
+                     ratios(times), ratios(again)),
              Profile("data", "time_s", "time of one solve, s", times, again)]
     heaps = cases.costs(lambda row: row.peak_heap_bytes or np.nan)
     if not np.isnan(heaps).any():
         found.insert(1, Profile("performance", "peak_heap_bytes",
-                                "peak heap over that of the smallest, 1",
-                                profiles.ratios(heaps), None))
+                                "peak heap over that of the smallest, 1", ratios(heaps),
+                                ratios(heaps)[None]))
     return found
 
 
 def table_of(rows: list[Row]) -> str:
-    """A line per method and step of its curve."""
-    cases = profiles.cases_of(rows)
+    cases = cases_of(rows)
     lines = [(profile, method, *step) for profile in profiles_of(cases)
              for s, method in enumerate(cases.methods)
              for at in [jumps(profile.values[:, s])] for step in zip(at, *profile.shares(s, at))]
@@ -82,10 +164,10 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure | str:
-    cases = profiles.cases_of(rows)
-    if len(cases.methods) < METHODS or len(cases.cases) < profiles.FEWEST:
+    cases = cases_of(rows)
+    if len(cases.methods) < METHODS or len(cases.cases) < FEWEST:
         return (f"{len(cases.methods)} methods on {len(cases.cases)} cases that all of them have; "
-                f"needs {METHODS} and {profiles.FEWEST}")
+                f"needs {METHODS} and {FEWEST}")
     if not np.isfinite(cases.costs(lambda row: row.time_s)).any():
         return f"none of its {len(cases.cases)} cases is solved"
     shown = profiles_of(cases)
@@ -111,9 +193,9 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
            "of those behind the best can change when one is left out (Gould & Scott 2016)"
            + {None: ".", True: "; here it does at factor 2 without the one that leads there.",
               False: "; at factor 2 it does not here without the one that leads there."}[
-                  profiles.order_depends_on_best(shown[0].values)])
-    if shown[0].resampled is not None:
-        yield (f"Bands: {100 * profiles.CONFIDENCE:.0f} % of {profiles.RESAMPLES} bootstrap "
+                  order_depends_on_best(shown[0].values)])
+    if len(shown[0].resampled) > 1:
+        yield (f"Bands: {100 * CONFIDENCE:.0f} % of {RESAMPLES} bootstrap "
                "resamples of each case's repetitions; of the choice of cases they say nothing.")
     if cases.absent:
         yield f"Left out, with records of too few of the cases: {', '.join(cases.absent)}."
@@ -123,7 +205,7 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
 
 
 def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
-    every = jumps(profile.values if profile.resampled is None else profile.resampled)
+    every = jumps(profile.resampled)
     low = 1 if profile.kind == "performance" else every[0] / 1.5
     high = max(1.2 * every[-1], 2 * low)
     axes.set(xscale="log", xlim=(low, high), ylim=(0, 1.04), xlabel=profile.axis,
@@ -135,11 +217,11 @@ def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
               for own in families.values() for k, method in enumerate(own)}
     ends = {}
     for s, method in enumerate(cases.methods):
-        at = np.r_[low, jumps(profile.every(s)), high]
+        at = np.r_[low, jumps(profile.resampled[..., s]), high]
         share, under, over = profile.shares(s, at)
         axes.step(at, share, where="post", linewidth=1.4, zorder=3, linestyle=dashes[method],
                   color=looks[method].colour)
-        if profile.resampled is not None:
+        if len(profile.resampled) > 1:
             axes.fill_between(at, under, over, step="post", alpha=0.15, linewidth=0,
                               color=looks[method].colour)
         ends[method] = high, share[-1]

@@ -126,7 +126,6 @@ def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
 
 
 def name_bodies(axes: Axes, rows: list[Row], above_pt: float) -> None:
-    """And gaps between them."""
     by_size = sorted(rows, key=lambda row: row.n_phi)
     bodies = {body: [row.n_phi for row in own] for body, own in by_body(by_size).items()}
     for n_phi in {row.n_phi for row in rows}:

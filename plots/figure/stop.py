@@ -1,6 +1,5 @@
 """What the paper's stop of ALM does to the answer, for given parameters r and rho."""
 from collections.abc import Iterator
-from dataclasses import dataclass
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -16,54 +15,46 @@ SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56
 MARKERS = "o^sDvP<X"
 
 
-@dataclass(frozen=True)
-class Stop:
-    row: Row
-    r: float
-    ratio: float  # rho / r
-
-
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
     if study:
-        yield Drawing("stop_and_error", [row for row in study if stop_of(row)], draw, table_of)
+        yield Drawing("stop_and_error", [row for row in study if parameters_of(row)], draw, table_of)
 
 
 def table_of(rows: list[Row]) -> str:
-    return csv_of(rows, *CASE, ("r", lambda row: stop_of(row).r),
-                  ("rho_over_r", lambda row: stop_of(row).ratio), "error_force",
+    return csv_of(rows, *CASE, ("r", lambda row: parameters_of(row)[0]),
+                  ("rho_over_r", lambda row: parameters_of(row)[1]), "error_force",
                   "uzawa_iterations")
 
 
-def stop_of(row: Row) -> Stop | None:
-    """None: not of given parameters under the paper's stop, or no error is known."""
-    parameters = given(row)
-    if not is_paper_stop(row) or not parameters or not row.error_force:
+def parameters_of(row: Row) -> tuple[float, float] | None:
+    """r and rho / r; None: not given under the paper's stop, or no error is known."""
+    r, rho = given(row) or (0, 0)
+    if not (r > 0 and is_paper_stop(row) and row.error_force):
         return None
-    r, rho = parameters
-    return Stop(row, r, float(f"{rho / r:.6g}")) if r > 0 else None
+    return r, float(f"{rho / r:.6g}")
 
 
-def curves_of(rows: list[Row]) -> dict[str, list[Stop]]:
+def curves_of(rows: list[Row]) -> dict[str, list[Row]]:
     """'Mesh3, rho = 2 r' -> its cases by r."""
-    stops = [stop for row in rows if (stop := stop_of(row))]
-    families = {stop.row.family for stop in stops}
+    stops = [row for row in rows if parameters_of(row)]
+    families = {row.family for row in stops}
 
-    def name(stop: Stop) -> str:
-        ratio = "r" if stop.ratio == 1 else f"{stop.ratio:g} r"
-        family = f"{stop.row.family}, " if len(families) > 1 else ""
-        return f"{family}{stop.row.mesh}, ρ = {ratio}"
-    return grouped(sorted(stops, key=lambda stop: (stop.row.n_phi, stop.ratio, stop.r)), name)
+    def name(row: Row) -> str:
+        _, ratio = parameters_of(row)
+        family = f"{row.family}, " if len(families) > 1 else ""
+        return f"{family}{row.mesh}, ρ = {'r' if ratio == 1 else f'{ratio:g} r'}"
+    return grouped(sorted(stops, key=lambda row: (row.n_phi, *parameters_of(row)[::-1])), name)
 
 
 def draw(rows: list[Row]) -> Figure | str:
     curves = curves_of(rows)
     if not any(len(curve) > 1 for curve in curves.values()):
         return "no two methods NAME:r=..,rho=.. with stop=paper and error_force"
-    stops = [stop for curve in curves.values() for stop in curve]
-    families = " and ".join(dict.fromkeys(stop.row.family for stop in stops))
-    target = next((stop.row.target_error for stop in stops if stop.row.target_error), 1e-6)
-    low, high = (percent(end(stop.row.error_force for stop in stops)) for end in (min, max))
+    stops = [row for curve in curves.values() for row in curve]
+    families = " and ".join(dict.fromkeys(row.family for row in stops))
+    target = next((row.target_error for row in stops if row.target_error), 1e-6)
+    low, high = (percent(end(row.error_force for row in stops)) for end in (min, max))
     figure = sheet(
         TOP + HEIGHT + BOTTOM, f"The paper's stop: errors from {low} to {high}",
         f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
@@ -80,11 +71,11 @@ def draw(rows: list[Row]) -> Figure | str:
     return figure
 
 
-def draw_panel(axes: Axes, curves: dict[str, list[Stop]], column: str,
+def draw_panel(axes: Axes, curves: dict[str, list[Row]], column: str,
                included: list[float]) -> None:
     """Curves of one point are grey, those of one r under one name."""
-    known = {words: [(stop.r, getattr(stop.row, column), stop.row.mesh) for stop in curve
-                     if getattr(stop.row, column)] for words, curve in curves.items()}
+    known = {words: [(parameters_of(row)[0], getattr(row, column), row.mesh) for row in curve
+                     if getattr(row, column)] for words, curve in curves.items()}
     points = [point for curve in known.values() for point in curve]
     log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
             xlim=log_limits([r for r, *_ in points], 1.5),

@@ -28,7 +28,7 @@ def table_of(rows: list[Row]) -> str:
     """on_envelope: of a family with given parameters, this row is among the best in time."""
     known = known_of(rows)
     best = {row.line for own in families_of(curves_of(known)).values()
-            for row in envelope(own, "time_s")}
+            for row in front(own, "time_s", "error_force")}
     return csv_of(known, *CASE, *KNOB, "time_s", "peak_heap_bytes", "error_force",
                   ("on_envelope", lambda row: row.line in best))
 
@@ -44,10 +44,6 @@ def families_of(curves: dict[tuple[str, str], list[Row]]) -> dict[str, list[Row]
                          lambda row: row.family)
     return {family: own for family, own in given_ones.items()
             if len({row.method for row in own}) > 1}
-
-
-def envelope(rows: list[Row], column: str) -> list[Row]:
-    return front(rows, lambda row: value_of(row, column), lambda row: row.error_force)
 
 
 def curves_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
@@ -123,7 +119,7 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
         if not behind:
             labels.avoid(x, y)
             ends.setdefault(method, (sorted(zip(y, x)), curve[0]))  # without knob first
-    best = {family: envelope(own, column) for family, own in families.items()}
+    best = {family: front(own, column, "error_force") for family, own in families.items()}
     for points in best.values():
         look, (x, y) = points[0].look, line_of(points)
         axes.step(x, y, where="post", color=look.colour, linewidth=2, zorder=4)

@@ -7,30 +7,19 @@ import shutil
 import subprocess
 import tempfile
 from dataclasses import dataclass
-from html.parser import HTMLParser
 from pathlib import Path
+from xml.etree import ElementTree
 
 CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 NETWORK = r"(https?|wss?|ftp):"
-VOID = {"meta", "link", "input", "img", "br", "wbr"}
 
 
-class Element:
-    def __init__(self, name: str, attributes: dict) -> None:
-        self.name, self.attributes, self.children, self.words = name, attributes, [], []
-
-    def all(self, name: str, **wanted: str) -> list["Element"]:
+class Element(ElementTree.Element):
+    def all(self, name: str, class_: str = "", **wanted: str) -> list["Element"]:
         """Descendants; class_ is one of the classes."""
-        found = []
-        for child in self.children:
-            of_class = wanted.get("class_", "") in (child.attributes.get("class") or "").split()
-            others = {key.replace("_", "-"): value for key, value in wanted.items()
-                      if key != "class_"}
-            if child.name == name and (of_class or "class_" not in wanted) and \
-                    others.items() <= child.attributes.items():
-                found.append(child)
-            found += child.all(name, **wanted)
-        return found
+        others = {key.replace("_", "-"): value for key, value in wanted.items()}.items()
+        return [child for child in self.iterfind(f".//{{*}}{name}") if others <= child.attrib.items()
+                and (not class_ or class_ in child.get("class", "").split())]
 
     def one(self, name: str, **wanted: str) -> "Element":
         found = self.all(name, **wanted)
@@ -38,29 +27,13 @@ class Element:
         return found[0]
 
     @property
-    def text(self) -> str:
-        return "".join(word if isinstance(word, str) else word.text for word in self.words)
+    def words(self) -> str:
+        return "".join(self.itertext())
 
 
-class Document(HTMLParser):
-    def __init__(self, text: str) -> None:
-        super().__init__()
-        self.open = [Element("", {})]
-        self.feed(text)
-
-    def handle_starttag(self, tag: str, attrs: list) -> None:
-        element = Element(tag, dict(attrs))
-        self.open[-1].children.append(element)
-        self.open[-1].words.append(element)
-        if tag not in VOID:
-            self.open.append(element)
-
-    def handle_endtag(self, tag: str) -> None:
-        if tag not in VOID:
-            self.open.pop()
-
-    def handle_data(self, data: str) -> None:
-        self.open[-1].words.append(data)
+def parsed(text: str) -> Element:
+    builder = ElementTree.TreeBuilder(element_factory=Element)
+    return ElementTree.fromstring(text, ElementTree.XMLParser(target=builder))
 
 
 @dataclass
@@ -155,9 +128,10 @@ class Browser:
                   policy="pauseIfNetworkFetchesPending")
         self.wait_for(events, "Emulation.virtualTimeBudgetExpired")
         text = self.call("Runtime.evaluate", session, events,
-                         expression="document.documentElement.outerHTML")["result"]["value"]
+                         expression="new XMLSerializer().serializeToString(document)"
+                         )["result"]["value"]
         self.call("Target.closeTarget", events=events, targetId=target)
-        view = View(Document(text).open[0], complaints(events), requests(events))
+        view = View(parsed(text), complaints(events), requests(events))
         self.asked += view.requests
         return view
 

@@ -1,4 +1,5 @@
 """What is in a figure."""
+import csv
 from contextlib import AbstractContextManager
 from itertools import combinations
 from unittest import TestCase, mock
@@ -10,7 +11,19 @@ from matplotlib.text import Text
 
 import running  # finds plots
 
-from drawing import SMALLEST_PT
+from drawing import SMALLEST_PT, Drawing
+from figures import drawings_of
+from records import Row
+
+
+def plan(rows: list[Row], name: str) -> Drawing:
+    """Of all the drawings of these rows."""
+    drawing, = (drawing for drawing in drawings_of(rows) if drawing.name == name)
+    return drawing
+
+
+def table_of(drawing: Drawing) -> list[dict[str, str]]:
+    return list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
 
 
 def without_minor_ticks() -> AbstractContextManager:

@@ -4,7 +4,7 @@ import unittest
 
 import made_up  # finds plots
 
-import budgets
+import documents
 import records
 
 # Seconds and errors of the points of a method's knob; the last of ALM is slower and worse.
@@ -20,11 +20,11 @@ def lines(context: dict | None = None) -> list[dict]:
 
 class BudgetsTest(unittest.TestCase):
     def cases(self, cases: list[dict]) -> list[records.Row]:
-        return budgets.cases_of(made_up.read_lines(cases))
+        return documents.cases_of(made_up.read_lines(cases))
 
     def errors(self, cases: list[records.Row]) -> dict[tuple[str, float], str]:
         return {(line["method"], float(line["budget_s"])): line["error"]
-                for line in csv.DictReader(budgets.csv_table(cases).splitlines())}
+                for line in csv.DictReader(documents.csv_table(cases).splitlines())}
 
     def test_by_hand_at_the_powers_of_ten_among_the_times(self) -> None:
         self.assertEqual(self.errors(self.cases(lines())), {
@@ -35,7 +35,7 @@ class BudgetsTest(unittest.TestCase):
         cases = self.cases(lines({"budgets_s": "0.02,0.3"}))
         self.assertEqual(self.errors(cases), {("3STEPD", 0.02): "", ("3STEPD", 0.3): "1e-12",
                                                ("ALM", 0.02): "0.01", ("ALM", 0.3): "0.0001"})
-        table = budgets.markdown(cases)
+        table = documents.markdown(cases)
         self.assertIn("| ALM | 1e-2, uzawa iterations 10 | 1e-4, uzawa iterations 20 |", table)
         self.assertIn("| 3STEPD | – | 1e-12 |", table)
 

@@ -15,9 +15,8 @@ import field_drawing
 import field_panel
 import gallery
 from case_names import case_name, file_of, words_of_file
-from fields import Fields
+from fields import Fields, unrolled
 from drawing import PAGE_WIDTH, SMALLEST_PT
-from unrolled import unrolled
 
 STATES = ("open", "slip", "stick", "slip")
 

@@ -3,6 +3,7 @@ import shutil
 import struct
 import tempfile
 import unittest
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from unittest import mock
@@ -92,7 +93,7 @@ class GalleryTest(FolderTest):
         self.assertLess(len(data), most_bytes)
 
     def edit(self, part: str, change) -> str:
-        """Passes the lines of Mesh1's file through change; its path."""
+        """Passes the lines of Mesh1's file, else whole, through change; its path."""
         for name in NAMES:
             write_solution(self.fields, name)
         path = self.fields / f"{NAMES[1]}.{part}.csv"
@@ -174,53 +175,39 @@ class GalleryTest(FolderTest):
         path.write_text("triangle,share\n1,1\n")
         self.assert_refused(f"{path}:1: expected the header {fields.ERROR}")
 
-    def test_missing_folder(self) -> None:
+    def test_missing_folders_and_files(self) -> None:
+        path = self.edit("contact", lambda lines: lines)
+        Path(path).unlink()
+        for start in (run, run_command):
+            self.assert_refused(path, "No such file", start=start)
         shutil.rmtree(self.fields)
         self.assert_refused(f"{self.fields}: no fields", "bench --fields")
         self.results.rmdir()
         self.assert_refused(f"{self.results}: no such folder", "bench --fields")
         self.results.mkdir()
 
-    def test_missing_file(self) -> None:
-        path = self.edit("contact", lambda lines: lines)
-        Path(path).unlink()
-        for start in (run, run_command):
-            self.assert_refused(path, "No such file", start=start)
+    def test_files_that_cannot_be(self) -> None:
+        def replaced(word: str) -> Callable[[list[str]], list[str]]:
+            return lambda lines: [*lines[:3], f"1,1,3,1.3,{word},0,0,0", *lines[4:]]
 
-    def test_truncated_row(self) -> None:
-        path = self.edit("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]])
-        self.assert_refused(f"{path}:19: 6 values, expected 8")
-
-    def test_not_a_number(self) -> None:
-        for word in ("abc", "nan", ""):
-            path = self.edit("stress", lambda lines: [*lines[:3], f"1,1,3,1.3,{word},0,0,0",
-                                                      *lines[4:]])
-            self.assert_refused(f"{path}:4: y_mm is '{word}', expected a finite number")
-
-    def test_only_gap_and_slip_may_be_empty(self) -> None:
-        path = self.edit("contact", lambda lines: [lines[0], lines[1].replace("-6", ""), lines[2]])
-        self.assert_refused(f"{path}:2: F_t_N is '', expected a finite number")
-
-    def test_unknown_word(self) -> None:
-        path = self.edit("contact", lambda lines: [lines[0], *(line.replace("slip", "glue")
-                                                                for line in lines[1:])])
-        self.assert_refused(f"{path}:2: state is 'glue'", "open, stick, slip")
-
-    def test_wrong_header(self) -> None:
-        path = self.edit("boundary", lambda lines: lines[1:])
-        self.assert_refused(f"{path}:1: expected the header x0_mm")
-
-    def test_files_cut_at_the_end_of_a_row(self) -> None:
-        path = self.edit("stress", lambda lines: lines[:-1])
-        self.assert_refused(f"{path}: 17 rows; expected nine per triangle")
+        for part, change, *words in (
+                ("stress", lambda lines: lines[:-1] + [lines[-1].rsplit(",", 2)[0]],
+                 ":19: 6 values, expected 8"),
+                *(("stress", replaced(word), f":4: y_mm is '{word}', expected a finite number")
+                  for word in ("abc", "nan", "")),
+                ("contact", lambda lines: [lines[0], lines[1].replace("-6", ""), lines[2]],
+                 ":2: F_t_N is '', expected a finite number"),
+                ("contact", lambda lines: [lines[0], lines[1].replace("slip", "glue"), lines[2]],
+                 ":2: state is 'glue'", "open, stick, slip"),
+                ("boundary", lambda lines: lines[1:], ":1: expected the header x0_mm"),
+                ("stress", lambda lines: lines[:-1], ": 17 rows; expected nine per triangle"),
+                ("boundary", lambda lines: lines[:-2], "", "expected the 4 mm^2"),
+                ("contact", lambda lines: lines[:-1],
+                 ": 1 points; expected start and end of each of the 1 contact")):
+            with self.subTest(part, words=words):
+                self.assert_refused(self.edit(part, change) + words[0], *words[1:])
         self.edit("stress", lambda lines: lines[:-9])
         self.assert_refused("encloses 4 mm^2; expected the 2 mm^2")
-        self.edit("stress", lambda lines: lines)
-        path = self.edit("boundary", lambda lines: lines[:-2])
-        self.assert_refused(path, "expected the 4 mm^2")
-        self.edit("boundary", lambda lines: lines)
-        path = self.edit("contact", lambda lines: lines[:-1])
-        self.assert_refused(f"{path}: 1 points; expected start and end of each of the 1 contact")
 
     def test_damaged_table_of_results(self) -> None:
         self.edit("stress", lambda lines: lines)

@@ -1,14 +1,13 @@
 """The figures that are grids of cells, of made-up records.  /usr/bin/python3 -m unittest FILE"""
-import csv
 from collections import Counter
 
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 import made_up  # finds plots
 
+import drawn
 from figure import adapted_methods as adapted_methods_figure
 from figure import atlas as atlas_figure
-import figures
 import test_study_figures as studies
 from made_up import read
 from records import OUTCOMES
@@ -23,16 +22,15 @@ class AdaptedMethodsTest(studies.StudiesTest):
     def test_a_cell_per_case_and_a_table_beside_it(self) -> None:
         lost = dict(status="timeout", outcome="timeout", time_s="", error_force="", error_stress="")
         rows = read([*self.CASES[:3], self.CASES[3] | lost])
-        plan = [d for d in figures.drawings_of(rows) if d.name == "adapted_methods"]
-        self.assertEqual((".png", ".csv"), plan[0].suffixes)
-        figure = plan[0].draw(plan[0].rows)
+        drawing = drawn.plan(rows, "adapted_methods")
+        self.assertEqual((".png", ".csv"), drawing.suffixes)
+        figure = drawing.figure()
         self.assertEqual(4, len(figure.axes[0].patches))
         words = studies.words_of(figure)
         for expected in ("HYBRID", "10 ms", "κ 3e9", "timeout", "0.5 %"):
             self.assertIn(expected, words)
-        lines = plan[0].table(plan[0].rows).splitlines()
-        self.assertEqual(5, len(lines))
-        self.assertEqual(1, sum("timeout" in line for line in lines))
+        self.assertEqual([line["outcome"] for line in drawn.table_of(drawing)].count("timeout"), 1)
+        self.assertEqual(len(drawn.table_of(drawing)), 4)
 
     def test_many_meshes_go_on_below(self) -> None:
         rows = read([case | dict(mesh=f"Mesh0+adapt{k}", n_phi=900 + k) for k in range(9)
@@ -113,7 +111,7 @@ class AtlasTest(studies.StudiesTest):
 
     def test_its_table_has_the_digits(self) -> None:
         rows = read(made_up.stability_study())
-        table = list(csv.DictReader(atlas_figure.table_of(rows).splitlines()))
+        table = drawn.table_of(drawn.plan(rows, "stability_Mesh0"))
         self.assertEqual(len(table), len(rows))
         self.assertEqual(Counter(line["digits"] for line in table if line["outcome"] == "ok"),
                          Counter(atlas_figure.digits(row) for row in rows if row.outcome == "ok"))

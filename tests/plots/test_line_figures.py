@@ -1,5 +1,4 @@
 """The figures that are lines over a size, of made-up records.  /usr/bin/python3 -m unittest FILE"""
-import csv
 import unittest
 
 import made_up  # finds plots
@@ -10,8 +9,6 @@ from figure import growth as growth_figure
 from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
 from figure import scaling as scaling_figure
-from figures import drawings_of
-from thread_scaling import points_of
 
 
 def levels(mesh: str, count: int) -> list[dict]:
@@ -27,9 +24,9 @@ class AdaptiveTest(unittest.TestCase):
                    for k, mesh in enumerate(("Mesh0", "Mesh1"))]
         rows = made_up.read([*levels("Mesh0", 5), *uniform])
         self.assertEqual({"one tooth"}, {row.body for row in rows})
-        plan = [d for d in drawings_of(rows) if d.name == "adaptive"]
-        self.assertEqual([len(rows)], [len(d.rows) for d in plan])
-        words = drawn.words_of(plan[0].draw(plan[0].rows))
+        drawing = drawn.plan(rows, "adaptive")
+        self.assertEqual(len(rows), len(drawing.rows))
+        words = drawn.words_of(drawing.figure())
         for expected in ("adapted: $N^{-1.00}$", "as they are", "whole loop", "one tooth"):
             self.assertIn(expected, words)
 
@@ -66,10 +63,10 @@ class GrowthTest(unittest.TestCase):
 
     def test_an_error_without_a_reference_is_the_methods_word(self) -> None:
         drawing, = growth_figure.drawings(made_up.read(refined("HYBRID:CG", 1, range(5))))
-        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        table = drawn.table_of(drawing)
         self.assertEqual([(row["error"], row["error_is_estimated"]) for row in table[3:]],
                          [("1e-12", "false"), ("1e-07", "true")])
-        self.assertIn("HYBRID:CG: $n^{1.00}$", drawn.words_of(drawing.draw(drawing.rows)))
+        self.assertIn("HYBRID:CG: $n^{1.00}$", drawn.words_of(drawing.figure()))
 
     def test_without_refined_meshes_there_is_none(self) -> None:
         self.assertEqual(list(growth_figure.drawings(made_up.read(made_up.sizes_to_the_limit()))), [])
@@ -89,7 +86,7 @@ class OverviewTest(unittest.TestCase):
                          {"ALM, the paper’s stop", "ALM to 1e-6", "HYBRID, adapted meshes"})
         self.assertEqual(overview_figure.loop_of(drawing.rows),
                          [(0.03, 0.04), (0.06, 0.02), (0.12, 0.01)])
-        words = drawn.words_of(drawing.draw(drawing.rows))
+        words = drawn.words_of(drawing.figure())
         for curve in curves:
             self.assertIn(curve.words, words)
 
@@ -113,7 +110,7 @@ def paths(cells: dict | None = None) -> list:
 class LoadStepsTest(unittest.TestCase):
     def test_a_curve_per_method_over_its_steps(self) -> None:
         (drawing,) = load_steps_figure.drawings(paths())
-        figure = drawing.draw(drawing.rows)
+        figure = drawing.figure()
         (axes,) = [axes for axes in figure.axes if axes.get_xlabel()]
         curves = [line for line in axes.lines if len(line.get_xdata()) == len(STEPS)]
         self.assertEqual(len(curves), len(COSTS))
@@ -126,13 +123,13 @@ class LoadStepsTest(unittest.TestCase):
 
     def test_its_numbers_stand_beside_it(self) -> None:
         (drawing,) = load_steps_figure.drawings(paths())
-        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        table = drawn.table_of(drawing)
         self.assertEqual(len(table), len(COSTS) * len(STEPS))
         self.assertEqual(table[0].keys(), set(load_steps_figure.COLUMNS))
 
     def test_without_a_time_it_says_so(self) -> None:
         (drawing,) = load_steps_figure.drawings(paths(dict(status="timeout", time_s="")))
-        self.assertIn("has a time", drawing.draw(drawing.rows))
+        self.assertIn("has a time", drawing.figure())
 
     def test_other_runs_have_none(self) -> None:
         self.assertEqual(list(load_steps_figure.drawings(paths(dict(study="")))), [])
@@ -152,7 +149,7 @@ def threaded(times: dict = THREADED, **cells: object) -> list[dict]:
 
 class ScalingTest(unittest.TestCase):
     def points(self, cases: list[dict]) -> dict:
-        return {(point.row.mesh, point.row.threads): point for point in points_of(made_up.read_lines(cases))}
+        return {(point.row.mesh, point.row.threads): point for point in scaling_figure.points_of(made_up.read_lines(cases))}
 
     def test_by_hand(self) -> None:
         points = self.points(threaded())
@@ -182,7 +179,7 @@ class ScalingTest(unittest.TestCase):
         point = self.points(cases)["Mesh3", 2]
         self.assertEqual((point.speed_up, point.efficiency, point.weak_efficiency), (None,) * 3)
         (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded(repetitions=1)))
-        self.assertIn("one sample gives no efficiency", drawing.draw(drawing.rows))
+        self.assertIn("one sample gives no efficiency", drawing.figure())
 
     def test_nothing_is_said_without_one_thread_or_a_solution(self) -> None:
         for cases in (threaded({("Mesh3", 2): 1.0}), threaded(status="inaccurate", outcome="inaccurate")):
@@ -190,11 +187,11 @@ class ScalingTest(unittest.TestCase):
 
     def test_the_figure_says_what_it_shows(self) -> None:
         (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded() + threaded(scene="other")))
-        words = drawn.words_of(drawing.draw(drawing.rows))
+        words = drawn.words_of(drawing.figure())
         for part in ("Mesh2: speed-up", "Mesh3: speed-up", "growing meshes", "1.01 times",
                      "takes 1.1 times its time alone", "3STEPD"):
             self.assertIn(part, words)
-        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        table = drawn.table_of(drawing)
         self.assertEqual([(line["mesh"], line["threads"]) for line in table],
                          [(mesh, str(threads)) for mesh, threads in THREADED])
         self.assertEqual(list(scaling_figure.drawings(made_up.read_lines(threaded(study="", knob="",

@@ -13,7 +13,6 @@ import made_up  # finds plots
 import drawn
 import figures
 import made_up_history
-import night_history
 import page_data
 from drawing import STYLE, Drawing
 
@@ -61,13 +60,8 @@ class OwnRunTest(unittest.TestCase):
         return {drawing.name: drawing
                 for drawing in figures.drawings_of(made_up.read_lines(lines))}
 
-    def figure(self, drawing: Drawing) -> Figure:
-        figure = drawing.draw(drawing.rows, **drawing.options)
-        self.assertIsInstance(figure, Figure)
-        return figure
-
     def test_preconditioners(self) -> None:
-        figure = self.figure(self.run_["figure3"])
+        figure = self.run_["figure3"].figure()
         self.assertEqual([axes.get_title() for axes in figure.axes[::2]][:4],
                          ["SYMMLQ", "3STEPCG"] * 2)  # of both bodies
         for lower in figure.axes[1:8:2]:
@@ -84,7 +78,7 @@ class OwnRunTest(unittest.TestCase):
                             ("figure5", lambda row: row.peak_heap_bytes / 2**20)):
             drawing = self.run_[name]
             self.assertEqual({row.method for row in drawing.rows}, set(METHODS))
-            figure = self.figure(drawing)
+            figure = drawing.figure()
             blocks = [axes for axes in figure.axes if axes.get_xlabel() == r"$n_\varphi$"]
             self.assertEqual(len(blocks), 2)  # the sizes of the bodies overlap
             for axes, (body, meshes) in zip(blocks, BODIES.items()):
@@ -98,7 +92,7 @@ class OwnRunTest(unittest.TestCase):
                                   if text.get_text().startswith("$n^")}), 1)  # one power each
 
     def test_all_methods(self) -> None:
-        figure = self.figure(self.run_["all_methods"])
+        figure = self.run_["all_methods"].figure()
         self.assertEqual(len(figure.axes), 6)
         words = drawn.words_of(figure)
         self.assertIn("Lines are interrupted between bodies", words)
@@ -111,7 +105,7 @@ class OwnRunTest(unittest.TestCase):
         self.assertEqual(len(colours), len(METHODS))
 
     def test_memory_by_owner(self) -> None:
-        figure = self.figure(self.run_["memory_by_owner"])
+        figure = self.run_["memory_by_owner"].figure()
         self.assertEqual([axes.get_title(loc="left") for axes in figure.axes],
                          ["punch3", "dovetail3"])
         for axes in figure.axes:
@@ -120,7 +114,7 @@ class OwnRunTest(unittest.TestCase):
 
     def test_bodies_do_not_share_a_front(self) -> None:
         drawing = self.study["pareto"]
-        figure = self.figure(drawing)
+        figure = drawing.figure()
         self.assertEqual(len(figure.axes), 4)  # time and memory of each
         for k, (body, meshes) in enumerate(BODIES.items()):
             own = [row for row in drawing.rows if row.body == body]
@@ -132,7 +126,7 @@ class OwnRunTest(unittest.TestCase):
         self.assertIn("P2: mesh", drawn.words_of(figure))
 
     def test_convergence_of_each_body(self) -> None:
-        words = drawn.words_of(self.figure(self.study["convergence"]))
+        words = drawn.words_of(self.study["convergence"].figure())
         for body in BODIES:
             self.assertIn(f"{body}: $h^{{0.90}}$", words)
             self.assertIn(f"bounds of the energy, {body}", words)
@@ -140,7 +134,7 @@ class OwnRunTest(unittest.TestCase):
     def test_work_precision(self) -> None:
         self.assertEqual({name for name in self.study if name.startswith("work_")},
                          {f"work_precision_{mesh}" for mesh in made_up.OWN})
-        figure = self.figure(self.study["work_precision_punch2"])
+        figure = self.study["work_precision_punch2"].figure()
         self.assertIn("NEWTON", drawn.words_of(figure))
         self.assertIn((1e-5, 1e-13), points_of(figure))
 
@@ -150,7 +144,7 @@ class OwnRunTest(unittest.TestCase):
         for night in range(2):
             made = made_up_history.made_up_night(night) | {"cases": ordinary_run(), "verdicts": []}
             (history / "nights" / f"{night}.json").write_text(json.dumps(made), encoding="utf-8")
-        data = page_data.page_data(night_history.read_history(history), None)
+        data = page_data.page_data(page_data.read_history(history), None)
         self.assertEqual(data["bodies"], list(BODIES))
         self.assertEqual([case["body"] for case in data["cases"]], ["punch"] * 25 + ["dovetail"] * 25)
         own = [case for case in data["cases"] if case["family"] == "NEWTON"]

@@ -62,23 +62,23 @@ class PageTest(unittest.TestCase):
         return page
 
     def panels(self, document: Element) -> dict[str, Element]:
-        return {panel.attributes["data-case"]: panel
+        return {panel.attrib["data-case"]: panel
                 for panel in document.one("div", id="panels").all("article", class_="panel")}
 
     def column(self, document: Element, key: str) -> list[str]:
         table = document.one("table", id="table")
-        keys = [head.attributes["data-key"] for head in table.all("th", scope="col")]
-        return [[cell.text for cell in row.children][keys.index(key)]
+        keys = [head.attrib["data-key"] for head in table.all("th", scope="col")]
+        return [[cell.words for cell in row][keys.index(key)]
                 for row in table.one("tbody").all("tr")]
 
     def test_headline_says_what_the_last_night_was(self) -> None:
         state = self.shown().one("div", id="state")
-        self.assertEqual(state.attributes["class"], "failed")
-        self.assertEqual(state.one("h1").text, "Failed: 2 changes for the worse")
-        self.assertEqual([item.text[1:] for item in state.all("li")],
+        self.assertEqual(state.attrib["class"], "failed")
+        self.assertEqual(state.one("h1").words, "Failed: 2 changes for the worse")
+        self.assertEqual([item.words[1:] for item in state.all("li")],
                          [verdict["sentence"] for verdict in made_up.made_up_verdicts(11)])
-        self.assertIn("7 of 8 cases ok; 12 nights", state.text)
-        link = state.all("a")[0].attributes["href"]
+        self.assertIn("7 of 8 cases ok; 12 nights", state.words)
+        link = state.all("a")[0].attrib["href"]
         document = self.shown(link)
         self.assertEqual(list(self.panels(document)), [made_up.SLOW_CASE])
         self.assertEqual(self.column(document, "method"), ["3STEPD"])  # and not 3STEPD:LEAN
@@ -90,43 +90,43 @@ class PageTest(unittest.TestCase):
         points = slow.all("circle", class_="point")
         self.assertEqual(len(points), made_up.NIGHTS)
         mark = slow.one("line", class_="mark")
-        self.assertEqual(mark.attributes["class"], "mark worse")
-        self.assertEqual(mark.attributes["data-since"], made_up.date_of(made_up.SLOWER))
-        self.assertEqual(mark.attributes["x1"], points[made_up.SLOWER].attributes["cx"])
-        heights = [float(point.attributes["cy"]) for point in points]
+        self.assertEqual(mark.attrib["class"], "mark worse")
+        self.assertEqual(mark.attrib["data-since"], made_up.date_of(made_up.SLOWER))
+        self.assertEqual(mark.attrib["x1"], points[made_up.SLOWER].attrib["cx"])
+        heights = [float(point.attrib["cy"]) for point in points]
         self.assertGreater(min(heights[:made_up.SLOWER]), max(heights[made_up.SLOWER:]) + 50)
         self.assertEqual(len(slow.all("path", class_="band")), 1)
         self.assertEqual(len(slow.all("line", class_="tick")), made_up.NIGHTS // 2)  # revisions
-        self.assertIn(made_up.revision_of(0)[:7], slow.text)
+        self.assertIn(made_up.revision_of(0)[:7], slow.words)
         self.assertEqual(panels["Mesh0/default/HYBRID"].all("line", class_="mark"), [])
         lost = panels[made_up.LOST_CASE]
-        self.assertEqual(lost.one("path", class_="failure").attributes["data-night"], "11")
+        self.assertEqual(lost.one("path", class_="failure").attrib["data-night"], "11")
         self.assertEqual(len(lost.all("circle", class_="point")), made_up.NIGHTS - 1)
-        self.assertEqual(lost.one("span", class_="now").text, "–")
+        self.assertEqual(lost.one("span", class_="now").words, "–")
 
     def test_the_quantity_is_chosen_by_the_address(self) -> None:
         document = self.shown("#quantity=peak_heap_bytes")
         panels = self.panels(document)
         mark = panels[made_up.LEAN_CASE].one("line", class_="mark")
-        self.assertEqual(mark.attributes["class"], "mark better")
-        self.assertEqual(mark.attributes["data-night"], str(made_up.LEANER))
+        self.assertEqual(mark.attrib["class"], "mark better")
+        self.assertEqual(mark.attrib["data-night"], str(made_up.LEANER))
         self.assertEqual(panels[made_up.SLOW_CASE].all("line", class_="mark"), [])
-        self.assertRegex(panels[made_up.SLOW_CASE].one("span", class_="now").text,
+        self.assertRegex(panels[made_up.SLOW_CASE].one("span", class_="now").words,
                          r"^\d+\.\d MiB$")
         errors = self.panels(self.shown("#quantity=error_stress"))["Mesh0/default/HYBRID"]
-        self.assertEqual(errors.one("span", class_="now").text, "4.0e-13")
-        self.assertIn("1e-12", errors.text)  # decades
+        self.assertEqual(errors.one("span", class_="now").words, "4.0e-13")
+        self.assertIn("1e-12", errors.words)  # decades
 
     def test_filter_and_sort(self) -> None:
         document = self.shown("#filter=mesh0+HYB")
         self.assertEqual(self.column(document, "method"), ["HYBRID"])
         self.assertEqual(list(self.panels(document)), ["Mesh0/default/HYBRID"])
-        self.assertEqual(document.one("p", id="count").text, "1 of 8 cases")
+        self.assertEqual(document.one("p", id="count").words, "1 of 8 cases")
         document = self.shown("#filter=Mesh0&sort=-time_s")
         self.assertEqual(self.column(document, "method"),
                          ["ALM", "3STEPD:LEAN", "3STEPD", "HYBRID"])
         head = document.one("th", data_key="time_s")
-        self.assertEqual(head.attributes["aria-sort"], "descending")
+        self.assertEqual(head.attrib["aria-sort"], "descending")
         self.assertEqual(len(head.all("button")), 1)
         for sort in ("time_s", "-time_s"):  # without a time always last
             self.assertEqual(self.column(self.shown(f"#sort={sort}"), "status")[-1],
@@ -139,11 +139,11 @@ class PageTest(unittest.TestCase):
 
     def test_environment_marks_what_differs_from_the_night_before(self) -> None:
         table = self.shown().one("table", id="context")
-        rows = {row.attributes["data-key"]: row for row in table.all("tr")}
+        rows = {row.attrib["data-key"]: row for row in table.all("tr")}
         self.assertEqual(set(rows), set(made_up.made_up_night(0)["context"]))
-        self.assertEqual([key for key, row in rows.items() if row.attributes.get("class")],
+        self.assertEqual([key for key, row in rows.items() if row.attrib.get("class")],
                          ["kernel"])
-        self.assertEqual(rows["kernel"].text, "◆ kernel6.2.0before: 6.1.0")
+        self.assertEqual(rows["kernel"].words, "◆ kernel6.2.0before: 6.1.0")
 
     def test_a_results_folder_brings_its_records_and_figures(self) -> None:
         results = self.folder / "results"
@@ -154,9 +154,9 @@ class PageTest(unittest.TestCase):
         document = self.shown(page=self.make(self.folder / "history", results, name="both.html"))
         self.assertEqual(self.column(document, "method"), ["<b>&lt;"])
         image = document.one("div", id="pictures").one("img")
-        self.assertTrue(image.attributes["src"].startswith("data:image/png;base64,iVBOR"))
-        self.assertNotIn("hidden", document.one("section", id="figures").attributes)
-        self.assertIn("hidden", self.shown().one("section", id="figures").attributes)
+        self.assertTrue(image.attrib["src"].startswith("data:image/png;base64,iVBOR"))
+        self.assertNotIn("hidden", document.one("section", id="figures").attrib)
+        self.assertIn("hidden", self.shown().one("section", id="figures").attrib)
 
     def test_bodies_have_their_headings(self) -> None:
         history = made_up.write_history(self.folder / "own", nights=2)
@@ -165,7 +165,7 @@ class PageTest(unittest.TestCase):
             file.write_text(text.replace("Mesh3", "dovetail3"), encoding="utf-8")
         page = self.make(history, name="own.html")
         panels = self.shown(page=page).one("div", id="panels")
-        self.assertEqual([head.text for head in panels.all("h3", class_="body")],
+        self.assertEqual([head.words for head in panels.all("h3", class_="body")],
                          ["punch", "dovetail"])
         document = self.shown("#filter=dovetail+hybrid", page)
         self.assertEqual(list(self.panels(document)), ["dovetail3/default/HYBRID"])
@@ -175,7 +175,7 @@ class PageTest(unittest.TestCase):
     def test_one_night_is_enough(self) -> None:
         history = made_up.write_history(self.folder / "first", nights=1)
         document = self.shown(page=self.make(history, name="first.html"))
-        self.assertEqual(document.one("h1").text, "Passed, nothing has changed")
+        self.assertEqual(document.one("h1").words, "Passed, nothing has changed")
         self.assertEqual(len(self.panels(document)), 8)
 
     def test_times_that_are_not_judged_yet_are_not_called_unchanged(self) -> None:
@@ -184,7 +184,7 @@ class PageTest(unittest.TestCase):
         night = json.loads(file.read_text(encoding="utf-8")) | {"times_judged": False}
         file.write_text(json.dumps(night), encoding="utf-8")
         document = self.shown(page=self.make(history, name="young.html"))
-        self.assertEqual(document.one("h1").text, "Passed, times are not judged yet")
+        self.assertEqual(document.one("h1").words, "Passed, times are not judged yet")
 
     def test_heads_arrows_and_words_are_used(self) -> None:
         page = self.changed_page("used.html", ("</body>", """<script>
@@ -205,7 +205,7 @@ class PageTest(unittest.TestCase):
         document = self.shown("#quantity=time_s", page)
         self.assertEqual(self.column(document, "method"),
                          ["ALM", "3STEPD:LEAN", "3STEPD", "HYBRID"])
-        body = document.one("body").attributes
+        body = document.one("body").attrib
         self.assertEqual(body["data-fragment"], "#filter=Mesh0&sort=-time_s")
         night, value, sentence = body["data-tip"].split("\n")
         self.assertEqual(night, f"{made_up.date_of(8)[:10]}  {made_up.revision_of(8)[:7]}")
@@ -311,25 +311,11 @@ class WrongInputTest(unittest.TestCase):
                     results)
 
     def test_a_file_that_cannot_be_written(self) -> None:
-        status, _, err = run(page_program, self.history, "--out=/nowhere/page.html")
-        self.assertEqual(status, 2)
-        self.assertEqual(len(err.splitlines()), 1)
-
-    def test_what_is_no_regular_file_is_not_replaced(self) -> None:
-        pipe, link, device = (self.folder / name for name in ("pipe", "link", "device"))
+        pipe = self.folder / "pipe"
         os.mkfifo(pipe)
-        link.symlink_to(pipe)
-        device.symlink_to("/dev/null")
-        for out in (pipe, link, device):
+        for out, why in (("/nowhere/page.html", "/nowhere: No such file or directory; expected a file "
+                          "to write"),
+                         (pipe, f"{pipe}: is no regular file; expected one, or a name that is not "
+                          "there")):
             status, _, err = run(page_program, self.history, f"--out={out}")
-            self.assertEqual(status, 2)
-            self.assertEqual(err, f"page.py: {out}: is no regular file; expected one, or a name "
-                                  "that is not there\n")
-            self.assertFalse(out.is_file())
-        self.assertTrue(pipe.is_fifo())
-        (self.folder / "there").mkdir()
-        page = self.folder / "page.html"
-        page.symlink_to("there/page.html")
-        self.assertEqual(run(page_program, self.history, f"--out={page}")[0], 0)
-        self.assertTrue(page.is_symlink())
-        self.assertGreater((self.folder / "there/page.html").stat().st_size, 1000)
+            self.assertEqual((status, err), (2, f"page.py: {why}\n"))

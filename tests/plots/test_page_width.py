@@ -1,21 +1,19 @@
 """Figures at the width of a page, and the numbers next to them.  /usr/bin/python3 -m unittest FILE"""
 import csv
 import unittest
-from itertools import combinations, pairwise
+from itertools import combinations
 from pathlib import Path
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import made_up  # finds plots
 
 import drawn
 import figures
-from drawing import PAGE_WIDTH, STYLE, Drawing, axes_at, log_log
-from labels import LEADER_NAME, Labels, crossing
-from words import csv_of
+from drawing import PAGE_WIDTH, STYLE
+from labels import LEADER_NAME, crossing
 
 PAGE_PIXELS = 830
 LEGIBLE = 9  # pixels
@@ -62,7 +60,7 @@ class PageTest(unittest.TestCase):
         cls.rows = made_up.read_lines(of_all_kinds())
         cls.drawings = {drawing.name: drawing for drawing in figures.drawings_of(cls.rows)}
         cls.figures = {name: figure for name, drawing in cls.drawings.items()
-                       if isinstance(figure := drawing.draw(drawing.rows, **drawing.options), Figure)}
+                       if isinstance(figure := drawing.figure(), Figure)}
         with drawn.without_minor_ticks():
             cls.painted = {name: drawn.paint(figure) for name, figure in cls.figures.items()}
 
@@ -108,9 +106,6 @@ class PageTest(unittest.TestCase):
             self.assertGreater(len(lines), 1, name)
             self.assertTrue({"mesh", "method"} & set(lines[0]), name)
 
-    def table(self, drawing: Drawing) -> list[dict[str, str]]:
-        return list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
-
     def points(self, name: str, axes: int) -> set[tuple[float, float]]:
         return {tuple(point) for line in self.figures[name].axes[axes].lines
                 for point in line.get_xydata()}
@@ -121,64 +116,19 @@ class PageTest(unittest.TestCase):
                                   ("all_methods", "n_phi", "time_s", 1)):
             points = np.array([point for k in range(len(self.figures[name].axes))
                               for point in self.points(name, k)])
-            for line in self.table(self.drawings[name]):
+            for line in drawn.table_of(self.drawings[name]):
                 if float(line[y]):
                     wanted = float(line[x]) * scale, float(line[y])
                     self.assertTrue(np.isclose(points, wanted, rtol=1e-12, atol=0).all(1).any(),
                                     f"{name}: {line}")
 
     def test_marks_of_the_tables(self) -> None:
-        powers = {cells["exponent"] for cells in self.table(self.drawings["figure4"])
+        powers = {cells["exponent"] for cells in drawn.table_of(self.drawings["figure4"])
                   if cells["method"] == "3STEPD:CHOLMOD"}
         self.assertEqual({f"{float(power):.2f}" for power in powers}, {"1.30"})
-        best = [cells for cells in self.table(self.drawings["pareto"])
+        best = [cells for cells in drawn.table_of(self.drawings["pareto"])
                 if cells["on_front_in_time_s"] == "true" and cells["body"] == "rack of four teeth"]
         errors = [float(cells["error_total"]) for cells in
                   sorted(best, key=lambda cells: float(cells["time_s"]))]
         self.assertGreater(len(errors), 1)
         self.assertEqual(errors, sorted(errors, reverse=True))
-
-
-class TableTest(unittest.TestCase):
-    def test_cells(self) -> None:
-        values = [(None, ""), (True, "true"), (0.1 + 0.2, "0.30000000000000004"), ("=1+1", "'=1+1"),
-                  ("a,b", '"a,b"'), (-1.5, "-1.5")]
-        text = csv_of([value for value, _ in values], ("value", lambda value: value))
-        self.assertEqual(text.split("\n"),
-                         ["value", *(f'""' if not cell else cell for _, cell in values), ""])
-
-
-class LeadersTest(unittest.TestCase):
-    def test_crossing(self) -> None:
-        a, b, c, d = np.array([[0, 0], [2, 2], [0, 2], [2, 0]], float)
-        self.assertTrue(crossing(a, b, c, d))
-        self.assertFalse(crossing(a, c, b, d))
-        self.assertFalse(crossing(a, b, a, d))  # a common end
-
-    def test_crowded_labels_have_leaders_that_do_not_cross(self) -> None:
-        seen = 0
-        for seed in range(8):
-            axes = Figure(figsize=(6, 4)).add_axes([0.1, 0.1, 0.8, 0.8], xlim=(0, 1), ylim=(0, 1))
-            labels = Labels(axes)
-            for k, (x, y) in enumerate(np.random.default_rng(seed).normal(0.5, 0.05, (14, 2))):
-                labels.add(f"method {k}", x, y)
-            seen += len(labels.leaders)
-            for (a, b), (c, d) in combinations(labels.leaders, 2):
-                self.assertFalse(crossing(a, b, c, d), seed)
-        self.assertGreater(seen, 20)
-
-
-class LogAxisTest(unittest.TestCase):
-    def test_labels_do_not_touch(self) -> None:
-        for inches in (0.9, 1.2, 1.8, 3, 6):
-            for low, high in ((15, 1700), (2, 150), (300, 2000), (1e3, 6e6)):
-                with self.subTest(inches=inches, low=low, high=high):
-                    figure = Figure((inches + 1, 3))
-                    axes = axes_at(figure, 0.5, 0.3, inches, 2)
-                    log_log(axes, xlim=(low, high), ylim=(1, 10))
-                    FigureCanvasAgg(figure).draw()
-                    boxes = [label.get_window_extent() for place, label in
-                             zip(axes.get_xticks(), axes.get_xticklabels()) if low <= place <= high]
-                    self.assertGreaterEqual(len(boxes), 1)
-                    for left, right in pairwise(boxes):
-                        self.assertLess(left.x1, right.x0)

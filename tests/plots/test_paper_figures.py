@@ -7,24 +7,21 @@ from unittest import mock
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 import made_up  # finds plots
 
-import command
+import documents
 import drawing as sheets
 import drawn
 import figures
 from catalogue import SIZES
-from drawing import STYLE, TYPE
+from drawing import STYLE
 from figure import preconditioner as preconditioner_figure
 from figure import size as size_figure
-from labels import spread
 from made_up import case, read
 from running import PROJECT, FolderTest, run
 from selection import exponent
-from words import wrapped
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
 POWER = {method: 1.1 + 0.1 * k for k, method in enumerate(made_up.COMPARED)}
@@ -145,7 +142,7 @@ class PaperFiguresTest(FolderTest):
         rows = power_laws()
         time, _ = size_figure.drawings(read(rows))
         with mock.patch.object(size_figure, "draw_point") as point:
-            time.draw(time.rows, **time.options)
+            time.figure()
         drawn = {(call.args[3].mesh, call.args[3].method): call.args[2]
                  for call in point.call_args_list}
         self.assertEqual(drawn, {(row["mesh"], row["method"]): row["time_s"] for row in rows})
@@ -217,61 +214,25 @@ class PaperFiguresTest(FolderTest):
     def test_records_without_any_figure_are_no_error(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
         with mock.patch.object(figures, "drawings_of", lambda rows: []), \
-                mock.patch.object(figures, "table1", lambda rows: None):
+                mock.patch.object(documents, "table1", lambda rows: None):
             status, out, err = run(figures, self.results)
         self.assertEqual((status, err), (0, ""))
         self.assertIn("measured.md\n", out)
 
-    def test_a_figure_that_these_records_do_not_have(self) -> None:
+    def test_wrong_options_and_an_unusable_out(self) -> None:
         self.write([case("Mesh0", "3STEPD")])
-        self.assert_refused("--only: 'figure9' is no figure of these records (there are: ",
-                            "figure4", arguments=["--only=figure4,figure9"])
-
-    def test_wrong_option_and_unusable_out(self) -> None:
-        self.write([case("Mesh0", "3STEPD")])
-        for arguments, part in ((("--nonsense",), "--nonsense"),
-                                (("--out", self.csv), "expected a folder to write to")):
-            with mock.patch.object(sheets, "write"):
-                status, _, err = run(figures, self.results, *arguments)
-            self.assertEqual((status, err.count("\n")), (2, 1), err)
-            self.assertIn(part, err)
-
-    def test_nothing_is_left_of_a_run_that_fails(self) -> None:
-        def fail(path: Path) -> None:
-            raise OSError(28, "No space left on device", str(path))
-        self.figures.mkdir()
-        (self.figures / "a").write_text("earlier")
-        with self.assertRaises(OSError):
-            command.replace_all(self.figures, {"a": Path.touch, "b": fail})
-        self.assertEqual([path.name for path in self.figures.iterdir()], ["a"])
-        self.assertEqual((self.figures / "a").read_text(), "earlier")
-
-
-class LayoutTest(unittest.TestCase):
-    def test_labels_are_spread_and_stay_inside(self) -> None:
-        wanted = sorted(np.random.default_rng(1).uniform(0, 1, 9).tolist() + [0.5, 0.5])
-        places = spread(wanted, 0.08, 0, 1)
-        self.assertGreaterEqual(min(np.diff(places)), 0.08 - 1e-12)
-        self.assertTrue(0 <= places[0] and places[-1] <= 1)
-        self.assertEqual(spread([0.1, 0.9], 0.1, 0, 1), [0.1, 0.9])
-        np.testing.assert_allclose(spread([0.5, 0.5], 0.1, 0, 1), [0.45, 0.55])
-
-    def test_wrapping_keeps_the_words_and_the_width(self) -> None:
-        text = " ".join(["the quick brown fox, 12\u00a0% done,"] * 6)
-        lines = wrapped([text], 2, TYPE)
-        self.assertEqual(" ".join(lines), text)
-        figure = Figure(figsize=(9, 9))
-        renderer = FigureCanvasAgg(figure).get_renderer()
-        for line in lines:
-            words = figure.text(0, 0, line, fontsize=TYPE)
-            self.assertLess(words.get_window_extent(renderer).width / figure.dpi, 2.1, line)
-        self.assertLess(len(lines), 7)
+        for option, *parts in (
+                ("--nonsense", "--nonsense"),
+                (f"--out={self.csv}", "expected a folder to write to"),
+                ("--only=figure4,figure9", "figure4", "--only: 'figure9' is no figure of these "
+                 "records (there are: ")):
+            self.assert_refused(*parts, arguments=[option])
 
     def test_type_is_legible_and_apart(self) -> None:
         rows = read(power_laws() + preconditioners())
         for drawing in (*preconditioner_figure.drawings(rows), *size_figure.drawings(rows)):
             with matplotlib.rc_context(STYLE):
-                figure = drawing.draw(drawing.rows, **drawing.options)
+                figure = drawing.figure()
                 drawn.assert_readable(self, figure, *drawn.paint(figure), overlap=0.5)
 
 

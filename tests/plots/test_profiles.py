@@ -1,5 +1,4 @@
 """Performance and data profiles of made-up records.  /usr/bin/python3 -m unittest FILE"""
-import csv
 import unittest
 
 import numpy as np
@@ -8,9 +7,7 @@ import made_up  # finds plots
 
 import drawn
 from figure import profile as profile_figure
-import profiles
 import records
-from figures import drawings_of
 
 # By hand: seconds of each method on four cases; None: not solved.
 TIMES = {"3STEPD": (1.0, 4.0, 3.0, None), "HYBRID": (2.0, 1.0, None, None),
@@ -29,7 +26,7 @@ def lines(times: dict = TIMES, **cells: object) -> list[dict]:
 class ProfilesTest(unittest.TestCase):
     def shares(self, rows: list[records.Row], kind: str, quantity: str, method: str,
                at: float) -> float:
-        cases = profiles.cases_of(rows)
+        cases = profile_figure.cases_of(rows)
         profile = next(profile for profile in profile_figure.profiles_of(cases)
                        if (profile.kind, profile.quantity) == (kind, quantity))
         return float(profile.shares(cases.methods.index(method), np.array([at]))[0][0])
@@ -50,7 +47,7 @@ class ProfilesTest(unittest.TestCase):
         times = {method: (*own[:3], None) for method, own in TIMES.items()}
         self.assertEqual(self.shares(made_up.read_lines(lines(times)), "performance", "time_s", "BLIND", 1e9),
                          3 / 4)
-        np.testing.assert_array_equal(profiles.ratios(np.array([[2.0, 1.0], [INFINITE, INFINITE]])),
+        np.testing.assert_array_equal(profile_figure.ratios(np.array([[2.0, 1.0], [INFINITE, INFINITE]])),
                                       [[2, 1], [INFINITE, INFINITE]])
 
     def test_only_what_is_ok_and_verified_is_solved(self) -> None:
@@ -59,7 +56,7 @@ class ProfilesTest(unittest.TestCase):
                 ("inaccurate", "wrong_success", False), ("inaccurate", "inaccurate", False),
                 ("timeout", "timeout", False), ("skipped", "skipped", False)):
             row, = made_up.read_lines(lines({"3STEPD": (1.0,)}, status=status, outcome=outcome))
-            self.assertEqual(profiles.solved(row), solved, (status, outcome))
+            self.assertEqual(row.solved, solved, (status, outcome))
 
     def test_memory_has_the_same_cases(self) -> None:
         cases = lines()
@@ -70,33 +67,33 @@ class ProfilesTest(unittest.TestCase):
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "BLIND", 1), 2 / 4)
         self.assertEqual(self.shares(rows, "performance", "peak_heap_bytes", "BLIND", 3), 1)
         cases[-1]["peak_heap_bytes"] = None  # of a case that is solved
-        shown = profile_figure.profiles_of(profiles.cases_of(made_up.read_lines(cases)))
+        shown = profile_figure.profiles_of(profile_figure.cases_of(made_up.read_lines(cases)))
         self.assertEqual([profile.quantity for profile in shown], ["time_s", "time_s"])
 
     def test_cases_that_not_all_have(self) -> None:
         more = lines() + lines({"ALM": (1.0,)})
-        cases = profiles.cases_of(made_up.read_lines([case for case in more if (
+        cases = profile_figure.cases_of(made_up.read_lines([case for case in more if (
             case["method"], case["mesh"]) != ("HYBRID", "Mesh3")]))
         self.assertEqual((cases.absent, cases.dropped), (["ALM"], 1))
         self.assertEqual([case[0] for case in cases.cases], list(MESHES[:3]))
 
     def test_variants_on_few_meshes_do_not_take_the_others_cases(self) -> None:
         few = {f"3STEPD:V{k}": (1.0, 1.0) for k in range(3)}
-        cases = profiles.cases_of(made_up.read_lines(lines(few) + lines()))
+        cases = profile_figure.cases_of(made_up.read_lines(lines(few) + lines()))
         self.assertEqual((set(cases.methods), len(cases.cases)), (set(TIMES), 4))
         self.assertEqual(cases.absent, list(few))
 
     def test_scenes_and_targets_make_cases(self) -> None:
         rows = made_up.read_lines(lines() + lines(scene="flat"))
-        self.assertEqual(len(profiles.cases_of(rows).cases), 8)
-        self.assertEqual(len(profiles.cases_of(made_up.read_lines(
+        self.assertEqual(len(profile_figure.cases_of(rows).cases), 8)
+        self.assertEqual(len(profile_figure.cases_of(made_up.read_lines(
             lines() + lines({"3STEPD": TIMES["3STEPD"]}, scene="flat", target_error=1e-9))).cases), 4)
 
     def test_bands_are_of_the_repetitions(self) -> None:
         cases = lines({"3STEPD": (1.0,) * 4, "HYBRID": (1.01,) * 4})
         for case in cases:  # 3STEPD is as often slower as faster than HYBRID
             case["samples_s"] = [0.9, 1.0, 1.1] if case["method"] == "3STEPD" else [1.01] * 3
-        found = profiles.cases_of(made_up.read_lines(cases))
+        found = profile_figure.cases_of(made_up.read_lines(cases))
         profile = profile_figure.profiles_of(found)[0]
         share, low, high = (float(ends[0]) for ends in profile.shares(0, np.array([1.0])))
         self.assertEqual(share, 1)
@@ -105,28 +102,26 @@ class ProfilesTest(unittest.TestCase):
         sure = profile.shares(0, np.array([2.0]))
         self.assertEqual([float(ends[0]) for ends in sure], [1, 1, 1])
         np.testing.assert_array_equal(found.resampled(), found.resampled())  # seeded
-        alone = profile_figure.profiles_of(profiles.cases_of(made_up.read_lines(lines())))[0]
-        self.assertIsNone(alone.resampled)
+        alone = profile_figure.profiles_of(profile_figure.cases_of(made_up.read_lines(lines())))[0]
+        self.assertEqual(len(alone.resampled), 1)
 
     def test_order_behind_the_best_depends_on_it(self) -> None:
         # The first is much better than the others where the second beats the third.
         costs = np.array([[1, 3, 9], [1, 3, 9], [9, 9, 1], [1, 3, 9], [1, 9, 9]], float)
-        self.assertTrue(profiles.order_depends_on_best(costs, 2))
-        self.assertFalse(profiles.order_depends_on_best(np.array([[1, 2, 3]] * 3, float), 2))
-        self.assertIsNone(profiles.order_depends_on_best(costs[:, :2]))
+        self.assertTrue(profile_figure.order_depends_on_best(costs, 2))
+        self.assertFalse(profile_figure.order_depends_on_best(np.array([[1, 2, 3]] * 3, float), 2))
+        self.assertIsNone(profile_figure.order_depends_on_best(costs[:, :2]))
 
     def test_the_figure_says_what_it_cannot_tell(self) -> None:
-        drawing, = (d for d in drawings_of(made_up.read_lines(lines())) if d.name == "profiles")
-        figure = drawing.draw(drawing.rows)
-        words = drawn.words_of(figure)
+        words = drawn.words_of(drawn.plan(made_up.read_lines(lines()), "profiles").figure())
         for part in ("3 methods on 4 cases", "Gould & Scott 2016", "status ok and verified", *TIMES):
             self.assertIn(part, words)
         self.assertNotIn("bootstrap", words)
 
     def test_its_table_has_every_step(self) -> None:
         drawing, = profile_figure.drawings(made_up.read_lines(lines()))
-        figure = drawing.draw(drawing.rows)
-        table = list(csv.DictReader(drawing.table(drawing.rows).splitlines()))
+        figure = drawing.figure()
+        table = drawn.table_of(drawing)
         steps = {(float(line["factor_of_best"]), float(line["share_solved"])) for line in table
                  if (line["profile"], line["quantity"], line["method"])
                  == ("performance", "time_s", "BLIND")}
@@ -139,7 +134,7 @@ class ProfilesTest(unittest.TestCase):
                               (lines({m: own[:2] for m, own in TIMES.items()}), "3 methods on 2 case"),
                               (lines({m: (None,) * 4 for m in TIMES}), "none of its 4 cases")):
             drawing, = profile_figure.drawings(made_up.read_lines(cases))
-            self.assertIn(reason, drawing.draw(drawing.rows))
+            self.assertIn(reason, drawing.figure())
 
     def test_studies_have_profiles_of_their_own(self) -> None:
         rows = made_up.read_lines(lines() + lines(stop="paper") + lines(

@@ -2,6 +2,7 @@
 import gzip
 import json
 import unittest
+from unittest import mock
 
 import made_up  # finds plots
 
@@ -49,6 +50,16 @@ class ReaderTest(FolderTest):
             packed.write_bytes(damaged)
             self.assert_refused(f"{packed}: cannot be read: not of gzip", file=packed.name)
 
+    def test_what_unpacks_to_too_much_is_not_read_to_its_end(self) -> None:
+        for name in ("records.jsonl", "records.jsonl.gz", "results.csv"):
+            pack = gzip.compress if name.endswith(".gz") else bytes
+            for text, line in ((b"{}\n" + b" " * (records.LONGEST_LINE + 1), 2), (b"{}\n" * 100, 67)):
+                (self.results / name).write_bytes(pack(text))
+                with mock.patch.object(records, "LONGEST_FILE", 2 * records.LONGEST_LINE
+                                       if line == 2 else 200):
+                    self.assert_refused(f"{name}:{line}: too long; expected at most 16 MiB in a line",
+                                        file=name)
+
     def test_line_separators_of_unicode_end_no_line(self) -> None:
         self.lines.write_text("".join(
             json.dumps(made_up.record(case(mesh, "P2", scene="a\u2028b\x85c")),
@@ -95,7 +106,9 @@ class ReaderTest(FolderTest):
         for wrong, part in (({"time_s": "1"}, "time_s is '1', expected a number above 0"),
                             ({"in_paper": None}, "in_paper is null, expected true or false"),
                             ({"n_phi": True}, "n_phi is true, expected a whole number"),
-                            ({"mesh": 3}, "mesh is 3, expected a name")):
+                            ({"mesh": 3}, "mesh is 3, expected a name"),
+                            ({"time_s": "\n\u2028"}, "time_s is '??', expected a number above 0"),
+                            ({"stop": "a" * 999}, f"stop is '{'a' * 199}…', expected one of")):
             made_up.write_lines(self.lines, [good, good | wrong])
             self.assert_refused(f"{self.lines}:2: {part}", file="records.jsonl")
         made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": 10**400}])

@@ -1,19 +1,55 @@
-"""The least error of every method with a solve of at most so much time, from the points of an error study.
+"""Tables and words next to the figures: the paper's Tab. 1, and the least error within a time.
 
-Of a method's cases on a mesh, whatever its knob (tolerance, iterations; a direct method has one case):
+The least error of every method with a solve of at most so much time, from the points of an error study,
+of a method's cases on a mesh, whatever its knob (tolerance, iterations; a direct method has one case):
     e(t) = min { max(error_stress, error_force) : time_s <= t }.
 The best point is known only afterwards, from the verifier; a user would have to find it.
 """
 import math
 from dataclasses import dataclass
 
+from catalogue import SIZES
+from measured import paragraph
 from records import POSITIVE, Row
 from selection import by_mesh, grouped, of_scene, order
 from words import columns_of, csv_of, seconds, short
 
+NOTE = ("*n_C of Mesh0*: 40 instead of the printed 38, which is no multiple of 4; every contact "
+        "edge has 4 rows.")
 STUDIES = ("error", "")  # ordinary cases in the folder are points too
 DECADES = 6  # at most, of budgets where a run has none
 COLUMNS = ("knob", "knob_value", "stop", "status", "time_s", "tuning_s", "error_stress", "error_force")
+
+
+def documents_of(rows: list[Row]) -> dict[str, dict[str, str]]:
+    sizes, cases = table1([row for row in rows if not row.study]), cases_of(rows)
+    found = {"table1": {".md": sizes}} if sizes else {}
+    if cases:
+        found["budget"] = {".csv": csv_table(cases), ".md": markdown(cases)}
+    return found | {"measured": {".md": paragraph(rows)}}
+
+
+def table1(rows: list[Row]) -> str:
+    """Markdown, of one scene; empty without meshes of the catalogue. Bold: not as in the paper."""
+    rows = of_scene(rows)
+    if not any(row.mesh in SIZES for row in rows):
+        return ""
+    lines = ["# The paper's Tab. 1 and the sizes of the records", "",
+             f"Scene {rows[0].scene}. Bold: not as printed. –: no records.", "",
+             "| mesh | teeth | n_φ, paper | records | n_f, paper | records | n_C, paper "
+             "| records |",
+             "|---|---|---|---|---|---|---|---|"]
+    for mesh, printed in SIZES.items():
+        cells = [mesh, str(printed.teeth)]
+        for column in ("n_phi", "n_f", "n_c"):
+            paper = getattr(printed, column)
+            ours = sorted({getattr(row, column) for row in rows if row.mesh == mesh and row.n_phi})
+            words = ", ".join(map(str, ours)) or "–"
+            cells += [str(paper), words if ours in ([], [paper]) else f"**{words}**"]
+        lines.append(f"| {' | '.join(cells)} |")
+    if any(row.mesh == "Mesh0" and row.n_c == 40 for row in rows):
+        lines += ["", NOTE]
+    return "\n".join(lines) + "\n"
 
 
 @dataclass(frozen=True)
