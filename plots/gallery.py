@@ -6,8 +6,8 @@
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
 element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
-an adaptive loop have one. Beside each picture NAME.csv has its numbers. Exit 2: wrong input; one
-line says which, and nothing is written.
+an adaptive loop have one. Beside each picture NAME.csv has its numbers. Exit 2: wrong input,
+or a folder that cannot be written; one line says which, and its files stay as they were.
 """
 import argparse
 from collections.abc import Callable
