@@ -5,7 +5,7 @@ A value that its key does not allow is refused in one line: file, line, key, val
 import csv
 import gzip
 import json
-import sys
+import math
 import zlib
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, make_dataclass
@@ -18,6 +18,7 @@ from catalogue import Look, with_bodies, with_looks
 
 LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
 LONGEST_SHOWN = 200  # of a value in a message
+SMALLEST, LARGEST = 1e-250, 1e250  # sizes of numbers other than 0
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
@@ -50,10 +51,13 @@ class Kind:
         return self.allowed + ", or empty" * self.may_be_empty
 
 
+def is_real(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
 def is_number(value: object) -> bool:
-    """Finite, and not too large for a floating-point number."""
-    return (isinstance(value, (int, float)) and not isinstance(value, bool)
-            and abs(value) <= sys.float_info.max)
+    """Of a size that axes, their logarithms and their margins can cope with."""
+    return is_real(value) and (value == 0 or SMALLEST <= abs(value) <= LARGEST)
 
 
 def is_text(value: object) -> bool:
@@ -196,7 +200,9 @@ def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
             there = raw is not None and raw != ""
             value = kind.empty if not there else kind.of_text(raw) if text else raw
             if not (kind.accepts(value) if there else kind.may_be_empty or name not in needed):
-                raise RecordsError(f"{place(k)}: {name} is {shown(raw)}, expected {kind.words}")
+                extreme = is_real(value) and 0 < abs(value) < math.inf and not is_number(value)
+                allowed = f"0 or {SMALLEST:g} to {LARGEST:g} in size" if extreme else kind.words
+                raise RecordsError(f"{place(k)}: {name} is {shown(raw)}, expected {allowed}")
             column.append(value)
     return pd.DataFrame(columns, dtype=object)
 
