@@ -107,6 +107,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
             bodies.index(case["body"]), case["mesh"], case["scene"])),
         "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
                        for key, f in QUANTITIES.items() if cases[key].notna().any()],
+        "errors": [key for key, f in QUANTITIES.items() if f["unit"] == "1"],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},
