@@ -26,7 +26,7 @@ AGREE = 0.02  # relative: a curved boundary is cut by its edges
 
 
 class Look(NamedTuple):
-    """Of a family; the markers say in grey what the colours do."""
+    """Of a family; without colour, its marker tells it from others."""
 
     colour: str = "#777777"
     marker: str = "v"
@@ -50,7 +50,7 @@ DASHES = ((0, (3, 1.5)), (0, (5, 1.5, 1, 1.5)), (0, (1, 1.2)), (0, (2, 1, 2, 3))
 
 
 def with_bodies(table: pd.DataFrame) -> pd.DataFrame:
-    """A scene may change a mesh, so bodies are of a scene."""
+    """Per scene, since a scene may change a mesh."""
     body = {}
     measures = table.groupby(["scene", "mesh"], sort=False)[MEASURES].first().astype(float)
     for scene, own in measures.groupby("scene", sort=False):

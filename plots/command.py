@@ -17,7 +17,7 @@ PARTS = ".airybench.part"  # a folder of files that are not whole yet
 
 def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
         act: Callable[[argparse.Namespace], object], expected: str) -> None:
-    """expected: in the words for a place that cannot be written."""
+    """expected: what a place that cannot be written should have been, for the message."""
     def fail(message: object) -> None:
         print(f"{Path(sys.argv[0]).name}: {message}", file=sys.stderr)
         sys.exit(2)
@@ -61,7 +61,7 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
 
 @contextmanager
 def locked_parts(folder: Path) -> Iterator[Path]:
-    """Who locks the folder waits for others that write there, so parts in it are of a killed run."""
+    """A folder for unfinished files. `folder` is locked, so what is there already is a killed run's."""
     descriptor, parts = os.open(folder, os.O_RDONLY), folder / PARTS
     try:
         with suppress(OSError):  # not every file system locks folders

@@ -72,13 +72,13 @@ def error_of(row: Row) -> float:
 
 
 def cases_of(rows: list[Row]) -> list[Row]:
-    """Of stress methods and one scene; none without an error study that has a point."""
+    """Of stress methods and one scene; empty without a point of an error study."""
     own = of_scene([row for row in rows if row.study in STUDIES and not row.in_displacements])
     return own if any(row.study == "error" and is_point(row) for row in own) else []
 
 
 def budgets_of(cases: list[Row]) -> list[float]:
-    """Those that the runs were told (--study=error:SECONDS); else the powers of ten among the times."""
+    """Those of --study=error:SECONDS, else the powers of ten between the times."""
     words = {word for row in cases for word in (row.context or {}).get("budgets_s", "").split(",")}
     told = sorted(filter(POSITIVE.accepts, map(POSITIVE.of_text, words)))
     if told:

@@ -79,12 +79,12 @@ def write_small_png(figure: Figure, dpi: int, path: Path, colours: int | None = 
 
 
 def file_name(stem: str, mesh: str) -> str:
-    """The mesh may be named anyhow."""
+    """Without the letters of a mesh's name that a file's should not have."""
     return f"{stem}_{re.sub('[^A-Za-z0-9._-]', '-', mesh)}"
 
 
 def sheet(body: float, title: str, *texts: str, width: float = PAGE_WIDTH) -> Figure:
-    """A figure, made higher by the lines of its caption below."""
+    """A figure with its title above and a caption below; `body`: the height between them."""
     lines = wrapped(texts, width - 2 * MARGIN, TYPE)
     height = body + LINE * len(lines) + MARGIN
     figure = Figure(figsize=(width, height))
@@ -153,7 +153,7 @@ def tick_label(value: float) -> str:
 
 
 def log_log(axes: Axes, **properties: object) -> None:
-    """With its limits among the properties."""
+    """The properties must include the limits."""
     axes.set(xscale="log", yscale="log", **properties)
     log_axis(axes.xaxis)
     log_axis(axes.yaxis)

@@ -86,7 +86,7 @@ def map_table(s: Fields, share: np.ndarray) -> str:
 
 
 def levels_in(names: list[str]) -> list[str]:
-    """Three levels of the first loop that has as many: its first, a middle and its last one."""
+    """The first, a middle and the last level of the first loop with three or more."""
     loops: dict[tuple[str, str], list[tuple[int, str]]] = {}
     for name in names:
         if found := LEVEL.fullmatch(name):

@@ -31,7 +31,7 @@ ROLE = {
 }
 FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
 NEARLY = 1.25
-SMALLEST_MARKER_PT = 3.5  # below, open, stick and slip cannot be told apart
+SMALLEST_MARKER_PT = 3.5  # smaller markers of open, stick and slip look alike
 TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
 
 
@@ -42,7 +42,7 @@ class Scales:
 
 
 def scales_of(solutions: list[Fields]) -> Scales:
-    """Of the largest, and not of what singular corners have."""
+    """Of the largest values, singular corners aside."""
     shear = max(map(highest_shear, solutions))
     pressure = max(map(highest_pressure, solutions))
     return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
@@ -55,8 +55,7 @@ def areas(s: Fields) -> np.ndarray:
 
 
 def highest_but(values: np.ndarray, weights: np.ndarray, part: float, times: float) -> float:
-    """The largest; or so many times what such a part of the weights has at most, if that is far
-    less."""
+    """The largest value, or `times` the quantile `part` of the weights if that is far less."""
     order = np.argsort(values)
     share = np.cumsum(weights[order]) / weights.sum()
     usual = times * values[order][min(np.searchsorted(share, part), len(order) - 1)]
@@ -172,8 +171,8 @@ def draw_states(axes: Axes, s: Fields, outside: float) -> None:
 
 
 def draw_traction(axes: Axes, s: Fields) -> None:
-    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face; what is beyond
-    the axis is said."""
+    """Pressure (filled by state) and |friction| (dashed), linear on each edge of a face; a note tells of
+    pressure beyond the axis."""
     traction = np.abs(s.traction)
     p, q = traction[:, :, 0].T
     x = halves(s)

@@ -75,7 +75,7 @@ class Layout:
 
 
 def faces_of(s: Fields) -> list[np.ndarray]:
-    """In the order in which they are drawn: from the left, those of a tall body from above."""
+    """In drawing order: from left to right, those of a tall body from top to bottom."""
     def place(face: np.ndarray) -> float:
         x, y = s.edges[face].mean(axis=(0, 1))
         return -y if is_tall(s) else x

@@ -20,7 +20,7 @@ ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
 BY_LENGTH = "along the face from its dot, mm"
-STRAIGHT = 0.999  # cosine of an axis with a face that is told by that axis
+STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class Unrolled:
         return found.reshape(points.shape)
 
     def seen(self, s: Fields, face: np.ndarray, depth: float) -> Fields:
-        """The triangles and edges next to the face, so deep, as it sees them; face: its numbers in s."""
+        """Triangles and edges at most `depth` from the face, in its coordinates; face: its edges in s."""
         low = self.edges.min(axis=(0, 1)) - depth
         high = self.edges.max(axis=(0, 1)) + depth
         # What is wider lies across the beginning of a ring.
@@ -144,7 +144,7 @@ class Unrolled:
 
 
 def unrolled(edges: np.ndarray) -> Unrolled:
-    """A straight face along x or y goes by that coordinate, another by its own length from its start."""
+    """A straight face along x or y has that coordinate as its axis, others the length from their start."""
     lengths = np.hypot(*(edges[:, 1] - edges[:, 0]).T)
     ends = np.cumsum(lengths)
     chord = edges[-1, 1] - edges[0, 0]
@@ -177,7 +177,7 @@ def read_table(path: Path, header: str,
 
 
 def recorded(results: Path) -> dict[str, dict]:
-    """Name of a case's files -> its record; of none where there are no records."""
+    """Name of a case's files -> its record; empty without records."""
     if not lines_file(results) and not (results / "results.csv").is_file():
         return {}
     table = read_run(results, needed=("mesh", "scene", "method", "n_phi"))

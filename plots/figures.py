@@ -11,8 +11,8 @@ the records were measured, in words for a paper. --only draws these of the figur
 name or glob, and says nothing of the others.
 
 Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
-figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input; one
-line says which, and nothing is written.
+figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input,
+or a folder that cannot be written; one line says which, and the files that were there stay.
 """
 import argparse
 from collections.abc import Callable

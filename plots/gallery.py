@@ -6,8 +6,8 @@
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
 element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
-an adaptive loop have one. Beside each picture NAME.csv has its numbers. Exit 2: wrong input; one
-line says which, and nothing is written.
+an adaptive loop have one. NAME.csv next to each picture has its numbers. Exit 2: wrong input,
+or a folder that cannot be written; one line says which, and its files stay as they were.
 """
 import argparse
 from collections.abc import Callable
@@ -41,7 +41,7 @@ HEADING = (
 
 
 def compose(rows: list[list[Fields]]) -> Figure:
-    """A figure of rows of panels, as wide as they fit; a single body at most BODY high."""
+    """Rows of panels as wide as the page; a single body is at most BODY high."""
     scales = scales_of([s for row in rows for s in row])
     widths = [WIDTH / len(row) for row in rows]
     if len(rows) == len(rows[0]) == 1:

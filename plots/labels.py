@@ -1,4 +1,4 @@
-"""Names next to what they name: where they hide least, or in a column. Sizes in points."""
+"""Labels next to what they name: where they hide least, or in a column. Sizes in points."""
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -21,7 +21,7 @@ LEFT, DASHED = 0.72, 0.36  # inches: of the axes that a column belongs to; a pie
 
 @dataclass
 class Labels:
-    """Of axes whose limits and size are set; labels are placed in the order of their coming."""
+    """Of axes whose limits and size are set; places labels in the order of the calls."""
 
     axes: Axes
     size: float = 7.5
@@ -51,19 +51,19 @@ class Labels:
         self.lines.append((words, x[::-1], y[::-1], formula, color))
 
     def name_lines(self, **text: object) -> None:
-        """When all of them are there, so that no name hides one."""
+        """Call it when all lines are drawn, so that no label hides one."""
         for words, x, y, formula, color in self.lines:
             self.add(words, x, y, formula=formula, color=color, **text)
 
     def reserve(self, words: str, right: float, y: float, size: float) -> None:
-        """The place of words that end at (right, y) and stand upon it."""
+        """Keeps other labels off words that end at (right, y) and stand on it."""
         corner = self.points(right, y)[0]
         width = width_of(words, size)
         self.boxes.append(np.r_[corner - [width + 3, 0], corner + [0, 1.4 * size]])
 
     def add(self, words: str, x: object, y: object, formula: bool = False,
             **text: object) -> None:
-        """Beside one of the points (x, y), the first rather than the last. formula: $ is math."""
+        """Next to one of the points (x, y), preferably the first. formula: $ is math."""
         anchors = self.points(x, y)
         size = float(text.pop("fontsize", self.size))
         lines = words.split("\n")
@@ -119,7 +119,7 @@ class Labels:
 
 
 def border(anchor: np.ndarray, centre: np.ndarray, half: np.ndarray) -> np.ndarray:
-    """The point of a box that is next to the anchor."""
+    """The point of a box that is closest to the anchor."""
     return centre - np.clip(centre - anchor, -half, half)
 
 

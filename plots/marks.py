@@ -40,7 +40,7 @@ class Quantity:
     caption: Callable[[list[Row], list[Row]], str]  # of its rows and all rows of their stop
 
     def of(self, row: Row) -> tuple[float | None, str]:
-        """Value, and how it is marked: done, open, bound; none: there is nothing to mark."""
+        """Value, and how it is marked: done, open, bound, or none if there is nothing to mark."""
         if self is HEAP:
             if row.peak_heap_bytes is None:
                 return None, "none"
@@ -109,7 +109,7 @@ class ErrorScale:
 
 
 def by_stop(rows: list[Row]) -> Iterator[tuple[str, list[Row], ErrorScale]]:
-    """End of the figures' names, rows of an ordinary run's scene and the stop, common colours."""
+    """Suffix of the figures' names, rows with a stop, colours for both stops; studies are left out."""
     own = of_scene([row for row in rows if not row.study])
     scale = ErrorScale(own)
     for stop in STOPS:
@@ -120,7 +120,7 @@ def by_stop(rows: list[Row]) -> Iterator[tuple[str, list[Row], ErrorScale]]:
 
 def draw_point(axes: Axes, x: float, y: float | None, row: Row, mark: str, scale: ErrorScale,
                marker: str = "o") -> None:
-    """Without y, at the upper edge of the axes."""
+    """At the upper edge of the axes if y is None."""
     where = dict(transform=axes.transData, clip_on=False)
     if y is None:
         y, where["transform"] = EDGE_AT, axes.get_xaxis_transform()

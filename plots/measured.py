@@ -1,7 +1,7 @@
 """How the records of a run were measured: a paragraph for the appendix of a paper.
 
-Every sentence is made from what the records say themselves, and is true of records of several
-machines, programs and settings: what is not the same of all is listed with the number of its cases.
+Every sentence follows from the records, also of several machines, programs and settings: values that
+differ are listed with the number of their cases.
 """
 from collections import Counter, defaultdict
 from collections.abc import Callable, Iterable, Iterator
@@ -12,7 +12,7 @@ import numpy as np
 from records import NOT_NEGATIVE, Row
 from words import counted, percent, span, targets
 
-UNKNOWN = "unknown"  # bench writes it for what the machine does not tell
+UNKNOWN = "unknown"  # written by bench where the machine does not tell
 UNTOLD = {"cpu": "an unknown processor", "cpus": "?", "kernel": "of unknown version",
           "cpu_governor": "not known", "compiler": "an unknown compiler", "blas": "BLAS not known"}
 CHANGED = defaultdict(lambda: ", changes to it not known", yes=", with changes that are in no revision",
@@ -33,7 +33,7 @@ def listed(values: Iterable[str]) -> str:
 
 
 class Context(dict):
-    """What a record tells of where and with what it was made."""
+    """Where and with what a record was made."""
 
     def __missing__(self, key: str) -> str:
         return UNTOLD.get(key, "")

@@ -7,7 +7,8 @@ HISTORY  folder with nights/*.json, as `bench track` writes them
 RESULTS  folder of one run: its records.jsonl is listed instead of the last night's cases, and the
          pictures in its figures/ are shown
 
-The page fetches nothing. Exit 2: wrong input; one line says which, and nothing is written.
+The page fetches nothing. Exit 2: wrong input, or a file that cannot be written; one line says which,
+and the page that was there stays.
 """
 import argparse
 import base64

@@ -12,7 +12,7 @@ from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError,
                      json_of, one_of, text_of, with_derived)
 
 FORMAT = "airybench-night-1"
-OF_A_CASE = ("mesh", "scene", "method", "status")  # what the page does not do without
+OF_A_CASE = ("mesh", "scene", "method", "status")  # required by the page
 GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
 QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
 # The table's columns, in the order shown.
@@ -20,8 +20,8 @@ COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time
            *(key for key in QUANTITIES if key != "time_s"))
 HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
 OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
-GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # its name, and by what cases are grouped
-# Different in every night, so that a difference says nothing.
+GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # of a case
+# They differ from night to night anyway.
 ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
@@ -107,6 +107,7 @@ def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
             bodies.index(case["body"]), case["mesh"], case["scene"])),
         "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
                        for key, f in QUANTITIES.items() if cases[key].notna().any()],
+        "errors": [key for key, f in QUANTITIES.items() if f["unit"] == "1"],
         "marks": marks(nights),
         "last": {"failed": last.failed, "times_judged": last.times_judged,
                  "verdicts": last.verdicts, "statuses": list(last.cases.status)},
@@ -134,7 +135,7 @@ def is_there(value: object) -> bool:
 
 
 def series(cases: pd.DataFrame, nights: int) -> Iterator[dict]:
-    """Per case a list over the nights for every quantity that it ever had; None: no value."""
+    """Per case and quantity its values, one per night; None: no value."""
     for name, own in cases.groupby("name", sort=False):
         by_night = own.drop_duplicates("night", keep="last").set_index("night") \
             .reindex(range(nights)).astype(object)
@@ -146,7 +147,7 @@ def series(cases: pd.DataFrame, nights: int) -> Iterator[dict]:
 
 
 def marks(nights: list[Night]) -> list[dict]:
-    """Every change once, as the latest night that tells of it has it, with its night's number."""
+    """Every change once, as in the latest night that reports it, with the number of its own night."""
     latest = {}
     for night in nights:
         for verdict in night.verdicts:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Holds the numbers quoted in README.md and docs/ against the committed records.
+"""Compares the numbers quoted in README.md and docs/ with the committed records.
 
 docs/numbers.txt quotes phrases, with {} where a number stands, and says below each phrase what the
 records must give, a line per number:
@@ -59,7 +59,7 @@ EXPRESSION = re.compile(
 
 
 class QuoteError(RecordsError):
-    """A quotation or an expression with which nothing can be done: place and reason."""
+    """A phrase or an expression that cannot be used: place and reason."""
 
 
 @dataclass(eq=False)
@@ -84,7 +84,7 @@ def chosen(cases: pd.DataFrame, **wanted: str) -> pd.DataFrame:
 
 
 def quantity_of(cases: pd.DataFrame, quantity: str) -> pd.Series:
-    """NaN where one of its keys is empty."""
+    """NaN where a key is empty."""
     keys = sorted(set(re.findall(r"[a-z]\w*", quantity)))
     return cases[keys].astype(float).eval(quantity, engine="python")
 
@@ -288,7 +288,7 @@ def differing_tables(file: str, text: str, runs: Runs) -> Iterator[Difference]:
         right = table(rows)
         if match["body"] != right:
             before, after = match["body"].splitlines(), right.splitlines()
-            # The first line that differs tells more than the whole table.
+            # Reports the first line that differs, not the whole table.
             i = next((i for i, pair in enumerate(zip(before, after)) if pair[0] != pair[1]),
                      min(len(before), len(after)))
             yield Difference(file, text.count("\n", 0, match.start("body")) + 1 + i,

@@ -1,11 +1,11 @@
-"""Records: their keys, and the one reader of results.csv and records.jsonl.
+"""The keys of records, and the reader of results.csv and records.jsonl.
 
-What does not fit its key is refused in one line: file, line, key, value, and what is allowed.
+A value that its key does not allow is refused in one line: file, line, key, value, what is allowed.
 """
 import csv
 import gzip
 import json
-import sys
+import math
 import zlib
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, make_dataclass
@@ -18,6 +18,7 @@ from catalogue import Look, with_bodies, with_looks
 
 LONGEST_LINE, LONGEST_FILE = 2**24, 2**30  # characters; a file as in bench/records/record_reader.hpp
 LONGEST_SHOWN = 200  # of a value in a message
+SMALLEST, LARGEST = 1e-250, 1e250  # sizes of numbers other than 0
 STATUSES = ("ok", "inaccurate", "unstressed", "not_converged", "breakdown", "timeout",
             "out_of_memory", "crashed", "machine_fault", "skipped")
 COMPLETED = STATUSES[:3]
@@ -41,8 +42,8 @@ class RecordsError(Exception):
 class Kind:
     allowed: str                            # in words
     accepts: Callable[[object], bool]       # of a value that is there
-    of_text: Callable[[str], object] = str  # the value of a cell; the cell itself: it is none
-    empty: object = ""                      # stands for a value that is not there
+    of_text: Callable[[str], object] = str  # the value of a cell; the cell itself if it has none
+    empty: object = ""                      # the value of an empty cell or a missing key
     may_be_empty: bool = True
 
     @property
@@ -50,10 +51,13 @@ class Kind:
         return self.allowed + ", or empty" * self.may_be_empty
 
 
+def is_real(value: object) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
 def is_number(value: object) -> bool:
-    """Finite, and not too large for a floating-point number."""
-    return (isinstance(value, (int, float)) and not isinstance(value, bool)
-            and abs(value) <= sys.float_info.max)
+    """Of a size that axes, their logarithms and their margins can cope with."""
+    return is_real(value) and (value == 0 or SMALLEST <= abs(value) <= LARGEST)
 
 
 def is_text(value: object) -> bool:
@@ -100,14 +104,13 @@ SPLIT = Kind(f"peak_bytes and counted_bytes of {', '.join(OWNERS)}", is_split, e
 WORDS = Kind("an object of texts", lambda value: isinstance(value, dict) and all(
     map(is_text, value.values())), empty=None)
 
-# The fields of a record as bench lists them (bench/records/record_fields.def); what each is, is in
-# results/README.md.
+# From bench/records/record_fields.def; results/README.md explains them.
 FIELDS: list[dict] = json.loads(
     Path(__file__).with_name("record_fields.json").read_text(encoding="utf-8"))
-# Those that are shown or quoted are numbers ...
+# Fields that are shown or quoted are numbers ...
 NUMBERS = [f["name"] for f in FIELDS if not isinstance(f["empty"], list)
            and (f["label"] or (f["unit"] and (f["nightly"] or f["column"])))]
-# ... unless figures need to know more.
+# ... and those that figures use have a stricter kind.
 KINDS = (
     (NAME, "mesh scene method general_name family"),
     (TEXT, "preconditioner program status_reason parameters scene_group knob"),
@@ -133,13 +136,13 @@ KINDS = (
     (one_of(STATUSES), "claimed_status"))
 OF_NAME = {name: kind for kind, names in KINDS for name in names.split()}
 KEYS: dict[str, Kind] = OF_NAME | {name: FINITE for name in NUMBERS if name not in OF_NAME}
-# Figures do without none of these.
+# Required by the figures.
 NEEDED = ("mesh", "scene", "method", "general_name", "family", "preconditioner", "iterative",
           "in_paper", "in_displacements", "stop", "status", "status_reason", "n_phi", "n_f", "n_c",
           "threads", "repetitions", "time_s", "tuning_s", "peak_heap_bytes", "done_fraction",
           "extrapolated_time_s", "error_force")
 IDENTITY = ["mesh", "scene", "method", "stop", "contact_solver", "study", "knob", "knob_value"]
-OF_STUDY = {  # what the rows of a study also need
+OF_STUDY = {  # also required in rows of a study
     "error": ("outcome", "knob", "knob_value", "error_stress", "error_discretisation",
               "error_total"),
     "contact": ("outcome", "contact_solver"),
@@ -168,8 +171,8 @@ class Case:
             f"{text}, {percent:.1g}\u00a0% done"
 
 
-# One case. None, or no text: an empty cell, or a key that its record does not have. `line` of its
-# file, `body` that its mesh divides and `look` of its family are not of the record.
+# One case. None or "" stands for an empty cell or a missing key. `line` (in its file), `body` (that its
+# mesh divides) and `look` (of its family) are added.
 Row = make_dataclass("Row", [("line", int, 0), *((name, object, kind.empty) for name, kind in
                                                  KEYS.items()),
                              ("body", str, ""), ("look", Look, Look())], bases=(Case,), frozen=True)
@@ -197,7 +200,9 @@ def checked(items: list[dict], kinds: dict[str, Kind], needed: Collection[str],
             there = raw is not None and raw != ""
             value = kind.empty if not there else kind.of_text(raw) if text else raw
             if not (kind.accepts(value) if there else kind.may_be_empty or name not in needed):
-                raise RecordsError(f"{place(k)}: {name} is {shown(raw)}, expected {kind.words}")
+                extreme = is_real(value) and 0 < abs(value) < math.inf and not is_number(value)
+                allowed = f"0 or {SMALLEST:g} to {LARGEST:g} in size" if extreme else kind.words
+                raise RecordsError(f"{place(k)}: {name} is {shown(raw)}, expected {allowed}")
             column.append(value)
     return pd.DataFrame(columns, dtype=object)
 
@@ -248,7 +253,7 @@ def read(path: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
 
 
 def with_derived(table: pd.DataFrame) -> pd.DataFrame:
-    """With what follows from other keys; records of before have no general_name and no family."""
+    """Adds body and look; older records have neither general_name nor family, which follow from method."""
     general = table.general_name.where(table.general_name != "", table.method)
     family = table.family.where(table.family != "", general.str.partition(":")[0])
     return with_looks(with_bodies(table.assign(general_name=general, family=family)))
@@ -267,7 +272,7 @@ def read_csv(path: Path, needed: Collection[str]) -> tuple[list[dict], list[str]
 
 
 def cells_of(path: Path) -> list[list[str]]:
-    """Of a CSV, line by line; as many in each as in the first."""
+    """The lines of a CSV, all with as many cells as the first."""
     lines: list[list[str]] = []
     try:
         for cells in csv.reader(lines_of(path), strict=True):
@@ -290,8 +295,8 @@ def text_of(path: Path) -> str:
 
 
 def lines_of(path: Path) -> Iterator[str]:
-    """With their ends; U+2028 ends none. A line that is too long is not unpacked to its end."""
-    if path.exists() and not path.is_file():  # a pipe would be waited for
+    """With their line ends; U+2028 is not one. Stops unpacking at the first line that is too long."""
+    if path.exists() and not path.is_file():  # opening a pipe would block
         raise RecordsError(f"{path}: is no regular file; expected what bench writes")
     length = 0
     try:
@@ -337,5 +342,5 @@ def lines_file(folder: Path) -> Path | None:
 
 
 def read_run(folder: Path, needed: Collection[str] = NEEDED) -> pd.DataFrame:
-    """Its records, a line each; where these are not, the flat view of them."""
+    """From records.jsonl, else from results.csv."""
     return read(lines_file(folder) or folder / "results.csv", needed)

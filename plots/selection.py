@@ -28,13 +28,13 @@ def by_body(rows: list[Row]) -> dict[str, list[Row]]:
 
 
 def kind_of(row: Row) -> str:
-    """Of its mesh: a level of a loop, or as it was given."""
+    """Of mesh."""
     return "adapted" if "+adapt" in row.mesh else \
         "refined everywhere" if "+refine" in row.mesh else "as they are"
 
 
 def scene_of(rows: list[Row]) -> str:
-    """The scene to draw where there is room for one."""
+    """The scene of figures that show only one."""
     scenes = sorted({row.scene for row in rows})
     return "default" if "default" in scenes else scenes[0]
 
@@ -45,7 +45,7 @@ def of_scene(rows: list[Row]) -> list[Row]:
 
 
 def tier(row: Row) -> int:
-    """The paper's method; one with its own name; a variant of another; a preconditioner's."""
+    """0: in the paper, 1: a method with its own name, 2: a variant, 3: a preconditioner."""
     return 0 if row.in_paper else 1 if ":" not in row.method else 3 if row.preconditioner else 2
 
 
@@ -85,8 +85,7 @@ def is_paper_stop(row: Row) -> bool:
 
 
 def front(rows: list[Row], cost: str, error: str, gain: float = 0) -> list[Row]:
-    """Those that no cheaper one equals in error, the cheapest first; a gain of the error of less
-    than this part of it is none."""
+    """The Pareto front, the cheapest first; a point must improve the error by more than `gain`, relative."""
     found: list[Row] = []
     for row in sorted((row for row in rows if getattr(row, cost)), key=attrgetter(cost, error)):
         if not found or getattr(row, error) < (1 - gain) * getattr(found[-1], error):
@@ -95,7 +94,7 @@ def front(rows: list[Row], cost: str, error: str, gain: float = 0) -> list[Row]:
 
 
 def sharing_axes(rows: list[Row]) -> list[list[Row]]:
-    """Bodies whose sizes do not overlap share axes over n_phi: the rows of each axes."""
+    """The rows of each axes over n_phi, which bodies share if their sizes do not overlap."""
     shared: list[list[Row]] = []
     for own in by_body(rows).values():
         low, high = min(row.n_phi for row in own), max(row.n_phi for row in own)

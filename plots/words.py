@@ -19,7 +19,7 @@ EXTRAPOLATED = ("extrapolated_time_s", "done_fraction")  # of one that reached i
 
 
 def csv_of(items: Iterable[object], *columns: Column) -> str:
-    """A line per item under the columns' names, numbers unrounded; what is not there is empty."""
+    """A line per item below the columns' names; numbers are not rounded, None is empty."""
     named = [(column, lambda item, name=column: getattr(item, name)) if isinstance(column, str)
              else column for column in columns]
     text = io.StringIO()
@@ -30,7 +30,7 @@ def csv_of(items: Iterable[object], *columns: Column) -> str:
 
 
 def columns_of(part: Callable[[object], object], *names: str) -> list[Column]:
-    """Attributes of a part of the item; empty where there is no such part."""
+    """Attributes of a part of the item; empty where that is None."""
     return [(name, lambda item, name=name: getattr(part(item), name, None)) for name in names]
 
 
@@ -118,7 +118,7 @@ def cases_by_reason(reasons: dict[str, list[str]]) -> str:
 
 
 def no_point(rows: list[Row]) -> str:
-    """Which of the cases were not solved; empty: all were."""
+    """The cases that were not solved; empty if there are none."""
     failed = grouped([row for row in rows if not row.completed], Row.status_words)
     words = cases_by_reason({why: [f"{row.method} on {row.mesh}" for row in own]
                              for why, own in failed.items()})

@@ -40,7 +40,7 @@ def words_of(row: Row) -> tuple[str, str]:
 
 
 def head_of(rows: list[Row]) -> str:
-    """Of a mesh, in three lines; its error is that of any method whose own is far below."""
+    """Of a mesh: body, error and size. Its error is that of any method whose own is far below."""
     errors = [row.error_discretisation for row in rows
               if row.error_discretisation and not row.in_displacements]
     return f"{rows[0].body}\n{percent(min(errors)) if errors else '?'}\n$n_\\varphi$ = {rows[0].n_phi}"

@@ -24,7 +24,7 @@ DEEPEST = "#7FB6DE"  # of an ok case with 15 digits; with 6 it has the fill abov
 
 
 def digits(row: Row) -> str:
-    """Whole digits of the largest error; none is known: +."""
+    """Whole digits of the largest error; "+" if none is known."""
     errors = [error for error in (row.error_stress, row.error_force) if error is not None]
     if not errors:
         return "+"
@@ -59,8 +59,8 @@ def table_of(rows: list[Row]) -> str:
 
 
 def draw(rows: list[Row]) -> Figure:
-    """Scenes go down, under a line with their group's name; methods go to the right, and on below
-    where cells would be too narrow."""
+    """A row per scene, below a line with its group's name; a column per method, in several grids where
+    cells would be too narrow."""
     scenes = scenes_of(rows)
     left = 0.2 + max([width_of(scene, SIZE) for _, scene in scenes]
                      + [width_of(group, 8, "bold") for group, _ in scenes]) / 72

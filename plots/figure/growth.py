@@ -16,12 +16,12 @@ ASYMPTOTIC = 200_000  # unknowns, from which on exponents are fitted
 
 
 def memory_of(row: Row) -> float | None:
-    """Another's program has its memory outside our heap."""
+    """The memory of an external program is not in our heap."""
     return row.peak_rss_bytes if row.program else row.peak_heap_bytes
 
 
 def error_of(row: Row) -> float | None:
-    """Against the reference where there is one; else by the method's own word."""
+    """Against the reference, else the method's own estimate."""
     return row.error_estimate if row.error_stress is None else row.error_stress
 
 

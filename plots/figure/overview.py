@@ -38,7 +38,7 @@ def table_of(rows: list[Row]) -> str:
 
 
 def curves_of(rows: list[Row]) -> list[Curve]:
-    """The paper's stop is of iterative methods only."""
+    """Direct methods have no stop: those with the paper's are left out."""
     curves = []
     rows = sorted((row for row in rows if row.stop == "target" or row.iterative),
                   key=lambda row: (order(row), row.n_phi))

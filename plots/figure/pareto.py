@@ -56,13 +56,13 @@ def known_of(rows: list[Row]) -> list[Row]:
 
 
 def highest_of(rows: list[Row]) -> float:
-    """Total error drawn, at most 1: nothing of such an answer is right."""
+    """The largest total error drawn: at most 1, beyond which an answer is useless."""
     floor = max((row.error_discretisation or 0 for row in rows), default=0)
     return min(max(HIGHEST, OVER_FLOOR * floor), 1)
 
 
 def levels(errors: list[float]) -> list[float]:
-    """Round ones that can be reached, up to the largest error: at most LEVELS, the smallest."""
+    """The smallest LEVELS round errors between the smallest and the largest of `errors`."""
     low, high = min(errors), max(errors)
     found = [float(f"{m * 10.0**k:.2g}") for k in range(math.floor(math.log10(low)), 2)
              for m in STEPS]
@@ -204,7 +204,7 @@ def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]]
 
 
 def draw_floors(axes: Axes, rows: list[Row], labels: Labels) -> None:
-    """The meshes' discretisation errors; those that are too near to each other share their words."""
+    """The meshes' discretisation errors; close lines share a label."""
     right = axes.get_xlim()[1]
     floors = {row.mesh: row.error_discretisation for row in rows if row.error_discretisation}
     groups: list[list[str]] = []

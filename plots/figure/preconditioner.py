@@ -39,8 +39,7 @@ def table_of(rows: list[Row]) -> str:
 
 
 def chosen(rows: list[Row]) -> list[Row]:
-    """Those with a preconditioner on the mesh that has most of them, if any is not one of Figs 4
-    and 5."""
+    """Of the mesh with most preconditioners, unless all of them are in Figs 4 and 5."""
     meshes = by_mesh([row for row in rows if row.preconditioner])
     in_paper = {row.general_name for row in rows if row.in_paper}
     full = [own for own in meshes.values() if {row.general_name for row in own} - in_paper]
@@ -53,8 +52,7 @@ def slot_of(row: Row) -> Slot:
 
 
 def columns_of(rows: list[Row]) -> Columns:
-    """A preconditioner is there once: as FAMILY:PRECONDITIONER rather than with further options or
-    by an alias."""
+    """Of several cases of a preconditioner the one without further options, rather not under an alias."""
     columns: Columns = {row.family: {} for row in rows}
     for row in sorted(rows, key=lambda row: (
             f"{row.family}:{row.preconditioner}" != row.general_name,
@@ -147,7 +145,7 @@ def draw_column(axes: Axes, column: dict[Slot, Row], places: dict[Slot, float],
 
 def name_slots(upper: Axes, lower: Axes, places: dict[Slot, float], column: dict[Slot, Row],
                slot_inches: float) -> None:
-    """Parameters and groups below, errors above; of a dense sweep every second, third."""
+    """Parameters and groups below, errors above; of a dense sweep every second or third."""
     step = math.ceil(NARROWEST / slot_inches)
     groups = grouped(places, lambda slot: slot[0])
     upright = {group for group, slots in groups.items()

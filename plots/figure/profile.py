@@ -62,8 +62,8 @@ def case_of(row: Row) -> Case:
 
 
 def cases_of(rows: list[Row]) -> Cases:
-    """Of the methods worth comparing, those with most cases first: each that leaves half of all cases,
-    and FEWEST, which all have."""
+    """Takes methods in the order of their number of cases, if at least half of all cases, and FEWEST,
+    remain common to all methods taken."""
     shown = compared([row for row in rows if not row.in_displacements], ROOM)
     every = list(dict.fromkeys(map(case_of, shown)))
     methods = [{case_of(row): row for row in own}
@@ -82,7 +82,7 @@ def cases_of(rows: list[Row]) -> Cases:
 
 
 def ratios(costs: np.ndarray) -> np.ndarray:
-    """(..., P, S) costs over the least of their case; infinite where nobody solves it."""
+    """(..., P, S) costs over the least of their case; infinite where no method solves it."""
     best = costs.min(axis=-1, keepdims=True)
     return np.divide(costs, best, out=np.full_like(costs, np.inf), where=np.isfinite(costs))
 
@@ -99,8 +99,7 @@ def band(values: np.ndarray, at: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def order_depends_on_best(costs: np.ndarray, factor: float = 2) -> bool | None:
-    """Whether ρ(factor) puts any two of the others the other way round without the method that leads
-    there; None: there are not three."""
+    """Whether ρ(factor) swaps any two methods when the leading one is left out; None: fewer than three."""
     if costs.shape[1] < 3:
         return None
     with_all = fractions(ratios(costs).T, np.array([factor]))[:, 0]

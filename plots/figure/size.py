@@ -36,7 +36,7 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
 
 
 def table_of(rows: list[Row], quantity: Quantity) -> str:
-    """exponent: that of the method's line, which is cut between bodies of overlapping sizes."""
+    """exponent: of the method's line, which ends where a body's sizes overlap those of the next."""
     values = ("time_s", *EXTRAPOLATED) if quantity is TIME else ("peak_heap_bytes",)
     lines = [line for own in sharing_axes(rows) for line in lines_of(own).values()]
     powers = {row.line: fit(line, quantity) for line in lines for row in line}
@@ -45,7 +45,7 @@ def table_of(rows: list[Row], quantity: Quantity) -> str:
 
 
 def sized(rows: list[Row]) -> list[Row]:
-    """With the size of its mesh for a case that ended before it was counted."""
+    """Gives cases that ended before their unknowns were counted the size of their mesh."""
     sizes = {row.mesh: row.n_phi for row in rows if row.n_phi}
     return [row if row.n_phi else replace(row, n_phi=sizes[row.mesh]) for row in rows
             if row.mesh in sizes]
@@ -158,7 +158,7 @@ def side_by_side(axes: Axes, rows: list[Row], quantity: Quantity) -> dict[int, f
 
 def draw_line(axes: Axes, line: list[Row], look: tuple[str, object], quantity: Quantity,
               scale: ErrorScale, places: dict[int, float]) -> tuple[float, float] | None:
-    """Its last point that has a value."""
+    """Returns its last point with a value."""
     marker, dashes = look
     last = None
     for row, following in zip(line, [*line[1:], None]):

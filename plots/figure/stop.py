@@ -73,7 +73,7 @@ def draw(rows: list[Row]) -> Figure | str:
 
 def draw_panel(axes: Axes, curves: dict[str, list[Row]], column: str,
                included: list[float]) -> None:
-    """Curves of one point are grey, those of one r under one name."""
+    """Curves of a single point are grey; those with the same r share a label."""
     known = {words: [(parameters_of(row)[0], getattr(row, column), row.mesh) for row in curve
                      if getattr(row, column)] for words, curve in curves.items()}
     points = [point for curve in known.values() for point in curve]

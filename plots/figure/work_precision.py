@@ -138,8 +138,8 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
-    """A big mark where the grid chose r and rho, with the words of what the stop costs; small
-    ones where they were given."""
+    """Large marks where ALM chose r and rho, labelled with the error of the stop; small ones where they
+    were given."""
     for row in stops:
         at = value_of(row, column), min(row.error_force, HIGHEST)
         size = STOP["markersize"] * (0.6 if given(row) else 1)

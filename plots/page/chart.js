@@ -94,14 +94,13 @@ function gridAndTicks(key, axis, x, nights) {
 
 // The bands of the intervals and the lines, in stretches of nights without a gap, and the points.
 function curves(key, axis, x, {values, low, high}) {
-  const stretches = [[]], at = (k, list) => [x(k), axis.y(list[k])];
+  const stretches = [], at = (k, list) => [x(k), axis.y(list[k])];
   values.forEach((value, k) => {
-    if (fits(key, value))
-      stretches[stretches.length - 1].push(k);
-    else if (stretches[stretches.length - 1].length)
-      stretches.push([]);
+    if (!fits(key, value)) return;
+    if (k === 0 || !fits(key, values[k - 1])) stretches.push([]);
+    stretches[stretches.length - 1].push(k);
   });
-  const shapes = stretches.filter((nights) => nights.length).flatMap((nights) => {
+  const shapes = stretches.flatMap((nights) => {
     const bounded = nights.filter((k) => low && high && fits(key, low[k]) && fits(key, high[k]));
     const around = [
       ...bounded.map((k) => at(k, high)), ...bounded.map((k) => at(k, low)).reverse()

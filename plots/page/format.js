@@ -1,7 +1,6 @@
 // Values with units, as the terminal's table shows them; the unit of a quantity ends its key.
 
-const ERRORS = new Set(["error_stress", "error_force", "equilibrium_residual"]);
-const isError = (key) => ERRORS.has(key);
+const isError = (key) => data.errors.includes(key);
 
 // Three digits, without trailing zeros.
 const digits = (value) => String(Number(value.toPrecision(3)));

@@ -4,21 +4,48 @@ from contextlib import AbstractContextManager
 from itertools import combinations
 from unittest import TestCase, mock
 
+import matplotlib
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.text import Text
 
-import running  # finds plots
+import made_up  # finds plots
 
+import drawing as sheets
+import figures
 from drawing import SMALLEST_PT, Drawing
-from figures import drawings_of
 from records import Row
+from running import FolderTest, run
+
+
+class FiguresTest(FolderTest):
+    program = figures
+
+    def setUp(self) -> None:
+        super().setUp()
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(sheets.STYLE)
+
+    def draw(self, rows: list[dict] | None = None) -> tuple[str, dict[str, str]]:
+        """stdout, and the words in each figure of these, or of the folder's records; nothing is
+        rendered."""
+        kept: dict[str, Figure] = {}
+
+        def keep(figure: Figure, *place: object, **_: object) -> None:
+            kept[place[-1].stem] = figure
+            place[-1].touch()
+        if rows is not None:
+            made_up.write(self.csv, rows)
+        with mock.patch.multiple(sheets, write=keep, write_small_png=keep):
+            status, out, err = run(figures, self.results)
+        self.assertEqual((status, err), (0, ""))
+        return out, {name: words_of(figure) for name, figure in kept.items()}
 
 
 def plan(rows: list[Row], name: str) -> Drawing:
     """Of all the drawings of these rows."""
-    drawing, = (drawing for drawing in drawings_of(rows) if drawing.name == name)
+    drawing, = (drawing for drawing in figures.drawings_of(rows) if drawing.name == name)
     return drawing
 
 
@@ -36,7 +63,7 @@ def words_of(figure: Figure) -> str:
     with mock.patch.multiple(Axis, get_major_ticks=lambda axis: axis.majorTicks,
                              get_minor_ticks=lambda axis: axis.minorTicks):
         texts = figure.findobj(lambda artist: hasattr(artist, "get_text"))
-    return " ".join(text.get_text() for text in texts)
+    return " ".join(text.get_text() for text in texts).replace("\u00a0", " ")
 
 
 def paint(figure: Figure) -> tuple[list[Text], object]:

@@ -6,14 +6,14 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 import made_up  # finds plots
 
 import drawn
+from drawn import words_of
 from figure import adapted_methods as adapted_methods_figure
 from figure import atlas as atlas_figure
-import test_study_figures as studies
 from made_up import read
 from records import OUTCOMES
 
 
-class AdaptedMethodsTest(studies.StudiesTest):
+class AdaptedMethodsTest(drawn.FiguresTest):
     CASES = [made_up.case(mesh, method, study="adapted", n_phi=n_phi, time_s=time_s,
                           error_discretisation=0.005, error_total=0.005, condition_estimate=3e9)
              for mesh, n_phi in (("Mesh0+adapt2", 1500), ("Mesh4+adapt1", 15000))
@@ -26,7 +26,7 @@ class AdaptedMethodsTest(studies.StudiesTest):
         self.assertEqual((".png", ".csv"), drawing.suffixes)
         figure = drawing.figure()
         self.assertEqual(4, len(figure.axes[0].patches))
-        words = studies.words_of(figure)
+        words = words_of(figure)
         for expected in ("HYBRID", "10 ms", "κ 3e9", "timeout", "0.5 %"):
             self.assertIn(expected, words)
         self.assertEqual([line["outcome"] for line in drawn.table_of(drawing)].count("timeout"), 1)
@@ -39,13 +39,13 @@ class AdaptedMethodsTest(studies.StudiesTest):
         self.assertEqual([len(axes.patches) for axes in figure.axes], [5, 4])
 
 
-class AtlasTest(studies.StudiesTest):
+class AtlasTest(drawn.FiguresTest):
     def test_a_cell_per_case(self) -> None:
         rows = read(made_up.stability_study())
         figure = atlas_figure.draw(rows)
         places = [patch.get_xy() for patch in figure.axes[0].patches]
         self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
-        words = studies.words_of(figure)
+        words = words_of(figure)
         wrong = sum(row.outcome == "wrong_success" for row in rows)
         self.assertIn(f"wrong success: said ok, and is not: {wrong}", words)
         self.assertEqual(words.split().count("W!"), wrong + 1)
@@ -67,7 +67,7 @@ class AtlasTest(studies.StudiesTest):
 
     def test_no_wrong_success_is_said_too(self) -> None:
         rows = [row for row in made_up.stability_study()[:99] if row["outcome"] != "wrong_success"]
-        self.assertIn("is not: 0", studies.words_of(atlas_figure.draw(read(rows))))
+        self.assertIn("is not: 0", words_of(atlas_figure.draw(read(rows))))
 
     def test_digits(self) -> None:
         for stress, force, digits in ((1e-9, 2e-7, "6"), (0, 0, "16"), (1e-12, "", "12"),
@@ -86,13 +86,13 @@ class AtlasTest(studies.StudiesTest):
     def test_digits_are_written_where_there_is_room(self) -> None:
         rows = read(made_up.stability_study())
         few = [row for row in rows if row.method in ("3STEPD", "HYBRID", "ALM")]
-        words = studies.words_of(atlas_figure.draw(few))
+        words = words_of(atlas_figure.draw(few))
         self.assertIn("with the digits of its largest error", words)
         written = Counter(words.split())
         for number, count in Counter(map(atlas_figure.digits, (row for row in few
                                                                if row.outcome == "ok"))).items():
             self.assertGreaterEqual(written[number], count)
-        many = studies.words_of(atlas_figure.draw(read(self.many(50))))
+        many = words_of(atlas_figure.draw(read(self.many(50))))
         self.assertIn("deeper: more digits", many)
 
     def many(self, methods: int) -> list[dict]:

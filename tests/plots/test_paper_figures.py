@@ -5,7 +5,6 @@ import unittest
 from pathlib import Path
 from unittest import mock
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -16,11 +15,10 @@ import drawing as sheets
 import drawn
 import figures
 from catalogue import SIZES
-from drawing import STYLE
 from figure import preconditioner as preconditioner_figure
 from figure import size as size_figure
 from made_up import case, read
-from running import PROJECT, FolderTest, run
+from running import PROJECT, run
 from selection import exponent
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
@@ -48,27 +46,9 @@ def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
             for k, name in enumerate(names)]
 
 
-class PaperFiguresTest(FolderTest):
-    program = figures
-
+class PaperFiguresTest(drawn.FiguresTest):
     def write(self, rows: list[dict[str, object]]) -> None:
         made_up.write(self.csv, rows)
-
-    def draw(self, rows: list[dict[str, object]]) -> tuple[str, dict[str, str]]:
-        """stdout, and the words in each of the paper's figures; nothing is rendered."""
-        self.write(rows)
-        words = {}
-
-        def keep(figure: Figure, path: Path) -> None:
-            if path.stem not in words:  # as .svg and .png
-                words[path.stem] = drawn.words_of(figure)
-            path.touch()
-        with mock.patch.object(sheets, "write", keep), \
-                mock.patch.object(sheets, "write_small_png",
-                                  lambda figure, dpi, path, colours: path.touch()):
-            status, out, err = run(figures, self.results)
-        self.assertEqual((status, err), (0, ""))
-        return out, words
 
     def test_all_figures_of_both_stops(self) -> None:
         rows = power_laws()[:9] + [row for row in preconditioners() if "DTIC4" in row["method"]]
@@ -129,7 +109,7 @@ class PaperFiguresTest(FolderTest):
             row |= UNFINISHED | outcome
         out, words = self.draw([*rows, case("Mesh3", "3STEPD", scene="flat"),
                                 case("Mesh3", "3STEPCG:DTIC3"), case("Mesh3", "3STEPCG3")])
-        time, heap = (words[name].replace("\u00a0", " ") for name in ("figure4", "figure5"))
+        time, heap = (words[name] for name in ("figure4", "figure5"))
         self.assertIn("no estimate: 3STEPCG3 on Mesh7 (timeout, 0.1 % done)", time)
         self.assertIn("no point: SDTIC6 on Mesh7 (not converged); 3STEPCG6 on Mesh7 (breakdown); "
                       "SSKY on Mesh7 (out of memory); 3STEPD on Mesh7 (crashed); ALM on Mesh7 "
@@ -168,7 +148,7 @@ class PaperFiguresTest(FolderTest):
                                 case("Mesh3", "SYMMLQ:DTIC3")])
         self.assertIn("figure3.svg, .png, .csv: 28 cases", out)
         self.assertIn("Mesh3, 6287 degrees of freedom", words["figure3"])
-        self.assertIn("no estimate: 3STEPCG:NONE (timeout, 3\u00a0% done)", words["figure3"])
+        self.assertIn("no estimate: 3STEPCG:NONE (timeout, 3 % done)", words["figure3"])
         self.assertNotIn("schur", words["figure3"])
         self.assertNotIn("no figure", out)  # all_methods has it
 
@@ -231,9 +211,8 @@ class PaperFiguresTest(FolderTest):
     def test_type_is_legible_and_apart(self) -> None:
         rows = read(power_laws() + preconditioners())
         for drawing in (*preconditioner_figure.drawings(rows), *size_figure.drawings(rows)):
-            with matplotlib.rc_context(STYLE):
-                figure = drawing.figure()
-                drawn.assert_readable(self, figure, *drawn.paint(figure), overlap=0.5)
+            figure = drawing.figure()
+            drawn.assert_readable(self, figure, *drawn.paint(figure), overlap=0.5)
 
 
 class RunTest(unittest.TestCase):

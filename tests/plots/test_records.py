@@ -111,8 +111,10 @@ class ReaderTest(FolderTest):
                             ({"stop": "a" * 999}, f"stop is '{'a' * 199}…', expected one of")):
             made_up.write_lines(self.lines, [good, good | wrong])
             self.assert_refused(f"{self.lines}:2: {part}", file="records.jsonl")
-        made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": 10**400}])
-        self.assert_refused(f"{self.lines}:2: time_s is 1000", file="records.jsonl")
+        for extreme in (10**400, 1e308, 5e-324):
+            made_up.write_lines(self.lines, [good, good | {"n_phi": 1, "time_s": extreme}])
+            self.assert_refused(f"{self.lines}:2: time_s is {str(extreme)[:3]}",
+                                "expected 0 or 1e-250 to 1e+250 in size", file="records.jsonl")
         self.lines.write_text('[1]\n', encoding="utf-8")
         self.assert_refused(f"{self.lines}:1: [1], expected an object", file="records.jsonl")
         self.lines.write_text('{"time_s": NaN}\n', encoding="utf-8")

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from unittest import mock
 
-import matplotlib
 import numpy as np
 from matplotlib.figure import Figure
 
@@ -18,7 +17,7 @@ import drawing as sheets
 import drawn
 import figures
 from catalogue import SIZES
-from drawing import STYLE
+from drawn import words_of
 from figure import convergence as convergence_figure
 from figure import memory as memory_figure
 from figure import pareto as pareto_figure
@@ -26,13 +25,9 @@ from figure import stop as stop_figure
 from figure import work_precision as work_precision_figure
 from made_up import read
 from records import Row
-from running import FolderTest, run
+from running import run
 from selection import front
 from words import percent
-
-
-def words_of(figure: Figure) -> str:
-    return drawn.words_of(figure).replace("\u00a0", " ")
 
 
 @dataclass(frozen=True)
@@ -64,16 +59,7 @@ def everything() -> Drawn:
     return Drawn(results / "figures", kept, done)
 
 
-class StudiesTest(FolderTest):
-    program = figures
-
-    def setUp(self) -> None:
-        super().setUp()
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(STYLE)
-
-
-class StudyFiguresTest(StudiesTest):
+class StudyFiguresTest(drawn.FiguresTest):
     def test_a_folder_with_everything(self) -> None:
         folder, (status, out, err) = everything().folder, everything().run
         self.assertEqual((status, err), (0, ""))
@@ -92,23 +78,16 @@ class StudyFiguresTest(StudiesTest):
     def test_what_cannot_be_drawn_is_said(self) -> None:
         rows = [row | dict(error_discretisation="", error_total="")
                 for row in made_up.error_study(["Mesh0"], sweep=False)[:12]]
-        made_up.write(self.csv, rows)
-        with mock.patch.object(sheets, "write_small_png",
-                               lambda figure, dpi, path, colours: path.touch()):
-            self.figures.mkdir()
-            (self.figures / "pareto.png").touch()
-            out = run(figures, self.results)[1]
+        self.figures.mkdir()
+        (self.figures / "pareto.png").touch()
+        out, _ = self.draw(rows)
         self.assertIn("pareto: left out: no row has time_s and an error_total up to 1; an earlier "
                       "pareto.png stays", out)
         self.assertIn("convergence: left out: fewer than two meshes", out)
         self.assertIn("stop_and_error: left out: no two methods NAME:r=..,rho=..", out)
 
     def test_one_size_makes_no_line(self) -> None:
-        made_up.write(self.csv, [row for row in made_up.sizes_to_the_limit()
-                                 if row["mesh"] == "Mesh0"])
-        with mock.patch.object(sheets, "write", lambda figure, path: path.touch()):
-            status, out, err = run(figures, self.results)
-        self.assertEqual((status, err), (0, ""))
+        out, _ = self.draw([row for row in made_up.sizes_to_the_limit() if row["mesh"] == "Mesh0"])
         self.assertIn("all_methods: left out: no method has two sizes\n", out)
 
     def test_the_papers_figures_pass_over_studies(self) -> None:
@@ -117,7 +96,7 @@ class StudyFiguresTest(StudiesTest):
                          ["convergence", "pareto", "stop_and_error", "work_precision_Mesh0"])
 
 
-class WorkPrecisionTest(StudiesTest):
+class WorkPrecisionTest(drawn.FiguresTest):
     def test_curves_and_the_papers_stop(self) -> None:
         rows = read(made_up.error_study(["Mesh1"]))
         curves = work_precision_figure.curves_of(rows)
@@ -183,7 +162,7 @@ class WorkPrecisionTest(StudiesTest):
         self.assertIn("No point: 3STEPD (timeout).", words)
 
 
-class ParetoTest(StudiesTest):
+class ParetoTest(drawn.FiguresTest):
     def test_nothing_beats_the_front(self) -> None:
         rows = read(made_up.error_study(["Mesh0", "Mesh1", "Mesh2", "Mesh3"]))
         for column in ("time_s", "peak_heap_bytes"):
@@ -243,7 +222,7 @@ class ParetoTest(StudiesTest):
         self.assertNotIn("Mesh0+adapt3: ", words)  # its own error needs no line
 
 
-class ConvergenceTest(StudiesTest):
+class ConvergenceTest(drawn.FiguresTest):
     def test_rate(self) -> None:
         rows = read(made_up.error_study(list(SIZES), sweep=False))
         bodies = convergence_figure.points_of(rows, "default")
@@ -268,7 +247,7 @@ class ConvergenceTest(StudiesTest):
         self.assertNotIn("bounds", words)
 
 
-class MemoryFigureTest(StudiesTest):
+class MemoryFigureTest(drawn.FiguresTest):
     def bars(self, *lines: dict) -> list[Row]:
         drawings = list(memory_figure.drawings(made_up.read_lines(list(lines))))
         return drawings[0].rows if drawings else []
@@ -309,9 +288,7 @@ class MemoryFigureTest(StudiesTest):
     def test_is_drawn_from_the_folder_and_bad_lines_are_refused(self) -> None:
         good = [made_up.split("Mesh0", "3STEPD"), made_up.split("Mesh0", "HYBRID")]
         made_up.write_lines(self.lines, good)
-        with mock.patch.object(sheets, "write", lambda figure, path: path.touch()):
-            status, out, err = run(figures, self.results)
-        self.assertEqual((status, err), (0, ""))
+        out, _ = self.draw()
         self.assertIn("memory_by_owner.png, .csv: 2 cases", out)
         shutil.rmtree(self.figures)
         made_up.write_lines(self.lines, [*good, made_up.split("Mesh0", "P2", wings=(1, 1))])
@@ -320,7 +297,7 @@ class MemoryFigureTest(StudiesTest):
         self.assert_refused("records.jsonl:1", "not JSON")
 
 
-class OtherFiguresTest(StudiesTest):
+class OtherFiguresTest(drawn.FiguresTest):
     def test_all_methods(self) -> None:
         figure = everything().figures["all_methods"]
         words = words_of(figure)
