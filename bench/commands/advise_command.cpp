@@ -11,7 +11,6 @@
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/plan/blank_record.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/report/prediction.hpp"

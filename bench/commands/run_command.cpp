@@ -11,7 +11,6 @@
 #include "bench/commands/run_parts.hpp"
 #include "bench/external/external_method.hpp"
 #include "bench/measure/environment.hpp"
-#include "bench/plan/blank_record.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/plan/stages.hpp"

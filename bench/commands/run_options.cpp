@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstring>
 #include <set>
 
 #include "bench/commands/command_line.hpp"
@@ -50,6 +49,11 @@ Examples
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
+[[noreturn]] void refuse(const std::string& option, const std::string& text,
+                         const std::string& allowed) {
+  throw UsageError(fmt::format("{}: {} (allowed: {})", option, shortened(text), allowed));
+}
+
 std::string footer() {
   std::string text = "\nStudies\n";
   for (const Study& study : all_studies())
@@ -57,7 +61,7 @@ std::string footer() {
   return text + run_footer;
 }
 
-constexpr std::array<std::pair<std::string_view, std::string_view>, 10> replaced = {{
+const std::map<std::string_view, std::string_view> replaced = {
     {"--adapt-by", "--adapt=GOAL,by=METHOD"},
     {"--budget", "--study=error:SECONDS"},
     {"--histories", "--fields=histories"},
@@ -68,13 +72,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 10> replaced
     {"--precision", "--repetitions=N,precision=2%"},
     {"--then", "the environment variable AIRYBENCH_THEN"},
     {"--tuning-budget", "--timeout=SECONDS,tuning=SECONDS"},
-}};
+};
 
 void refuse_replaced(int argc, const char* const* argv) {
   for (int i = 1; i < argc; ++i) {
-    const std::string_view word = argv[i], name = word.substr(0, word.find('='));
-    for (const auto& [before, now] : replaced)
-      if (name == before) throw UsageError(fmt::format("{}: is now {}", before, now));
+    const std::string_view word = argv[i];
+    if (const auto found = replaced.find(word.substr(0, word.find('='))); found != replaced.end())
+      throw UsageError(fmt::format("{}: is now {}", found->first, found->second));
   }
 }
 
@@ -196,11 +200,9 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
 }
 
-double share_of(const std::string& option, const std::string& text, const char* allowed) {
+double share_of(const std::string& option, const std::string& text, const std::string& example) {
   const std::optional<double> share = parse_percent(text);
-  if (!share)
-    throw UsageError(fmt::format("{}: {} (allowed: above 0% and below 100%, {})", option,
-                                 shortened(text), allowed));
+  if (!share) refuse(option, text, "above 0% and below 100%, " + example);
   return *share;
 }
 
@@ -211,16 +213,12 @@ void read_study(const std::string& text, Options& options) {
   if (!study) {
     std::vector<std::string> names;
     for (const Study& known : all_studies()) names.push_back(known.name);
-    throw UsageError(
-        fmt::format("--study: {} (allowed: {})", shortened(text), fmt::join(names, ", ")));
+    refuse("--study", text, fmt::format("{}", fmt::join(names, ", ")));
   }
   options.study = *study;
   if (colon == text.size()) return;
   if (study->points != Study::Points::accuracy)
-    throw UsageError(
-        fmt::format("--study: {} (allowed: seconds with error, which chooses from "
-                    "points)",
-                    shortened(text)));
+    refuse("--study", text, "seconds with error, which chooses from points");
   for (const std::string& word : split_list(text.substr(colon + 1)))
     options.budgets_s.push_back(
         read_number("--study=" + study->name, word, Least::above_zero, most_of_a_limit));
@@ -240,12 +238,11 @@ void read_repetitions(const std::string& text, Options& options) {
   if (dots < range.size()) {
     options.max_repetitions = static_cast<int>(read_whole(option, range.substr(dots + 2), 1, most));
     if (!options.precision)
-      throw UsageError(fmt::format("{}: {} (allowed: a range with a precision, {},precision=2%)",
-                                   option, shortened(text), shortened(range)));
+      refuse(option, text, "a range with a precision, " + shortened(range) + ",precision=2%");
   }
   if (options.precision && options.max_repetitions < least_repetitions(options))
-    throw UsageError(fmt::format("{}: at most {} (allowed: from {} on)", option,
-                                 options.max_repetitions, least_repetitions(options)));
+    refuse(option, fmt::format("at most {}", options.max_repetitions),
+           fmt::format("from {} on", least_repetitions(options)));
 }
 
 // With budgets, a run may take twice the largest one: a detail run takes longer than a timed run.
@@ -266,17 +263,15 @@ void read_adapt(const std::string& text, Options& options) {
   for (const std::string& item : parts.items.empty() ? none : parts.items) {
     const std::optional<AdaptGoal> goal = adapt_goal_of(item);
     if (!goal)
-      throw UsageError(
-          fmt::format("--adapt: {} (allowed: a total error above 0% and below 100%, as "
-                      "1%, or a number of unknowns from 1 to 5000000)",
-                      shortened(item)));
+      refuse("--adapt", item,
+             "a total error above 0% and below 100%, as 1%, or a number of unknowns from 1 to "
+             "5000000");
     options.adapt.push_back(*goal);
   }
   options.adapt_by = parts.setting("by").value_or(options.adapt_by);
   options.marking = parts.number("marking", 1);
   const std::string levels = parts.setting("levels").value_or("all");
-  if (levels != "all" && levels != "last")
-    throw UsageError(fmt::format("--adapt: levels={} (allowed: all, last)", shortened(levels)));
+  if (levels != "all" && levels != "last") refuse("--adapt", "levels=" + levels, "all, last");
   options.goals_only = levels == "last";
 }
 
@@ -288,8 +283,7 @@ void read_fields(const std::string& text, Options& options) {
     else if (word == "histories")
       options.histories = true;
     else if (word != "true")
-      throw UsageError(
-          fmt::format("--fields: {} (allowed: mean, histories, or no value)", shortened(word)));
+      refuse("--fields", word, "mean, histories, or no value");
 }
 
 // In the scaling study at most the number of processors: beyond it, efficiency means nothing.
@@ -306,12 +300,11 @@ void read_threads(const std::string& text, bool is_given, Options& options) {
   for (const std::string& word : words) {
     const std::optional<std::int64_t> count = parse_whole(word);
     if (!count || *count < 1 || *count > (scaling ? processors : most_threads))
-      throw UsageError(fmt::format(
-          "--threads: {} (allowed: {})", shortened(text),
-          scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
-                                processors)
-                  : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
-                                most_threads)));
+      refuse("--threads", text,
+             scaling ? fmt::format("whole numbers from 1 to {}, the processors of this machine",
+                                   processors)
+                     : fmt::format("a whole number from 1 to {}; a list with --study=scaling",
+                                   most_threads));
     counts.insert(static_cast<int>(*count));
     options.threads = static_cast<int>(*count);
   }
@@ -320,18 +313,17 @@ void read_threads(const std::string& text, bool is_given, Options& options) {
   options.threads = options.thread_counts.back();
 }
 
-void refuse_contradictions(const CLI::App& app, const Options& options) {
+void refuse_contradictions(const Options& options) {
   using enum Study::Points;
-  const auto given = [&](const char* option) { return app.get_option(option)->count() > 0; };
   const bool paper = options.stop == Stop::paper;
   const Study& study = options.study;
   const std::string chosen = "not with --study=" + study.name;
   const std::pair<bool, std::string> rules[] = {
       {!options.adapt.empty() && (options.dry_run || options.explain),
        "--adapt: not with --dry-run or --explain: the meshes are not there yet"},
-      {given("--contact") && paper,
+      {options.contact && paper,
        "--contact: not with --stop=paper, whose contact law is gauss-seidel"},
-      {given("--contact") && study.points == contact,
+      {options.contact && study.points == contact,
        "--contact: " + chosen + ", which has all of them"},
       {paper && study.points == accuracy,
        "--stop=paper: " + chosen + ", which has the paper's stop as a point"},
@@ -361,8 +353,7 @@ Options parse_options(int argc, const char* const* argv) {
   add_measuring(app, options, texts);
   add_output(app, options, texts);
   const char* const* const end = argv + argc;
-  const char* const* const separator = std::find_if(
-      argv, end, [](const char* argument) { return std::strcmp(argument, "--") == 0; });
+  const char* const* const separator = std::find(argv, end, std::string_view("--"));
   const int own = static_cast<int>(separator - argv);
   for (int k = own + 1; k < argc; ++k) take_benchmark_argument(argv[k], options);
   refuse_replaced(own, argv);
@@ -373,11 +364,16 @@ Options parse_options(int argc, const char* const* argv) {
     if (!options.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
   read_study(texts.study, options);
-  for (const auto& [name, value] : options.study.options)
-    if (!given(name.c_str())) {
+  for (const auto& [name, value] : options.study.options) {
+    try {
+      if (given(name.c_str())) continue;
       app.get_option(name)->add_result(value);
       app.get_option(name)->run_callback();
+    } catch (const CLI::Error& wrong) {
+      throw UsageError(fmt::format("--study: the options of {}: {}", options.study.name,
+                                   shortened(wrong.what(), 300)));
     }
+  }
   options.stop = *stop_of(texts.stop);
   if (given("--contact")) options.contact = contact_solver_of(texts.contact);
   read_repetitions(texts.repetitions, options);
@@ -392,13 +388,11 @@ Options parse_options(int argc, const char* const* argv) {
   if (given("--adapt")) read_adapt(texts.adapt, options);
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
-    if (!part)
-      throw UsageError(
-          fmt::format("--shard: {} (allowed: k/n with 1 <= k <= n)", shortened(texts.shard)));
+    if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");
     options.shard = *part;
   }
   if (given("--fields")) read_fields(texts.fields, options);
-  refuse_contradictions(app, options);
+  refuse_contradictions(options);
   if (options.study.once) options.repetitions = 1;
   return options;
 }

@@ -101,15 +101,14 @@ Answer read_answer(const std::filesystem::path& folder) {
       value.refuse(sum, fmt::format("together at most time_s, {}", answer.time_s));
   };
   JsonValue("answer.json", "", json)
-      .object_with_other_keys(
-          {required({"status", read_status}),
-           text_key("message", answer.message),
-           text_key("parameters", answer.parameters),
-           required(amount_key("time_s", answer.time_s, seconds)),
-           {"stages", read_stages},
-           whole("linear_iterations", answer.linear_iterations, 0),
-           whole("contact_iterations", answer.contact_iterations, 0),
-           amount_key("error_estimate", answer.error_estimate, "a number, at least 0")});
+      .take({required({"status", read_status}),
+             text_key("message", answer.message),
+             text_key("parameters", answer.parameters),
+             required(amount_key("time_s", answer.time_s, seconds)),
+             {"stages", read_stages},
+             whole("linear_iterations", answer.linear_iterations, 0),
+             whole("contact_iterations", answer.contact_iterations, 0),
+             amount_key("error_estimate", answer.error_estimate, "a number, at least 0")});
   return answer;
 }
 

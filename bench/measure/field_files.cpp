@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <map>
+#include <numeric>
+#include <string_view>
+#include <type_traits>
 
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
-#include "bench/measure/vtu_file.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "support/atomic_file.hpp"
 
@@ -106,6 +110,100 @@ std::string error_csv(const ConstitutiveError& error) {
   return text;
 }
 
+// VTK's unstructured grids as XML, for ParaView. Arrays are base64 of their memory, so that every
+// number is exact.
+
+enum class VtuCell : std::uint8_t { line = 3, triangle = 5 };  // VTK's own numbers
+
+// Cells share no points, so that values at points may jump between cells.
+struct VtuGrid {
+  VtuCell cell = VtuCell::triangle;
+  std::vector<Eigen::Vector2d> points;  // mm; two per line, three per triangle, cell by cell
+  std::string of_points, of_cells;      // arrays
+};
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::string_view three = bytes.substr(k, 3);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      bits = bits << 8 | (i < three.size() ? static_cast<unsigned char>(three[i]) : 0U);
+    for (std::size_t i = 0; i < 4; ++i)
+      text += i <= three.size() ? digits[bits >> (18 - 6 * i) & 63] : '=';
+  }
+  return text;
+}
+
+template <typename Number>
+std::string type_name() {
+  const char* kind = std::is_floating_point_v<Number> ? "Float"
+                     : std::is_signed_v<Number>       ? "Int"
+                                                      : "UInt";
+  return fmt::format("{}{}", kind, 8 * sizeof(Number));
+}
+
+template <typename Number>
+std::string data_array(const std::string& attributes, const std::vector<Number>& values) {
+  const std::uint64_t size = values.size() * sizeof(Number);
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
+  return fmt::format("<DataArray type=\"{}\" {} format=\"binary\">{}</DataArray>\n",
+                     type_name<Number>(), attributes, base64(bytes));
+}
+
+// values: component by component.
+template <typename Number>
+std::string vtu_array(const std::string& name, const std::vector<Number>& values,
+                      const std::vector<std::string>& components = {}) {
+  std::string attributes = fmt::format("Name=\"{}\"", name);
+  if (!components.empty())
+    attributes += fmt::format(" NumberOfComponents=\"{}\"", components.size());
+  for (std::size_t k = 0; k < components.size(); ++k)
+    attributes += fmt::format(" ComponentName{}=\"{}\"", k, components[k]);
+  return data_array(attributes, values);
+}
+
+std::vector<double> with_z(const std::vector<Eigen::Vector2d>& vectors) {
+  std::vector<double> xyz;
+  for (const Eigen::Vector2d& vector : vectors) xyz.insert(xyz.end(), {vector.x(), vector.y(), 0});
+  return xyz;
+}
+
+std::string vtu_vectors(const std::string& name, const std::vector<Eigen::Vector2d>& vectors) {
+  return vtu_array(name, with_z(vectors), {"x", "y", "z"});
+}
+
+std::string cells_text(VtuCell cell, std::size_t points, std::size_t corners) {
+  std::vector<std::int64_t> connectivity(points), offsets;
+  std::iota(connectivity.begin(), connectivity.end(), 0);
+  for (std::size_t end = corners; end <= points; end += corners)
+    offsets.push_back(static_cast<std::int64_t>(end));
+  const std::vector<std::uint8_t> types(offsets.size(), static_cast<std::uint8_t>(cell));
+  return "<Cells>\n" + data_array("Name=\"connectivity\"", connectivity) +
+         data_array("Name=\"offsets\"", offsets) + data_array("Name=\"types\"", types) +
+         "</Cells>\n";
+}
+
+std::string vtu_text(const VtuGrid& grid) {
+  const std::size_t points = grid.points.size(), corners = grid.cell == VtuCell::line ? 2 : 3;
+  constexpr bool is_little = std::endian::native == std::endian::little;
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
+      "header_type=\"UInt64\">\n"
+      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
+      "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
+      "<Points>\n{}</Points>\n{}</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
+      is_little ? "LittleEndian" : "BigEndian", points, points / corners, grid.of_points,
+      grid.of_cells, data_array("NumberOfComponents=\"3\"", with_z(grid.points)),
+      cells_text(grid.cell, points, corners));
+}
+
 template <typename Number>
 std::vector<Number> of_thirds(const std::vector<Number>& of_triangles) {
   std::vector<Number> values;
@@ -130,14 +228,13 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
       displacements.push_back(c % 3 == 2 ? value_at_centroid(values)
                                          : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
   }
-  grid.of_points.push_back({"stress_MPa", {"xx", "yy", "xy"}, std::move(stresses)});
-  if (u) grid.of_points.push_back(vtu_vectors("displacement_mm", displacements));
+  grid.of_points = vtu_array("stress_MPa", stresses, {"xx", "yy", "xy"});
+  if (u) grid.of_points += vtu_vectors("displacement_mm", displacements);
   const std::vector<int>& bodies = problem.mesh.triangle_body;
-  grid.of_cells.push_back(
-      {"body", {}, of_thirds(std::vector<std::int32_t>(bodies.begin(), bodies.end()))});
-  grid.of_cells.push_back({"triangle", {}, of_thirds(triangles)});
-  if (error != nullptr)
-    grid.of_cells.push_back({"error_share", {}, of_thirds(error_shares(*error))});
+  grid.of_cells =
+      vtu_array("body", of_thirds(std::vector<std::int32_t>(bodies.begin(), bodies.end()))) +
+      vtu_array("triangle", of_thirds(triangles));
+  if (error != nullptr) grid.of_cells += vtu_array("error_share", of_thirds(error_shares(*error)));
   return vtu_text(grid);
 }
 
@@ -152,12 +249,10 @@ std::string vtu_of_contact(const ContactPicture& picture) {
   std::vector<std::int32_t> states;
   for (const ContactState state : picture.state) states.push_back(static_cast<std::int32_t>(state));
   VtuGrid grid = {VtuCell::line, picture.at_mm, {}, {}};
-  grid.of_points = {{"F_n_N", {}, std::move(F_n)},
-                    {"F_t_N", {}, std::move(F_t)},
-                    vtu_vectors("normal", normals),
-                    {"state", {}, std::move(states)}};
-  if (!picture.gap_mm.empty()) grid.of_points.push_back({"gap_mm", {}, picture.gap_mm});
-  if (!picture.slip_mm.empty()) grid.of_points.push_back({"slip_mm", {}, picture.slip_mm});
+  grid.of_points = vtu_array("F_n_N", F_n) + vtu_array("F_t_N", F_t) +
+                   vtu_vectors("normal", normals) + vtu_array("state", states);
+  if (!picture.gap_mm.empty()) grid.of_points += vtu_array("gap_mm", picture.gap_mm);
+  if (!picture.slip_mm.empty()) grid.of_points += vtu_array("slip_mm", picture.slip_mm);
   return vtu_text(grid);
 }
 

@@ -1,8 +1,7 @@
-// Counts the process's heap at the allocator: heap_probe.cpp replaces malloc, calloc, realloc, free
-// and the aligned family, for libraries too. A block counts with its usable size, for the owner
-// that its thread has named (memory_owner.hpp). Memory mapped without the allocator, such as
-// OpenBLAS's packing buffers, is not heap. Sanitizers bring their own allocator: heap_probe_off.cpp
-// then stands in, and is_active() is false.
+// Counts the process's heap: heap_probe.cpp replaces malloc and its family, for libraries too. A
+// block counts with its usable size, for the owner that its thread has named (memory_owner.hpp).
+// Memory mapped without the allocator, such as OpenBLAS's packing buffers, is not heap. Sanitizers
+// bring their own allocator: heap_probe_off.cpp then stands in, and is_active() is false.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,6 @@
 // Measures how steadily the machine computes: a fixed piece of work of one or two milliseconds,
-// timed between the measurements. On an idle machine its times are equal. An LDLᵀ factorisation of
-// 128 rows runs in the caches, two sweeps over 8 MiB in memory; no library takes part. The data are
-// in static storage, outside the heap figures.
+// timed between the measurements. An LDLᵀ factorisation of 128 rows runs in the caches, two sweeps
+// over 8 MiB in memory; no library takes part. The data are in static storage, not on the heap.
 #pragma once
 
 namespace airybench {

@@ -1,5 +1,4 @@
-// What one solve takes besides time: heap by owner (memory_owner.hpp) and by stage, next to the
-// method's own count; resident set; instructions.
+// Heap of one solve by owner (memory_owner.hpp) and by stage, resident set, instructions.
 //
 // Heap bytes exclude what was live before the solve, but include the blocks. An owner's measured
 // bytes are its largest at the ends of stages, when workspace is gone and what the method keeps is

@@ -9,8 +9,6 @@
 #include <new>
 
 #include "bench/measure/heap_probe.hpp"
-#include "bench/plan/blank_record.hpp"
-#include "bench/verify/answer_hash.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -18,19 +16,20 @@ namespace {
 
 constexpr double tightest = 1e-15;  // tolerance of an iteration
 
-bool is_zero(const StressField& stress) {
-  return std::ranges::all_of(stress, [](const ElementStress& s) { return s.isZero(0); });
-}
-
 }  // namespace
 
-Workbench::Workbench(PosedProblem problem, const Options& options, LeftOut left_out)
+Workbench::Workbench(PosedProblem problem, const Options& options, const LeftOut& left_out)
     : posed_(std::move(problem)),
       problem_(held<Problem>(posed_)),
       contact_problem_(held<contact::Problem>(posed_)),
       options_(options),
-      left_out_(std::move(left_out)),
-      no_reference_(problem_ ? left_out_.reference : "a problem without a body") {}
+      blocks_left_out_(left_out.blocks),
+      judge_(posed_, options, left_out) {}
+
+void Workbench::show_on(ActivityBoard* board) {
+  board_ = board;
+  judge_.show_on(board);
+}
 
 void Workbench::prepare(const Method& method) {
   try {
@@ -38,13 +37,11 @@ void Workbench::prepare(const Method& method) {
   } catch (const std::exception&) {  // examine() reports it
     return;
   }
-  reference();
-  if (const auto bound = bound_for(method)) discretisation(*bound);
-  half_steps();
+  judge_.prepare(method);
 }
 
 const AssembledBlocks& Workbench::blocks(Blocks which) {
-  if (const auto broken = left_out_.blocks.find(which); broken != left_out_.blocks.end())
+  if (const auto broken = blocks_left_out_.find(which); broken != blocks_left_out_.end())
     throw std::runtime_error(broken->second);
   auto found = blocks_.find(which);
   if (found == blocks_.end()) {
@@ -55,87 +52,50 @@ const AssembledBlocks& Workbench::blocks(Blocks which) {
   return found->second;
 }
 
-bool Workbench::is_too_large_for_reference() const {
-  return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
-}
-
-double Workbench::reference_error_at_most() const { return options_.target_error / 10; }
-
-const Reference* Workbench::reference(int step) {
-  if (no_reference_.empty() && is_too_large_for_reference())
-    no_reference_ = fmt::format("no reference above n_phi = {}", largest_with_reference);
-  if (references_.empty() && no_reference_.empty()) {
-    const ActivityScope scope(board_, Activity::reference);
-    try {
-      ReferencePath path = references_along(problem_, reference_error_at_most());
-      references_ = std::move(path.steps);
-      no_reference_ = std::move(path.missing);
-    } catch (const std::bad_alloc&) {
-      no_reference_ = "no reference: out of memory";
-    }
-  }
-  return references_.empty() ? nullptr : &references_[static_cast<std::size_t>(step)];
-}
-
-Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
-                                Activity what) {
-  const bool in_detail = what == Activity::detail_run;
-  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
-  const ActivityScope scope(board_, what);
-  RunControl control;
-  control.deadline = Deadline::after(run_limit_s(what, options_));
-  control.histories = in_detail;
-  control.threads = options_.threads;
-  control.stop = options_.stop;
-  control.contact.solver = options_.contact.value_or(control.contact.solver);
-  control.target_error = options_.target_error;
-  control.condition = in_detail && options_.study.condition;
-  control.tolerance = choice.tolerance;
-  control.contact.acceptable = std::max(control.contact.tolerance, options_.target_error / 1000);
-  const bool rss_is_reset = rss::reset_peak();
-  const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
-  const MemoryWatch watch(of_blocks);
-  const std::int64_t limit_base = heap::live_bytes() - of_blocks;
-  std::optional<InstructionCounter> counter;
-  if (what == Activity::memory_run) counter.emplace();
-  Run result;
-  VisitStep visit;
-  if (in_detail)
-    visit = [&](int step, const DualSystem& posed, const Solution& answer) {
-      if (!answer.stress.empty()) result.judged.push_back(judged(step, posed, answer));
-    };
-  double watched_s = 0;
-  const auto start = std::chrono::steady_clock::now();
-  bool refused = false;
+Workbench::Examination Workbench::examine(const Method& method,
+                                          const std::filesystem::path& fields) {
+  Examination examination;
+  auto& [record, choice, program_log] = examination;
+  record = blank_record(posed_, method, options_);
   try {
-    std::optional<heap::Limit> limit;
-    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
-    result.solution = contact_problem_ ? run(choice.solve_contact, *contact_problem_, control)
-                      : what == Activity::tuning
-                          ? run(choice.solve, *blocks.system, control)
-                          : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
-    refused = limit && limit->exceeded();
-  } catch (const std::bad_alloc&) {  // not even a message could be allocated
-    refused = true;
+    take_over(blocks(method.blocks), record);
+  } catch (const std::exception& error) {
+    record.status = Status::breakdown;
+    record.status_reason = fmt::format("assembly: {}", error.what());
+    return examination;
   }
-  result.time_s = seconds_since(start) - watched_s;
-  if (const auto& program = result.solution.program) {  // its memory is not in our heap
-    result.time_s -= program->not_solve_s;
-    if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
-    return result;
+  const AssembledBlocks& assembled = blocks(method.blocks);
+  choice = choose(method, assembled, record);
+  Run run = tighten(method, assembled, choice, record);
+  Solution& solution = run.solution;
+  note_run(run, choice, record);
+  if (solution.program) program_log = std::move(solution.program->log);
+  if (judge_.is_answered(solution)) {
+    verify_run(assembled, run);
+    judge_.judge(method, run.judged, solution, record);
+    if (!fields.empty() && problem_)
+      judge_.write_fields_of(method, *assembled.system, solution, record, fields);
   }
-  if (counter) result.instructions = counter->count();
-  if (heap::is_active()) {
-    result.peak_heap_bytes = watch.peak_bytes();
-    result.memory = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);
+  // The detail run of a path judges between its steps, which takes memory.
+  const bool once =
+      record.load_steps == 1 && (run.time_s > options_.long_case_s || options_.study.once);
+  if (once && is_measured(record)) {
+    record.measured_once = true;
+    add_run(timed(run), record);
+    note_memory(run, record);
   }
-  if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
-  if (refused) {
-    result.solution = Solution();
-    result.solution.status = Status::out_of_memory;
-    result.solution.message = "the memory limit was reached";
-  }
-  return result;
+  return examination;
+}
+
+void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
+  malloc_trim(0);
+  const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
+  note_memory(run, record);
+  record.instructions = run.instructions;
+}
+
+TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
+  return timed(solve(choice, blocks(method.blocks), Activity::timed_run));
 }
 
 Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
@@ -184,7 +144,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   Json attempt = {{"tolerance", choice.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (is_answered(run.solution) && (contact_problem_ || reference() != nullptr)) {
+  if (judge_.is_answered(run.solution) && judge_.knows_errors()) {
     verify_run(blocks, run);
     attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
   }
@@ -226,117 +186,74 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
   }
 }
 
-JudgedStep Workbench::judged(int step, const DualSystem& system, const Solution& solution) {
-  const ActivityScope scope(board_, Activity::verification);
-  const double dissipation = dissipation_Nmm(system, solution);
-  if (solution.displacement.cols() == 0) {
-    const Verification v = verify(system, solution, reference(step));
-    return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
+Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
+                                Activity what) {
+  const bool in_detail = what == Activity::detail_run;
+  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
+  const ActivityScope scope(board_, what);
+  RunControl control;
+  control.deadline = Deadline::after(run_limit_s(what, options_));
+  control.histories = in_detail;
+  control.threads = options_.threads;
+  control.stop = options_.stop;
+  control.contact.solver = options_.contact.value_or(control.contact.solver);
+  control.target_error = options_.target_error;
+  control.condition = in_detail && options_.study.condition;
+  control.tolerance = choice.tolerance;
+  control.contact.acceptable = std::max(control.contact.tolerance, options_.target_error / 1000);
+  const bool rss_is_reset = rss::reset_peak();
+  const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
+  const MemoryWatch watch(of_blocks);
+  const std::int64_t limit_base = heap::live_bytes() - of_blocks;
+  std::optional<InstructionCounter> counter;
+  if (what == Activity::memory_run) counter.emplace();
+  Run result;
+  VisitStep visit;
+  if (in_detail)
+    visit = [&](int step, const DualSystem& posed, const Solution& answer) {
+      if (!answer.stress.empty()) result.judged.push_back(judge_.judged(step, posed, answer));
+    };
+  double watched_s = 0;
+  const auto start = std::chrono::steady_clock::now();
+  bool refused = false;
+  try {
+    std::optional<heap::Limit> limit;
+    if (options_.memory_limit_bytes) limit.emplace(limit_base + *options_.memory_limit_bytes);
+    result.solution = contact_problem_ ? run(choice.solve_contact, *contact_problem_, control)
+                      : what == Activity::tuning
+                          ? run(choice.solve, *blocks.system, control)
+                          : solve_path(choice.solve, *blocks.system, control, visit, watched_s);
+    refused = limit && limit->exceeded();
+  } catch (const std::bad_alloc&) {  // not even a message could be allocated
+    refused = true;
   }
-  JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
-  if (solution.program) {
-    // The program has another discrete law: only the violations in N apply.
-    result.verification.natural_map_residual.reset();
-    // A zero stress from the program does not prove that the body has none.
-    result.verification.unstressed = reference(step) != nullptr && is_zero(reference(step)->stress);
+  result.time_s = seconds_since(start) - watched_s;
+  if (const auto& program = result.solution.program) {  // its memory is not in our heap
+    result.time_s -= program->not_solve_s;
+    if (program->peak_bytes > 0) result.peak_rss_bytes = program->peak_bytes;
+    return result;
+  }
+  if (counter) result.instructions = counter->count();
+  if (heap::is_active()) {
+    result.peak_heap_bytes = watch.peak_bytes();
+    result.memory = watch.split(result.solution, blocks.system ? blocks.system->bytes() : 0);
+  }
+  if (rss_is_reset) result.peak_rss_bytes = rss::peak_bytes();
+  if (refused) {
+    result.solution = Solution();
+    result.solution.status = Status::out_of_memory;
+    result.solution.message = "the memory limit was reached";
   }
   return result;
 }
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
-  if (!run.judged.empty()) return;
-  if (problem_) {
-    run.judged.push_back(judged(0, *blocks.system, run.solution));
-  } else {
-    const ActivityScope scope(board_, Activity::verification);
-    run.judged.push_back({run.solution.status, verify(*contact_problem_, run.solution.F_C)});
-  }
+  if (run.judged.empty()) run.judged.push_back(judge_.judged(blocks, run.solution));
 }
 
-std::optional<Verification> Workbench::verify_as_other_solution(const DualSystem& system,
-                                                                const Solution& solution,
-                                                                const Verification& v) {
-  const auto is_small = [&](double error) { return error <= options_.target_error; };
-  // Only forces that meet the law with the reference's D and G, but differ from its forces.
-  if (is_small(worst_measure(v).value) || !v.friction_coupling ||
-      !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
-    return {};
-  try {
-    const DualSystem posed = assemble(system.problem, Blocks::contact_points);
-    const Reference other = compute_reference(posed, solution.F_C, StartIs::solution);
-    if (!(other.error_estimate <= reference_error_at_most())) return {};
-    const Verification seen = verify(system, solution, &other);
-    return is_small(worst_measure(seen).value) ? std::optional(seen) : std::nullopt;
-  } catch (const Breakdown&) {
-    return {};
-  }
-}
-
-std::string Workbench::prefix_of(std::size_t step) const {
-  return problem_ ? step_prefix(step, *problem_) : "";
-}
-
-void Workbench::judge(const Method& method, const Run& run, Record& record) {
-  const Verification& v = run.judged.back().seen();
-  take_over(v, record);
-  record.answer_hash = answer_hash(v);
-  if (record.status != Status::ok) return;
-  const std::size_t at = worst_step(run.judged);
-  const WorstMeasure worst = worst_measure(run.judged[at].seen());
-  const auto other = std::ranges::find_if(
-      run.judged, [](const JudgedStep& step) { return step.as_other.has_value(); });
-  if (worst.value <= options_.target_error && other != run.judged.end()) {
-    record.other_solution = true;
-    record.status_reason = fmt::format(
-        "{}another solution than the reference's, {:.1e} of its stress away; errors are to this "
-        "one",
-        prefix_of(static_cast<std::size_t>(other - run.judged.begin())),
-        other->verification.error_stress.value_or(0));
-  } else if (!(worst.value <= options_.target_error)) {
-    record.status = Status::inaccurate;
-    record.status_reason = fmt::format("{}{} {:.2e} is above the target {:.0e}", prefix_of(at),
-                                       worst.name, worst.value, options_.target_error);
-  } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
-    record.status_reason = fmt::format(
-        "{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law and that its "
-        "stresses are those of its displacements are checked",
-        no_reference_, *record.error_estimate);
-  } else if (!v.error_stress && !method.in_displacements && problem_) {
-    record.status = Status::inaccurate;
-    record.status_reason = "its error is not known: " + no_reference_;
-  } else if (v.unstressed) {
-    record.status = Status::unstressed;
-    record.status_reason = method.in_displacements
-                               ? "its displacements have no stress: nothing touches or loads what "
-                                 "is free of them"
-                               : "the body has no stress: nothing touches or loads it";
-  } else if (problem_) {
-    note_what_is_idle(*problem_, record);
-    note_large_strains(*problem_, run.solution.stress, record);
-  }
-}
-
-Workbench::Examination Workbench::examine(const Method& method,
-                                          const std::filesystem::path& fields) {
-  Examination examination;
-  Record& record = examination.record;
-  record = blank_record(posed_, method, options_);
-  try {
-    blocks(method.blocks);
-  } catch (const std::exception& error) {
-    record.status = Status::breakdown;
-    record.status_reason = fmt::format("assembly: {}", error.what());
-    return examination;
-  }
-  const AssembledBlocks& assembled = blocks(method.blocks);
-  take_over(assembled, record);
-
-  Choice& choice = examination.choice;
-  choice = choose(method, assembled, record);
-  Run run = tighten(method, assembled, choice, record);
-  Solution& solution = run.solution;
+void Workbench::note_run(const Run& run, const Choice& choice, Record& record) const {
+  const Solution& solution = run.solution;
   note(solution, record);
-  program_log_ = solution.program ? std::move(solution.program->log) : "";
   if (choice.tolerance > 0) record.tolerance = choice.tolerance;
   if (record.tuning_cut && record.status != Status::ok)
     record.status_reason += "; the search was cut: see tuning_cut";
@@ -350,29 +267,6 @@ Workbench::Examination Workbench::examine(const Method& method,
       record.extrapolated_time_s = run.time_s / *solution.done_fraction;
   }
   if (record.load_steps > 1) record.steps = steps_of(run.judged);
-  if (is_answered(solution)) {
-    verify_run(assembled, run);
-    judge(method, run, record);
-    if (problem_) {
-      note_discretisation(method, solution, record);
-      note_half_steps(record);
-    }
-    if (!fields.empty() && problem_)
-      write_fields_of(method, *assembled.system, solution, record, fields);
-  }
-  // The detail run of a path judges between its steps, which takes memory.
-  const bool once =
-      record.load_steps == 1 && (run.time_s > options_.long_case_s || options_.study.once);
-  if (once && is_measured(record)) {
-    record.measured_once = true;
-    add_run(timed(run), record);
-    note_memory(run, record);
-  }
-  return examination;
-}
-
-bool Workbench::is_answered(const Solution& solution) const {
-  return problem_ ? !solution.stress.empty() : solution.F_C.size() > 0;
 }
 
 void Workbench::note_memory(const Run& run, Record& record) {
@@ -380,13 +274,6 @@ void Workbench::note_memory(const Run& run, Record& record) {
   record.peak_rss_bytes = run.peak_rss_bytes;
   record.process_peak_heap_bytes = if_probed(heap::peak_ever_bytes());
   if (run.memory) note(*run.memory, record);
-}
-
-void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
-  malloc_trim(0);
-  const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
-  note_memory(run, record);
-  record.instructions = run.instructions;
 }
 
 TimedRun Workbench::timed(const Run& run) {
@@ -399,10 +286,6 @@ TimedRun Workbench::timed(const Run& run) {
       result.stages[std::string(name_of(stage))] = *seconds;
   if (run.solution.program) result.program_s = run.solution.program->wall_s;
   return result;
-}
-
-TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
-  return timed(solve(choice, blocks(method.blocks), Activity::timed_run));
 }
 
 }  // namespace airybench

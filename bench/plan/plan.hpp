@@ -10,7 +10,7 @@
 #include "assembly/contact_problem.hpp"
 #include "assembly/problem.hpp"
 #include "bench/plan/options.hpp"
-#include "bench/records/case_name.hpp"
+#include "bench/records/record.hpp"
 #include "solvers/base/method.hpp"
 
 namespace airybench {
@@ -62,5 +62,13 @@ std::vector<Case> plan_cases(const std::vector<PosedScene>& scenes,
 std::string fingerprint(const std::vector<Case>& plan);  // SHA-256 of names, meshes, scenes
 
 std::vector<Case> part_of(const std::vector<Case>& plan, const Shard& shard);
+
+// The record of a case before anything runs: names, sizes, stages and the reason to skip it.
+Record blank_record(const PosedProblem& problem, const Method& method, const Options& options);
+Record blank_record(const Case& planned, const Options& options);
+
+void describe(const Method& method, Record& record);
+// Sets scene, mesh file, knob, stop and contact solver.
+void identify(const Case& planned, Record& record);
 
 }  // namespace airybench

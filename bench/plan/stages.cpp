@@ -9,39 +9,37 @@
 
 namespace airybench {
 
-MeshSizes solved_sizes(const Problem& problem) {
-  MeshSizes sizes = mesh_sizes(problem.mesh);
-  if (!problem.has_friction()) {
+MeshSizes solved_sizes(const PosedProblem& problem) {
+  const Problem* const body = body_of(problem);
+  MeshSizes sizes;
+  if (body == nullptr) {
+    sizes.n_c = held<contact::Problem>(problem)->points.size();
+    return sizes;
+  }
+  sizes = mesh_sizes(body->mesh);
+  if (!body->has_friction()) {
     sizes.n_f += sizes.n_c / 2;
     sizes.n_c -= sizes.n_c / 2;
   }
-  sizes.n_f += 2 * static_cast<int>(std::ranges::count(problem.loads.rollers, true));
+  sizes.n_f += 2 * static_cast<int>(std::ranges::count(body->loads.rollers, true));
   return sizes;
 }
 
-MeshSizes solved_sizes(const contact::Problem& problem) {
-  MeshSizes sizes;
-  sizes.n_c = problem.points.size();
-  return sizes;
-}
-
-std::string why_skipped(const contact::Problem&, const Method& method) {
-  return method.solve_contact ? "" : "the problem has no body";
-}
-
-std::string why_skipped(const Problem& problem, const Method& method) {
+std::string why_skipped(const PosedProblem& posed, const Method& method) {
+  const Problem* const body = body_of(posed);
+  if (body == nullptr) return method.solve_contact ? "" : "the problem has no body";
   if (!method.solve)
     return "the problem has a body: HYBRID condenses it, and solves the contact law";
   const bool external = !method.program.empty();
-  if (external && !problem.later_steps.empty())
+  if (external && !body->later_steps.empty())
     return "a path of load steps: other programs are asked for one";
-  if (external && method.condenses_contact() && mesh_sizes(problem.mesh).contact_edges == 0)
+  if (external && method.condenses_contact() && mesh_sizes(body->mesh).contact_edges == 0)
     return "no contact boundary: nothing is left for the program";
-  const std::string why = why_no_blocks(problem.mesh, method.blocks);
+  const std::string why = why_no_blocks(body->mesh, method.blocks);
   if (why.empty()) return why;
   std::vector<std::string> others;
   for (const Method& other : methods())
-    if (why_no_blocks(problem.mesh, other.blocks).empty()) others.push_back(other.name);
+    if (why_no_blocks(body->mesh, other.blocks).empty()) others.push_back(other.name);
   return fmt::format("{} (methods without one: {})", why, fmt::join(others, ", "));
 }
 
@@ -53,23 +51,18 @@ int edges_out_of_reach(const Problem& problem) {
   }));
 }
 
-std::vector<StageDecision> decide_stages(const contact::Problem& problem, const Method& method,
-                                         bool) {
-  if (const std::string why = why_skipped(problem, method); !why.empty())
-    return {{"all stages", false, why}};
-  return {{"contact", true, ""}};
-}
-
-std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
+std::vector<StageDecision> decide_stages(const PosedProblem& posed, const Method& method,
                                          bool fields_asked) {
-  if (const std::string why = why_skipped(problem, method); !why.empty())
+  if (const std::string why = why_skipped(posed, method); !why.empty())
     return {{"all stages", false, why}};
+  if (body_of(posed) == nullptr) return {{"contact", true, ""}};
+  const Problem& problem = *body_of(posed);
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   const bool airy = method.blocks == Blocks::airy;
   const bool contact = sizes.contact_edges > 0;
   const bool friction = problem.has_friction();
   const Loads& loads = problem.loads;
-  const bool constrained = solved_sizes(problem).n_f > 0;
+  const bool constrained = solved_sizes(posed).n_f > 0;
   const bool loaded = loads.displacement_mm || loads.has_body_force();
   const bool forced = loads.traction_MPa || loads.has_body_force();
   const std::string unused = "the method does not work with the Airy function";

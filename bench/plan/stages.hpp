@@ -16,32 +16,16 @@ struct StageDecision {
 };
 
 // The sizes of the system that is solved: without friction, tangential contact rows count in n_f,
-// not in n_c; a roller edge adds two rows to n_f.
-MeshSizes solved_sizes(const Problem& problem);
-MeshSizes solved_sizes(const contact::Problem& problem);  // n_c only
+// not in n_c; a roller edge adds two rows to n_f. Without a body n_c only.
+MeshSizes solved_sizes(const PosedProblem& problem);
 
 // Counts contact edges out of reach of their wall (assembly/contact_conditions.hpp).
 int edges_out_of_reach(const Problem& problem);
 
 // Why a method cannot solve a problem, and which methods can. Empty if it can.
-std::string why_skipped(const Problem& problem, const Method& method);
-std::string why_skipped(const contact::Problem& problem, const Method& method);
+std::string why_skipped(const PosedProblem& problem, const Method& method);
 
-std::vector<StageDecision> decide_stages(const Problem& problem, const Method& method,
+std::vector<StageDecision> decide_stages(const PosedProblem& problem, const Method& method,
                                          bool fields_asked);
-std::vector<StageDecision> decide_stages(const contact::Problem& problem, const Method& method,
-                                         bool fields_asked);
-
-inline MeshSizes solved_sizes(const PosedProblem& problem) {
-  return std::visit([](const auto& own) { return solved_sizes(*own); }, problem);
-}
-inline std::string why_skipped(const PosedProblem& problem, const Method& method) {
-  return std::visit([&](const auto& own) { return why_skipped(*own, method); }, problem);
-}
-inline std::vector<StageDecision> decide_stages(const PosedProblem& problem, const Method& method,
-                                                bool fields_asked) {
-  return std::visit([&](const auto& own) { return decide_stages(*own, method, fields_asked); },
-                    problem);
-}
 
 }  // namespace airybench

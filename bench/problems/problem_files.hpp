@@ -1,6 +1,7 @@
 // The files of a posed problem, for other solvers:
 //
-//   matrix-market  NAME.mtx for every array (matrix_market.hpp)
+//   matrix-market  NAME.mtx for every array: coordinate (sparse) or array (dense, by columns), real
+//                  or integer, lower triangle of a symmetric matrix
 //   npz            S.npz, C_F.npz, C_C.npz, and problem.npz with all dense arrays (numpy_files.hpp)
 //   fclib          problem.hdf5, the condensed problem (fclib.hpp)
 //

@@ -17,17 +17,22 @@ void JsonValue::object(const std::vector<JsonKey>& keys, const std::string& all)
                                 key_.empty() ? "" : shortened(key_ + ": "), shortened(name),
                                 fmt::join(names, ", ")));
   }
-  object_with_other_keys(keys);
+  take(keys);
   if (!all.empty() && json.size() < keys.size()) fail(all);
 }
 
-void JsonValue::object_with_other_keys(const std::vector<JsonKey>& keys) const {
+JsonValue JsonValue::operator[](const std::string& key) const {
+  static const Json missing(Json::value_t::discarded);
   if (!json.is_object()) fail("a JSON object");
+  const auto found = json.find(key);
+  return at(key, found == json.end() ? missing : *found);
+}
+
+void JsonValue::take(const std::vector<JsonKey>& keys) const {
   for (const JsonKey& known : keys)
-    if (const auto found = json.find(known.name); found != json.end())
-      known.take(at(known.name, *found));
-    else if (known.is_required)
-      known.take(at(known.name, Json(Json::value_t::discarded)));
+    if (const JsonValue value = (*this)[known.name];
+        known.is_required || !value.json.is_discarded())
+      known.take(value);
 }
 
 void JsonValue::each(const std::string& allowed,
@@ -63,21 +68,6 @@ Json json_of_file(const std::string& name, const std::string& text) {
   } catch (const Json::exception& wrong) {
     throw FileError(name + ": not JSON: " + without_prefix(wrong));
   }
-}
-
-void read(const JsonValue& value, double& number) {
-  if (!value.json.is_number()) value.fail("a number");
-  number = value.json.get<double>();
-}
-
-void read(const JsonValue& value, bool& flag) {
-  if (!value.json.is_boolean()) value.fail("true, false");
-  flag = value.json.get<bool>();
-}
-
-void read(const JsonValue& value, std::string& text) {
-  if (!value.json.is_string()) value.fail("a text");
-  text = value.json.get<std::string>();
 }
 
 }  // namespace airybench

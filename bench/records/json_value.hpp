@@ -36,14 +36,24 @@ class JsonValue {
     return {file_, key_.empty() ? key : key_ + ": " + key, value};
   }
   JsonValue item(std::size_t k) const { return {file_, key_, json[k]}; }
+  JsonValue operator[](const std::string& key) const;
 
-  // Calls the takers of the keys that are present, in the order of `keys`. If `all` is not empty,
-  // every key is required, and `all` names the allowed values.
+  // Calls the takers of the keys that are present, in the order of `keys`.
+  void take(const std::vector<JsonKey>& keys) const;
+  // The same, and refuses other keys. If `all` is not empty, every key is required, and `all` names
+  // the allowed values.
   void object(const std::vector<JsonKey>& keys, const std::string& all = "") const;
-  void object_with_other_keys(const std::vector<JsonKey>& keys) const;
   void each(const std::string& allowed,
             const std::function<void(const std::string&, const JsonValue&)>& take) const;
 
+  template <typename T>
+  T as(const std::string& allowed) const {
+    try {
+      return json.get<T>();
+    } catch (const Json::exception&) {
+      fail(allowed);
+    }
+  }
   // The item that this value names.
   template <typename Items, typename Name = std::identity>
   const auto& one_of(const Items& items, Name name = {}, const std::string& condition = "") const {
@@ -64,9 +74,11 @@ class JsonValue {
 // Throws FileError, also for a key that is given twice.
 Json json_of_file(const std::string& name, const std::string& text);
 
-void read(const JsonValue& value, double& number);
-void read(const JsonValue& value, bool& flag);
-void read(const JsonValue& value, std::string& text);
+inline void read(const JsonValue& value, double& number) { number = value.as<double>("a number"); }
+inline void read(const JsonValue& value, bool& flag) { flag = value.as<bool>("true, false"); }
+inline void read(const JsonValue& value, std::string& text) {
+  text = value.as<std::string>("a text");
+}
 template <typename T>
 void read(const JsonValue& value, std::optional<T>& target) {
   read(value, target.emplace());

@@ -18,11 +18,8 @@
 
 namespace airybench {
 
-enum class Verdict { not_reproduced, undecided, reproduced };
+enum class Verdict { not_reproduced, undecided, reproduced };  // the least of several decides
 std::string_view name_of(Verdict verdict);
-Verdict opposite(Verdict verdict);                     // undecided stays undecided
-Verdict all_of(const std::vector<Verdict>& verdicts);  // the least; empty: reproduced
-
 // Is the quantity in (low, high]? Undecided if a bound of the range is inside its interval.
 Verdict is_within(const Interval& quantity, const Interval& range);
 inline constexpr double infinity = std::numeric_limits<double>::infinity();

@@ -46,18 +46,10 @@ std::string_view name_of(Verdict verdict) {
   return names[static_cast<std::size_t>(verdict)];
 }
 
-Verdict opposite(Verdict verdict) { return static_cast<Verdict>(2 - static_cast<int>(verdict)); }
-
-Verdict all_of(const std::vector<Verdict>& verdicts) {
-  return verdicts.empty() ? Verdict::reproduced : std::ranges::min(verdicts);
-}
-
 Verdict is_within(const Interval& quantity, const Interval& range) {
-  const auto is_above = [&](double threshold) {
-    if (quantity.low > threshold) return Verdict::reproduced;
-    return quantity.high <= threshold ? Verdict::not_reproduced : Verdict::undecided;
-  };
-  return std::min(is_above(range.low), opposite(is_above(range.high)));
+  if (quantity.high <= range.low || quantity.low > range.high) return Verdict::not_reproduced;
+  return quantity.low > range.low && quantity.high <= range.high ? Verdict::reproduced
+                                                                 : Verdict::undecided;
 }
 
 Ratio ratio_of(const CaseTime& numerator, const CaseTime& denominator) {
@@ -258,7 +250,7 @@ void Evidence::times_over_meshes(const std::string& numerator, const std::string
 Claim Evidence::claim(const std::string& sentence) const {
   Claim claim = claim_;
   claim.sentence = sentence;
-  claim.verdict = parts_.empty() ? Verdict::undecided : all_of(parts_);
+  claim.verdict = parts_.empty() ? Verdict::undecided : std::ranges::min(parts_);
   if (parts_.empty()) claim.open.push_back("no records");
   for (const auto& [why, methods] : missing_) {
     std::vector<std::string> which;

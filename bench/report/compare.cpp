@@ -9,7 +9,7 @@
 #include <map>
 
 #include "bench/records/robust.hpp"
-#include "bench/report/mann_whitney.hpp"
+#include "bench/report/statistics.hpp"
 #include "bench/report/track.hpp"
 #include "support/text_table.hpp"
 

@@ -1,14 +1,10 @@
-// Compares two programs, each run several times on the same cases: which cases became slower or
-// faster, by more than chance and by more than the machine did?
-//
-// The unit is the run, not the repetition: repetitions of a run share clock, load and memory layout
-// and agree with each other far better than with the next run. Each run gives one value per case,
-// the median of its repetitions.
+// Compares two programs, each run several times on the same cases. The unit is the run, because
+// repetitions share clock, load and memory layout: each run gives one value per case, the median of
+// its repetitions.
 //
 //   per case   ratio = median over B's runs / median over A's, with a 95 % bootstrap interval
 //              p: Mann-Whitney test of B's runs against A's, Holm's adjustment over all cases
-//   together   drift = median over the cases of noise_kernel_s in B / in A: the machine's change,
-//              by a fixed kernel that all runs time between the cases
+//   together   drift = median over the cases of noise_kernel_s in B / in A: the machine's change
 //
 // A case is slower if all of these hold; it is faster if they hold for the reciprocals:
 //   p <= 5 %

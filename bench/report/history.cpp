@@ -1,7 +1,6 @@
 #include "bench/report/history.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,10 +8,10 @@
 #include <tuple>
 
 #include "bench/records/context.hpp"
+#include "bench/records/json_value.hpp"
 #include "bench/records/robust.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
-#include "support/shortened.hpp"
 
 namespace airybench {
 namespace {
@@ -33,58 +32,22 @@ Json to_json(const Finding& finding) {
           {"sentence", finding.sentence}};
 }
 
-class ObjectReader {
- public:
-  ObjectReader(const Json& json, std::string place) : json_(json), place_(std::move(place)) {
-    if (!json.is_object())
-      throw RecordError(
-          fmt::format("{}: {} (allowed: a JSON object)", place_, shortened(json_text(json))));
-  }
-  bool has(const char* key) const { return json_.contains(key); }
-  const Json& at(const char* key) const {
-    static const Json null;
-    return has(key) ? json_.at(key) : null;
-  }
-  [[noreturn]] void fail(const char* key, const std::string& allowed) const {
-    throw RecordError(fmt::format("{}: {}: {} (allowed: {})", place_, key,
-                                  shortened(json_text(at(key))), allowed));
-  }
-  template <typename T>
-  T value(const char* key, const char* allowed) const {
-    try {
-      return at(key).get<T>();
-    } catch (const Json::exception&) {
-      fail(key, allowed);
-    }
-  }
-  std::string text(const char* key) const { return value<std::string>(key, "a text"); }
-  bool flag(const char* key) const { return value<bool>(key, "true, false"); }
-  std::optional<double> number(const char* key) const {
-    return at(key).is_null() ? std::nullopt : std::optional(value<double>(key, "a number, null"));
-  }
-  const Json& list(const char* key) const {
-    if (!at(key).is_array()) fail(key, "a list");
-    return at(key);
-  }
-  template <typename Enum, std::size_t size>
-  Enum word(const char* key, const std::array<std::string_view, size>& names) const {
-    const auto found = std::find(names.begin(), names.end(), at(key));
-    if (found == names.end()) fail(key, fmt::format("{}", fmt::join(names, ", ")));
-    return static_cast<Enum>(found - names.begin());
-  }
-
- private:
-  const Json& json_;
-  std::string place_;  // "nights/2026-11-21T030000Z.json: verdict 3"
-};
-
-Finding finding_of(const ObjectReader& verdict) {
-  return {verdict.text("case"),     verdict.word<Lane>("lane", lane_names),
-          verdict.text("quantity"), verdict.at("before"),
-          verdict.at("after"),      verdict.word<Kind>("kind", kind_names),
-          verdict.text("since"),    verdict.number("ratio"),
-          verdict.number("low"),    verdict.number("high"),
-          verdict.text("sentence")};
+Finding finding_of(const JsonValue& verdict) {
+  const auto text = [&](const char* key) { return verdict[key].as<std::string>("a text"); };
+  const auto any = [&](const char* key) { return verdict.json.value(key, Json()); };
+  const auto number = [&](const char* key) {
+    return any(key).is_null() ? std::nullopt
+                              : std::optional(verdict[key].as<double>("a number, null"));
+  };
+  const auto place = [&](const char* key, const auto& names) {
+    return &verdict[key].one_of(names) - names.data();
+  };
+  return {text("case"),     static_cast<Lane>(place("lane", lane_names)),
+          text("quantity"), any("before"),
+          any("after"),     static_cast<Kind>(place("kind", kind_names)),
+          text("since"),    number("ratio"),
+          number("low"),    number("high"),
+          text("sentence")};
 }
 
 bool is_date(const std::string& text) {
@@ -136,22 +99,27 @@ TrackedRun parse_tracked_run(const std::string& text, const fs::path& file) {
     throw RecordError(fmt::format("{}: not a whole night: {} (mend or remove the file)", place,
                                   without_prefix(wrong)));
   }
-  const ObjectReader all(json, place);
-  if (all.at("format") != format_name) all.fail("format", fmt::format("\"{}\"", format_name));
+  const JsonValue all(place, "", json);
+  const auto list = [&](const char* key) -> const Json& {
+    const JsonValue value = all[key];
+    if (!value.json.is_array()) value.fail("a list");
+    return value.json;
+  };
+  all["format"].one_of(std::array{format_name});
   TrackedRun run;
   run.file = file;
-  run.date = all.text("date");
-  if (!is_date(run.date)) all.fail("date", "as 2026-11-21T03:00:00Z");
-  run.context = all.value<std::map<std::string, std::string>>("context", "an object of texts");
-  run.noise_samples_s = ObjectReader(all.at("noise"), place + ": noise")
-                            .value<std::vector<double>>("samples_s", "a list of numbers");
-  for (const Json& one : all.list("cases"))
+  read(all["date"], run.date);
+  if (!is_date(run.date)) all["date"].fail("as 2026-11-21T03:00:00Z");
+  run.context = all["context"].as<std::map<std::string, std::string>>("an object of texts");
+  run.noise_samples_s = all["noise"]["samples_s"].as<std::vector<double>>("a list of numbers");
+  for (const Json& one : list("cases"))
     run.cases.push_back(record_of(one, fmt::format("{}: case {}", place, run.cases.size() + 1)));
-  for (const Json& one : all.list("verdicts"))
-    run.findings.push_back(finding_of(
-        ObjectReader(one, fmt::format("{}: verdict {}", place, run.findings.size() + 1))));
-  run.failed = all.flag("failed");
-  run.times_judged = !all.has("times_judged") || all.flag("times_judged");  // old files lack it
+  for (const Json& one : list("verdicts"))
+    run.findings.push_back(
+        finding_of({place, fmt::format("verdict {}", run.findings.size() + 1), one}));
+  read(all["failed"], run.failed);
+  run.times_judged = true;  // old files lack it
+  all.take({key("times_judged", run.times_judged)});
   return run;
 }
 

@@ -48,15 +48,15 @@ struct TrackedRun {
   std::string machine() const;
 };
 
-// Context and date of the first record. Throws RecordError: no records, or no usable date.
+// Context and date of the first record. Throws FileError: no records, or no usable date.
 TrackedRun tracked_run_of(std::vector<Record> records, const std::string& source);
 
-// Throws RecordError.
+// Throws FileError.
 TrackedRun parse_tracked_run(const std::string& text, const std::filesystem::path& file);
-// By date. Empty if there is no folder. Throws RecordError, with the broken file's name.
+// By date. Empty if there is no folder. Throws FileError, with the broken file's name.
 std::vector<TrackedRun> read_history(const std::filesystem::path& folder);
 
-// A new file's name: the date, with "-2", "-3", … for runs of the same second. Throws RecordError
+// A new file's name: the date, with "-2", "-3", … for runs of the same second. Throws FileError
 // if the history has this very run.
 std::filesystem::path file_for(const TrackedRun& run, const std::filesystem::path& folder,
                                const std::vector<TrackedRun>& history);

@@ -1,7 +1,7 @@
 // Time and memory of planned cases, predicted from earlier records. Time, tuning and memory each
 // use the first of these that exists:
 //   1. the latest record of the same case (mesh, size, scene, method, stop, parameter of a study);
-//   2. the power law over the method's other meshes (power_law.hpp), of the same scene if that has
+//   2. the power law over the method's other meshes (statistics.hpp), of the same scene if that has
 //      two sizes;
 //   3. with one size only: that, with the exponent common to all methods;
 //   4. the same from the closest relative: the other stop, then the name in the family with the
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/records/record_reader.hpp"
-#include "bench/report/power_law.hpp"
+#include "bench/report/statistics.hpp"
 
 namespace airybench {
 
@@ -43,7 +43,7 @@ struct Forecast {
 };
 
 // The records of these folders, studies included, oldest first. Skips folders without records, and
-// unusable files with a line that says why: a prediction must not stop a run.
+// unusable files with a line that says why.
 struct PastRecords {
   std::vector<Record> records;
   std::vector<std::string> passed_over;

@@ -1,15 +1,12 @@
-// Compares the newest run of a history with earlier ones of the same machine. Status, counters and
-// errors do not scatter, so any worsening counts at once; times are searched for changes of level
-// (track_times.hpp).
+// Compares the newest run of a history with earlier ones of the same machine. Times scatter: they
+// are searched for changes of level (track_times.hpp).
 //
 //   status     ok → anything else is worse
-//   counters   iterations, factor entries, flops, storage: any growth is worse. Heap figures and
-//              instructions depend on the libraries: only runs with the same compiler and libraries
-//              are compared. Heap may vary by 0.1 % (rounding of blocks depends on what is free),
-//              instructions by 1 % (interrupts).
-//   errors     growth by more than 1 % and more than 1e-11 is worse. Less is rounding: errors of
-//              direct methods are 1e-12 to 1e-10, and another order of summation moves them by
-//              their own size. 1e-11 is a hundred thousandth of the target error.
+//   counters   any growth is worse. Heap figures and instructions depend on the libraries: only
+//              runs with the same compiler and libraries are compared. Heap may vary by 0.1 %
+//              (rounding of blocks depends on what is free), instructions by 1 % (interrupts).
+//   errors     growth by more than 1 % and more than 1e-11 is worse. Less is rounding: another
+//              order of summation moves errors of direct methods, 1e-12 to 1e-10, by their size.
 //   answer     another answer_hash with unchanged errors: changed, no failure
 #pragma once
 

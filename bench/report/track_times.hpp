@@ -1,16 +1,12 @@
-// Which cases became slower or faster for good over the runs of one machine, and since when?
-//
-// A whole run may be slow or fast: the machine is shared, its clock varies. So in
+// Which cases became slower or faster for good over the runs of one machine, and since when? In
 //   x_ct = a_c + f_t + e_ct        log of the median time of case c in run t
-// the common factor f is removed first, by median polish (Tukey, "Exploratory Data Analysis",
-// 1977): a_c = median over t of x - f, f_t = median over c of x - a. With many cases f is known
-// better than any single kernel's time. A slowdown of all cases is in f, so f_t - log κ_t is tested
-// as one more series, if there are times κ of the reference kernel, which no change of this program
-// or its libraries touches. With fewer than `least_cases` cases f would be their own changes; log
-// κ_t replaces it.
+// the common factor f of a slow or fast run is removed first, by median polish (Tukey, "Exploratory
+// Data Analysis", 1977): a_c = median over t of x - f, f_t = median over c of x - a. A slowdown of
+// all cases is in f, so f_t - log κ_t is tested as one more series, if there are times κ of the
+// reference kernel, which no change of this program or its libraries touches. With fewer than
+// `least_cases` cases f would be their own changes; log κ_t replaces it.
 //
-// The rest of each case is searched for a change of level. x_t, t = 1 .. T, the newest last; NaN:
-// not measured. A value scatters about the level a as
+// The rest of each case is searched for a change of level. A value scatters about the level a as
 //   g(e) = (1 - ε) φ(e; σ) + ε φ(e; ω),   e = x_t - a,   ε = 0.1, ω = 0.25:
 // normal with the series' scale σ, plus single outliers of tens of per cent, which count little
 // because g is flat there. For every run k that may be the first after a change
@@ -34,11 +30,10 @@ namespace airybench {
 
 // Simulated with 50 cases of 2 to 4 % scatter, 5 % outliers and drift (track_times_test.cpp): 0.66
 // false alarms in 100 runs over all cases (95 %: 0.45 to 0.93). A slowdown of one case by 10 % is
-// found within five runs in 95 % of histories of 60 runs, in 92 % of those of 20. With three runs
-// after a change, most false alarms would be three agreeing outliers in a row; hence four.
+// found within five runs in 95 % of histories of 60 runs, in 92 % of those of 20.
 struct TimeRules {
   double minimum_effect = 0.05;  // |δ| - 1.1 standard errors >= log(1 + this)
-  std::size_t least_after = 4;   // agreeing runs after a change
+  std::size_t least_after = 4;   // agreeing runs after a change; three may be outliers in a row
   // Family-wise level of one run's tests, over all cases and the common factor; slowdowns take nine
   // tenths. Tests of a series in successive runs are nearly the same test.
   double level_per_run = 0.012;

@@ -13,7 +13,6 @@
 
 #include "bench/measure/environment.hpp"
 #include "bench/measure/heap_probe.hpp"
-#include "bench/plan/blank_record.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
 #include "support/atomic_file.hpp"
@@ -67,7 +66,7 @@ void serve_case(Channel& channel, const Case& c, const Options& options, Workben
       auto examination = bench.examine(c.method, fields);
       record = std::move(examination.record);
       choice = std::move(examination.choice);
-      keep_log(c, options, bench.program_log());
+      keep_log(c, options, examination.program_log);
     } catch (const FileError& error) {  // from a field or a log
       record = blank_record(c, options);
       record.status = Status::machine_fault;

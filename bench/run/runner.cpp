@@ -14,7 +14,6 @@
 #include <sstream>
 #include <utility>
 
-#include "bench/plan/blank_record.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/robust.hpp"
 #include "bench/records/summary.hpp"

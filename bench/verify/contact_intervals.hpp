@@ -7,16 +7,16 @@
 //
 //   ‖m − σ_exact‖ ‖Aε(v)‖
 //
-// This bound is guaranteed if that of m is, that is without friction. Any v is valid; one with
-// little energy is recovered from HYBRID's solution of the problem that prescribes it. There is
-// none if Γ_C has several normals or meets Γ_D. The other intervals are estimates.
+// which is guaranteed without friction. A v with little energy is recovered from HYBRID's solution
+// of the problem that prescribes it; there is none if Γ_C has several normals or meets Γ_D. The
+// other intervals are estimates.
 //
 // *Pressure:* the largest values of σ and Aε(u) at contact points, widened on both sides by δ with
-// δ² = A_nnnn e_T² / |T|, the average error that the triangle's e_T² allows. At the edge of a punch
-// or a kink of a wall the exact pressure is infinite and has no interval. Such a peak shows in the
-// mean pressure over windows of 1, 2, 4 … edge lengths around it. With each halving of the window
-// the mean grows: at a smooth peak by a quarter of the step before, at a √x cusp by 0.7 of it, at a
-// log x peak by as much, at an x^−α peak by more.
+// δ² = A_nnnn e_T² / |T|, the average error that the triangle's e_T² allows. An infinite pressure,
+// at the edge of a punch or a kink of a wall, has no interval. It shows in the mean pressure over
+// windows of 1, 2, 4 … edge lengths around the peak. With each halving of the window the mean
+// grows: at a smooth peak by a quarter of the step before, at a √x cusp by 0.7 of it, at a log x
+// peak by as much, at an x^−α peak by more.
 //
 // *Ends:* between two contact points of different states, plus one edge on each side.
 #pragma once

@@ -22,7 +22,7 @@
 // without).
 //
 // Averaging is due to Zienkiewicz & Zhu (1987), admissible displacements from stresses to Ladevèze
-// (discretisation_error.hpp). Any admissible field gives a valid e.
+// (discretisation_error.hpp).
 #pragma once
 
 #include "assembly/displacement_field.hpp"

@@ -1,5 +1,5 @@
-// Predicts from one solution how the error would spread over a finer mesh, so that a mesh can be
-// refined several times at once without a solve for each bisection.
+// Predicts from one solution how the error would spread over a finer mesh, so that a mesh is
+// refined several times without a solve for each bisection.
 //
 // Stresses are linear on thirds of a triangle T of area A, so its part of e² is e_T² ~ |∇²σ|² A³.
 // Where the stress is smooth, κ = e_T² / A³ depends on the solution and not on the mesh: a half of
@@ -9,9 +9,8 @@
 //   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T: centroid of T
 //
 // At v this gives a half of T 2^−λ of its part, as required (the ratio counts as at least √(A'/A),
-// for slivers). A vertex is singular if κ falls fast from its triangles to those behind them. The
-// strength cannot be measured from so few triangles: λ = 0.7 for all (corners have 0.5 … 0.8; extra
-// cuts at a vertex cost few triangles). At ends of contact inside Γ_C λ = 3/2, but the ends move,
+// for slivers). A vertex is singular if κ falls fast from its triangles to those behind them; λ =
+// 0.7 for all (corners have 0.5 … 0.8). At ends of contact inside Γ_C λ = 3/2, but the ends move,
 // so they wait for the next mesh.
 //
 // Of all meshes with a given number of triangles the one with equal parts has the least error (e² ~

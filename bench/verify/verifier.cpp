@@ -1,5 +1,7 @@
 #include "bench/verify/verifier.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,7 @@
 #include "assembly/rough_compliance.hpp"
 #include "solvers/base/dense_products.hpp"
 #include "solvers/condensation/hybridized.hpp"
+#include "support/sha256.hpp"
 
 namespace airybench {
 namespace {
@@ -113,6 +116,14 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
 
 double work_of_gap(const ContactPoints& contact, const Eigen::VectorXd& F_C) {
   return contact.gap.size() > 0 ? contact.gap.dot(F_C) : 0;
+}
+
+std::string digits(double value) { return value == 0 ? "0" : fmt::format("{:.4e}", value); }
+
+// value / (|value| + |other|) in steps of 1e-5.
+std::string share(double value, double other) {
+  const double sum = std::abs(value) + std::abs(other);
+  return fmt::format("{}", sum > 0 ? std::llround(value / sum * 1e5) : 0);
 }
 
 }  // namespace
@@ -261,6 +272,18 @@ WorstMeasure worst_measure(const Verification& v) {
   consider("natural_map_residual", v.natural_map_residual);
   consider("distance of stresses from those of the edge moments", v.stress_of_moments_off);
   return worst;
+}
+
+std::string answer_hash(const Verification& v) {
+  const double normal = v.normal_resultant_N.value_or(0);
+  const double tangential = v.tangential_resultant_N.value_or(0);
+  const double complementary = v.complementary_energy_Nmm.value_or(0);
+  if (v.unstressed || !std::isfinite(v.strain_energy_Nmm + complementary + normal + tangential))
+    return "";
+  const std::string rounded =
+      fmt::format("W {} N {} C {} T {}", digits(v.strain_energy_Nmm), digits(normal),
+                  share(complementary, v.strain_energy_Nmm), share(tangential, normal));
+  return sha256_hex(rounded).substr(0, 16);
 }
 
 }  // namespace airybench

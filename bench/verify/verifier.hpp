@@ -61,9 +61,9 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
 // where P projects on Coulomb's cone. It depends on the units of W.
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F_C);
 
-// Replaces the reference for large bodies: are the stresses those of the edge displacements, a
-// compatible field, and do these satisfy the contact law? With equilibrium this is the whole
-// discrete problem. It bounds no error; only the method's own estimate does.
+// Replaces the reference for large bodies: are the stresses those of the edge displacements, and do
+// these satisfy the contact law? With equilibrium this is the whole discrete problem, but it bounds
+// no error.
 inline constexpr int largest_with_reference = 1'000'000;  // n_φ
 struct MomentsCheck {
   StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
@@ -102,5 +102,19 @@ constexpr const char* name_of(ContactState state) {
 // Open: |F_n| ≤ 1e-9 of the largest normal force; slip: |F_t| ≥ (1 − 1e-9) μ|F_n|. Without friction
 // closed points slip.
 std::vector<ContactState> contact_states(const ContactPoints& contact, const Eigen::VectorXd& F_C);
+
+// A fingerprint of an answer's leading digits: equal hashes from different machines, builds or
+// methods mean that they found the same answer.
+//
+// It hashes four rounded sums, which are more accurate than single entries. The rounding puts the
+// likely exact values (no friction, C = −W) in the middle of a step:
+//   strain energy W, normal resultant N   to 5 significant digits
+//   complementary energy C                as C / (W + |C|) in steps of 1e-5
+//   tangential resultant T                as T / (|N| + |T|) in steps of 1e-5
+// A sum may lie at the edge of a step, so an error of 1e-9 changes the hash of about one answer in
+// a thousand, ALM's 1e-7 that of a few in a hundred. If hashes differ, compare the digits.
+//
+// 16 hexadecimal digits of SHA-256. Empty if the answer is unstressed (all rounding) or not finite.
+std::string answer_hash(const Verification& verification);
 
 }  // namespace airybench

@@ -1,11 +1,10 @@
 // Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after another, the coefficients
 // of the vertex and its edges together.
 //
-// For ν near ½ a single coefficient can hardly move without changing the volume of its triangles.
-// Averaging or smoothing point by point leaves changes of volume that cost up to 1/(1 − 2ν) times
-// their share. A star's displacements include some that keep the volumes, as in the smoothers of
-// Arnold, Falk & Winther (2000) for div. On Mesh0 with ν = 0.4999 the distance falls from 14 times
-// the minimum to 2.2 times in one sweep, 1.6 in two.
+// For ν near ½ a single coefficient can hardly move without changing the volume of its triangles,
+// which costs up to 1/(1 − 2ν) times its share. A star's displacements include some that keep the
+// volumes, as in the smoothers of Arnold, Falk & Winther (2000) for div. On Mesh0 with ν = 0.4999
+// the distance falls from 14 times the minimum to 2.2 times in one sweep, 1.6 in two.
 #pragma once
 
 #include <vector>

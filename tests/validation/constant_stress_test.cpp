@@ -198,7 +198,7 @@ TEST_P(ConstantStress, IsExactBetweenTwoRollersAndAWall) {
       const auto problem = testing::posed(scene, mesh);
       const DualSystem system = assemble(problem, method.blocks);
       if (method.blocks == Blocks::airy) {
-        EXPECT_EQ(solved_sizes(*problem).n_f, system.n_f());
+        EXPECT_EQ(solved_sizes(problem).n_f, system.n_f());
       }
       const Solution solution = run(method, system, control_of(method));
       ASSERT_EQ(solution.status, Status::ok) << solution.message;

@@ -22,7 +22,7 @@ inline Record measured(std::shared_ptr<const Problem> problem, const Method& met
   Options options;
   options.repetitions = 1;
   Workbench bench(std::move(problem), options);
-  auto [record, choice] = bench.examine(method, {});
+  auto [record, choice, log] = bench.examine(method, {});
   if (!is_measured(record)) return record;
   bench.measure_memory(method, choice, record);
   add_run(bench.measure_time(method, choice), record);

@@ -52,10 +52,8 @@ std::vector<double> numbers(const Columns& columns, const std::string& name) {
 
 // The tooth without a contact boundary.
 Mesh free_tooth(int nx, int ny) {
-  Mesh mesh = testing::small_tooth(nx, ny);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
-  return mesh;
+  return testing::with_role(testing::small_tooth(nx, ny), BoundaryRole::contact,
+                            BoundaryRole::force);
 }
 
 struct Solved {
@@ -143,8 +141,7 @@ TEST(FieldFiles, GapAndSlipFollowTheContactLaw) {
 
 TEST(FieldFiles, MethodsAgreeOnGapAndSlip) {
   for (const double friction : {0.0, 0.2}) {
-    Scene scene;
-    scene.friction = friction;
+    const Scene scene = {.friction = friction};
     const Mesh mesh = testing::catalogue_mesh("Mesh1");
     const ContactPicture hybrid = Solved(pose(scene, mesh), "HYBRID").contact();
     const ContactPicture p2 = Solved(pose(scene, mesh), "P2").contact();
@@ -168,9 +165,7 @@ TEST(FieldFiles, MethodsAgreeOnGapAndSlip) {
 
 // Slip is that of the last step: what slides on and on slides as far in every step.
 TEST(FieldFiles, SlipIsMeasuredFromTheStepBefore) {
-  Scene whole;
-  whole.crown_radius_mm.reset();
-  whole.displacement_mm = {0.02, 10};
+  const Scene whole = {.crown_radius_mm = {}, .displacement_mm = {0.02, 10}};
   Scene in_steps = whole;
   in_steps.equal_steps = 4;
   const Mesh mesh = testing::small_tooth(6, 5);

@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, MemoryRun,
 
 TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
   Workbench bench(testing::posed(Scene{}, testing::small_tooth(16, 12)), options_);
-  auto [record, choice] = bench.examine(method_, {});
+  auto [record, choice, log] = bench.examine(method_, {});
   bench.measure_memory(method_, choice, record);
   ASSERT_EQ(record.status, Status::ok) << record.status_reason;
   const std::int64_t least = record.storage_bytes.value() + record.blocks_heap_bytes.value();
@@ -261,7 +261,7 @@ TEST_P(MemoryRun, PeakCoversBlocksAndStorage) {
 // Wherever memory runs out, the case is out_of_memory and the process goes on.
 TEST_P(MemoryRun, AnyLimitBelowThePeakIsOutOfMemory) {
   Workbench bench(testing::posed(Scene{}, testing::small_tooth(10, 8)), options_);
-  auto [free, choice] = bench.examine(method_, {});
+  auto [free, choice, log] = bench.examine(method_, {});
   bench.measure_memory(method_, choice, free);
   const std::int64_t peak = free.peak_heap_bytes.value();
   for (int part = 0; part < 60; ++part) {

@@ -27,11 +27,7 @@ void PrintTo(const Method& method, std::ostream* out) { *out << method.name; }
 namespace {
 
 // Every load, friction, and boundaries of all three roles.
-Scene full_scene() {
-  Scene scene;
-  scene.body_force_N_per_mm3 = {3, -1};
-  return scene;
-}
+Scene full_scene() { return {.body_force_N_per_mm3 = {3, -1}}; }
 
 struct LeanScene {
   const char* name;
@@ -42,9 +38,8 @@ struct LeanScene {
     Scene scene = full_scene();
     change(scene);
     Mesh mesh = testing::small_tooth(7, 6);
-    for (BoundaryEdge& edge : mesh.boundary)
-      for (const BoundaryRole role : without)
-        if (edge.role == role) edge.role = BoundaryRole::displacement;
+    for (const BoundaryRole role : without)
+      mesh = testing::with_role(std::move(mesh), role, BoundaryRole::displacement);
     return testing::posed(scene, std::move(mesh));
   }
 };
@@ -97,7 +92,7 @@ RunControl control() {
 Measured measure_now(const LeanScene& scene, const Method& method) {
   const auto problem = scene.posed();
   Measured m;
-  m.stages = decide_stages(*problem, method, /*fields_asked=*/false);
+  m.stages = decide_stages(problem, method, /*fields_asked=*/false);
   const std::int64_t before = heap::live_bytes();
   m.system = assemble(problem, method.blocks);
   m.blocks_bytes = heap::live_bytes() - before;

@@ -10,8 +10,7 @@ namespace {
 Record measured(const Scene& scene, const char* method = "3STEPD",
                 std::optional<BoundaryRole> without = {}) {
   Mesh mesh = testing::small_tooth(14, 10);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == without) edge.role = BoundaryRole::displacement;
+  if (without) mesh = testing::with_role(std::move(mesh), *without, BoundaryRole::displacement);
   Record record =
       testing::measured(testing::posed(scene, std::move(mesh)), select_methods(method).front());
   EXPECT_TRUE(has_answer(record.status)) << record.status_reason;
@@ -32,9 +31,7 @@ TEST(LeavingOut, WithoutABoundaryNothingOfItIsMeasured) {
 }
 
 TEST(LeavingOut, NoFrictionHalvesTheContactProblem) {
-  Scene scene;
-  scene.friction = 0;
-  const Record with = measured({}), none = measured(scene);
+  const Record with = measured({}), none = measured({.friction = 0});
   EXPECT_EQ(2 * none.n_c.value(), with.n_c);
   EXPECT_EQ(none.n_f.value() + none.n_c.value(), with.n_f.value() + with.n_c.value());
 }

@@ -245,7 +245,7 @@ TEST_P(CountedMemory, IsWhatIsMeasured) {
   // Ten times the iterations of the others.
   const char* mesh = method.name.ends_with("schur=sparse") ? "Mesh0" : "Mesh1";
   Workbench bench(testing::posed(Scene{}, testing::catalogue_mesh(mesh)), options);
-  auto [record, choice] = bench.examine(method, {});
+  auto [record, choice, log] = bench.examine(method, {});
   bench.measure_memory(method, choice, record);
   ASSERT_TRUE(record.memory_count_ratio) << record.status_reason;
   EXPECT_FALSE(record.memory_counts_differ) << record.memory_by_owner.dump(1);

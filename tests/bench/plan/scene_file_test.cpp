@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "tests/support/complaint.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::scene_file_test {
@@ -17,15 +18,10 @@ class SceneFile : public ::testing::Test {
   }
   // The complaint without the file's name in front.
   std::string complaint(const std::string& text) {
-    try {
-      read(text);
-    } catch (const InputError& error) {
-      const std::string what = error.what();
-      EXPECT_EQ(what.rfind(file_.string() + ": ", 0), 0u) << what;
-      EXPECT_EQ(what.find('\n'), std::string::npos);
-      return what.substr(file_.string().size() + 2);
-    }
-    return "none";
+    const auto what = testing::complaint_of<InputError>([&] { read(text); });
+    EXPECT_TRUE(what.starts_with(file_.string() + ": ")) << what;
+    EXPECT_EQ(what.find('\n'), std::string::npos);
+    return what.substr(std::min(what.size(), file_.string().size() + 2));
   }
   const testing::TemporaryFolder folder_;
   const std::filesystem::path file_ = folder_ / "my scene.json";
@@ -190,12 +186,7 @@ TEST_F(SceneFile, APolylineOfAFileIsInTheDefinition) {
   EXPECT_EQ(points, (std::vector<Eigen::Vector2d>{{0, 1}, {2, 3.5}}));
   std::ofstream(folder / "profile.csv") << "0 1\n2 a\n";
   const auto said = [&] {
-    try {
-      read_scene_file(file_);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string("none");
+    return testing::complaint_of<InputError>([&] { read_scene_file(file_); });
   };
   const std::string named = file_.string() + ": polyline: " + (folder / "profile.csv").string();
   EXPECT_EQ(said(), named + ":2: '2 a' (allowed: two numbers, x and y in mm)");
@@ -304,12 +295,8 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
 }
 
 TEST_F(SceneFile, AMissingFileIsNamed) {
-  try {
-    read_scene("no/such/scene.json");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "no/such/scene.json: cannot be opened: No such file or directory");
-  }
+  EXPECT_EQ(testing::complaint_of<InputError>([] { read_scene("no/such/scene.json"); }),
+            "no/such/scene.json: cannot be opened: No such file or directory");
 }
 
 }  // namespace

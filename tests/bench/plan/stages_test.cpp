@@ -6,6 +6,7 @@
 #include <map>
 
 #include "assembly/scene.hpp"
+#include "tests/support/posed.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::stages_test {
@@ -13,7 +14,7 @@ namespace {
 
 std::map<std::string, std::string> left_out(const Scene& scene, const char* method,
                                             Mesh mesh = testing::small_tooth(4, 4)) {
-  const Problem problem = pose(scene, std::move(mesh));
+  const auto problem = testing::posed(scene, std::move(mesh));
   std::map<std::string, std::string> result;
   for (const StageDecision& d :
        decide_stages(problem, select_methods(method).front(), /*fields_asked=*/true))
@@ -31,18 +32,14 @@ TEST(Stages, DefaultSceneLeavesOutOnlyWhatItHasNot) {
 }
 
 TEST(Stages, WithoutFrictionTheTangentialLawGoes) {
-  Scene scene;
-  scene.friction = 0;
-  EXPECT_EQ(left_out(scene, "3STEPD").at("contact: tangential law"),
+  EXPECT_EQ(left_out({.friction = 0}, "3STEPD").at("contact: tangential law"),
             "no friction: tangential forces are prescribed to zero");
 }
 
 // Of a tooth that is held where edges have this role.
 std::map<std::string, std::string> left_out_without(BoundaryRole role) {
-  Mesh mesh = testing::small_tooth(4, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == role) edge.role = BoundaryRole::displacement;
-  return left_out({}, "3STEPD", mesh);
+  return left_out({}, "3STEPD",
+                  testing::with_role(testing::small_tooth(4, 4), role, BoundaryRole::displacement));
 }
 
 TEST(Stages, WithoutContactCondensationAndContactLoopGo) {
@@ -58,10 +55,7 @@ TEST(Stages, WithoutForceBoundaryStepTwoGoes) {
 }
 
 TEST(Stages, ZeroLoadsAreNotAssembled) {
-  Scene scene;
-  scene.displacement_mm.setZero();
-  scene.crown_radius_mm.reset();
-  const auto gone = left_out(scene, "3STEPD");
+  const auto gone = left_out({.crown_radius_mm = {}, .displacement_mm = {0, 0}}, "3STEPD");
   EXPECT_EQ(gone.at("assemble q"), "no displacement that strains the body, no body force");
   EXPECT_EQ(gone.at("assemble gap"), "the gap is zero");
 }

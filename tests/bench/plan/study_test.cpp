@@ -9,7 +9,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measure/workbench.hpp"
-#include "bench/plan/blank_record.hpp"
+#include "bench/plan/plan.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/records/record_files.hpp"
 #include "bench/records/record_reader.hpp"

@@ -1,8 +1,6 @@
 // `bench --problem` from outside, and what other commands do with its records.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::given_problem_command_test {
@@ -17,10 +15,7 @@ class GivenProblemCommand : public ::testing::Test {
     return bench_.run("--problem=fclib/problem.hdf5 --repetitions=1 --out=o " + arguments);
   }
   void refused(const std::string& arguments, const std::string& beginning) const {
-    const auto result = bench_.run(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(result.err.rfind("bench: " + beginning, 0), 0u) << result.err;
-    EXPECT_EQ(std::ranges::count(result.err, '\n'), 1) << result.err;
+    bench_.expect_refusal(arguments, "bench: " + beginning);
   }
   const testing::BenchCommand bench_;
 };
@@ -87,10 +82,8 @@ TEST_F(GivenProblemCommand, OtherCommandsTakeItsRecords) {
         "export o --format=junit", "export o --format=google-benchmark",
         "export o --format=github-action", "export o --format=bencher"})
     EXPECT_EQ(bench_.run(arguments).code, 0) << arguments << ": " << bench_.content("err.txt");
-  const auto replayed = bench_.run("replay o:1");
-  EXPECT_EQ(replayed.code, 2);
-  EXPECT_EQ(replayed.err,
-            "bench: o:1: a contact problem of --problem (allowed: cases with a mesh)\n");
+  bench_.expect_refusal("replay o:1",
+                        "o:1: a contact problem of --problem (allowed: cases with a mesh)\n");
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "bench/plan/blank_record.hpp"
+#include "bench/plan/plan.hpp"
 #include "bench/records/json.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
@@ -94,10 +94,7 @@ class ClaimsCommand : public ::testing::Test {
   }
   void expect_refused(const std::string& records, const std::string& complaint) const {
     testing::write_text(bench_.path("records.jsonl"), records);
-    const testing::CommandResult result = run("claims . --out=table.md");
-    EXPECT_EQ(result.code, 2);
-    EXPECT_EQ(result.err, "bench: ./records.jsonl" + complaint + "\n");
-    EXPECT_EQ(result.out, "");
+    bench_.expect_refusal("claims . --out=table.md", "./records.jsonl" + complaint + "\n");
     EXPECT_FALSE(std::filesystem::exists(bench_.path("table.md")));
   }
 
@@ -342,12 +339,8 @@ TEST_F(ClaimsCommand, WrongUsageIsOneLine) {
   EXPECT_EQ(run("claims . --out=table.csv").err,
             "bench: --out: table.csv (allowed: a name that ends in .md)\n");
   for (const char* arguments : {"", "nowhere", ". --stop=mine", ". --wrong", ". more",
-                                ". --out=table.csv", ". --out=nowhere/table.md"}) {
-    const testing::CommandResult result = run(std::string("claims ") + arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "") << arguments;
-  }
+                                ". --out=table.csv", ". --out=nowhere/table.md"})
+    bench_.expect_refusal(std::string("claims ") + arguments, "");
 }
 
 TEST_F(ClaimsCommand, MalformedRecordsAreNamedByLineKeyAndValue) {
@@ -387,13 +380,10 @@ TEST_F(ClaimsCommand, MalformedRecordsAreNamedByLineKeyAndValue) {
   expect_refused(good.dump() + "\n[1]\n", ":2: [1] (allowed: a JSON object)");
   const std::string cut = good.dump().substr(0, 40);
   testing::write_text(bench_.path("records.jsonl"), good.dump() + "\n" + cut + "\n");
-  testing::CommandResult result = run("claims .");
-  EXPECT_EQ(result.code, 2);
-  EXPECT_EQ(result.err.rfind("bench: ./records.jsonl:2: not JSON: ", 0), 0u) << result.err;
-  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+  bench_.expect_refusal("claims .", "bench: ./records.jsonl:2: not JSON: ");
   // The last line of a run that was ended while it wrote.
   testing::write_text(bench_.path("records.jsonl"), good.dump() + "\n" + cut);
-  result = run("claims .");
+  const testing::CommandResult result = run("claims .");
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_NE(result.out.find("1 cases"), std::string::npos) << result.out;
 }

@@ -183,7 +183,7 @@ TEST(History, TwoRunsOfOneSecondAreBothKeptAndOneIsNotTwice) {
   first.file = file_for(first, folder.path(), {});
   second.file = file_for(second, folder.path(), {first});
   EXPECT_EQ(second.file.filename(), "2026-01-01T030000Z-2.json");
-  EXPECT_THROW(file_for(first, folder.path(), {first, second}), RecordError);
+  EXPECT_THROW(file_for(first, folder.path(), {first, second}), FileError);
 }
 
 TEST(Track, TheUsersArgumentsReplaceTheSelection) {

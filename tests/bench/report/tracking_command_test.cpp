@@ -1,13 +1,13 @@
 // `bench compare` and `bench track` as a user calls them.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
 #include "bench/records/record.hpp"
 #include "bench/report/history.hpp"
 #include "tests/support/bench_command.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::tracking_command_test {
@@ -38,11 +38,7 @@ class TrackingCommand : public ::testing::Test {
     testing::write_text(bench_.path(name + "/records.jsonl"), json.dump() + "\n");
   }
   void expect_refused(const std::string& arguments, const std::string& part) {
-    const Result result = run(arguments);
-    EXPECT_EQ(result.code, 2) << arguments;
-    EXPECT_NE(result.err.find(part), std::string::npos) << result.err;
-    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
-    EXPECT_EQ(result.out, "") << arguments;
+    bench_.expect_refusal(arguments, part);
   }
 
   const testing::BenchCommand bench_;
@@ -136,13 +132,8 @@ TEST_F(TrackingCommand, TrackRefusesWhatItCannotUse) {
 }
 
 TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
-  const auto refusal = [](const std::string& text) -> std::string {
-    try {
-      parse_tracked_run(text, "n.json");
-    } catch (const RecordError& error) {
-      return error.what();
-    }
-    return "taken";
+  const auto refusal = [](const std::string& text) {
+    return testing::complaint_of<FileError>([&] { parse_tracked_run(text, "n.json"); });
   };
   const std::string whole = testing::text_of(testing::test_data("fuzz/night/good-one"));
   const Json good = Json::parse(whole);
@@ -150,9 +141,10 @@ TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
   std::vector<std::pair<std::string, std::string>> refused = {
       {whole.substr(0, whole.size() / 2), "n.json: not a whole night: "},
       {"", "n.json: not a whole night: "},
-      {"[]", "n.json: [] (allowed: a JSON object)"}};
+      {"[]", "n.json: the file: [] (allowed: a JSON object)"}};
   for (const auto& [path, value, named] :
-       {std::tuple<const char*, Json, const char*>("/format", 1, "n.json: format: 1 (allowed: \""),
+       {std::tuple<const char*, Json, const char*>(
+            "/format", 1, "n.json: format: 1 (allowed: airybench-night-1)"),
         {"/format", longish, "n.json: format: \"xxx"},
         {"/date", 7, "n.json: date: 7 (allowed: a text)"},
         {"/date", "yesterday", "n.json: date: \"yesterday\" (allowed: as 2026-11-21T03:00:00Z)"},
@@ -176,7 +168,7 @@ TEST(History, RunsThatAreWrongAreNamedByFileKeyAndValue) {
     EXPECT_LT(refusal(text).size(), 250u);
     EXPECT_EQ(refusal(text).find('\n'), std::string::npos);
   }
-  EXPECT_EQ(refusal(whole), "taken");
+  EXPECT_EQ(refusal(whole), "no complaint");
 }
 
 TEST_F(TrackingCommand, TrackRunsAndAddsWhatItMeasured) {

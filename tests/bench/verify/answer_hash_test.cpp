@@ -1,4 +1,4 @@
-#include "bench/verify/answer_hash.hpp"
+#include "bench/verify/verifier.hpp"
 
 #include <gtest/gtest.h>
 
@@ -28,10 +28,8 @@ TEST(AnswerHash, IsTheSameForMethodsAndDiffersBetweenProblems) {
   std::set<std::string> hashes;
   for (const char* name : {"Mesh0", "Mesh1"})
     for (const double friction : {0.2, 0.1}) {
-      Scene scene;
-      scene.friction = friction;
-      const Mesh mesh = testing::catalogue_mesh(name);
-      const DualSystem system = assemble(testing::posed(scene, mesh));
+      const DualSystem system =
+          assemble(testing::posed({.friction = friction}, testing::catalogue_mesh(name)));
       std::set<std::string> of_methods;
       for (const Method& method : select_methods("3STEPD,BLIND,HYBRID")) {
         const Solution solution = run(method, system, {});

@@ -58,9 +58,8 @@ TEST(RecoveredDisplacement, IsNearP2sUpToIncompressibility) {
 }
 
 TEST(RecoveredDisplacement, IsTheExactOneWhereTheStressIsLinear) {
-  Mesh mesh = testing::small_tooth(5, 4);
-  for (BoundaryEdge& edge : mesh.boundary)
-    if (edge.role == BoundaryRole::contact) edge.role = BoundaryRole::force;
+  const Mesh mesh =
+      testing::with_role(testing::small_tooth(5, 4), BoundaryRole::contact, BoundaryRole::force);
   for (const testing::ExactField& exact : testing::exact_fields(2000, 0.3)) {
     const Eigen::Matrix3d c = compliance({2000, 0.3}, Plane::stress);
     const Solved r(make_problem(mesh, {c}, testing::loads_of(exact), 0));

@@ -106,10 +106,9 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  Scene frictionless, heavy;
-  frictionless.friction = 0;
-  heavy.body_force_N_per_mm3 = {0.5, -2};
-  return {{"default", {}}, {"frictionless", frictionless}, {"body force", heavy}};
+  return {{"default", {}},
+          {"frictionless", {.friction = 0}},
+          {"body force", {.body_force_N_per_mm3 = {0.5, -2}}}};
 }
 
 class ExtendedPrecision : public ::testing::TestWithParam<int> {
@@ -178,14 +177,12 @@ TEST_P(ExtendedPrecision, HybridStressesAreTheAiryFunctionsElementByElement) {
 }
 
 TEST(ExtendedPrecision, ErrorOfTheReferenceOnBodiesWithAHole) {
-  Mesh pin = testing::small_ring(12, 3, 2, 6);
-  for (BoundaryEdge& edge : pin.boundary)
-    if (edge.role == BoundaryRole::force) edge.role = BoundaryRole::contact;
+  const Mesh pin = testing::with_role(testing::small_ring(12, 3, 2, 6), BoundaryRole::force,
+                                      BoundaryRole::contact);
   for (const Mesh& mesh : {testing::small_plate(1), pin}) {
     SCOPED_TRACE(mesh.name);
-    Scene scene;
-    scene.crown_radius_mm.reset();
-    const DualSystem system = assemble(testing::posed(scene, mesh), Blocks::contact_points);
+    const DualSystem system =
+        assemble(testing::posed({.crown_radius_mm = {}}, mesh), Blocks::contact_points);
     const Reference reference = compute_reference(system);
     const Errors off = errors(*system.problem, solve_in_quad(system, reference.F_C), reference.F_C,
                               reference.stress);

@@ -1,27 +1,26 @@
-// The discretisation error in a Workbench, and the fields that it writes.
+// A Judge's discretisation errors, and the fields that have them.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <tuple>
 
 #include "bench/measure/field_files.hpp"
-#include "bench/measure/workbench.hpp"
+#include "bench/measure/judge.hpp"
 #include "bench/verify/displacement_recovery.hpp"
+#include "solvers/methods.hpp"
 
 namespace airybench {
 
-std::optional<Workbench::Bound> Workbench::bound_for(const Method& method) const {
+std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // it has its own
-  if (options_.study.points == Study::Points::accuracy || method.in_displacements)
-    return Workbench::Bound::p2;
-  if (!options_.adapt.empty() || options_.fields || options_.study.bounds)
-    return Workbench::Bound::recovery;
+  if (options_.study.points == Study::Points::accuracy || method.in_displacements) return Bound::p2;
+  if (!options_.adapt.empty() || options_.fields || options_.study.bounds) return Bound::recovery;
   return {};
 }
 
-const Workbench::Discretisation* Workbench::discretisation(Bound bound) {
+const Judge::Discretisation* Judge::discretisation(Bound bound) {
   const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && reference() != nullptr && left_out_.discretisation.empty())
+  if (is_new && reference() != nullptr && discretisation_left_out_.empty())
     found->second = compute_discretisation(bound);
   return found->second ? &*found->second : nullptr;
 }
@@ -60,7 +59,7 @@ std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& sy
 }  // namespace
 
 // Each step's system measures slip from the stresses' own past.
-std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound bound) {
+std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound) {
   const ActivityScope scope(board_, Activity::discretisation);
   std::vector<DisplacementField> of_p2;
   Solve solve = select_methods(bound == Bound::p2 ? "P2" : options_.adapt_by).front().solve;
@@ -98,10 +97,10 @@ std::optional<Workbench::Discretisation> Workbench::compute_discretisation(Bound
   return result;
 }
 
-void Workbench::note_error_of_displacement(const Solution& solution, Record& record) {
+void Judge::note_error_of_displacement(const Solution& solution, Record& record) {
   if (reference() == nullptr) {
     record.status = has_answer(record.status) ? Status::inaccurate : record.status;
-    record.status_reason = "its error is not known: " + no_reference_;
+    record.status_reason = "its error is not known: " + references_.missing;
     return;
   }
   const DualSystem system = assemble(problem_, Blocks::contact_points);
@@ -111,33 +110,26 @@ void Workbench::note_error_of_displacement(const Solution& solution, Record& rec
        "its own displacements", record);
 }
 
-void Workbench::note_discretisation(const Method& method, const Solution& solution,
-                                    Record& record) {
-  if (method.in_displacements && solution.program) {
-    note_error_of_displacement(solution, record);
-    return judge_discretisation(method, record);
-  }
+void Judge::note_discretisation(const Method& method, Record& record) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound ? discretisation(*bound) : nullptr;
-  if (record.other_solution)
+  if (record.other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
-  else if (known != nullptr)
+  } else if (known != nullptr) {
     note(known->error, *bound == Bound::p2 ? "P2" : "recovery", record);
-  else if (method.in_displacements)
-    record.no_discretisation_error = !no_reference_.empty()             ? no_reference_
-                                     : left_out_.discretisation.empty() ? "P2 has no answer"
-                                                                        : left_out_.discretisation;
-  if (known != nullptr && !record.other_solution) {
     if (known->intervals) note(*known->intervals, record);
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
       record.steps[k].update(known->of_steps[k]);
+  } else if (method.in_displacements) {
+    record.no_discretisation_error = !references_.missing.empty()       ? references_.missing
+                                     : discretisation_left_out_.empty() ? "P2 has no answer"
+                                                                        : discretisation_left_out_;
   }
-  judge_discretisation(method, record);
 }
 
-const Json* Workbench::half_steps() {
+const Json* Judge::half_steps() {
   if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
-      reference() == nullptr || !left_out_.discretisation.empty())
+      reference() == nullptr || !discretisation_left_out_.empty())
     return nullptr;
   if (!steps_in_halves_) {
     const ActivityScope scope(board_, Activity::discretisation);
@@ -146,28 +138,29 @@ const Json* Workbench::half_steps() {
   return &*steps_in_halves_;
 }
 
-void Workbench::note_half_steps(Record& record) {
+// An error above 100 % is not ok. Gives a reason if a displacement method has no error.
+void Judge::judge_discretisation(const Method& method, const Solution& solution, Record& record) {
+  if (method.in_displacements && solution.program)
+    note_error_of_displacement(solution, record);
+  else
+    note_discretisation(method, record);
   const Json* const halves = half_steps();
-  if (halves == nullptr) return;
-  record.steps_in_halves = *halves;
-  if (record.status == Status::ok && !record.in_displacements) note_slip_of_half_steps(record);
-}
-
-void Workbench::judge_discretisation(const Method& method, Record& record) {
+  if (halves != nullptr) record.steps_in_halves = *halves;
   if (record.status != Status::ok) return;
   if (record.error_discretisation.value_or(0) > 1) {
     record.status = Status::inaccurate;
     record.status_reason = fmt::format("its total error is {:.0f} %: nothing of it is known",
                                        100 * *record.error_discretisation);
-  } else if (method.in_displacements && !record.error_discretisation &&
-             record.status_reason.empty()) {
-    record.status_reason = "its total error is not known: " + record.no_discretisation_error;
+    return;
   }
+  if (method.in_displacements && !record.error_discretisation && record.status_reason.empty())
+    record.status_reason = "its total error is not known: " + record.no_discretisation_error;
+  if (halves != nullptr && !record.in_displacements) note_slip_of_half_steps(record);
 }
 
-void Workbench::write_fields_of(const Method& method, const DualSystem& system,
-                                const Solution& solution, const Record& record,
-                                const std::filesystem::path& file) {
+void Judge::write_fields_of(const Method& method, const DualSystem& system,
+                            const Solution& solution, const Record& record,
+                            const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
   SolvedFields fields{system, solution, {}, nullptr, {}};

@@ -1,0 +1,138 @@
+#include "bench/measure/judge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <new>
+
+namespace airybench {
+
+Judge::Judge(const PosedProblem& problem, const Options& options, const LeftOut& left_out)
+    : problem_(held<Problem>(problem)),
+      contact_problem_(held<contact::Problem>(problem)),
+      options_(options),
+      discretisation_left_out_(left_out.discretisation) {
+  references_.missing = problem_ ? left_out.reference : "a problem without a body";
+  if (references_.missing.empty() && is_too_large_for_reference())
+    references_.missing = fmt::format("no reference above n_phi = {}", largest_with_reference);
+}
+
+void Judge::prepare(const Method& method) {
+  reference();
+  if (const auto bound = bound_for(method)) discretisation(*bound);
+  half_steps();
+}
+
+bool Judge::is_too_large_for_reference() const {
+  return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
+}
+
+const Reference* Judge::reference(int step) {
+  if (references_.steps.empty() && references_.missing.empty()) {
+    const ActivityScope scope(board_, Activity::reference);
+    try {
+      references_ = references_along(problem_, reference_error_at_most());
+    } catch (const std::bad_alloc&) {
+      references_.missing = "no reference: out of memory";
+    }
+  }
+  return references_.steps.empty() ? nullptr : &references_.steps[static_cast<std::size_t>(step)];
+}
+
+bool Judge::is_answered(const Solution& solution) const {
+  return problem_ ? !solution.stress.empty() : solution.F_C.size() > 0;
+}
+
+JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& solution) {
+  const ActivityScope scope(board_, Activity::verification);
+  const double dissipation = dissipation_Nmm(system, solution);
+  if (solution.displacement.cols() == 0) {
+    const Verification v = verify(system, solution, reference(step));
+    return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
+  }
+  JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
+  if (solution.program) {
+    // The program has another discrete law: only the violations in N apply.
+    result.verification.natural_map_residual.reset();
+    // A zero stress from the program does not prove that the body has none.
+    result.verification.unstressed =
+        reference(step) != nullptr &&
+        std::ranges::all_of(reference(step)->stress,
+                            [](const ElementStress& s) { return s.isZero(0); });
+  }
+  return result;
+}
+
+JudgedStep Judge::judged(const AssembledBlocks& blocks, const Solution& solution) {
+  if (problem_) return judged(0, *blocks.system, solution);
+  const ActivityScope scope(board_, Activity::verification);
+  return {solution.status, verify(*contact_problem_, solution.F_C)};
+}
+
+std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& system,
+                                                            const Solution& solution,
+                                                            const Verification& v) {
+  const auto is_small = [&](double error) { return error <= options_.target_error; };
+  // Only forces that meet the law with the reference's D and G, but differ from its forces.
+  if (is_small(worst_measure(v).value) || !v.friction_coupling ||
+      !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
+    return {};
+  try {
+    const DualSystem posed = assemble(system.problem, Blocks::contact_points);
+    const Reference other = compute_reference(posed, solution.F_C, StartIs::solution);
+    if (!(other.error_estimate <= reference_error_at_most())) return {};
+    const Verification seen = verify(system, solution, &other);
+    return is_small(worst_measure(seen).value) ? std::optional(seen) : std::nullopt;
+  } catch (const Breakdown&) {
+    return {};
+  }
+}
+
+void Judge::judge(const Method& method, const std::vector<JudgedStep>& steps,
+                  const Solution& solution, Record& record) {
+  take_over(steps.back().seen(), record);
+  record.answer_hash = answer_hash(steps.back().seen());
+  if (record.status == Status::ok) judge_method_error(method, steps, solution, record);
+  if (problem_) judge_discretisation(method, solution, record);
+}
+
+void Judge::judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
+                               const Solution& solution, Record& record) {
+  const auto give = [&](Status status, const std::string& reason) {
+    record.status = status;
+    record.status_reason = reason;
+  };
+  const Verification& v = steps.back().seen();
+  const std::size_t at = worst_step(steps);
+  const WorstMeasure worst = worst_measure(steps[at].seen());
+  const auto other =
+      std::ranges::find_if(steps, [](const JudgedStep& step) { return step.as_other.has_value(); });
+  if (!(worst.value <= options_.target_error)) {
+    give(Status::inaccurate, fmt::format("{}{} {:.2e} is above the target {:.0e}",
+                                         prefix_of(static_cast<std::int64_t>(at)), worst.name,
+                                         worst.value, options_.target_error));
+  } else if (other != steps.end()) {
+    record.other_solution = true;
+    give(Status::ok, fmt::format("{}another solution than the reference's, {:.1e} of its stress "
+                                 "away; errors are to this one",
+                                 prefix_of(other - steps.begin()),
+                                 other->verification.error_stress.value_or(0)));
+  } else if (v.stress_of_moments_off && is_too_large_for_reference() && record.error_estimate) {
+    give(Status::ok,
+         fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
+                     "and that its stresses are those of its displacements are checked",
+                     references_.missing, *record.error_estimate));
+  } else if (!v.error_stress && !method.in_displacements && problem_) {
+    give(Status::inaccurate, "its error is not known: " + references_.missing);
+  } else if (v.unstressed) {
+    give(Status::unstressed, method.in_displacements
+                                 ? "its displacements have no stress: nothing touches or loads "
+                                   "what is free of them"
+                                 : "the body has no stress: nothing touches or loads it");
+  } else if (problem_) {
+    note_what_is_idle(*problem_, record);
+    note_large_strains(*problem_, solution.stress, record);
+  }
+}
+
+}  // namespace airybench

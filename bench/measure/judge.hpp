@@ -1,0 +1,83 @@
+// Judges answers to one problem: by the contact law, against a reference, and by the discretisation
+// error of the reference. Each is computed when first needed.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "bench/measure/activity_board.hpp"
+#include "bench/measure/load_step_runs.hpp"
+#include "bench/measure/record_notes.hpp"
+#include "bench/plan/options.hpp"
+#include "bench/plan/plan.hpp"
+
+namespace airybench {
+
+// Parts that broke a process and are not tried again; the text says how.
+struct LeftOut {
+  std::map<Blocks, std::string> blocks;
+  std::string reference, discretisation;
+};
+
+class Judge {
+ public:
+  Judge(const PosedProblem& problem, const Options& options, const LeftOut& left_out);
+
+  void show_on(ActivityBoard* board) { board_ = board; }
+  void prepare(const Method& method);
+
+  bool is_answered(const Solution& solution) const;  // there is something to judge
+  bool knows_errors() { return contact_problem_ || reference() != nullptr; }
+  JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
+  JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
+  // The status may become worse; steps: of the whole path.
+  void judge(const Method& method, const std::vector<JudgedStep>& steps, const Solution& solution,
+             Record& record);
+  void write_fields_of(const Method& method, const DualSystem& system, const Solution& solution,
+                       const Record& record, const std::filesystem::path& file);
+
+ private:
+  // Discretisation error of the reference's stresses with P2's displacements, or of adapt_by's
+  // stresses with displacements recovered from them.
+  enum class Bound { p2, recovery };
+  struct Discretisation {  // of the last load step
+    ConstitutiveError error;
+    DisplacementField u;
+    std::optional<ContactIntervals> intervals;  // for recovery, if the error is valid
+    Json of_steps = Json::array();              // merged into Record::steps
+  };
+
+  bool is_too_large_for_reference() const;
+  double reference_error_at_most() const { return options_.target_error / 10; }
+  const Reference* reference(int step = 0);  // null: references_.missing says why
+  std::string prefix_of(std::int64_t step) const {
+    return problem_ ? step_prefix(step, *problem_) : "";
+  }
+  // Against the nearest solution, if that is not the reference's.
+  std::optional<Verification> verify_as_other_solution(const DualSystem& system,
+                                                       const Solution& solution,
+                                                       const Verification& v);
+  void judge_method_error(const Method& method, const std::vector<JudgedStep>& steps,
+                          const Solution& solution, Record& record);
+
+  std::optional<Bound> bound_for(const Method& method) const;
+  const Discretisation* discretisation(Bound bound);  // null: stresses or displacements are missing
+  std::optional<Discretisation> compute_discretisation(Bound bound);
+  void judge_discretisation(const Method& method, const Solution& solution, Record& record);
+  void note_discretisation(const Method& method, Record& record);
+  // For an external program: its displacements, made admissible.
+  void note_error_of_displacement(const Solution& solution, Record& record);
+  // A path with friction in twice as many steps; null without such a path or a reference.
+  const Json* half_steps();
+
+  std::shared_ptr<const Problem> problem_;                   // null: there is no body
+  std::shared_ptr<const contact::Problem> contact_problem_;  // null if there is a body
+  const Options& options_;
+  std::string discretisation_left_out_;
+  ActivityBoard* board_ = nullptr;
+  ReferencePath references_;
+  std::map<Bound, std::optional<Discretisation>> discretisation_;
+  std::optional<Json> steps_in_halves_;
+};
+
+}  // namespace airybench
