@@ -11,27 +11,34 @@
 #include <sstream>
 
 #include "bench/external/json_file.hpp"
+#include "bench/records/record.hpp"
 #include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
 
+// The program has ended: nothing changes between a check and what follows.
 bool is_file(const std::filesystem::path& file) {
   std::error_code unknown;
-  return std::filesystem::is_regular_file(file, unknown);
+  return std::filesystem::is_directory(symlink_status(file.parent_path(), unknown)) &&
+         std::filesystem::is_regular_file(symlink_status(file, unknown));
 }
 
 // Messages omit the folder's name, which means nothing to a user.
-std::string text_of(const std::filesystem::path& folder, const std::string& name) {
+std::filesystem::path file_in(const std::filesystem::path& folder, const std::string& name,
+                              std::uintmax_t most_bytes) {
   if (!is_file(folder / name)) throw FileError(name + ": there is none in {output}");
-  return file_text(folder / name);
+  if (const auto bytes = file_size(folder / name); bytes > most_bytes)
+    throw FileError(fmt::format("{}: {} bytes (allowed: up to {})", name, bytes, most_bytes));
+  return folder / name;
 }
 
 bool is_amount(const Json& value) { return value.is_number() && value.get<double>() >= 0; }
 
 template <typename Whole>
 void read_count(JsonFile& json, const char* key, std::optional<Whole>& count) {
-  constexpr std::int64_t most = std::numeric_limits<Whole>::max();
+  constexpr auto most =
+      std::min<std::int64_t>(std::numeric_limits<Whole>::max(), field_kind::most_count);
   json.read(key, JsonFile::Need::may_be_left_out, fmt::format("a whole number from 0 to {}", most),
             [&](const Json& value) {
               if (!value.is_number_integer() || value < 0 || value > most) return false;
@@ -49,7 +56,8 @@ Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string&
   if (!file || !start.starts_with(std::string("\x93NUMPY\x01\x00", 8)))
     throw FileError(name + ": its first bytes (allowed: NumPy's format 1.0)");
   const auto byte = [&](int at) { return static_cast<unsigned char>(start[at]); };
-  std::string header(byte(8) + 256U * byte(9), '\0');
+  constexpr unsigned longest = 1000;  // a regular expression takes stack by the character
+  std::string header(std::min(longest, byte(8) + 256U * byte(9)), '\0');
   file.read(header.data(), static_cast<std::streamsize>(header.size()));
   static const std::regex form(
       R"(\{'descr': '<f8', 'fortran_order': (True|False), 'shape': \((\d+), ?(\d*)\), \}\s*)");
@@ -79,7 +87,8 @@ Answer read_answer(const std::filesystem::path& folder) {
   constexpr std::array<Status, 4> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
                                               Status::breakdown};
   constexpr const char* seconds = "seconds, at least 0";
-  JsonFile json("answer.json", text_of(folder, "answer.json"));
+  constexpr std::size_t most_bytes = 1 << 20;
+  JsonFile json("answer.json", file_text(file_in(folder, "answer.json", most_bytes)));
   Answer answer;
   json.read("status", needed, fmt::format("{}", fmt::join(names_of(statuses), ", ")),
             [&](const Json& value) {
@@ -139,7 +148,10 @@ Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::strin
   if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
       is_file(folder / binary))
     return read_npy(folder, binary, rows, columns);
-  std::istringstream file(text_of(folder, name));
+  constexpr std::uintmax_t most_bytes_per_number = 100, most_bytes_of_comments = 1 << 20;
+  const auto numbers = static_cast<std::uintmax_t>(rows * columns);
+  std::ifstream file(
+      file_in(folder, name, most_bytes_of_comments + most_bytes_per_number * numbers));
   std::string line;
   int number = 0;
   const auto next_line = [&] {
