@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <random>
 #include <system_error>
 
 #include "support/errors.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {
@@ -124,21 +124,6 @@ void write_folder_atomically(const fs::path& asked, const Files& files) {
   if (rename(made.c_str(), folder.c_str()) != 0)  // replaces an empty folder
     fail_to_write(folder, errno);
   sync_folder(folder.parent_path());
-}
-
-TemporaryFolder::TemporaryFolder() {
-  const char* given = std::getenv("TMPDIR");
-  const fs::path parent = fs::absolute(given == nullptr || *given == '\0' ? "/tmp" : given);
-  std::string name = (parent / "airybench-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr)
-    throw FileError("TMPDIR: " + parent.string() +
-                    ": no folder can be made there: " + std::generic_category().message(errno));
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  fs::remove_all(path_, ignored);
 }
 
 }  // namespace airybench

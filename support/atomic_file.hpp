@@ -22,20 +22,6 @@ void check_is_free(const std::filesystem::path& folder);
 // Also makes its parents. Throws FileError.
 void make_folder(const std::filesystem::path& folder);
 
-// The destructor removes the folder with all its content.
-class TemporaryFolder {
- public:
-  TemporaryFolder();  // new, below $TMPDIR; throws FileError
-  explicit TemporaryFolder(std::filesystem::path folder) : path_(std::move(folder)) {}
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 // Continues after partial writes. Returns 0 or errno.
 int write_all(int descriptor, std::string_view bytes);
 // False if the file of that name was removed or replaced since it was opened.

@@ -24,10 +24,11 @@
 #include <new>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
-#include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
 #include "support/seconds_since.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
@@ -35,9 +36,40 @@ namespace {
 
 constexpr int poll_ms = 100;
 
+double now_s(clockid_t clock) {
+  timespec now = {};
+  clock_gettime(clock, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Called several times a second. A call that is late tells that this process was suspended, by
+// SIGSTOP or a freezer; CLOCK_BOOTTIME tells it of a suspended machine, whose other clocks stop.
+class Ticks {
+ public:
+  struct Tick {
+    double counted_s, suspended_s;  // since the last tick, together
+    bool is_late;
+  };
+  Tick next() {
+    constexpr double longest_s = 1;
+    const double since_s = passed_s(CLOCK_MONOTONIC, last_s_);
+    const double counted_s = std::min(since_s, longest_s);
+    return {counted_s, since_s - counted_s, passed_s(CLOCK_BOOTTIME, last_boot_s_) > longest_s};
+  }
+
+ private:
+  static double passed_s(clockid_t clock, double& last_s) {
+    const double now = now_s(clock);
+    return now - std::exchange(last_s, now);
+  }
+  double last_s_ = now_s(CLOCK_MONOTONIC), last_boot_s_ = now_s(CLOCK_BOOTTIME);
+};
+
 [[noreturn]] void fail_to(const char* what, int error = errno) {
   throw std::system_error(error, std::generic_category(), what);
 }
+
+bool is_closed(int error) { return error == EPIPE || error == ECONNRESET; }
 
 enum class WhenParentEnds { end, go_on };
 pid_t start(WhenParentEnds then, const std::function<void()>& body) {
@@ -83,6 +115,8 @@ std::string signal_name(int signal) {
 std::string how_it_ended(const ChildEnd& end, double limit_s) {
   if (end.start_error != 0)
     return "cannot be started: " + std::generic_category().message(end.start_error);
+  if (end.channel_error != 0)
+    return "cannot be asked: " + std::generic_category().message(end.channel_error);
   if (end.timed_out) return fmt::format("was ended after the limit of {:.3g} s", limit_s);
   if (end.over_memory) return "was ended: it passed the memory limit";
   if (end.signal == SIGXFSZ) return "was ended by SIGXFSZ: a file that it wrote became too large";
@@ -110,16 +144,17 @@ Channel::~Channel() { close(socket_); }
 
 bool Channel::send(const std::string& line) {
   const std::string text = line + "\n";
-  for (std::size_t sent = 0; sent < text.size();) {
+  for (std::size_t sent = 0; sent < text.size() && error_ == 0;) {
     const ssize_t n = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (n < 0 && errno != EINTR) return false;
+    if (n < 0 && is_closed(errno)) return false;
+    if (n < 0 && errno != EINTR) error_ = errno;
     if (n > 0) sent += static_cast<std::size_t>(n);
   }
-  return true;
+  return error_ == 0;
 }
 
 std::optional<std::string> Channel::receive(const std::function<bool()>& give_up) {
-  for (;;) {
+  while (error_ == 0) {
     if (const std::size_t end = received_.find('\n'); end != received_.npos) {
       std::string line = received_.substr(0, end);
       received_.erase(0, end + 1);
@@ -132,9 +167,11 @@ std::optional<std::string> Channel::receive(const std::function<bool()>& give_up
     std::array<char, 65536> buffer;
     const ssize_t n = recv(socket_, buffer.data(), buffer.size(), 0);
     if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return {};
-    received_.append(buffer.data(), static_cast<std::size_t>(n));
+    if (n == 0 || (n < 0 && is_closed(errno))) return {};
+    if (n < 0) error_ = errno;
+    if (n > 0) received_.append(buffer.data(), static_cast<std::size_t>(n));
   }
+  return {};
 }
 
 ChildProcess::ChildProcess(const std::function<void(Channel&)>& body)
@@ -147,7 +184,7 @@ ChildProcess::ChildProcess(const std::function<void(Channel&)>& body)
     close(ends[0]);
     Channel channel(ends[1]);
     run_child(body, channel);
-    _exit(0);
+    _exit(channel.error() != 0 ? no_channel_exit_code : 0);
   });
   const int error = errno;
   close(ends[1]);
@@ -186,20 +223,24 @@ bool ChildProcess::is_stopped() const {
          state.si_pid == pid_;
 }
 
-std::optional<std::string> ChildProcess::ask(const std::string& line,
-                                             const std::function<bool()>& give_up) {
+std::optional<std::string> ChildProcess::ask(const std::string& line, const GiveUp& give_up) {
   if (pid_ < 0) return {};
   constexpr int most_stopped_ms = 5000;
   int stopped_ms = 0;
+  Ticks ticks;
+  was_suspended_ = false;
   const auto gives_up = [&] {
+    const Ticks::Tick tick = ticks.next();
     stopped_ms = is_stopped() ? stopped_ms + poll_ms : 0;
+    was_suspended_ |= tick.is_late || stopped_ms > 0;
     end_.stopped = stopped_ms > most_stopped_ms;
-    end_.timed_out = give_up && give_up();
+    end_.timed_out = give_up(tick.suspended_s);
     return end_.stopped || end_.timed_out;
   };
   std::optional<std::string> answer;
   if (channel_->send(line)) answer = channel_->receive(gives_up);
-  if (!answer) finish(end_.timed_out || end_.stopped ? 0 : 2000);
+  end_.channel_error = channel_->error();
+  if (!answer) finish(end_.timed_out || end_.stopped || end_.channel_error != 0 ? 0 : 2000);
   return answer;
 }
 
@@ -234,6 +275,21 @@ std::vector<pid_t> descendants(pid_t of) {
   }
   found.erase(found.begin());
   return found;
+}
+
+// Repeats because a process may start another while they are killed.
+void end_descendants(const std::vector<pid_t>& except,
+                     const std::function<void(pid_t, int status)>& reaped = {}) {
+  for (bool any = true; any; usleep(1000)) {
+    any = false;
+    for (const pid_t process : descendants(getpid())) {
+      if (std::ranges::find(except, process) != except.end()) continue;
+      any = true;
+      kill(process, SIGKILL);
+      int status = 0;
+      if (waitpid(process, &status, WNOHANG) > 0 && reaped) reaped(process, status);
+    }
+  }
 }
 
 std::int64_t resident_peak_bytes(pid_t process) {
@@ -279,7 +335,8 @@ class Guardian {
 
   void run(pid_t parent) {
     prctl(PR_SET_CHILD_SUBREAPER, 1);
-    sigset_t all, before;  // the guardian must outlive a signal that ends its parent
+    prctl(PR_SET_PDEATHSIG, SIGCONT);  // a stopped one must see that its parent has ended
+    sigset_t all, before;              // the guardian must outlive a signal that ends its parent
     sigfillset(&all);
     sigprocmask(SIG_BLOCK, &all, &before);
     std::signal(SIGCHLD, SIG_DFL);
@@ -301,12 +358,13 @@ class Guardian {
     // Until then its memory is a copy of ours, which must not be counted.
     close(until_executed[1]);
     for (char nothing; read(until_executed[0], &nothing, 1) < 0 && errno == EINTR;) continue;
-    while (!is_over(seconds_since(begun)) && getppid() == parent)
-      wait_for_child(seconds_since(begun));
+    Ticks ticks;
+    double counted_s = 0;
+    while (!is_over(counted_s += ticks.next().counted_s) && getppid() == parent)
+      wait_for_child(counted_s);
     end_.wall_s = seconds_since(begun);
-    end_all();
-    if (std::error_code ignored; getppid() != parent)
-      std::filesystem::remove_all(program_.scratch, ignored);
+    end_descendants({}, [this](pid_t process, int status) { note(process, status); });
+    if (getppid() != parent) remove_folder(program_.scratch);
   }
 
  private:
@@ -331,20 +389,12 @@ class Guardian {
 
   void reap() {
     int status = 0;
-    for (pid_t ended; (ended = waitpid(-1, &status, WNOHANG)) > 0;) {
-      if (ended != program_pid_) continue;
-      has_ended_ = true;
-      note_status(status, end_);
-    }
+    for (pid_t ended; (ended = waitpid(-1, &status, WNOHANG)) > 0;) note(ended, status);
   }
-
-  // Repeats because a process may start another while they are killed.
-  void end_all() {
-    for (std::vector<pid_t> left; !(left = descendants(getpid())).empty();) {
-      for (const pid_t process : left) kill(process, SIGKILL);
-      reap();
-      usleep(1000);
-    }
+  void note(pid_t ended, int status) {
+    if (ended != program_pid_) return;
+    has_ended_ = true;
+    note_status(status, end_);
   }
 
   const Program& program_;
@@ -354,18 +404,35 @@ class Guardian {
   bool has_ended_ = false;
 };
 
+// Waits for its end. The program may have stopped it.
+int status_of(pid_t guardian) {
+  int status = 0;
+  for (;;) {
+    const pid_t waited = waitpid(guardian, &status, WUNTRACED);
+    if (waited < 0 && errno != EINTR) return 0;
+    if (waited == guardian && !WIFSTOPPED(status)) return status;
+    kill(guardian, SIGCONT);
+  }
+}
+
 }  // namespace
 
 ChildEnd run_program(const Program& program, const ProgramLimits& limits) {
   const SharedEnd end;
   const pid_t parent = getpid();
+  const std::vector<pid_t> others = descendants(parent);
+  int adopts = 0;
+  prctl(PR_GET_CHILD_SUBREAPER, &adopts);
+  prctl(PR_SET_CHILD_SUBREAPER, 1);  // of a guardian that is killed
   const pid_t guardian =
       start(WhenParentEnds::go_on, [&] { Guardian(program, limits, *end).run(parent); });
-  if (guardian < 0) fail_to("a program's process");
-  int status = 0;
-  while (waitpid(guardian, &status, 0) < 0 && errno == EINTR) continue;
-  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
-    throw std::runtime_error("the program's guardian was ended");
+  const int error = errno;
+  const int status = guardian < 0 ? 0 : status_of(guardian);
+  const bool is_killed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+  if (is_killed) end_descendants(others);
+  prctl(PR_SET_CHILD_SUBREAPER, adopts);
+  if (guardian < 0) fail_to("a program's process", error);
+  if (is_killed) throw std::runtime_error("the program's guardian was ended");
   return *end;
 }
 

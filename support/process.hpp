@@ -26,6 +26,7 @@ struct ChildEnd {
   bool over_memory = false;             // its processes together passed the limit
   bool stopped = false;                 // it was suspended (SIGSTOP) for seconds
   bool lingered = false;                // it closed its channel but did not exit
+  int channel_error = 0;                // errno of a failed send or receive
   bool used_up_processor_time = false;  // up to its limit (ulimit -t)
   std::optional<bool> oom_killed;       // SIGKILL while the kernel's count of OOM kills rose
   double wall_s = 0;                    // of a program
@@ -45,16 +46,19 @@ class Channel {
   Channel(const Channel&) = delete;
   Channel& operator=(const Channel&) = delete;
 
-  bool send(const std::string& line);  // false if the other end is closed
-  // Empty if the other end is closed or give_up(), asked ten times a second, returns true.
+  // Both fail if the other end is closed, and always after an error().
+  bool send(const std::string& line);
+  // Also empty if give_up(), asked ten times a second, returns true.
   std::optional<std::string> receive(const std::function<bool()>& give_up = {});
+  int error() const { return error_; }  // errno of a failed call, not of a closed end
 
  private:
-  int socket_;
+  int socket_, error_ = 0;
   std::string received_;
 };
 
-inline constexpr int no_memory_exit_code = 97;  // a ChildProcess ran out of memory
+// Of a ChildProcess: it ran out of memory; its channel failed.
+inline constexpr int no_memory_exit_code = 97, no_channel_exit_code = 98;
 
 // A fork shares its parent's memory without a copy. The parent must not have started threads that
 // the child needs (OpenMP). The child ignores signals from the terminal.
@@ -66,10 +70,14 @@ class ChildProcess {
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
+  // suspended_s: for which this process was suspended since the last call.
+  using GiveUp = std::function<bool(double suspended_s)>;
   // Empty if the child has ended: see end(). Kills it if give_up() is true or it stays suspended.
-  std::optional<std::string> ask(const std::string& line,
-                                 const std::function<bool()>& give_up = {});
+  std::optional<std::string> ask(
+      const std::string& line, const GiveUp& give_up = [](double) { return false; });
   const ChildEnd& end() const { return end_; }
+  // During the last ask(): the child, or this process for over a second.
+  bool was_suspended() const { return was_suspended_; }
 
  private:
   void finish(int patience_ms);  // reaps the child; kills it after patience_ms
@@ -79,6 +87,7 @@ class ChildProcess {
   std::optional<std::int64_t> oom_kills_before_;
   std::optional<Channel> channel_;
   ChildEnd end_;
+  bool was_suspended_ = false;
 };
 
 struct Program {
@@ -104,6 +113,8 @@ struct ProgramLimits {
 //
 // peak_bytes is the largest sum, at any check, of the resident peaks (VmHWM) of all live processes:
 // for one process its peak up to the last check, for several an upper bound; 0 if never checked.
+//
+// The guardian's suspension does not count for time_s, the program's does.
 //
 // Throws std::system_error (no process, no shared memory), std::runtime_error (guardian killed).
 ChildEnd run_program(const Program& program, const ProgramLimits& limits);

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "bench/records/json_value.hpp"
+#include "bench/records/record.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/shortened.hpp"
@@ -18,15 +19,20 @@
 namespace airybench {
 namespace {
 
+// The program has ended: nothing changes between a check and what follows.
 bool is_file(const std::filesystem::path& file) {
   std::error_code unknown;
-  return std::filesystem::is_regular_file(file, unknown);
+  return std::filesystem::is_directory(symlink_status(file.parent_path(), unknown)) &&
+         std::filesystem::is_regular_file(symlink_status(file, unknown));
 }
 
 // Messages omit the folder's name, which means nothing to a user.
-std::string text_of(const std::filesystem::path& folder, const std::string& name) {
+std::filesystem::path file_in(const std::filesystem::path& folder, const std::string& name,
+                              std::uintmax_t most_bytes) {
   if (!is_file(folder / name)) throw FileError(name + ": there is none in {output}");
-  return file_text(folder / name);
+  if (const auto bytes = file_size(folder / name); bytes > most_bytes)
+    throw FileError(fmt::format("{}: {} bytes (allowed: up to {})", name, bytes, most_bytes));
+  return folder / name;
 }
 
 JsonKey text_key(const char* name, std::string& text) {
@@ -44,6 +50,12 @@ JsonKey amount_key(const std::string& name, Number& amount, const char* allowed)
           }};
 }
 
+template <typename Int>
+JsonKey count_key(const char* name, std::optional<Int>& count) {
+  constexpr std::int64_t most = std::numeric_limits<Int>::max();
+  return whole(name, count, 0, static_cast<Int>(std::min(most, field_kind::most_count)));
+}
+
 // "\x93NUMPY", version 1 0, two bytes of length, the header as a Python dictionary, the numbers.
 Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string& name,
                          Eigen::Index rows, Eigen::Index columns) {
@@ -53,7 +65,8 @@ Eigen::MatrixXd read_npy(const std::filesystem::path& folder, const std::string&
   if (!file || !start.starts_with(std::string("\x93NUMPY\x01\x00", 8)))
     throw FileError(name + ": its first bytes (allowed: NumPy's format 1.0)");
   const auto byte = [&](int at) { return static_cast<unsigned char>(start[at]); };
-  std::string header(byte(8) + 256U * byte(9), '\0');
+  constexpr unsigned longest = 1000;  // a regular expression takes stack by the character
+  std::string header(std::min(longest, byte(8) + 256U * byte(9)), '\0');
   file.read(header.data(), static_cast<std::streamsize>(header.size()));
   static const std::regex form(
       R"(\{'descr': '<f8', 'fortran_order': (True|False), 'shape': \((\d+), ?(\d*)\), \}\s*)");
@@ -82,7 +95,9 @@ Answer read_answer(const std::filesystem::path& folder) {
   constexpr std::array<Status, 4> statuses = {Status::ok, Status::inaccurate, Status::not_converged,
                                               Status::breakdown};
   constexpr const char* seconds = "seconds, at least 0";
-  const Json json = json_of_file("answer.json", text_of(folder, "answer.json"));
+  constexpr std::size_t most_bytes = 1 << 20;
+  const Json json =
+      json_of_file("answer.json", file_text(file_in(folder, "answer.json", most_bytes)));
   Answer answer;
   const auto read_status = [&](const JsonValue& value) {
     answer.status = value.one_of(statuses, [](Status status) { return name_of(status); });
@@ -106,8 +121,8 @@ Answer read_answer(const std::filesystem::path& folder) {
              text_key("parameters", answer.parameters),
              required(amount_key("time_s", answer.time_s, seconds)),
              {"stages", read_stages},
-             whole("linear_iterations", answer.linear_iterations, 0),
-             whole("contact_iterations", answer.contact_iterations, 0),
+             count_key("linear_iterations", answer.linear_iterations),
+             count_key("contact_iterations", answer.contact_iterations),
              amount_key("error_estimate", answer.error_estimate, "a number, at least 0")});
   return answer;
 }
@@ -127,7 +142,10 @@ Eigen::MatrixXd read_array(const std::filesystem::path& folder, const std::strin
   if (const std::string binary = std::filesystem::path(name).replace_extension(".npy");
       is_file(folder / binary))
     return read_npy(folder, binary, rows, columns);
-  std::istringstream file(text_of(folder, name));
+  constexpr std::uintmax_t most_bytes_per_number = 100, most_bytes_of_comments = 1 << 20;
+  const auto numbers = static_cast<std::uintmax_t>(rows * columns);
+  std::ifstream file(
+      file_in(folder, name, most_bytes_of_comments + most_bytes_per_number * numbers));
   std::string line;
   int number = 0;
   const auto next_line = [&] {

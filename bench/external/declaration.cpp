@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "bench/problems/problem_files.hpp"
 #include "bench/records/json_value.hpp"
-#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 #include "support/shortened.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {
@@ -130,7 +131,21 @@ Declaration read_declaration(const std::filesystem::path& file) {
 }
 
 std::vector<std::string> printed_lines(const std::filesystem::path& file) {
-  std::ifstream in(file);
+  constexpr std::size_t part = 1 << 16;  // of its beginning, and of its end
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(symlink_status(file, unknown))) return {};
+  std::ifstream bytes(file, std::ios::binary);
+  std::string text(2 * part, '\0');
+  bytes.read(text.data(), part);
+  const auto end = static_cast<std::size_t>(file_size(file));
+  auto read = static_cast<std::size_t>(bytes.gcount());
+  if (end > part) {
+    bytes.seekg(static_cast<std::streamoff>(std::max(part, end - part)));
+    bytes.read(text.data() + part, part);
+    read += static_cast<std::size_t>(bytes.gcount());
+  }
+  text.resize(read);
+  std::istringstream in(text);
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") == line.npos) continue;

@@ -16,9 +16,9 @@
 #include "bench/verify/verifier.hpp"
 #include "solvers/contact/contact_result.hpp"
 #include "solvers/methods.hpp"
-#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {

@@ -63,6 +63,13 @@ void ActivityBoard::ends() {
 void ActivityBoard::beat() { page_->beat_ns = now_ns(); }
 double ActivityBoard::silent_s() const { return seconds_after(page_->beat_ns); }
 
+void ActivityBoard::skip(double seconds) {
+  if (!(seconds > 0)) return;
+  beat();
+  const auto skipped_ns = static_cast<std::int64_t>(1e9 * seconds);
+  if (page_->began_ns < now_ns() - skipped_ns) page_->began_ns += skipped_ns;
+}
+
 void ActivityBoard::begins(Stage stage) { page_->stage = static_cast<int>(stage); }
 void ActivityBoard::ends(Stage) { page_->stage = -1; }
 

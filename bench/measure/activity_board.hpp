@@ -46,8 +46,9 @@ class ActivityBoard : public StageObserver {
   std::string where() const;       // "timed run, factor"
   double seconds_in_runs() const;  // the current run included
 
-  void beat();              // a heartbeat while the process waits for others
-  double silent_s() const;  // since the last beat(), begins() or ends()
+  void beat();                // a heartbeat while the process waits for others
+  double silent_s() const;    // since the last beat(), begins() or ends()
+  void skip(double seconds);  // for which the process was suspended, up to now
 
  private:
   struct Page {

@@ -21,6 +21,7 @@ using name = std::string;  // see is_name()
 using text = std::string;
 using flag = bool;
 using count = std::optional<std::int64_t>;
+inline constexpr std::int64_t most_count = std::int64_t{1} << 60;
 using number = std::optional<double>;
 using amount = std::optional<double>;    // ≥ 0
 using time = std::optional<double>;      // > 0

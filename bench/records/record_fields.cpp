@@ -56,8 +56,7 @@ bool is_amount(const Json& value) { return value.is_number() && value.get<double
 bool is_time(const Json& value) { return value.is_number() && value.get<double>() > 0; }
 bool is_fraction(const Json& value) { return is_amount(value) && value.get<double>() <= 1; }
 bool is_count(const Json& value) {
-  constexpr double most = std::int64_t{1} << 60;
-  return is_amount(value) && value.get<double>() <= most &&
+  return is_amount(value) && value.get<double>() <= field_kind::most_count &&
          value.get<double>() == std::floor(value.get<double>());
 }
 bool is_name_of_something(const Json& value) {

@@ -90,6 +90,7 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
 }
 
 constexpr double grace_s = 60;  // beyond the solve: posing, judging and bisecting
+constexpr int most_restarts = 3;
 
 std::string obituary(const ChildEnd& end) {
   if (end.timed_out) return "a level took longer than --timeout";
@@ -151,15 +152,24 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
 
   AdaptedScenes result;
   std::vector<Json> levels;
-  ChildProcess process(
-      [&](Channel& channel) { serve_loop(channel, scene, mesh, options, folder); });
+  std::optional<ChildProcess> process;
+  int restarts = 0;
   for (bool goes_on = true; goes_on;) {
+    if (!process)
+      process.emplace([&](Channel& channel) { serve_loop(channel, scene, mesh, options, folder); });
+    double left_s = 1.1 * options.timeout_s + grace_s;
     const auto asked = std::chrono::steady_clock::now();
-    const std::optional<std::string> answer = process.ask("next", [&] {
+    const std::optional<std::string> answer = process->ask("next", [&](double suspended_s) {
       throw_if_interrupted();
-      return seconds_since(asked) > 1.1 * options.timeout_s + grace_s;
+      left_s += suspended_s;
+      return seconds_since(asked) > left_s;
     });
-    const Json said = answer ? parse_json(*answer) : Json{{"ended", obituary(process.end())}};
+    if (process->was_suspended() && restarts++ < most_restarts) {
+      process.reset();  // the loop has timed its levels, and may have ended for lack of time
+      levels.clear();
+      continue;
+    }
+    const Json said = answer ? parse_json(*answer) : Json{{"ended", obituary(process->end())}};
     if (said.contains("refused")) throw UsageError(said["refused"].get<std::string>());
     if (said.contains("file")) {
       levels.push_back(said);

@@ -18,11 +18,14 @@
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
+
+constexpr int most_tries = 4;
 
 struct Command {
   explicit Command(const std::string& line) { std::istringstream(line) >> verb >> k; }
@@ -114,30 +117,45 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
       channel.send("{}");
       continue;
     }
+    const bool examines = command.verb == "examine";
     CaseProcess& own = processes[command.k];
     std::optional<std::string> answer;
     TimedRun last;
-    try {
+    const auto ask = [&] {
       if (own.process == nullptr)
         own.process = std::make_unique<ChildProcess>([&](Channel& to_scene) {
           bench.show_on(&own.board);
           const ObservedStages observed(&own.board);
           serve_case(to_scene, c, options, bench, own.board);
         });
-      answer = own.process->ask(*line, [&] {
+      answer = own.process->ask(*line, [&](double suspended_s) {
         board.beat();
+        own.board.skip(suspended_s);
         return is_overdue(own.board, options);
       });
       if (!answer) last = obituary_of(own.process->end(), own.board, options);
+      return !answer || !own.process->was_suspended();
+    };
+    try {
+      for (int attempts = 1; !ask(); ++attempts) {
+        answer.reset();
+        last.status = Status::machine_fault;
+        last.message = fmt::format("its process was suspended in all of {} attempts", attempts);
+        if (attempts == most_tries) break;
+        if (examines) own.process.reset();
+      }
     } catch (const std::system_error& error) {  // no process could be started
       last.status = Status::machine_fault;
       last.message = error.what();
     }
     if (!answer)
-      answer = json_text(command.verb == "examine" ? to_json(record_of_end(c, options, last))
-                                                   : to_json(last));
+      answer = json_text(examines ? to_json(record_of_end(c, options, last)) : to_json(last));
     channel.send(*answer);
   }
+}
+
+bool is_unheard(const ChildEnd& end) {
+  return end.channel_error != 0 || end.exit_code == no_channel_exit_code;
 }
 
 std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
@@ -147,6 +165,7 @@ std::pair<Status, std::string> why_no_answer(const ChildEnd& end) {
     return {Status::machine_fault, "the process of its scene did not answer, and was ended"};
   if (end.exit_code == no_memory_exit_code)
     return {Status::machine_fault, "the process of its scene ended for lack of memory"};
+  if (is_unheard(end)) return {Status::machine_fault, "the channel to its scene's process failed"};
   return {Status::crashed, "the process of its scene ended"};
 }
 
@@ -174,6 +193,7 @@ TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Opti
     run.message = fmt::format("its process was stopped by somebody {}, and ended", place);
     return run;
   }
+  if (is_unheard(end)) return ended(Status::machine_fault, ": the channel to it failed");
   if (end.timed_out)
     return ended(Status::timeout, fmt::format(": the limit is {} s", limit_s(board, options)));
   if (end.exit_code == heap::backstop_exit_code)
@@ -205,7 +225,8 @@ bool IsolatedScene::is_silent() const {
 std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size_t k) {
   if (process_ == nullptr) return {};
   board_.beat();
-  return process_->ask(fmt::format("{} {}", verb, k), [this] {
+  return process_->ask(fmt::format("{} {}", verb, k), [this](double suspended_s) {
+    board_.skip(suspended_s);
     return is_interrupted() || is_overdue(board_, options_) || is_silent();
   });
 }
@@ -214,15 +235,27 @@ std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size
 void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
-  for (std::size_t k = 0; k < cases_.size(); ++k)
-    if (why_skipped(cases_[k]->posed.problem, cases_[k]->method).empty()) prepare(k);
+  bool was_suspended = false;
+  const auto prepare_each = [&] {
+    was_suspended = false;
+    for (std::size_t k = 0; k < cases_.size(); ++k)
+      if (why_skipped(cases_[k]->posed.problem, cases_[k]->method).empty()) {
+        prepare(k);
+        was_suspended |= process_ != nullptr && process_->was_suspended();
+      }
+  };
+  prepare_each();
+  for (int attempt = 1; was_suspended && attempt < most_tries; ++attempt) {
+    process_.reset();  // it has timed the assembly
+    prepare_each();
+  }
   prepared_ = true;
   preparation_s_ += seconds_since(start);
 }
 
 void IsolatedScene::prepare(std::size_t k) {
-  constexpr int most_attempts = 4;  // assembly, reference and discretisation may each break
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  // Assembly, reference and discretisation may each break.
+  for (int attempt = 0; attempt < most_tries; ++attempt) {
     if (process_ == nullptr) {
       examined_.clear();
       try {
@@ -230,7 +263,7 @@ void IsolatedScene::prepare(std::size_t k) {
           serve_scene(channel, cases_, options_, board_, left_out_);
         });
       } catch (const std::system_error& error) {
-        no_process_ = error.what();
+        why_no_process_ = {Status::machine_fault, error.what()};
         return;
       }
     }
@@ -262,11 +295,11 @@ Record IsolatedScene::examine(std::size_t k) {
   examined_.insert(k);
   const std::optional<std::string> answer = ask("examine", k);
   throw_if_interrupted();
-  if (answer) return record_of(parse_json(*answer), "the case's process");
-  std::tie(record.status, record.status_reason) =
-      process_ == nullptr ? std::pair(Status::machine_fault, no_process_)
-                          : why_no_answer(process_->end());
-  process_.reset();
+  if (answer)
+    return record_of_case(*cases_[k], options_,
+                          [&] { return record_of(parse_json(*answer), "its record"); });
+  end_process();
+  std::tie(record.status, record.status_reason) = why_no_process_;
   return record;
 }
 
@@ -275,16 +308,36 @@ TimedRun IsolatedScene::measure_time(std::size_t k) {
   std::optional<std::string> answer;
   if (is_there) answer = ask("time", k);
   throw_if_interrupted();
-  if (answer) return timed_run_of(parse_json(*answer));
   TimedRun run;
-  std::tie(run.status, run.message) =
-      why_no_answer(process_ == nullptr ? ChildEnd() : process_->end());
-  if (is_there) process_.reset();
+  try {
+    if (answer) return timed_run_of(parse_json(*answer));
+  } catch (const Json::exception& wrong) {
+    run.message = fmt::format("its times are no numbers: {}", without_prefix(wrong));
+    return run;
+  }
+  if (is_there) end_process();
+  std::tie(run.status, run.message) = why_no_process_;
   return run;
 }
 
+void IsolatedScene::end_process() {
+  if (process_ != nullptr) why_no_process_ = why_no_answer(process_->end());
+  process_.reset();
+}
+
 void IsolatedScene::end(std::size_t k) {
-  if (process_ != nullptr && !ask("end", k)) process_.reset();
+  if (process_ != nullptr && !ask("end", k)) end_process();
+  if (!cases_[k]->method.program.empty()) remove_abandoned_folders();
+}
+
+Record record_of_case(const Case& c, const Options& options, const std::function<Record()>& read) {
+  try {
+    return read();
+  } catch (const RecordError& wrong) {
+    Record record = blank_record(c, options);
+    record.status_reason = wrong.what();
+    return record;
+  }
 }
 
 }  // namespace airybench

@@ -5,14 +5,17 @@
 // The scene's process assembles and computes the reference once; the cases' processes inherit both.
 // A case's process lives from its examination to its last repetition, so that cases can be
 // interleaved. If it dies, hangs or exhausts memory, that becomes its record. If assembly or
-// reference breaks the scene's process, a new one leaves that part out.
+// reference breaks the scene's process, a new one leaves that part out. A run during which a
+// process was suspended does not count, and is repeated.
 //
 // Commands are lines, "prepare 3", "examine 3", "time 3", "end 3"; answers are JSON on a line.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/measure/activity_board.hpp"
@@ -38,6 +41,7 @@ class IsolatedScene {
  private:
   void prepare_all();
   void prepare(std::size_t k);
+  void end_process();
   bool is_silent() const;
   // Empty if there is no process or it has ended; kills one that is overdue or silent.
   std::optional<std::string> ask(const std::string& verb, std::size_t k);
@@ -47,13 +51,17 @@ class IsolatedScene {
   ActivityBoard board_;  // of the scene's process
   LeftOut left_out_;     // parts that broke it
   std::unique_ptr<ChildProcess> process_;
-  std::string no_process_ = "its scene's process ended again and again";  // why process_ is null
+  std::pair<Status, std::string> why_no_process_ = {Status::machine_fault,
+                                                    "its scene's process ended again and again"};
   bool prepared_ = false;           // process_ has what all cases share
   std::set<std::size_t> examined_;  // in process_
   double preparation_s_ = 0;
 };
 
 TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
+
+// If it is none by record_fields.def, that is its case's crash.
+Record record_of_case(const Case& c, const Options& options, const std::function<Record()>& read);
 
 // From now on exit() after a refused allocation ends this process with no_memory_exit_code.
 void tell_refused_memory_at_exit();

@@ -22,6 +22,7 @@
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 #include "support/shortened.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
@@ -189,7 +190,10 @@ class SceneRunner {
       if (options_.retry_noisy) scene_.end(k);
       watch_.keep_quietest(std::move(c.noisy), *c.record, std::cerr);
       c.record->wall_s = c.wall_s;
-      summarise(*c.record);
+      *c.record = record_of_case(*planned_[k], options_, [&] {
+        summarise(*c.record);
+        return record_of(to_json(*c.record), "its record");
+      });
       files_.append(*c.record);
       std::cerr << progress_.line(*c.record) << std::flush;
     }
@@ -286,6 +290,7 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   initialize_benchmark(options.interleave);
   const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
   RecordFiles files(options.out, context, keep);
+  remove_abandoned_folders();
   NoiseWatch watch(options.retry_noisy, machine);
   RunResult result;
   result.torn = files.was_torn();

@@ -1,13 +1,14 @@
 // Preloaded into bench: the n-th call of one kind, counted over a run and its child processes,
 // fails.
 //
-//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork, alloc) and which call of
-//                             it; allocations from main() on, of the program and its libraries;
-//                             hang: a fork that does not return
+//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork, send, recv, alloc) and
+//                             which call of it; allocations from main() on, of the program and its
+//                             libraries; hang: a fork that does not return
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -82,6 +83,14 @@ int fsync(int descriptor) {
 int rename(const char* from, const char* to) noexcept {
   if (fails("rename", ENOSPC)) return -1;
   return real<int(const char*, const char*)>("rename")(from, to);
+}
+ssize_t send(int socket, const void* bytes, size_t count, int flags) {
+  if (fails("send", ENOBUFS)) return -1;
+  return real<ssize_t(int, const void*, size_t, int)>("send")(socket, bytes, count, flags);
+}
+ssize_t recv(int socket, void* bytes, size_t count, int flags) {
+  if (fails("recv", EIO)) return -1;
+  return real<ssize_t(int, void*, size_t, int)>("recv")(socket, bytes, count, flags);
 }
 pid_t fork() noexcept {
   if (fails("fork", EAGAIN)) return -1;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "support/atomic_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench::testing {
 

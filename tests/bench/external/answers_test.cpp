@@ -2,6 +2,8 @@
 // Every run goes on with the next program, and keeps its records.
 #include <gtest/gtest.h>
 
+#include <list>
+
 #include "tests/bench/external/programs.hpp"
 
 namespace airybench::answers_test {
@@ -54,7 +56,12 @@ TEST_F(Answers, OfTheAnswersFile) {
           {"pipe", airy, "mkfifo $2/answer.json", none},
           {"endless", airy, "ln -s /dev/zero $2/answer.json", none},
           {"huge", airy, "truncate -s 8T $2/answer.json || truncate -s 2G $2/answer.json",
-           "larger than "},
+           "bytes (allowed: up to 1048576)"},
+          {"link", condensed,
+           "ln -s ../../../right/answer.json $2; " + answers +
+               "rm $2/*.json; ln -s $PWD/right/answer.json $2",
+           none},
+          {"links_folder", condensed, "rmdir $2; ln -s $PWD/right $2", none},
           {"no_json", condensed, says("ok"), "answer.json: not JSON: parse error at line 1"},
           {"empty", condensed, says(""), "answer.json: not JSON: parse error at line 1"},
           {"list", condensed, says("[]"), "the file: [] (allowed: a JSON object)"},
@@ -81,12 +88,53 @@ TEST_F(Answers, OfTheAnswersFile) {
            "stages: 2e-06 (allowed: together at most time_s, 1e-06)"},
           {"strange_stage", condensed, says_ok_and("stages", R"({"lunch": 0})"),
            "stages: lunch: unknown key (allowed: order, "},
-          {"iterations", condensed, says_ok_and("contact_iterations", "18446744073709551615"),
-           "contact_iterations: 18446744073709551615 (allowed: a whole number from 0 to"},
           {"message", condensed, says_ok_and("message", "1"), "message: 1 (allowed: a text)"}});
   expect("not_converged",
          {{"gave_up", condensed,
            says(R"({"status": "not_converged", "time_s": 1, "message": "no\nluck"})"), "no?luck"}});
+}
+
+// The bounds are those of the record's fields.
+TEST_F(Answers, NumbersOutOfBoundsAreOfTheirCaseAlone) {
+  const std::string texts[] = {"2305843009213693952",
+                               "9223372036854775808",
+                               "1e308",
+                               "-1",
+                               "18446744073709551615",
+                               "7.5",
+                               "null",
+                               "\"7\"",
+                               "[7]"};
+  const std::string not_json[] = {"NaN", "Infinity", "1e999", "0x7"};
+  std::vector<Case> cases;
+  std::list<std::string> names;
+  const auto add = [&](const char* key, const std::string& value, const char* reason) {
+    names.push_back(key + std::to_string(cases.size()));
+    cases.push_back({names.back().c_str(), condensed, says_ok_and(key, value), reason});
+  };
+  for (const std::string& text : texts) {
+    add("linear_iterations", text, "allowed: a whole number from 0 to 1152921504606846976)");
+    add("contact_iterations", text, "allowed: a whole number from 0 to 2147483647)");
+  }
+  for (const char* text : {"-1", "-1e308", "null", "\"7\""})
+    add("error_estimate", text, "allowed: a number, at least 0)");
+  for (const std::string& text : not_json) add("error_estimate", text, "answer.json: ");
+  add("stages", R"({"factor": 1e308, "contact": 1e308})", "allowed: together at most time_s");
+  expect("breakdown", cases);
+}
+
+TEST_F(Answers, NumbersUpToTheBoundsAreKept) {
+  declare("one", airy,
+          says(R"({"status": "ok", "time_s": 5e-324, "linear_iterations": 1152921504606846976,
+                   "contact_iterations": 2147483647, "error_estimate": 1e308,
+                   "message": "a\u0000b"})"));
+  declare("two", airy, says_ok_and("linear_iterations", "9007199254740993"));
+  const auto records = records_of("", 1);
+  EXPECT_EQ(records.at("one")["linear_iterations"], std::int64_t{1} << 60);
+  EXPECT_EQ(records.at("one")["contact_iterations"], 2147483647);
+  EXPECT_EQ(records.at("one")["error_estimate"], 1e308);
+  EXPECT_EQ(records.at("two")["linear_iterations"], (std::int64_t{1} << 53) + 1);
+  EXPECT_EQ(records_of("--resume", 1).size(), 2u);
 }
 
 TEST_F(Answers, OfTheVectors) {
@@ -101,6 +149,12 @@ TEST_F(Answers, OfTheVectors) {
   expect(
       "breakdown",
       {{"none", airy, answers + "rm $2/x.mtx", "its answer: x.mtx: there is none in {output}"},
+       {"device", condensed, answers + "ln -sf /dev/zero $2/F_C.mtx", "F_C.mtx: there is none"},
+       {"hole", condensed, answers + "truncate -s 3G $2/F_C.mtx", "bytes (allowed: up to "},
+       {"long_head", condensed,
+        answers + "{ printf '\\223NUMPY\\001\\000\\377\\377'; head -c 65535 /dev/zero | tr '\\0' ' "
+                  "'; } > $2/F_C.npy",
+        "(allowed: '<f8', shape (40, 1))"},
        {"empty", condensed, forces(""), "F_C.mtx:1: the file ends (allowed: %%Matrix"},
        {"coordinate", condensed, forces("%%MatrixMarket matrix coordinate real general\\n1 1 0\\n"),
         "F_C.mtx:1: %MatrixMarket matrix coordinate real "},
@@ -163,12 +217,21 @@ TEST_F(Answers, OfProgramsThatBehaveBadly) {
                        {"deletes_all", condensed, "rm -r $1 $2", "answer.json: there is none"}});
 }
 
+// Of what it printed only the beginning and the end are read.
+TEST_F(Answers, WhatItPrintedTakesNoMemory) {
+  expect("crashed",
+         {{"hole", condensed, "truncate -s 3500M /dev/stdout; exit 1", "exit code 1: ???"},
+          {"device", condensed, "ln -sf /dev/zero $2/../printed; exit 1", "with exit code 1"}},
+         "--memory-limit=300");
+}
+
 TEST_F(Answers, WhoPassesALimitIsEnded) {
   const std::string hangs = answers + "sleep 1000 & wait";
   expect("timeout",
          {{"hangs_airy", airy, hangs, "was ended after the limit of "},
           {"hangs_condensed", condensed, hangs, "was ended after the limit of "},
-          {"hangs_body", body, hangs, "was ended after the limit of "}},
+          {"hangs_body", body, hangs, "was ended after the limit of "},
+          {"stops_its_guardian", airy, "kill -STOP $PPID; " + hangs, "was ended after the limit "}},
          "--timeout=0.3");
   const std::string eats = "head -c 300M /dev/zero | tail -c 300M | sleep 1000";
   expect("out_of_memory",

@@ -225,6 +225,43 @@ TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
   testing::wait_for([&] { return std::filesystem::is_empty(bench_.path("tmp")); });
 }
 
+// Those of the case's process and of the guardian, which nobody survives to remove.
+TEST_F(ExternalCommand, WhatKillsBothOfItsParentsLeavesNothing) {
+  write_right();
+  std::filesystem::create_directories(bench_.path("tmp"));
+  declare("one", "condensed", "kill -KILL $(cut -d' ' -f4 /proc/$PPID/stat) $PPID; sleep 1000");
+  const testing::EnvironmentVariable folder("TMPDIR", bench_.path("tmp").string());
+  const auto records = records_of("", 1);
+  EXPECT_NE(records.at("one")["status"], "ok");
+  testing::wait_for([&] {  // the program itself ends a moment after its guardian
+    remove_abandoned_folders();
+    return std::filesystem::is_empty(bench_.path("tmp"));
+  });
+}
+
+// All of a run, as a scheduler does, for longer than the limit.
+TEST_F(ExternalCommand, ASuspendedRunIsMeasuredAgain) {
+  write_right();
+  declare("one", "condensed",
+          "echo $PPID >> runs; while ! test -e go; do sleep 0.05; done; cp right/* $2");
+  testing::BackgroundRun run(
+      bench_,
+      "--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --repetitions=1 --timeout=3 --out=o");
+  testing::wait_for([&] { return !bench_.content("runs").empty(); });
+  std::vector<pid_t> all = {run.pid()};
+  while (all.size() < 4) all.push_back(testing::children_of(all.back()).at(0));
+  EXPECT_EQ(all.back(), std::stoi(bench_.content("runs")));
+  for (const pid_t process : all) kill(process, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(8));
+  write("go", "");
+  for (const pid_t process : all) kill(process, SIGCONT);
+  const int status = run.end(0);
+  EXPECT_EQ(WEXITSTATUS(status), 0);
+  const Json record = bench_.record();
+  EXPECT_EQ(record["status"], "ok") << record["status_reason"];
+  EXPECT_GE(testing::lines_of(bench_.content("runs")).size(), 4u);  // 1 + detail, memory, time
+}
+
 TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   const Json right = declaration("one", "condensed", {"true", "{output}"});
   const auto refused = [&](const std::string& text, const std::string& line) {

@@ -1,4 +1,4 @@
-// Faults of the machine: whichever open, write, fsync, rename or fork of a run fails, the run ends
+// Faults of the machine: whichever open, write, fsync, rename, fork, send or recv of a run fails, the run ends
 // with an exit code, leaves nothing half-written, and --resume comes to the undisturbed result.
 #include <gtest/gtest.h>
 
@@ -84,7 +84,7 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
   std::cout << n - 1 << " calls of " << GetParam() << " failed, one at a time\n";
 }
 INSTANTIATE_TEST_SUITE_P(Of, NthFault,
-                         ::testing::Values("open", "write", "fsync", "rename", "fork"),
+                         ::testing::Values("open", "write", "fsync", "rename", "fork", "send", "recv"),
                          [](const auto& of) { return std::string(of.param); });
 
 // Of some six thousand, in all three processes: of the program, and of BLAS, CHOLMOD and the rest.

@@ -11,6 +11,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/measure/heap_probe.hpp"
+#include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/runner.hpp"
@@ -146,6 +147,48 @@ TEST_F(Isolation, NonsenseIsNoSuccess) {
   EXPECT_EQ(record.status, Status::inaccurate);
   EXPECT_EQ(record.claimed_status, Status::ok);
   EXPECT_EQ(outcome_of(record), "wrong_success");
+}
+
+// A record with any of these could not be read again.
+TEST_F(Isolation, NumbersThatNoRecordMayHaveAreRecordsOfTheirCasesAlone) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::pair<Harm, const char*> harms[] = {
+      {[](Solution& solution) { solution.linear_iterations = std::int64_t{1} << 61; },
+       "linear_iterations: 2305843009213693952 (allowed: a whole number from 0 to 2^60, null)"},
+      {[](Solution& solution) { solution.newton_steps = -1; }, "newton_steps: -1 (allowed: "},
+      {[](Solution& solution) { solution.done_fraction = 2; }, "done_fraction: 2"},
+      {[](Solution& solution) { solution.times[Stage::order] = -1; }, "stage_order_s: -1"},
+      {[nan](Solution& solution) { solution.times[Stage::order] = nan; }, "are no numbers"}};
+  std::vector<Method> methods;
+  for (const auto& [harm, reason] : harms) methods.push_back(harmful(reason, harm));
+  for (Method& method : methods) method.name = "HARM" + std::to_string(&method - methods.data());
+  const std::vector<Record> records = run_between(methods);
+  ASSERT_EQ(records.size(), std::size(harms));
+  for (std::size_t k = 0; k < std::size(harms); ++k) {
+    EXPECT_EQ(records[k].status, Status::crashed);
+    EXPECT_NE(records[k].status_reason.find(harms[k].second), std::string::npos)
+        << records[k].status_reason;
+  }
+  EXPECT_EQ(read_records(folder_ / "o/records.jsonl").size(), records.size() + 2);
+}
+
+TEST_F(Isolation, ATimeWithASuspensionInItIsNoSample) {
+  const std::filesystem::path runs = folder_ / "runs";
+  const Record record = run_between(harmful("SUSPENDED", [runs](Solution&) {
+    const std::string before = testing::text_of(runs);
+    testing::write_text(runs, before + "run\n");
+    if (testing::lines_of(before).size() != 2) return;  // not the first timed run
+    const pid_t self = getpid();
+    if (fork() == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(700));
+      kill(self, SIGCONT);
+      _exit(0);
+    }
+    std::raise(SIGSTOP);
+  }));
+  EXPECT_EQ(record.status, Status::ok) << record.status_reason;
+  EXPECT_EQ(record.samples_s.size(), 2u);
+  EXPECT_GE(testing::lines_of(testing::text_of(runs)).size(), 5u);  // detail, memory, time: 1 + 2
 }
 
 TEST_F(Isolation, MemoryWithoutEndIsEnded) {

@@ -1,7 +1,9 @@
 // Processes: how they end, what is told of it, and that nothing is left of them.
 #include "support/process.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +13,7 @@
 
 #include "support/data_folder.hpp"
 #include "tests/support/background_run.hpp"
+#include "tests/support/environment_variable.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace airybench::process_test {
@@ -147,7 +150,31 @@ TEST_F(ProcessTree, MemoryIsNotThatOfItsParent) {
 }
 
 TEST_F(ProcessTree, WhoEndsItsGuardianIsNoAnswer) {
-  EXPECT_THROW(run("kill -KILL $PPID; sleep 1000"), std::runtime_error);
+  EXPECT_THROW(run(std::string(three) + "kill -KILL $PPID; sleep 1000"), std::runtime_error);
+  expect_nobody_is_left();
+}
+
+TEST_F(ProcessTree, WhoStopsItsGuardianIsEnded) {
+  EXPECT_EQ(run("kill -STOP $PPID; sleep 0.1; exit 3").exit_code, 3);
+  EXPECT_TRUE(run("kill -STOP $PPID; sleep 1000", {0.5}).timed_out);
+}
+
+// Suspends a process and its guardian for longer than the limit, as a scheduler does.
+TEST_F(ProcessTree, ASuspensionOfAllDoesNotCount) {
+  const pid_t caller = fork();
+  if (caller == 0) {
+    const ChildEnd end = run("echo $PPID > guardian; sleep 0.5; echo $$ > program", {3});
+    _exit(end.timed_out ? 1 : end.exit_code);
+  }
+  testing::wait_for([&] { return !testing::text_of(folder_ / "guardian").empty(); });
+  const std::vector<pid_t> all = {caller, pid_in("guardian")};
+  for (const pid_t process : all) kill(process, SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  for (const pid_t process : all) kill(process, SIGCONT);
+  int status = 0;
+  waitpid(caller, &status, 0);
+  EXPECT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), 0);
 }
 
 // The caller ends by this signal, which all of its process group gets.
@@ -192,6 +219,77 @@ TEST(ChildProcess, ThatClosesTheLineIsReapedAllTheSame) {
   EXPECT_FALSE(child.ask("are you there"));
   EXPECT_EQ(child.end().signal, SIGKILL);
   EXPECT_TRUE(child.end().lingered);
+}
+
+TEST(ChildProcess, SaysThatItWasSuspended) {
+  ChildProcess child([](Channel& channel) {
+    while (const auto line = channel.receive()) {
+      if (*line == "stop") std::raise(SIGSTOP);
+      channel.send("here");
+    }
+  });
+  EXPECT_EQ(child.ask("are you there"), "here");
+  int asked = 0;
+  EXPECT_EQ(child.ask("stop",
+                      [&](double) {
+                        if (++asked == 3) kill(testing::children_of(getpid()).back(), SIGCONT);
+                        return false;
+                      }),
+            "here");
+  EXPECT_TRUE(child.was_suspended());
+}
+
+TEST(TemporaryFolder, OfAKilledProcessIsRemovedByTheNextRun) {
+  const testing::TemporaryFolder place;
+  const testing::EnvironmentVariable parent("TMPDIR", place.path().string());
+  const testing::TemporaryFolder in_use;
+  std::filesystem::create_directories(place / "other/content");
+  std::filesystem::create_directory_symlink("other", place / "airybench-scratch-link");
+  const pid_t killed = fork();
+  if (killed == 0) {
+    const testing::TemporaryFolder left;
+    testing::write_text(left / "file", "text");
+    std::raise(SIGKILL);
+  }
+  waitpid(killed, nullptr, 0);
+  const auto count = [&] {
+    return std::distance(std::filesystem::directory_iterator(place.path()), {});
+  };
+  EXPECT_EQ(count(), 4);
+  remove_abandoned_folders();
+  EXPECT_EQ(count(), 3);
+  EXPECT_TRUE(std::filesystem::exists(in_use.path()));
+  EXPECT_TRUE(std::filesystem::exists(place / "other/content"));
+}
+
+// As an ordinary user, and with few descriptors.
+TEST(TemporaryFolder, IsRemovedAtAnyDepthAndWithoutPermissions) {
+  const testing::TemporaryFolder place;
+  std::filesystem::permissions(place.path(), std::filesystem::perms::all);
+  const pid_t user = fork();
+  if (user == 0) {
+    if (geteuid() == 0 && setuid(65534) != 0) _exit(1);
+    const testing::EnvironmentVariable parent("TMPDIR", place.path().string());
+    const testing::TemporaryFolder folder;
+    std::filesystem::create_directory_symlink("..", folder / "link");
+    std::filesystem::create_directories(folder / "closed/inner/file");
+    int inside = open(folder.path().c_str(), O_RDONLY | O_DIRECTORY);
+    for (int depth = 0; depth < 5000; ++depth) {  // of names longer than paths may be
+      const int outside = std::exchange(inside, -1);
+      mkdirat(outside, "folder", 0700);
+      inside = openat(outside, "folder", O_RDONLY | O_DIRECTORY);
+      close(outside);
+    }
+    close(inside);
+    for (const char* closed : {"closed/inner", "closed", "folder"})
+      std::filesystem::permissions(folder / closed, std::filesystem::perms::none);
+    chmod(folder.path().c_str(), 0);
+  }
+  if (user == 0) _exit(0);
+  int status = 0;
+  waitpid(user, &status, 0);
+  EXPECT_EQ(status, 0);
+  EXPECT_TRUE(std::filesystem::is_empty(place.path()));
 }
 
 // Whom the kernel killed is what its counters say: the control group's, else the machine's.

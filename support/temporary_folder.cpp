@@ -1,0 +1,123 @@
+#include "support/temporary_folder.hpp"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <string>
+#include <system_error>
+
+#include "support/atomic_file.hpp"
+#include "support/errors.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* prefix = "airybench-scratch-";
+
+fs::path parent_of_all() {
+  const char* given = std::getenv("TMPDIR");
+  return fs::absolute(given == nullptr || *given == '\0' ? "/tmp" : given);
+}
+
+// -1: it is no folder, or somebody else's.
+int open_folder(int parent, const char* name) {
+  fchmodat(parent, name, S_IRWXU, AT_SYMLINK_NOFOLLOW);
+  return openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+bool lock(int folder) { return flock(folder, LOCK_EX | LOCK_NB) == 0; }
+
+bool remove_entry(int folder, const char* name) {
+  return unlinkat(folder, name, 0) == 0 || unlinkat(folder, name, AT_REMOVEDIR) == 0;
+}
+
+template <typename Visit>
+void for_each_entry(int folder, const Visit& visit) {
+  DIR* const entries = fdopendir(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (entries == nullptr) return;
+  while (const dirent* entry = readdir(entries))
+    if (const std::string name = entry->d_name; name != "." && name != "..") visit(name.c_str());
+  closedir(entries);
+}
+
+}  // namespace
+
+// What is in a folder of `top` and cannot be removed yet moves to `top`: the depth of folders takes
+// neither stack nor descriptors nor long paths.
+void remove_folder(const fs::path& folder) {
+  const int top = open_folder(AT_FDCWD, folder.c_str());
+  int moved = 0;
+  for (bool removes = top >= 0; removes;) {
+    removes = false;
+    for_each_entry(top, [&](const char* name) {
+      if (!remove_entry(top, name)) {
+        const int inner = open_folder(top, name);
+        if (inner < 0) return;
+        for_each_entry(inner, [&](const char* entry) {
+          if (remove_entry(inner, entry)) return;
+          fchmodat(inner, entry, S_IRWXU, AT_SYMLINK_NOFOLLOW);  // or it cannot be moved
+          renameat(inner, entry, top, (prefix + std::to_string(++moved)).c_str());
+        });
+        close(inner);
+        if (!remove_entry(top, name)) return;
+      }
+      removes = true;
+    });
+  }
+  if (top >= 0) close(top);
+  remove_entry(AT_FDCWD, folder.c_str());
+}
+
+void remove_abandoned_folders() {
+  std::error_code error;
+  for (fs::directory_iterator entry(parent_of_all(), error), end; !error && entry != end;
+       entry.increment(error)) {
+    struct stat found = {};
+    const char* const name = entry->path().c_str();
+    if (!entry->path().filename().string().starts_with(prefix) || lstat(name, &found) != 0 ||
+        found.st_uid != geteuid())
+      continue;
+    const int folder = open_folder(AT_FDCWD, name);
+    if (folder < 0) continue;
+    if (lock(folder)) remove_folder(name);
+    close(folder);
+  }
+}
+
+TemporaryFolder::TemporaryFolder() {
+  const fs::path parent = parent_of_all();
+  const auto fail = [&] {
+    throw FileError("TMPDIR: " + parent.string() +
+                    ": no folder can be made there: " + std::generic_category().message(errno));
+  };
+  for (;;) {
+    std::string name = (parent / (std::string(prefix) + "XXXXXX")).string();
+    if (mkdtemp(name.data()) == nullptr) fail();
+    path_ = name;
+    lock_ = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0) {
+      const int why = errno;
+      rmdir(name.c_str());
+      errno = why;
+      fail();
+    }
+    // Without locks (some network file systems) nobody takes it for abandoned.
+    const bool is_ours = lock(lock_) || errno != EWOULDBLOCK;
+    if (is_ours && is_open_as(lock_, path_)) return;
+    close(lock_);  // another run removes it
+  }
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  remove_folder(path_);
+  if (lock_ >= 0) close(lock_);
+}
+
+}  // namespace airybench
