@@ -2,58 +2,64 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <pthread.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
+#include <fstream>
 #include <system_error>
+#include <vector>
 
-#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
 namespace {
 
-std::string this_process() {
-  std::array<char, 256> host{};
-  gethostname(host.data(), host.size() - 1);
-  return fmt::format("process {} on {}", getpid(), host.data());
+std::vector<int> held;
+
+// A child would hold the lock beyond its parent's end.
+void close_in_children() {
+  static const int once = pthread_atfork(nullptr, nullptr, [] {
+    for (const int descriptor : held) close(descriptor);
+    held.clear();
+  });
+  static_cast<void>(once);
 }
 
-// The holder may not have written its name yet.
+// A line of /proc/locks: "1: FLOCK  ADVISORY  WRITE 4711 fe:01:1234 0 EOF".
 std::string holder(int descriptor) {
-  std::array<char, 300> text;
-  const ssize_t n = pread(descriptor, text.data(), text.size(), 0);
-  return n > 0 ? std::string(text.data(), static_cast<std::size_t>(n)) : "another process";
+  struct stat folder = {};
+  fstat(descriptor, &folder);
+  const std::string inode = fmt::format(":{}", folder.st_ino);
+  std::ifstream locks("/proc/locks");
+  std::string number, kind, how, access, process, file, rest;
+  while (locks >> number >> kind >> how >> access >> process >> file && std::getline(locks, rest))
+    if (kind == "FLOCK" && file.ends_with(inode)) return "process " + process;
+  return "another process";
 }
 
 }  // namespace
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : file_(folder / ".lock") {
-  const std::string own_name = this_process();  // an exception later would leave the file
-  for (;;) {
-    descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
-    struct flock whole = {};
-    whole.l_type = F_WRLCK;
-    whole.l_whence = SEEK_SET;
-    if (descriptor_ < 0 || fcntl(descriptor_, F_SETLK, &whole) != 0) {
-      const int error = errno;
-      const bool is_held = descriptor_ >= 0 && (error == EACCES || error == EAGAIN);
-      const std::string why = is_held
-                                  ? "in use by " + holder(descriptor_)
-                                  : "cannot be locked: " + std::generic_category().message(error);
-      if (descriptor_ >= 0) close(descriptor_);
-      throw FileError(fmt::format("{}: {}", folder.string(), why));
-    }
-    if (is_open_as(descriptor_, file_)) break;
-    close(descriptor_);  // the holder removed the file in between
+FolderLock::FolderLock(const std::filesystem::path& folder) {
+  close_in_children();
+  held.reserve(held.size() + 1);
+  descriptor_ = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor_ < 0 || flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    const std::string why = descriptor_ >= 0 && error == EWOULDBLOCK
+                                ? "in use by " + holder(descriptor_)
+                                : "cannot be locked: " + std::generic_category().message(error);
+    if (descriptor_ >= 0) close(descriptor_);
+    throw FileError(fmt::format("{}: {}", folder.string(), why));
   }
-  // The name is for error messages; the lock holds without it.
-  if (ftruncate(descriptor_, 0) == 0) static_cast<void>(write_all(descriptor_, own_name));
+  held.push_back(descriptor_);
 }
 
 FolderLock::~FolderLock() {
-  if (is_open_as(descriptor_, file_)) unlink(file_.c_str());
+  std::erase(held, descriptor_);
   close(descriptor_);
 }
 
