@@ -1,5 +1,7 @@
 """What the outcomes of cases look like in a grid of cells, and the key to them."""
+import math
 from collections import Counter
+from typing import TypeVar
 
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
@@ -7,6 +9,7 @@ from matplotlib.patches import Rectangle
 from drawing import MARGIN, PAGE_WIDTH, text_at
 from records import OUTCOMES, Row
 
+Item = TypeVar("Item")
 SIZE = 7.5  # points
 # Outcome -> letter, fill, colour of the letter; the letters and the lightness say it in grey.
 MARKS = {
@@ -29,6 +32,14 @@ WORDS = {"other_solution": "another solution than the reference's",
          "unverified": "said ok, and no reference can tell",
          "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
          "machine_fault": "no process or no file to be had"}
+
+
+def in_blocks(columns: list[Item], left: float, narrowest: float,
+              widest: float) -> tuple[list[list[Item]], float]:
+    """Columns of a grid that begins at `left`, in as few blocks as their width allows; the width."""
+    room = PAGE_WIDTH - left - MARGIN
+    most = math.ceil(len(columns) / math.ceil(len(columns) * narrowest / room))
+    return [columns[k:k + most] for k in range(0, len(columns), most)], min(widest, room / most)
 
 
 class Key:

@@ -1,13 +1,12 @@
 """Methods on adapted meshes: a cell per case with its outcome, time, error and condition number."""
-import math
 from collections.abc import Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from drawing import MARGIN, PAGE_WIDTH, SMALLEST_PT, Drawing, axes_at, sheet
-from outcomes import MARKS, SIZE, Key
+from drawing import SMALLEST_PT, Drawing, axes_at, sheet
+from outcomes import MARKS, SIZE, Key, in_blocks
 from records import Row
 from selection import by_mesh, by_method, of_scene, order
 from words import csv_of, percent, plain, seconds, short, threads
@@ -50,10 +49,7 @@ def draw(rows: list[Row]) -> Figure:
     meshes = list(by_mesh(rows).values())
     methods = list(by_method(rows, "n_phi"))
     left = 0.25 + LETTER * max(map(len, methods))
-    room = PAGE_WIDTH - left - MARGIN
-    most = math.ceil(len(meshes) / math.ceil(len(meshes) * NARROWEST / room))
-    cell = min(CELL, room / most)
-    blocks = [meshes[k:k + most] for k in range(0, len(meshes), most)]
+    blocks, cell = in_blocks(meshes, left, NARROWEST, CELL)
     block = ABOVE + ROW * len(methods)
     key = Key(rows, ("", "ok"))
     body = 0.3 + len(blocks) * (block + BETWEEN) + key.height

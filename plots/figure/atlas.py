@@ -11,8 +11,8 @@ from matplotlib.colors import to_hex, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
-from drawing import MARGIN, PAGE_WIDTH, SMALLEST_PT, Drawing, axes_at, file_name, sheet
-from outcomes import MARKS, SIZE, Key
+from drawing import SMALLEST_PT, Drawing, axes_at, file_name, sheet
+from outcomes import MARKS, SIZE, Key, in_blocks
 from records import Row
 from selection import by_mesh, by_method, order
 from words import csv_of, plain, width_of
@@ -67,10 +67,7 @@ def draw(rows: list[Row]) -> Figure:
     lines = [line for group, own in groupby(scenes, key=lambda scene: scene[0])
              for line in ((group, ""), *own)]
     methods = list(by_method(rows, "n_phi"))
-    room = PAGE_WIDTH - left - MARGIN
-    most = math.ceil(len(methods) / math.ceil(len(methods) * NARROWEST / room))
-    cell = min(CELL, room / most)
-    grids = [methods[k:k + most] for k in range(0, len(methods), most)]
+    grids, cell = in_blocks(methods, left, NARROWEST, CELL)
     height = ROW * len(lines)
     above = 0.1 + max(width_of(row.method, SIZE) for row in rows) / 72
     below = 0.5  # counts

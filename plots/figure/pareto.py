@@ -20,8 +20,7 @@ OVER_FLOOR = 1.5  # … but for so many times the discretisation error of the co
 GAIN = 0.01  # of the error: less is not worth a point of the front
 STEPS = (1, 1.5, 2, 3, 5, 7)  # levels, times powers of ten
 LEVELS = 7  # lines of a table at most
-TABLE = ("error at most", "cheapest method", "mesh", "time", "peak heap",
-         "displacements: mesh", "time", "peak heap")
+COSTS = ("mesh", "time", "peak heap")
 NAME = dict(weight="bold", fontsize=8.5)
 FLOOR_WORDS = 11  # points, between words of two floors
 # Kinds of meshes: colour and width of their fronts.
@@ -84,16 +83,19 @@ def with_knob(row: Row) -> str:
     return f"{row.method}, {row.knob} {row.knob_value or 0:g}" if row.knob else row.method
 
 
-def levels_table(rows: list[Row]) -> list[tuple[str, ...]]:
+def levels_table(rows: list[Row]) -> list[list[str]]:
+    """Heads, and a line per error."""
     stress = [row for row in rows if not row.in_displacements]
     others = [row for row in rows if row.in_displacements]
-    several = len(displacements_of(rows)) > 1
-    lines = []
+    names = displacements_of(rows)
+    lines = [["error at most", "cheapest method", *COSTS]]
+    if names:
+        lines[0] += [f"{names[0] if len(names) == 1 else 'displacements'}: mesh", *COSTS[1:]]
     for level in reversed(levels([row.error_total for row in rows])):
         best, other = cheapest(stress, level), cheapest(others, level)
-        which = f"{other.method}, " if other and several else ""
-        lines.append((percent(level), with_knob(best) if best else "–", *costs(best),
-                      *costs(other, which)))
+        which = f"{other.method}, " if other and len(names) > 1 else ""
+        lines.append([percent(level), with_knob(best) if best else "–", *costs(best),
+                      *(costs(other, which) if names else [])])
     return lines
 
 
@@ -110,7 +112,7 @@ def draw(rows: list[Row]) -> Figure | str:
     tables = {body: levels_table(of_body) for body, of_body in bodies.items()}
     kinds = [kind for kind in KINDS if kind in map(kind_of, known)]
     columns = [column for column in AXES if any(value_of(row, column) for row in known)]
-    heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 2)
+    heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 1)
                for body, table in tables.items()}
     figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
                    caption(rows, known, kinds))
@@ -127,7 +129,7 @@ def draw(rows: list[Row]) -> Figure | str:
             axes.grid(False)
             draw_panel(axes, own, column, kinds)
         panels[0].set_ylabel("total relative error of the stresses, 1")
-        draw_table(figure, above + TOP + HEIGHT + BOTTOM, displacements_of(of_body), tables[body])
+        draw_table(figure, above + TOP + HEIGHT + BOTTOM, tables[body])
         above += heights[body]
     return figure
 
@@ -235,14 +237,9 @@ def draw_stops(axes: Axes, labels: Labels, rows: list[Row], column: str) -> None
         labels.add(f"{method} with the paper's stop", x, y, color=own[0].look.colour, **NAME)
 
 
-def draw_table(figure: Figure, top: float, displacements: list[str],
-               lines: list[tuple[str, ...]]) -> None:
-    who = displacements[0] if len(displacements) == 1 else "displacements"
-    heads = [f"{who}: mesh" if head.startswith("displ") else head
-             for head in TABLE][:None if displacements else 5]
-    table = [heads, *lines]
+def draw_table(figure: Figure, top: float, table: list[list[str]]) -> None:
     widths = [max(width_of(cell, 8, "bold") for cell in column) / 72 for column in zip(*table)]
-    gap = (PAGE_WIDTH - LEFT - 0.1 - sum(widths)) / max(len(heads) - 1, 1)
+    gap = (PAGE_WIDTH - LEFT - 0.1 - sum(widths)) / (len(widths) - 1)
     for k, line in enumerate(table):
         left = LEFT
         for cell, width in zip(line, widths):

@@ -93,7 +93,12 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
 def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quantity: Quantity,
                scale: ErrorScale) -> None:
     rows = [row for line in lines.values() for row in line]
-    set_scales(axes, rows, quantity)
+    log_log(axes, xlim=log_limits([row.n_phi for row in rows], 1.25),
+            ylim=log_limits(value for _, value, _ in quantity.marked(rows)))
+    axes.set_ylabel(quantity.axis)
+    axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
+    axes.set_xlabel(r"$n_\varphi$", fontsize=MATH, labelpad=2)
+    axes.grid(axis="y")
     mark_meshes(axes, {row.mesh: row.n_phi for row in rows}, 45, TYPE)
     name_bodies(axes, rows, 8 + names_pt(rows))
     places = side_by_side(axes, rows, quantity)
@@ -114,15 +119,6 @@ def names_pt(rows: list[Row]) -> float:
 
 def width_in(axes: Axes) -> float:
     return axes.get_position().width * WIDTH
-
-
-def set_scales(axes: Axes, rows: list[Row], quantity: Quantity) -> None:
-    log_log(axes, xlim=log_limits([row.n_phi for row in rows], 1.25),
-            ylim=log_limits(value for _, value, _ in quantity.marked(rows)))
-    axes.set_ylabel(quantity.axis)
-    axes.yaxis.set_label_coords(-0.44 / width_in(axes), 0.5)
-    axes.set_xlabel(r"$n_\varphi$", fontsize=MATH, labelpad=2)
-    axes.grid(axis="y")
 
 
 def name_bodies(axes: Axes, rows: list[Row], above_pt: float) -> None:
