@@ -90,6 +90,7 @@ Scene checked_scene(const Json& json, const std::string& place) {
   read(SceneValue(place, "", json), scene);
   if (json.contains("wall") && json.contains("crown_radius_mm"))
     throw SceneError(place + ": wall and crown_radius_mm (allowed: one of them)");
+  read_model_settings(SceneValue(place, "", json));
   check_values(scene);
   return scene;
 }
@@ -110,7 +111,8 @@ SceneFile read_scene_file(const std::filesystem::path& file) {
   inline_polylines(json, file);
   Scene scene = checked_scene(json, file.string());
   scene.name = name;
-  return {std::move(scene), json_text(json)};
+  return {std::move(scene), json_text(json),
+          read_model_settings(SceneValue(file.string(), "", json))};
 }
 
 Scene read_scene(const std::filesystem::path& file) { return read_scene_file(file).scene; }

@@ -1,6 +1,8 @@
 // Tables of a scene file's keys: the key's name, the member that it sets, its range.
 // check_values() (assembly/scene.hpp) checks the ranges that hold for any scene.
 #include "bench/plan/scene_value.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/model_settings.hpp"
 
 namespace airybench {
 namespace {
@@ -142,6 +144,29 @@ static void read_load_steps(const SceneValue& value, Scene& scene) {
     read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
 }
 
+std::vector<std::string> read_model_settings(const SceneValue& scene) {
+  std::vector<std::string> settings;
+  const auto add = [&](const ModelSetting& setting, const std::string& value) {
+    settings.push_back(fmt::format("{}={}", setting.option, value));
+  };
+  if (scene.json.contains("length_unit")) {
+    const SceneValue unit = scene.at("length_unit", scene.json["length_unit"]);
+    if (unit.json != "mm" && unit.json != "m" && unit.json != "inch")
+      unit.fail("\"mm\", \"m\" or \"inch\", of a model's lengths");
+    if (unit.json != "mm") add(length_unit_setting, unit.json.get<std::string>());
+  }
+  if (!scene.json.contains("roles")) return settings;
+  scene.at("roles", scene.json["roles"])
+      .each("an object with a curve's name or number, numbers \"1-4\", or \"rest\" as each key",
+            [&](const std::string& curves, const SceneValue& role) {
+              const std::string label =
+                  role.json.is_string() ? role.json.get<std::string>() : std::string();
+              if (!parse_boundary_label(label)) role.fail(std::string(boundary_labels_allowed));
+              add(role_setting, fmt::format("{}={}", curves, label));
+            });
+  return settings;
+}
+
 void read(const SceneValue& value, Scene& scene) {
   Material& material = scene.material;
   // Keys from which others take their defaults come first.
@@ -174,6 +199,8 @@ void read(const SceneValue& value, Scene& scene) {
                           });
                  }},
                 key("boundary", scene.boundary),
+                {"roles", [](const SceneValue&) {}},  // see read_model_settings
+                {"length_unit", [](const SceneValue&) {}},
                 key("mesh", scene.mesh),
                 {"layers", [&](const SceneValue& v) { read_layers(v, scene); }},
                 key("group", scene.group),

@@ -10,6 +10,7 @@
 
 #include "assembly/scene.hpp"
 #include "bench/records/json.hpp"
+#include "support/lists.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -62,10 +63,15 @@ class SceneValue {
  private:
   [[noreturn]] void refuse(const std::string& name, const std::vector<SceneKey>& keys) const {
     std::string valid;
-    for (const SceneKey& key : keys) valid += (valid.empty() ? "" : ", ") + key.name;
-    throw SceneError(fmt::format("{}: {}{}: unknown key (allowed: {})", file_,
+    std::vector<std::string> names;
+    for (const SceneKey& key : keys) {
+      valid += (valid.empty() ? "" : ", ") + key.name;
+      names.push_back(key.name);
+    }
+    const std::string nearest = nearest_of(name, names);
+    throw SceneError(fmt::format("{}: {}{}: unknown key{} (allowed: {})", file_,
                                  key_.empty() ? "" : shortened(key_ + ": "), shortened(name),
-                                 valid));
+                                 nearest.empty() ? "" : ", perhaps " + nearest, valid));
   }
 
   std::string file_, key_;
@@ -128,6 +134,9 @@ SceneKey either(const char* name, T& target, const char* first_word, Word first,
           }};
 }
 
-void read(const SceneValue& value, Scene& scene);  // scene_keys.cpp
+// scene_keys.cpp
+void read(const SceneValue& value, Scene& scene);
+// Of a scene's roles and length_unit: options of `meshgen --convert`.
+std::vector<std::string> read_model_settings(const SceneValue& scene);
 
 }  // namespace airybench
