@@ -35,6 +35,9 @@ install(FILES cmake/completion.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-co
         RENAME airybench-meshgen)
 install(DIRECTORY meshgen/meshes bench/scenes results docs/bodies DESTINATION ${data}
         PATTERN "figures" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY plots DESTINATION ${data}  # meshgen --show
+        FILES_MATCHING PATTERN "*.py" PATTERN "*.json"
+        PATTERN "__pycache__" EXCLUDE PATTERN "page" EXCLUDE PATTERN "figure" EXCLUDE)
 install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 # The library: meshes, assembly, methods, and the verifier.

@@ -4,17 +4,51 @@
 #include <array>
 #include <cctype>
 #include <string>
+#include <utility>
 
 namespace airybench {
+namespace {
 
-ModelFormat format_of(const std::filesystem::path& file) {
-  constexpr std::array<std::string_view, 5> cad = {".step", ".stp", ".brep", ".iges", ".igs"};
+constexpr auto formats = std::to_array<std::pair<std::string_view, ModelFormat>>({
+    {".msh", ModelFormat::msh},
+    {".geo", ModelFormat::geo},
+    {".geo_unrolled", ModelFormat::geo},
+    {".step", ModelFormat::cad},
+    {".stp", ModelFormat::cad},
+    {".brep", ModelFormat::cad},
+    {".iges", ModelFormat::cad},
+    {".igs", ModelFormat::cad},
+    {".unv", ModelFormat::mesh},
+    {".med", ModelFormat::mesh},
+    {".vtk", ModelFormat::mesh},
+    {".bdf", ModelFormat::mesh},
+    {".mesh", ModelFormat::mesh},
+    {".inp", ModelFormat::abaqus},
+    {".stl", ModelFormat::outline},
+});
+
+std::string extension_of(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension == ".msh") return ModelFormat::msh;
-  if (extension == ".geo") return ModelFormat::geo;
-  return std::ranges::find(cad, extension) != cad.end() ? ModelFormat::cad : ModelFormat::other;
+  return extension;
 }
+
+std::filesystem::path unpacked(const std::filesystem::path& file) {
+  return is_gzipped(file) ? file.stem() : file.filename();
+}
+
+}  // namespace
+
+ModelFormat format_of(const std::filesystem::path& file) {
+  const std::string extension = extension_of(unpacked(file));
+  for (const auto& [known, format] : formats)
+    if (extension == known) return format;
+  return ModelFormat::other;
+}
+
+bool is_gzipped(const std::filesystem::path& file) { return extension_of(file) == ".gz"; }
+
+std::string model_name(const std::filesystem::path& file) { return unpacked(file).stem().string(); }
 
 }  // namespace airybench

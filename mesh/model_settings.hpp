@@ -12,8 +12,8 @@ struct ModelSetting {
 
 inline constexpr ModelSetting role_setting = {
     "--role", "NAME=ROLE",
-    "a Gmsh model's physical curve NAME is displacement, force or contact, or one of these with a "
-    "name, force:top; of a CAD file NAME is a curve's number; repeatable"};
+    "a model's physical curve NAME, curve 3, curves 1-4 or the rest (default: force) are "
+    "displacement, force or contact, or one of these with a name, force:top; repeatable"};
 inline constexpr ModelSetting parameter_setting = {
     "--parameter", "NAME=NUMBER",
     "in place of what a .geo's DefineConstant gives NAME; repeatable"};
@@ -21,6 +21,9 @@ inline constexpr ModelSetting mesh_size_setting = {
     "--mesh-size", "MM",
     "a model's longest edge in mm, where it asks for shorter ones they stay; or a part of all its "
     "sizes, 50%"};
-inline constexpr std::array model_settings = {role_setting, parameter_setting, mesh_size_setting};
+inline constexpr ModelSetting length_unit_setting = {"--length-unit", "UNIT",
+                                                     "unit of a model's lengths: mm, m, inch"};
+inline constexpr std::array model_settings = {role_setting, parameter_setting, mesh_size_setting,
+                                              length_unit_setting};
 
 }  // namespace airybench

@@ -58,9 +58,12 @@ class LineReader {
   void end_of_line() {
     if (!rest_.empty()) fail("unexpected '" + shown() + "' at the end of the line");
   }
+  // Another section may come before it in a foreign mesh.
   void expect(std::string_view section) {
     const std::string_view line = next_line(section);
-    if (line != section) fail(std::string(section) + " expected, found '" + shown() + "'");
+    const std::string what = std::string(section) + " expected, found '" + shown() + "'";
+    if (line != section && line.starts_with("$")) fail<ForeignMeshError>(what);
+    if (line != section) fail(what);
   }
   template <typename Error = MeshError>
   [[noreturn]] void fail(const std::string& what) const {
@@ -154,7 +157,8 @@ std::map<long, int> read_nodes(LineReader& reader, Mesh& mesh) {
       reader.fail(name + ": coordinates must be finite numbers");
     if (i == 0) plane = z;
     if (!(z == plane))
-      reader.fail(name + ": z is not that of the first node; the body must lie in one plane");
+      reader.fail<ForeignMeshError>(
+          name + ": z is not that of the first node; the body must lie in one plane");
     if (!vertex_of_node.emplace(node, static_cast<int>(mesh.vertices.size())).second)
       reader.fail(name + " is given twice");
     mesh.vertices.emplace_back(x, y);
@@ -188,14 +192,16 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
     if (type == gmsh_line) {
       const auto curve = groups.curves.find(group);
       if (curve == groups.curves.end())
-        reader.fail(name + ": physical group " + std::to_string(group) +
-                    " is no boundary role (allowed: displacement, force, contact)");
+        reader.fail<ForeignMeshError>(
+            name + ": physical group " + std::to_string(group) +
+            " is no boundary role (allowed: displacement, force, contact)");
       const int start = vertex(), end = vertex();
       mesh.boundary.push_back({{start, end}, curve->second.role, curve->second.group});
     } else {
       const auto body = groups.bodies.find(group);
       if (body == groups.bodies.end())
-        reader.fail(name + ": physical group " + std::to_string(group) + " is no named body");
+        reader.fail<ForeignMeshError>(name + ": physical group " + std::to_string(group) +
+                                      " is no named body");
       const int a = vertex(), b = vertex(), c = vertex();
       mesh.triangles.push_back({a, b, c});
       mesh.triangle_body.push_back(body->second);
@@ -221,7 +227,7 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   LineReader reader(in, file_name);
   Mesh mesh;
   if (reader.next_line("$MeshFormat") != "$MeshFormat")
-    reader.fail("not a mesh file: the first line must be $MeshFormat");
+    reader.fail<ForeignMeshError>("not a mesh file: the first line must be $MeshFormat");
   reader.next_line("the format's version");
   const double version = reader.field<double>("the format's version");
   const int binary = reader.field<int>("the file type");
@@ -241,7 +247,11 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
         "unexpected section after $EndElements; convert with `meshgen --convert`");
   }
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
-  validate(mesh);
+  try {
+    validate(mesh);
+  } catch (const MeshError& error) {  // clockwise, or without a role: converted by --convert
+    throw ForeignMeshError(error.what());
+  }
   mesh.name = std::filesystem::path(file_name).stem().string();
   return mesh;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/selection.hpp"
 #include "meshgen/catalogue.hpp"
@@ -9,11 +10,14 @@
 #include "meshgen/checksums.hpp"
 #include "meshgen/convert.hpp"
 #include "meshgen/gmsh_mesher.hpp"
+#include "meshgen/in_a_child.hpp"
 #include "meshgen/last_words.hpp"
 #include "meshgen/mesh_cache.hpp"
-#include "meshgen/no_programs.hpp"
+#include "meshgen/roles.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"
+#include "support/data_folder.hpp"
+#include "support/process.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
@@ -31,17 +35,23 @@ void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
 }
 
 // A mesh with notes is made anew each time, so that they are said.
-Mesh converted_or_cached(const std::filesystem::path& model, const ModelOptions& options) {
+Mesh converted_or_cached(const std::filesystem::path& model, const ModelOptions& options,
+                         const AboutToMesh& about_to_mesh) {
   const std::filesystem::path file = cached_file(model, options);
   if (!file.empty())
     if (std::optional<Mesh> mesh = cached_mesh(file)) return std::move(*mesh);
   const LastWords last_words(model.string());
-  ConvertedModel converted = convert_model(model, options);
+  ConvertedModel converted = convert_model(model, options, about_to_mesh);
   if (!file.empty() && converted.notes.empty())
     if (const auto why_not = keep_mesh(file, converted.mesh))
       converted.notes.push_back(fmt::format("the mesh is not kept for next time: {}", *why_not));
   for (const std::string& note : converted.notes) fmt::print(stderr, "note: {}\n", note);
   return std::move(converted.mesh);
+}
+
+std::string last_line_of(std::string text) {
+  while (text.ends_with('\n')) text.pop_back();
+  return text.substr(text.rfind('\n') + 1);
 }
 
 }  // namespace
@@ -117,14 +127,49 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
 
 int convert_command(const std::filesystem::path& model, const ModelOptions& options,
                     const std::filesystem::path& out) {
-  start_no_programs();
-  const Mesh mesh = converted_or_cached(model, options);
-  if (out == "-") {
-    fmt::print("{}", msh_text(mesh));
+  const auto convert = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
+    const Mesh mesh = converted_or_cached(model, used, about_to_mesh);
+    if (out == "-") {
+      fmt::print("{}", msh_text(mesh));
+      return 0;
+    }
+    write_file_atomically(out, msh_text(mesh));
+    print_summary(out, mesh);
     return 0;
-  }
-  write_file_atomically(out, msh_text(mesh));
-  print_summary(out, mesh);
+  };
+  return in_a_child(model, options, convert);
+}
+
+int show_command(const std::filesystem::path& model, const ModelOptions& options,
+                 const std::filesystem::path& out) {
+  const TemporaryFolder work;
+  const std::filesystem::path curves = work.path() / "curves.json";
+  const auto show = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
+    const LastWords last_words(model.string());
+    std::vector<std::string> notes;
+    const PlaneModel plane = read_model(model, used, about_to_mesh, notes);
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    const std::string json = json_of(plane, model_name(model));
+    if (out == "-") {
+      fmt::print("{}\n", json);
+      return 0;
+    }
+    fmt::print("{}\n", table_of(plane));
+    write_file_atomically(curves, json);
+    return 0;
+  };
+  const int code = in_a_child(model, options, show);
+  if (code != 0 || out == "-") return code;
+  constexpr double time_limit_s = 300;
+  const std::filesystem::path drawing = data_folder("plots") / "curves.py";
+  const ProgramEnd end = run_program("/usr/bin/env",
+                                     {"PATH=/usr/bin:/bin:/usr/local/bin", "python3",
+                                      drawing.string(), curves.string(), out.string()},
+                                     time_limit_s);
+  if (end.exit_code != 0)
+    throw FileError(fmt::format("{}: no picture (Debian: python3-matplotlib, python3-pandas): {}",
+                                out.string(), last_line_of(end.err)));
+  fmt::print("picture: {}\n", out.string());
   return 0;
 }
 

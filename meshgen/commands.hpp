@@ -27,10 +27,15 @@ int tooth_command(const ToothDimensions& dimensions, const EdgeCounts& edges,
                   std::optional<int> vertices, const std::filesystem::path& out);
 
 // Writes a user's Gmsh model in our format, to standard output where `out` is "-". What has been
-// converted before comes from the cache (mesh_cache.hpp). Notes go to standard error. From then on
-// the process starts no other program, whatever the model says (no_programs.hpp).
+// converted before comes from the cache (mesh_cache.hpp). Notes go to standard error. Gmsh works in
+// a child process (in_a_child.hpp).
 int convert_command(const std::filesystem::path& model, const ModelOptions& options,
                     const std::filesystem::path& out);
+
+// Prints a table of a model's curves and draws them with their numbers into a PNG; where `out` is
+// "-", writes what is drawn as JSON to standard output instead (json_of in roles.hpp).
+int show_command(const std::filesystem::path& model, const ModelOptions& options,
+                 const std::filesystem::path& out);
 
 // Writes a changed mesh; `mesh` is a file, or a name in `repository`.
 int modify_command(const std::string& mesh, const std::filesystem::path& repository,

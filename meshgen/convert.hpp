@@ -1,20 +1,21 @@
 // A user's Gmsh model as a mesh of ours.
 //
-// The model (.geo, .msh of any version, .step and whatever else Gmsh opens) needs physical curves
-// named displacement (at least one), force, contact, or one of these with a name, "force:top",
-// which together make the whole boundary, and one or more physical surfaces, each a body of its own
-// material. Other names take such a label by ModelOptions::roles. A CAD file has no physical
-// groups: its surfaces are one body, and its curves go by their numbers. The model is meshed if it
-// holds no surface mesh yet. Other physical groups are left aside; so are surfaces in no physical
-// group. Of elements of higher order the corners are kept.
+// The model (model_format.hpp) is one or more surfaces in a plane. Its physical surfaces, or all of
+// its surfaces, are bodies, each of its own material. Every curve of the boundary has a role: by
+// the physical curves named displacement (at least one), force, contact, or one of these with a
+// name, "force:top", or by ModelOptions::roles; else it is free. The model is meshed if it holds no
+// surface mesh yet. Other physical groups are left aside.
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "mesh/mesh.hpp"
 #include "meshgen/model_options.hpp"
+#include "meshgen/open_model.hpp"
+#include "meshgen/plane_model.hpp"
 
 namespace airybench {
 
@@ -23,12 +24,17 @@ struct ConvertedModel {
   std::vector<std::string> notes;  // what the user should know of it, a line each
 };
 
-// Opens a GmshSession of its own (none may live), because a model may set Gmsh's options. Nodes of
-// no triangle are dropped, vertices numbered in the order of Gmsh's node numbers, triangles turned
-// counter-clockwise, boundary edges walked with the body on the left; coordinates are kept as they
-// are, in mm. A surface group without a name becomes "body", or "body<number>" when there are
-// several groups. The result is valid. Throws MeshError, one line "file: what is wrong", with
-// Gmsh's own message where it fails.
-ConvertedModel convert_model(const std::filesystem::path& model, const ModelOptions& options = {});
+// Opens a GmshSession (none may live), because a model may set Gmsh's options. Nodes of no triangle
+// are dropped, vertices numbered in the order of Gmsh's node numbers, triangles turned
+// counter-clockwise, boundary edges walked with the body on the left. A surface, or group of them,
+// without a name becomes "body", or "body<number>" when there are several. The result is valid.
+// Throws MeshError, one line "file: what is wrong", with Gmsh's own message where it fails; where
+// no curve is held, a table of the curves follows.
+ConvertedModel convert_model(const std::filesystem::path& model, const ModelOptions& options = {},
+                             const AboutToMesh& about_to_mesh = {});
+
+// The model's triangles and its curves with their roles, which need not be a body.
+PlaneModel read_model(const std::filesystem::path& file, const ModelOptions& options,
+                      const AboutToMesh& about_to_mesh, std::vector<std::string>& notes);
 
 }  // namespace airybench

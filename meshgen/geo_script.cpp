@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "mesh/model_format.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 
@@ -114,6 +115,27 @@ GeoScript read_geo_script(const std::filesystem::path& file) {
   GeoScript script;
   read_into(script, file.lexically_normal(), file_text(file));
   return script;
+}
+
+GeoScript what_is_read(const std::filesystem::path& model) {
+  GeoScript script;
+  if (format_of(model) == ModelFormat::geo)
+    script = read_geo_script(model);
+  else
+    script.files = {model};
+  const std::filesystem::path options = model.string() + ".opt";
+  std::error_code error;
+  if (std::filesystem::exists(options, error)) read_into(script, options, file_text(options));
+  return script;
+}
+
+int line_with(const std::filesystem::path& file, const std::string& text) {
+  const std::string all = file_text(file);
+  const std::size_t at = all.find(text);
+  return at == all.npos
+             ? 0
+             : 1 + static_cast<int>(std::count(
+                       all.begin(), all.begin() + static_cast<std::ptrdiff_t>(at), '\n'));
 }
 
 }  // namespace airybench

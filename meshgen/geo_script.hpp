@@ -22,4 +22,11 @@ struct GeoScript {
 // Throws FileError: the file cannot be read.
 GeoScript read_geo_script(const std::filesystem::path& file);
 
+// Of any model: its file, all that a .geo includes, and FILE.opt, which Gmsh reads after FILE as if
+// it were a .geo.
+GeoScript what_is_read(const std::filesystem::path& model);
+
+// The first line of a file that holds the text; 0: none.
+int line_with(const std::filesystem::path& file, const std::string& text);
+
 }  // namespace airybench

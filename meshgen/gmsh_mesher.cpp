@@ -92,6 +92,11 @@ std::string gmsh_version() {
   return version;
 }
 
+std::string version_of_gmsh() {
+  const GmshSession session;
+  return gmsh_version();
+}
+
 std::string message_of_gmsh() {
   try {
     throw;

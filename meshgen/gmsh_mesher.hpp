@@ -26,6 +26,7 @@ class GmshSession {
 
 // The library's version, "4.8.4"; needs a session, as everything here.
 std::string gmsh_version();
+std::string version_of_gmsh();  // the same, where no session lives
 
 // The message of the exception being handled, which Gmsh threw: a std::string, since 4.9 a
 // std::runtime_error. Others, InputError among them, are thrown on.

@@ -6,21 +6,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <iostream>
 
+#include "mesh/model_format.hpp"
 #include "mesh/model_settings.hpp"
 #include "meshgen/commands.hpp"
+#include "meshgen/complaints.hpp"
 #include "support/data_folder.hpp"
 #include "support/numbers.hpp"
 #include "support/this_process.hpp"
 
 namespace {
 
-constexpr int exit_failure = 1, exit_usage = 2;
-
 struct Arguments {
-  std::string selection, model, to_modify, out;
+  std::string selection, model, to_show, to_modify, out;
   bool check = false, tooth = false;
   std::string repository = airybench::data_folder("meshes");
   airybench::ToothDimensions dimensions;
@@ -29,10 +28,10 @@ struct Arguments {
   airybench::MeshTransform transform;
   std::vector<double> grade, slivers, stretch, move_mm, layers;
   std::vector<std::string> roles, parameters;
-  std::string mesh_size;
+  std::string mesh_size, length_unit;
 };
 
-constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert", "--modify"};
+constexpr std::array modes = {"--mesh", "--check", "--tooth", "--convert", "--show", "--modify"};
 
 void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
   const auto option = [&](const char* name, auto& value, const char* type, const char* help) {
@@ -63,16 +62,16 @@ void declare_modify(CLI::App& app, CLI::Option* modify, Arguments& a) {
           "COUNT layers of equal thickness in the direction (NX, NY) as bodies \"layer 1\", ...");
 }
 
-void declare_convert(CLI::App& app, CLI::Option* convert, Arguments& a) {
+void declare_model_settings(CLI::App& app, Arguments& a) {
   const auto declare = [&](const airybench::ModelSetting& setting, auto& value) {
     return app.add_option(setting.option, value, setting.help)
         ->type_name(setting.type)
-        ->needs(convert)
-        ->group("With --convert");
+        ->group("With --convert, --show");
   };
   declare(airybench::role_setting, a.roles)->allow_extra_args(false);
   declare(airybench::parameter_setting, a.parameters)->allow_extra_args(false);
   declare(airybench::mesh_size_setting, a.mesh_size);
+  declare(airybench::length_unit_setting, a.length_unit);
 }
 
 void declare(CLI::App& app, Arguments& a) {
@@ -86,12 +85,14 @@ void declare(CLI::App& app, Arguments& a) {
       ->group(what);
   auto* tooth =
       app.add_flag("--tooth", a.tooth, "Make a tooth or rack of own dimensions")->group(what);
-  auto* convert =
-      app.add_option("--convert", a.model,
-                     "Convert a Gmsh model (.geo, .msh, .step) with physical curves displacement, "
-                     "force, contact and a physical surface per body")
-          ->type_name("MODEL")
-          ->group(what);
+  app.add_option("--convert", a.model,
+                 "Make a mesh of a model: " + std::string(airybench::model_extensions))
+      ->type_name("MODEL")
+      ->group(what);
+  app.add_option("--show", a.to_show,
+                 "Print a model's curves as a table and draw them with their numbers")
+      ->type_name("MODEL")
+      ->group(what);
   auto* modify =
       app.add_option("--modify", a.to_modify, "Change a mesh: a .msh file or one of Mesh0..Mesh7")
           ->type_name("MESH")
@@ -99,7 +100,8 @@ void declare(CLI::App& app, Arguments& a) {
 
   app.add_option("--out", a.out,
                  "Where to write: a folder with --mesh; a .msh file with --tooth, --convert, "
-                 "--modify (--convert: - is standard output)")
+                 "--modify (--convert: - is standard output); with --show a picture, MODEL.png by "
+                 "default (- is what it shows, as JSON)")
       ->type_name("PATH");
   app.add_option("--meshes", a.repository, "Folder of the repository's meshes")
       ->envname("AIRYBENCH_MESH_DIR")
@@ -129,7 +131,7 @@ void declare(CLI::App& app, Arguments& a) {
   length("--tip-half-height", a.dimensions.tip_half_height, "Half height of the tip");
   length("--pitch", a.dimensions.pitch, "Distance between a rack's teeth");
   length("--block-depth", a.dimensions.block_depth, "Depth of a rack's block");
-  declare_convert(app, convert, a);
+  declare_model_settings(app, a);
   declare_modify(app, modify, a);
 }
 
@@ -174,6 +176,12 @@ void check_usage(const CLI::App& app, const Arguments& a) {
   if (writes_a_file && !to_stdout && !a.out.ends_with(".msh"))
     throw std::invalid_argument(
         fmt::format("--out: '{}'; a file name ending in .msh is needed", a.out));
+  if (!a.to_show.empty() && !a.out.empty() && a.out != "-" && !a.out.ends_with(".png"))
+    throw std::invalid_argument(
+        fmt::format("--out: '{}'; a file name ending in .png is needed, or -", a.out));
+  for (const airybench::ModelSetting& setting : airybench::model_settings)
+    if (app.count(setting.option) > 0 && a.model.empty() && a.to_show.empty())
+      throw std::invalid_argument(fmt::format("{}: it needs --convert or --show", setting.option));
   if (a.check && app.count("--out") > 0)
     throw std::invalid_argument("--out does not go with --check, which writes nothing");
   if (!a.tooth) return;
@@ -191,21 +199,18 @@ int run(const CLI::App& app, const Arguments& a) {
     return airybench::tooth_command(
         a.dimensions, a.edges,
         app.count("--vertices") > 0 ? std::optional(a.vertices) : std::nullopt, a.out);
-  if (app.count("--convert") > 0)
-    return airybench::convert_command(
-        a.model, airybench::model_options_of(a.roles, a.parameters, a.mesh_size), a.out);
+  const airybench::ModelOptions options =
+      airybench::model_options_of(a.roles, a.parameters, a.mesh_size, a.length_unit);
+  if (app.count("--convert") > 0) return airybench::convert_command(a.model, options, a.out);
+  if (app.count("--show") > 0)
+    return airybench::show_command(
+        a.to_show, options, a.out.empty() ? airybench::model_name(a.to_show) + ".png" : a.out);
   if (app.count("--modify") > 0)
     return airybench::modify_command(a.to_modify, a.repository, transform_of(a), layers_of(a),
                                      a.out);
   return airybench::remake_command(
       a.selection, a.repository,
       a.out.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.out));
-}
-
-int complain(std::string what, int exit_code) {
-  std::replace(what.begin(), what.end(), '\n', ' ');
-  std::cerr << "meshgen: " << what << "\n";
-  return exit_code;
 }
 
 std::string valid_options(const CLI::App& app) {
@@ -225,16 +230,10 @@ int parse_and_run(int argc, char** argv) {
     std::cout << app.help();
     return 0;
   } catch (const CLI::ParseError& error) {
-    return complain(fmt::format("{} (valid: {})", error.what(), valid_options(app)), exit_usage);
+    return airybench::complain(fmt::format("{} (valid: {})", error.what(), valid_options(app)),
+                               airybench::exit_usage);
   }
-  try {
-    return run(app, arguments);
-  } catch (const std::invalid_argument& error) {
-    return complain(error.what(), exit_usage);
-  } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) return exit_usage;  // which fmt throws for
-    return complain(error.what(), exit_failure);
-  }
+  return airybench::complained([&] { return run(app, arguments); });
 }
 
 }  // namespace

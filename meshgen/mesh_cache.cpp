@@ -14,16 +14,11 @@
 namespace airybench {
 namespace {
 
-constexpr const char* made_by = "airybench converts models, 1";  // another number: other meshes
+constexpr const char* made_by = "airybench converts models, 2";  // another number: other meshes
 
 std::filesystem::path folder_of_variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
-}
-
-std::string version_of_gmsh() {
-  const GmshSession session;
-  return gmsh_version();
 }
 
 }  // namespace
@@ -38,10 +33,8 @@ std::filesystem::path cache_folder() {
 }
 
 std::filesystem::path cached_file(const std::filesystem::path& model, const ModelOptions& options) {
-  GeoScript script;
-  script.files = {model};
   if (format_of(model) == ModelFormat::other) return "";
-  if (format_of(model) == ModelFormat::geo) script = read_geo_script(model);
+  const GeoScript script = what_is_read(model);
   const std::filesystem::path folder = cache_folder();
   if (!script.is_self_contained || folder.empty()) return "";
   std::string inputs = fmt::format("{}\nGmsh {}\n{}", made_by, version_of_gmsh(), text_of(options));

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include "mesh/mesh.hpp"
 #include "support/numbers.hpp"
@@ -50,11 +53,19 @@ void set_size(const std::string& text, ModelOptions& options) {
     options.longest_edge_mm = number;
 }
 
+double length_unit_mm(const std::string& name) {
+  constexpr std::array<std::pair<std::string_view, double>, 3> units = {
+      {{"mm", 1}, {"m", 1000}, {"inch", 25.4}}};
+  for (const auto& [known, mm] : units)
+    if (name == known) return mm;
+  refuse_argument("--length-unit", name, "mm, m, inch");
+}
+
 }  // namespace
 
 ModelOptions model_options_of(const std::vector<std::string>& roles,
                               const std::vector<std::string>& parameters,
-                              const std::string& mesh_size) {
+                              const std::string& mesh_size, const std::string& length_unit) {
   ModelOptions options;
   for (const std::string& role : roles) {
     const std::string allowed = fmt::format("NAME=ROLE with {}", boundary_labels_allowed);
@@ -70,6 +81,7 @@ ModelOptions model_options_of(const std::vector<std::string>& roles,
     add_once("--parameter", options.parameters, name, *value);
   }
   if (!mesh_size.empty()) set_size(mesh_size, options);
+  if (!length_unit.empty()) options.length_unit_mm = length_unit_mm(length_unit);
   return options;
 }
 
@@ -81,6 +93,8 @@ std::string text_of(const ModelOptions& options) {
     text += fmt::format("parameter {} {} {}\n", name.size(), name, value);
   if (options.longest_edge_mm) text += fmt::format("longest edge {}\n", *options.longest_edge_mm);
   if (options.size_factor) text += fmt::format("size factor {}\n", *options.size_factor);
+  if (options.length_unit_mm != 1) text += fmt::format("unit {} mm\n", options.length_unit_mm);
+  if (options.algorithm) text += fmt::format("algorithm {}\n", *options.algorithm);
   return text;
 }
 

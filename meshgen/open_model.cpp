@@ -5,13 +5,16 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <cmath>
+#include <span>
 
 #include "mesh/mesh.hpp"
 #include "mesh/model_format.hpp"
 #include "meshgen/geo_script.hpp"
+#include "meshgen/gmsh_input.hpp"
+#include "meshgen/plane_model.hpp"
 #include "meshgen/quiet_stdout.hpp"
 #include "support/errors.hpp"
-#include "support/file_text.hpp"
 
 namespace airybench {
 namespace {
@@ -20,16 +23,6 @@ std::string names_of(const GeoScript& script) {
   std::set<std::string> names = script.constants;
   names.insert(script.onelab_names.begin(), script.onelab_names.end());
   return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-// What Gmsh would pass over, or wait for without end.
-void check(const GeoScript& script, const std::filesystem::path& file) {
-  const std::string text = file_text(file);
-  if (!text.empty() && text.back() != '\n')
-    throw InputError(
-        "its last line does not end: Gmsh would pass over it (allowed: a new line there)");
-  if (script.has_external_process)
-    throw InputError("a field ExternalProcess (a model may start no programs)");
 }
 
 gmsh::vectorpair entities(int dimension) {
@@ -44,39 +37,13 @@ std::vector<int> numbers_of(const gmsh::vectorpair& entities) {
   return numbers;
 }
 
-// "4 at (0, 5)", the middle of the curve.
-std::string place_of_curve(int curve) {
-  std::vector<double> least, most, point;
-  gmsh::model::getParametrizationBounds(1, curve, least, most);
-  gmsh::model::getValue(1, curve, {(least.at(0) + most.at(0)) / 2}, point);
-  return fmt::format("{} at ({:.4g}, {:.4g})", curve, point.at(0), point.at(1));
-}
-
-std::string places_of(std::vector<int> curves) {
-  constexpr std::size_t most = 12;
-  const bool has_more = curves.size() > most;
-  curves.resize(std::min(curves.size(), most));
-  std::vector<std::string> places;
-  for (const int curve : curves) places.push_back(place_of_curve(curve));
-  return fmt::format("{}{}", fmt::join(places, ", "), has_more ? ", …" : "");
-}
-
-void name_parts_of_cad(const ModelOptions& options) {
-  if (const std::size_t volumes = entities(3).size(); volumes > 0)
+void refuse_volumes() {
+  gmsh::vectorpair groups;
+  gmsh::model::getPhysicalGroups(groups, 2);
+  if (const std::size_t volumes = entities(3).size(); volumes > 0 && groups.empty())
     throw InputError(fmt::format(
         "{} volume(s); the body must be plane: one or more faces in a plane z = constant",
         volumes));
-  const std::vector<int> surfaces = numbers_of(entities(2)), curves = numbers_of(entities(1));
-  if (surfaces.empty()) throw InputError("it has no surface");
-  if (options.roles.empty())
-    throw InputError(
-        fmt::format("a CAD file names no curves; each needs a role by its number, --role {}=force "
-                    "(its curves: {})",
-                    curves.empty() ? 1 : curves.front(), places_of(curves)));
-  gmsh::model::setPhysicalName(2, gmsh::model::addPhysicalGroup(2, surfaces), "body");
-  for (const int curve : curves)
-    gmsh::model::setPhysicalName(1, gmsh::model::addPhysicalGroup(1, {curve}, curve),
-                                 std::to_string(curve));
 }
 
 // A straight curve from a to b.
@@ -85,8 +52,13 @@ struct StraightLine {
   Eigen::Vector2d a, b;
 };
 
-// The straight curves around a surface, a body's own or a hole's.
+// The straight curves around a surface, a body's own or a hole's, in its plane.
 std::vector<StraightLine> straight_lines_around(int surface) {
+  double x0, y0, z0, x1, y1, z1;
+  gmsh::model::getBoundingBox(2, surface, x0, y0, z0, x1, y1, z1);
+  const double least = std::min({x1 - x0, y1 - y0, z1 - z0});
+  const std::size_t first = least == x1 - x0 && least < z1 - z0 ? 1 : 0,
+                    second = least == z1 - z0 ? 1 : 2;
   std::vector<StraightLine> lines;
   gmsh::vectorpair curves, ends;
   gmsh::model::getBoundary({{2, surface}}, curves, /*combined=*/false, /*oriented=*/false);
@@ -98,7 +70,7 @@ std::vector<StraightLine> straight_lines_around(int surface) {
     const auto place = [&](std::size_t end) {
       std::vector<double> xyz;
       gmsh::model::getValue(0, ends[end].second, {}, xyz);
-      return Eigen::Vector2d(xyz.at(0), xyz.at(1));
+      return Eigen::Vector2d(xyz.at(first), xyz.at(second));
     };
     lines.push_back({curve, place(0), place(1)});
   }
@@ -113,7 +85,7 @@ bool cross(const StraightLine& one, const StraightLine& other) {
   return on_both_sides(one, other) && on_both_sides(other, one);
 }
 
-// Of a surface in a plane z = constant. Gmsh tries to mend such a boundary: 4.8 gives up, 4.13 does
+// Gmsh tries to mend such a boundary: 4.8 gives up, 4.13 does
 // not end.
 void refuse_crossing_lines() {
   for (const int surface : numbers_of(entities(2))) {
@@ -140,23 +112,106 @@ double option(const char* name) {
 }
 
 // Over what the model itself says of sizes. Numbers of edges (transfinite curves) stay.
-void set_sizes(const ModelOptions& options) {
+void set_sizes(const ModelOptions& options, double mm_per_unit) {
   if (options.size_factor)
     gmsh::option::setNumber("Mesh.MeshSizeFactor",
                             option("Mesh.MeshSizeFactor") * *options.size_factor);
   if (!options.longest_edge_mm) return;
   for (const char* bound : {"Mesh.MeshSizeMax", "Mesh.MeshSizeMin"})
-    gmsh::option::setNumber(bound, std::min(option(bound), *options.longest_edge_mm));
+    gmsh::option::setNumber(bound, std::min(option(bound), *options.longest_edge_mm / mm_per_unit));
 }
 
-void mesh_surfaces(const ModelOptions& options) {
-  if (!has_mesh()) {
-    set_sizes(options);
-    refuse_crossing_lines();
-    gmsh::model::mesh::generate(2);
-  } else if (options.size_factor || options.longest_edge_mm) {
-    throw InputError("--mesh-size: it has a mesh already (bench --adapt refines one)");
+// Fills the outline of the triangles, which may be as thin as can be.
+void fill_outline(std::vector<std::string>& notes) {
+  namespace geo = gmsh::model::geo;
+  const PlaneModel triangles = read_plane_model(1, notes);
+  gmsh::clear();
+  gmsh::model::add("outline");
+  for (const auto& [node, p] : triangles.position)
+    geo::addPoint(p.x(), p.y(), 0, 0, static_cast<int>(node));
+  struct Outgoing {
+    int curve;
+    std::size_t end;
+    double twice_area;  // between it and the origin
+  };
+  std::map<std::size_t, Outgoing> from;
+  const auto add = [&](std::span<const std::size_t> walk, int number) {
+    geo::addPolyline(std::vector<int>(walk.begin(), walk.end()), number);
+    double area = 0;
+    for (std::size_t k = 1; k < walk.size(); ++k)
+      area +=
+          cross_area({0, 0}, triangles.position.at(walk[k - 1]), triangles.position.at(walk[k]));
+    from[walk.front()] = {number, walk.back(), area};
+  };
+  int number = triangles.curves.back().number;
+  for (const ModelCurve& curve : triangles.curves)
+    for (const std::vector<std::size_t>& nodes : walks_of(curve)) {
+      const std::span<const std::size_t> walk(nodes);
+      const std::size_t middle = walk.size() / 2;
+      const bool is_closed = walk.front() == walk.back();  // which no curve of Gmsh's may be
+      add(is_closed ? walk.first(middle + 1) : walk, curve.number);
+      if (is_closed) add(walk.subspan(middle), ++number);
+    }
+  std::vector<int> loops;
+  int outer = 0;
+  while (!from.empty()) {
+    std::vector<int> loop;
+    double area = 0;
+    for (auto at = from.begin(); at != from.end();) {
+      const auto [curve, end, twice_area] = at->second;
+      loop.push_back(curve);
+      area += twice_area;
+      from.erase(at);
+      at = from.find(end);
+    }
+    loops.insert(area > 0 ? loops.begin() : loops.end(), geo::addCurveLoop(loop));
+    outer += area > 0;
   }
+  if (outer != 1) throw InputError(fmt::format("{} outlines; the body must be one", outer));
+  geo::addPlaneSurface(loops, 1);
+  geo::synchronize();
+}
+
+// Gmsh's complaint names the user's file.
+void open_in_gmsh(const GmshInput& input, const std::filesystem::path& file) {
+  try {
+    gmsh::open(input.file().string());
+  } catch (...) {
+    std::string message = message_of_gmsh();
+    for (const std::string& name :
+         {input.file().string(), std::filesystem::absolute(file).string()})
+      if (const std::size_t at = message.find(name); at != message.npos && name != file.string())
+        message.replace(at, name.size(), file.string());
+    throw message;
+  }
+}
+
+void refuse_if_not_built_for(const std::filesystem::path& file) {
+  std::string built_with;
+  gmsh::option::getString("General.BuildOptions", built_with);
+  if (model_name(file) + ".med" == file.filename() && built_with.find(" Med") == built_with.npos)
+    throw InputError(fmt::format(
+        "Gmsh {} is built without MED here (allowed: the mesh in another format, as .unv)",
+        gmsh_version()));
+}
+
+double scaling_factor(std::vector<std::string>& notes) {
+  const double factor = option("Mesh.ScalingFactor");
+  if (!(factor > 0) || !std::isfinite(factor))
+    throw InputError(fmt::format("Mesh.ScalingFactor = {} (allowed: > 0)", factor));
+  if (factor != 1)
+    notes.push_back(fmt::format("lengths are multiplied by its Mesh.ScalingFactor, {}", factor));
+  return factor;
+}
+
+void generate(const ModelOptions& options, const AboutToMesh& about_to_mesh) {
+  if (options.algorithm) {
+    gmsh::option::setNumber("Mesh.Algorithm", *options.algorithm);
+    for (const int surface : numbers_of(entities(2)))
+      gmsh::model::mesh::setAlgorithm(2, surface, *options.algorithm);
+  }
+  if (about_to_mesh) about_to_mesh(static_cast<int>(option("Mesh.Algorithm")));
+  gmsh::model::mesh::generate(2);
 }
 
 }  // namespace
@@ -164,12 +219,13 @@ void mesh_surfaces(const ModelOptions& options) {
 OpenModel::Parameters OpenModel::parameters_of(const std::filesystem::path& file,
                                                const ModelOptions& options) {
   Parameters parameters;
+  const GeoScript script = what_is_read(file);
+  if (script.has_external_process)
+    throw InputError("a field ExternalProcess (a model may start no programs)");
   if (format_of(file) != ModelFormat::geo) {
     if (options.parameters.empty()) return parameters;
     throw InputError("--parameter: only a .geo has parameters");
   }
-  const GeoScript script = read_geo_script(file);
-  check(script, file);
   for (const auto& [name, value] : options.parameters) {
     if (script.onelab_names.contains(name)) {
       parameters.onelab.emplace(name, value);
@@ -184,19 +240,32 @@ OpenModel::Parameters OpenModel::parameters_of(const std::filesystem::path& file
   return parameters;
 }
 
-OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& options)
-    : OpenModel(file, options, parameters_of(file, options)) {}
+OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& options,
+                     const AboutToMesh& about_to_mesh, std::vector<std::string>& notes)
+    : OpenModel(file, options, parameters_of(file, options), about_to_mesh, notes) {}
 
 OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& options,
-                     const Parameters& parameters)
+                     const Parameters& parameters, const AboutToMesh& about_to_mesh,
+                     std::vector<std::string>& notes)
     : session_(parameters.constants) {
+  const GmshInput input(file);
+  refuse_if_not_built_for(file);
   for (const auto& [name, value] : parameters.onelab) gmsh::onelab::setNumber(name, {value});
-  {
-    const QuietStdout quiet;  // OpenCASCADE, inside Gmsh, complains there whatever Gmsh is told
-    gmsh::open(file.string());
+  const QuietStdout quiet;  // parts of Gmsh print there whatever it is told
+  open_in_gmsh(input, file);
+  if (entities(-1).empty())
+    throw InputError(
+        fmt::format("it has neither mesh nor geometry (what can be read: {})", model_extensions));
+  mm_per_unit_ = options.length_unit_mm * scaling_factor(notes);
+  if (format_of(file) == ModelFormat::outline) fill_outline(notes);
+  refuse_volumes();
+  if (!has_mesh()) {
+    set_sizes(options, mm_per_unit_);
+    refuse_crossing_lines();
+    generate(options, about_to_mesh);
+  } else if (options.size_factor || options.longest_edge_mm) {
+    throw InputError("--mesh-size: it has a mesh already (bench --adapt refines one)");
   }
-  if (format_of(file) == ModelFormat::cad) name_parts_of_cad(options);
-  mesh_surfaces(options);
 }
 
 }  // namespace airybench

@@ -1,5 +1,7 @@
 #include "support/lists.hpp"
 
+#include <algorithm>
+
 namespace airybench {
 
 FirstItem first_item(std::string_view list, char separator) {
@@ -24,6 +26,31 @@ std::vector<std::string> split_list(std::string_view list, char separator) {
     rest = first.rest;
   }
   return items;
+}
+
+std::string nearest_of(std::string_view word, const std::vector<std::string>& names) {
+  const auto distance_to = [&](std::string_view name) {
+    std::vector<std::size_t> before(name.size() + 1), now(before);  // Levenshtein's rows
+    for (std::size_t k = 0; k <= name.size(); ++k) before[k] = k;
+    for (std::size_t i = 1; i <= word.size(); ++i, before.swap(now)) {
+      now[0] = i;
+      for (std::size_t k = 1; k <= name.size(); ++k)
+        now[k] = std::min(
+            {before[k] + 1, now[k - 1] + 1, before[k - 1] + (word[i - 1] == name[k - 1] ? 0 : 1)});
+    }
+    return before.back();
+  };
+  std::string nearest;
+  std::size_t least = 0;
+  for (const std::string& name : names) {
+    const std::size_t distance = word.size() > 100 ? name.size() : distance_to(name);
+    if (distance > std::max<std::size_t>(name.size() / 3, 1)) continue;
+    if (nearest.empty() || distance < least) {
+      nearest = name;
+      least = distance;
+    }
+  }
+  return nearest;
 }
 
 }  // namespace airybench

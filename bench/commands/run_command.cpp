@@ -12,6 +12,7 @@
 #include "bench/external/external_method.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/plan/mesh_files.hpp"
+#include "bench/plan/new_scene.hpp"
 #include "bench/plan/plan.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
@@ -164,6 +165,12 @@ int run_command(int argc, const char* const* argv) {
   }
   if (options.list) {
     print_list(other_programs(options));
+    return all_ok;
+  }
+  if (!options.new_scene.empty()) {
+    const std::string scene = write_new_scene(options.new_scene, options);
+    fmt::print("{}: fill it in, then: bench --mesh={} --scene={}\n", scene,
+               shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
   const bool only_plans = options.explain || options.dry_run;

@@ -9,6 +9,7 @@
 #include "bench/records/json.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
+#include "mesh/model_format.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
@@ -118,8 +119,8 @@ struct Texts {
 void add_cases(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("What is solved");
   app.add_option("--mesh", options.meshes,
-                 "range, list (Mesh0,Mesh3), glob, or files: meshes (*.msh), Gmsh models (*.geo, "
-                 "*.step, *.brep, *.iges)")
+                 "range, list (Mesh0,Mesh3), glob, or files, meshes and models: " +
+                     std::string(model_extensions))
       ->capture_default_str();
   add_model_settings(app, options.model_settings);
   add_files(app, "--scene", options.scenes,
@@ -194,6 +195,8 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
                "stresses, displacements, contact points (*.csv, *.vtu), total errors; =mean: the "
                "mean with admissible stresses, too; =histories: of iterations, too");
   app.option_defaults()->group("Instead of a run");
+  app.add_option("--new-scene", options.new_scene,
+                 "write MODEL.json for a model: a scene with its groups, and values to fill in");
   app.add_flag("--list", options.list, "print meshes and methods");
   app.add_flag("--dry-run", options.dry_run,
                "print the cases, what they will take (from earlier records) and what is left out");

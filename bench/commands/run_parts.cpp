@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <map>
 
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/scene_file.hpp"
@@ -101,15 +102,21 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
   if (!options.problems.empty()) return posed_problems(options);
   const std::vector<SceneFile> scenes = read_scenes(options);
   std::vector<PosedScene> posed;
-  const std::vector<MeshFile> files = read_meshes(options);
-  for (const MeshFile& file : files)
+  std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings
+  for (const SceneFile& given : scenes)
+    if (const auto& settings = given.model_settings; !meshes.contains(settings))
+      meshes.emplace(settings, read_meshes(options, settings));
+  for (std::size_t k = 0; k < meshes.begin()->second.size(); ++k)
     for (const SceneFile& given : scenes) {
-      const auto& [scene, definition] = is_of_catalogue(file.path) ? given : on_other_bodies(given);
+      const MeshFile& file = meshes.at(given.model_settings)[k];
+      const auto& [scene, definition, settings] =
+          is_of_catalogue(file.path) ? given : on_other_bodies(given);
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
       note_out_of_reach(posed.back());
     }
-  if (!options.dry_run && !options.explain) keep_models(files);
+  if (!options.dry_run && !options.explain)
+    for (const auto& [settings, files] : meshes) keep_models(files);
   return posed;
 }
 

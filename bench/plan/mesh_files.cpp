@@ -11,6 +11,7 @@
 
 #include "bench/records/case_name.hpp"
 #include "mesh/model_format.hpp"
+#include "mesh/model_settings.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "mesh/selection.hpp"
@@ -40,31 +41,32 @@ void check_name(const Mesh& mesh, const std::filesystem::path& path) {
 constexpr const char* converter = "meshgen";
 constexpr double time_limit_s = 900;
 
+// The last of its complaints, with the table that may follow.
 std::string complaint_of(const ProgramEnd& end) {
   if (end.signal != 0)
     return fmt::format("{} was ended by a signal: {}", converter, strsignal(end.signal));
-  std::istringstream lines(end.err);
-  std::string last;
-  for (std::string line; std::getline(lines, line);)
-    if (!line.empty()) last = line;
-  const std::string prefix = fmt::format("{}: ", converter);
-  if (last.starts_with(prefix)) return last.substr(prefix.size());
-  return fmt::format("{} ended with exit code {}: {}", converter, end.exit_code, last);
+  std::string text = "\n" + end.err;
+  while (text.ends_with('\n')) text.pop_back();
+  const std::string prefix = fmt::format("\n{}: ", converter);
+  if (const std::size_t at = text.rfind(prefix); at != text.npos)
+    return text.substr(at + prefix.size());
+  return fmt::format("{} ended with exit code {}: {}", converter, end.exit_code,
+                     text.substr(text.rfind('\n') + 1));
 }
 
 bool can_convert_models() { return program_of_ours(converter).has_value(); }
 
-// bench does not link Gmsh, so meshgen converts in a separate process; its notes go to standard
-// error. settings: options of `meshgen --convert`. Throws FileError.
-std::string mesh_text_of_model(const std::filesystem::path& model,
-                               const std::vector<std::string>& settings) {
+// bench does not link Gmsh, so meshgen reads models in a separate process; its notes go to standard
+// error. mode: --convert, --show; settings: options of these. Throws FileError.
+std::string said_of_model(const std::string& mode, const std::filesystem::path& model,
+                          const std::vector<std::string>& settings) {
   const auto program = program_of_ours(converter);
   if (!program)
     throw FileError(
         fmt::format("{}: a Gmsh model, but there is no {} beside this program (Debian: "
                     "install libgmsh-dev and build again, as ./run bench does)",
                     model.string(), converter));
-  std::vector<std::string> arguments = {"--convert=" + model.string(), "--out=-"};
+  std::vector<std::string> arguments = {mode + "=" + model.string(), "--out=-"};
   arguments.insert(arguments.end(), settings.begin(), settings.end());
   ProgramEnd end = run_program(*program, arguments, time_limit_s);
   if (end.timed_out)
@@ -76,10 +78,14 @@ std::string mesh_text_of_model(const std::filesystem::path& model,
   return std::move(end.out);
 }
 
-MeshFile converted(const std::filesystem::path& model, const Options& options) {
+using Settings = std::vector<std::string>;
+
+MeshFile converted(const std::filesystem::path& model, const Options& options,
+                   const Settings& settings) {
   constexpr std::size_t digits = 8;
-  std::istringstream in(mesh_text_of_model(model, options.model_settings));
+  std::istringstream in(said_of_model("--convert", model, settings));
   MeshFile file{{}, "", read_msh(in, model.string()), true};
+  file.mesh.name = model_name(model);
   check_name(file.mesh, model);
   file.sha256 = sha256_hex(msh_text(file.mesh));
   const std::string& name = file.mesh.name;
@@ -97,15 +103,26 @@ MeshFile refined_mesh(const std::filesystem::path& path, const RefinedName& refi
   return file;
 }
 
-MeshFile read_or_convert(const std::filesystem::path& path, const Options& options) {
+// Sizes and parameters are of models that have no mesh yet.
+bool changes_any_mesh(const std::string& setting) {
+  return setting.starts_with(role_setting.option) ||
+         setting.starts_with(length_unit_setting.option);
+}
+
+MeshFile read_or_convert(const std::filesystem::path& path, const Options& options,
+                         const Settings& settings) {
   const ModelFormat format = format_of(path);
-  if (format == ModelFormat::geo || format == ModelFormat::cad) return converted(path, options);
+  const bool is_msh =
+      (format == ModelFormat::msh || format == ModelFormat::other) && !is_gzipped(path);
+  const bool is_as_it_is =
+      is_of_catalogue(path) || std::ranges::none_of(settings, changes_any_mesh);
+  if (!is_msh || !is_as_it_is) return converted(path, options, settings);
   try {
     return read_mesh_file(path);
   } catch (const ForeignMeshError&) {
-    if (!can_convert_models()) throw;
+    if (!can_convert_models() || is_of_catalogue(path)) throw;
   }
-  return converted(path, options);
+  return converted(path, options, settings);
 }
 
 }  // namespace
@@ -119,12 +136,14 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
   return {path, sha256_of_file(path), std::move(mesh)};
 }
 
-std::vector<MeshFile> read_meshes(const Options& options) {
+std::vector<MeshFile> read_meshes(const Options& options, const Settings& of_scene) {
+  Settings settings = options.model_settings;
+  settings.insert(settings.end(), of_scene.begin(), of_scene.end());
   std::vector<MeshFile> files;
   for (const std::string& item : expand_mesh_selection(options.meshes)) {
     const std::filesystem::path path =
         is_mesh_file(item) ? std::filesystem::path(item) : mesh_directory() / (item + ".msh");
-    MeshFile file = read_or_convert(path, options);
+    MeshFile file = read_or_convert(path, options, settings);
     for (const MeshFile& earlier : files)
       if (earlier.mesh.name == file.mesh.name)
         throw std::invalid_argument("two meshes are named " + file.mesh.name + ": " +
@@ -132,11 +151,15 @@ std::vector<MeshFile> read_meshes(const Options& options) {
                                     "; records could not tell them apart");
     files.push_back(std::move(file));
   }
-  if (!options.model_settings.empty() && std::ranges::none_of(files, &MeshFile::is_of_model))
-    throw std::invalid_argument(shortened(options.model_settings.front()) +
+  if (!settings.empty() && std::ranges::none_of(files, &MeshFile::is_of_model))
+    throw std::invalid_argument(shortened(settings.front()) +
                                 ": no Gmsh model is among the meshes (allowed: with --mesh=" +
                                 std::string(model_extensions) + ")");
   return files;
+}
+
+std::string curves_of_model(const std::filesystem::path& model, const Options& options) {
+  return said_of_model("--show", model, options.model_settings);
 }
 
 bool is_of_catalogue(const std::filesystem::path& file) {

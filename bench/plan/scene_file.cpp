@@ -10,7 +10,7 @@
 
 namespace airybench {
 
-void read(const JsonValue& value, Scene& scene);  // scene_keys.cpp
+void read(const JsonValue& value, SceneFile& file);  // scene_keys.cpp
 
 namespace {
 
@@ -60,20 +60,21 @@ void inline_polylines(Json& json, const std::filesystem::path& scene_file) {
       inline_polylines(value, scene_file);
 }
 
-Scene checked_scene(const Json& json, const std::string& place) {
-  Scene scene;
-  scene.source = place;
-  read(JsonValue(place, "", json), scene);
+SceneFile checked_scene(const Json& json, const std::string& place) {
+  SceneFile file;
+  file.scene.source = place;
+  file.definition = json_text(json);
+  read(JsonValue(place, "", json), file);
   if (json.contains("wall") && json.contains("crown_radius_mm"))
     throw FileError(place + ": wall and crown_radius_mm (allowed: one of them)");
-  check_values(scene);
-  return scene;
+  check_values(file.scene);
+  return file;
 }
 
 }  // namespace
 
 Scene scene_of(const std::string& text, const std::string& place) {
-  return checked_scene(json_of_file(place, text), place);
+  return checked_scene(json_of_file(place, text), place).scene;
 }
 
 SceneFile read_scene_file(const std::filesystem::path& file) {
@@ -84,9 +85,9 @@ SceneFile read_scene_file(const std::filesystem::path& file) {
                     "control characters)");
   Json json = json_of_file(file.string(), file_text(file));
   inline_polylines(json, file);
-  Scene scene = checked_scene(json, file.string());
-  scene.name = name;
-  return {std::move(scene), json_text(json)};
+  SceneFile checked = checked_scene(json, file.string());
+  checked.scene.name = name;
+  return checked;
 }
 
 Scene read_scene(const std::filesystem::path& file) { return read_scene_file(file).scene; }

@@ -3,15 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "assembly/scene.hpp"
 
 namespace airybench {
 
 // definition: the scene's JSON on one line, with the points of polyline files inlined.
+// model_settings: how a mesh is made of a model, options of `meshgen --convert`.
 struct SceneFile {
   Scene scene;
   std::string definition = "{}";
+  std::vector<std::string> model_settings = {};
 };
 // Scene::name is the file's stem. Throws InputError, one line: file, key, value, allowed values.
 SceneFile read_scene_file(const std::filesystem::path& file);

@@ -1,7 +1,10 @@
 // Tables of a scene file's keys: the key's name, the member that it sets, its range.
 // check_values() (assembly/scene.hpp) checks the ranges that hold for any scene.
 #include "assembly/scene.hpp"
+#include "bench/plan/scene_file.hpp"
 #include "bench/records/json_value.hpp"
+#include "mesh/mesh.hpp"
+#include "mesh/model_settings.hpp"
 
 namespace airybench {
 namespace {
@@ -149,7 +152,28 @@ static void read_load_steps(const JsonValue& value, Scene& scene) {
     read(value.at(std::to_string(k + 1), json[k]), scene.later_steps[k]);
 }
 
-void read(const JsonValue& value, Scene& scene) {
+static void add(const ModelSetting& setting, const std::string& value, SceneFile& file) {
+  file.model_settings.push_back(fmt::format("{}={}", setting.option, value));
+}
+
+static void read_roles(const JsonValue& value, SceneFile& file) {
+  value.each("an object with a curve's name or number, numbers \"1-4\", or \"rest\" as each key",
+             [&](const std::string& curves, const JsonValue& role) {
+               const std::string label =
+                   role.json.is_string() ? role.json.get<std::string>() : std::string();
+               if (!parse_boundary_label(label)) role.fail(std::string(boundary_labels_allowed));
+               add(role_setting, fmt::format("{}={}", curves, label), file);
+             });
+}
+
+static void read_length_unit(const JsonValue& value, SceneFile& file) {
+  constexpr std::array<std::string_view, 3> units = {"mm", "m", "inch"};
+  const std::string_view unit = value.one_of(units, {}, ", of a model's lengths");
+  if (unit != "mm") add(length_unit_setting, std::string(unit), file);
+}
+
+void read(const JsonValue& value, SceneFile& file) {
+  Scene& scene = file.scene;
   Material& material = scene.material;
   // Keys from which others take their defaults come first.
   value.object(
@@ -182,6 +206,8 @@ void read(const JsonValue& value, Scene& scene) {
                  });
         }},
        key("boundary", scene.boundary),
+       {"roles", [&](const JsonValue& v) { read_roles(v, file); }},
+       {"length_unit", [&](const JsonValue& v) { read_length_unit(v, file); }},
        key("mesh", scene.mesh),
        {"layers", [&](const JsonValue& v) { read_layers(v, scene); }},
        key("group", scene.group),

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "support/errors.hpp"
+#include "support/lists.hpp"
 #include "support/shortened.hpp"
 
 namespace airybench {
@@ -11,11 +12,12 @@ void JsonValue::object(const std::vector<JsonKey>& keys, const std::string& all)
   if (!json.is_object()) fail("a JSON object");
   for (const auto& [name, value] : json.items()) {
     if (std::ranges::find(keys, name, &JsonKey::name) != keys.end()) continue;
-    std::vector<std::string_view> names;
-    for (const JsonKey& known : keys) names.emplace_back(known.name);
-    throw FileError(fmt::format("{}: {}{}: unknown key (allowed: {})", file_,
-                                key_.empty() ? "" : shortened(key_ + ": "), shortened(name),
-                                fmt::join(names, ", ")));
+    std::vector<std::string> names;
+    for (const JsonKey& known : keys) names.push_back(known.name);
+    const std::string nearest = nearest_of(name, names);
+    throw FileError(fmt::format(
+        "{}: {}{}: unknown key{} (allowed: {})", file_, key_.empty() ? "" : shortened(key_ + ": "),
+        shortened(name), nearest.empty() ? "" : ", perhaps " + nearest, fmt::join(names, ", ")));
   }
   take(keys);
   if (!all.empty() && json.size() < keys.size()) fail(all);

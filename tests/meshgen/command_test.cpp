@@ -1,4 +1,6 @@
 // The built `meshgen`, run as a user runs it.
+#include <fmt/format.h>
+#include <gmsh.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -269,6 +271,47 @@ Physical Curve("displacement") = {1:4}; Physical Surface("a") = {1};
   expect_refusal("--convert=crossed.geo --out=a.msh", 1,
                  {"crossed.geo: curves 1 and 3 around surface 1 cross"});
   EXPECT_EQ(files(), (Names{"crossed.geo", "exit.geo"}));
+}
+
+// By another version of Gmsh they may be meshed as they are.
+TEST_F(Command, AModelThatCrashesGmshIsMeshedByAnotherAlgorithm) {
+  for (const char* name : {"packing", "packed_surface"}) {
+    const fs::path model = testing::test_data(fmt::format("models/{}.geo", name));
+    const Outcome outcome = run("--convert='" + model.string() + "' --out=a.msh");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_GT(read_msh(folder / "a.msh").triangles.size(), 10u);
+    if (std::string(GMSH_API_VERSION).starts_with("4.8")) {
+      EXPECT_NE(outcome.err.find(model.string() + ": Gmsh 4.8.4 crashed while it meshed with "
+                                                  "Mesh.Algorithm="),
+                std::string::npos)
+          << outcome.err;
+      EXPECT_TRUE(outcome.err.ends_with(" (SIGSEGV): meshed with 6\n")) << outcome.err;
+    }
+  }
+}
+
+TEST_F(Command, SyntaxOfALaterGmshIsToldWithTheVersionAndTheLine) {
+  const std::string convert = "--out=a.msh --convert='" + testing::test_data("models").string();
+  expect_refusal(convert + "/newer.geo'", 1,
+                 {"newer.geo', line 7: syntax error (Curve) (read by Gmsh 4."});
+  expect_refusal(
+      convert + "/newer_option.geo'", 1,
+      {"'Mesh.FromLaterVersions' in line 7 (read by Gmsh 4.", "a newer one may know it"});
+}
+
+TEST_F(Command, FileOfOptionsNextToAModelIsOfItsMesh) {
+  const auto vertices = [&](const char* options) {
+    if (options != nullptr) write_text(folder / "a.geo.opt", options);
+    EXPECT_EQ(run("--convert=a.geo --out=a.msh").exit_code, 0);
+    return read_msh(folder / "a.msh").vertices.size();
+  };
+  write_text(folder / "a.geo", triangle_geo);
+  const std::size_t coarse = vertices(nullptr);
+  const std::size_t fine = vertices("Mesh.MeshSizeFactor = 0.2;\n");
+  EXPECT_GT(fine, 4 * coarse);
+  EXPECT_GT(vertices("Mesh.MeshSizeFactor = 0.1;\n"), 2 * fine);
+  write_text(folder / "a.geo.opt", "SystemCall \"touch started\";\n");
+  expect_refusal("--convert=a.geo --out=a.msh", 1, {"a model may start no programs"});
 }
 
 TEST_F(Command, ModifiesAMesh) {

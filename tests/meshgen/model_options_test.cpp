@@ -18,6 +18,7 @@ TEST(ModelOptions, FromTheirTexts) {
   EXPECT_EQ(options.longest_edge_mm, 0.5);
   EXPECT_FALSE(options.size_factor);
   EXPECT_EQ(model_options_of({}, {}, "50%").size_factor, 0.5);
+  EXPECT_EQ(model_options_of({}, {}, "", "inch").length_unit_mm, 25.4);
 }
 
 TEST(ModelOptions, WhatIsWrongIsRefusedWithWhatIsAllowed) {
@@ -41,6 +42,12 @@ TEST(ModelOptions, WhatIsWrongIsRefusedWithWhatIsAllowed) {
                   "50%)");
 }
 
+TEST(ModelOptions, OtherUnitsAreRefused) {
+  EXPECT_EQ(
+      testing::complaint_of<std::invalid_argument>([] { model_options_of({}, {}, "", "cm"); }),
+      "--length-unit: cm (allowed: mm, m, inch)");
+}
+
 TEST(ModelOptions, OtherOptionsHaveAnotherText) {
   const std::vector<ModelOptions> all = {
       {},
@@ -51,6 +58,8 @@ TEST(ModelOptions, OtherOptionsHaveAnotherText) {
       model_options_of({}, {"a=1.0000000000000002"}, ""),
       model_options_of({}, {}, "1"),
       model_options_of({}, {}, "100%"),
+      model_options_of({}, {}, "", "m"),
+      model_options_of({}, {}, "", "inch"),
   };
   for (std::size_t i = 0; i < all.size(); ++i)
     for (std::size_t k = 0; k < i; ++k)

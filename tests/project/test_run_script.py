@@ -35,7 +35,9 @@ class RunScriptTest(unittest.TestCase):
 
     def test_meshgen_is_needed_where_an_argument_names_a_model(self) -> None:
         for arguments in (["--mesh=part.geo"], ["--mesh", "part.geo"], ["--mesh=Mesh0,a/PART.STEP"],
-                          ["advise", "--mesh=part.brep", "--error=1%"], ["--mesh=part.igs,Mesh1"]):
+                          ["advise", "--mesh=part.brep", "--error=1%"], ["--mesh=part.igs,Mesh1"],
+                          ["--mesh=part.inp"], ["--mesh=a.msh.gz"], ["--mesh=a.msh", "--role=3=contact"],
+                          ["--new-scene=part.geo"]):
             self.assertTrue(self.names_a_model(*arguments), arguments)
         for arguments in ([], ["--mesh=Mesh0..Mesh3"], ["--mesh=there_is_none.msh"],
                           ["--scene=part.geo.json"], ["--out=geo"]):

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
 #include "support/sha256.hpp"
 #include "tests/support/background_run.hpp"
@@ -124,6 +125,73 @@ TEST_F(ModelRuns, NotesAreToldOnStandardError) {
       << result.err;
 }
 
+TEST_F(ModelRuns, RolesAndUnitAreOfTheScene) {
+  const std::string model = "--mesh=" + testing::test_data("models/numbers.geo").string() + " ";
+  testing::write_text(bench_.path("a.json"),
+                      R"({"roles": {"3": "displacement:head", "1": "contact"},
+                          "boundary": {"displacement:head": {"displacement_mm": [0, -0.01]}}})");
+  testing::write_text(bench_.path("b.json"), R"({"roles": {"3": "displacement", "1-2": "contact"},
+                                                 "length_unit": "inch"})");
+  const testing::CommandResult result = run(model + "--scene=a.json,b.json " + quick + "--out=o");
+  EXPECT_NE(result.code, 2) << result.err;
+  const std::vector<Json> records = bench_.records();
+  ASSERT_EQ(records.size(), 2u);
+  EXPECT_EQ(records[0]["status"], "ok");
+  EXPECT_NE(records[0]["mesh_sha256"], records[1]["mesh_sha256"]);
+  EXPECT_LT(mesh_sizes(read_msh(kept(records[0]))).contact_edges,
+            mesh_sizes(read_msh(kept(records[1]))).contact_edges);
+  EXPECT_NEAR(extent_of(read_msh(kept(records[1]))).width_mm, 254, 1e-9);
+  EXPECT_EQ(run("replay o:numbers/a/HYBRID --out=again").code, 0);
+  EXPECT_EQ(bench_.records("again").front()["mesh_sha256"], records[0]["mesh_sha256"]);
+  expect_refusal("--mesh=Mesh0 --scene=a.json",
+                 "--role=3=displacement:head: no Gmsh model is among the meshes (allowed: with "
+                 "--mesh=" +
+                     std::string(model_extensions) + ")");
+}
+
+// MSH 2.2 with comments, clockwise triangles, another section; no names and no last newline.
+TEST_F(ModelRuns, AMeshOfAnotherProgramIsConverted) {
+  const std::string old = "--mesh=" + testing::test_data("models/old.msh").string() + " ";
+  const testing::CommandResult result =
+      run(old + "--role=12=displacement --role=11=contact " + quick + "--out=o");
+  EXPECT_NE(result.code, 2) << result.err;
+  EXPECT_EQ(bench_.records().front()["mesh"], "old");
+  // One of ours takes roles, too.
+  const testing::CommandResult own = run("--mesh=" + kept(bench_.records().front()).string() +
+                                         " --role=force=contact:side " + quick + "--out=own");
+  EXPECT_NE(own.code, 2) << own.err;
+  EXPECT_EQ(mesh_sizes(read_msh(kept(bench_.records("own").front(), "own"))).force_edges, 0);
+}
+
+TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
+  const testing::CommandResult result = run("--new-scene=part.geo --role=clamped=displacement");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.out, "part.json: fill it in, then: bench --mesh=part.geo --scene=part.json\n");
+  EXPECT_EQ(bench_.content("part.json"), R"({
+  "length_unit": "mm",
+  "roles": {
+    "clamped": "displacement"
+  },
+  "plane": "strain",
+  "materials": {
+    "steel": {"young_MPa":210000.0,"poisson":0.3}
+  },
+  "displacement_mm": [0, 0],
+  "body_force_N_per_mm3": [0, 0],
+  "crown_radius_mm": null,
+  "boundary": {
+    "force": {"traction_MPa":[0,0]},
+    "contact": {"friction":0.2,"clearance_mm":0},
+    "displacement": {"displacement_mm":[0,0]}
+  }
+}
+)");
+  EXPECT_EQ(run("--mesh=part.geo --scene=part.json --dry-run").code, 0);
+  bench_.expect_refusal("--new-scene=part.geo",
+                        "part.json: is there already (allowed: a name that is free)\n");
+  bench_.expect_refusal("--new-scene=none.geo", "none.geo: ");
+}
+
 TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
   const auto last_line = [&](const std::string& arguments, const std::string& then = "") {
     const std::string out = bench_
@@ -149,9 +217,17 @@ TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
 }
 
 TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
-  expect_refusal("--mesh=part.geo",
-                 "part.geo: no edges in a physical curve named displacement (others found: "
-                 "'clamped'; --role gives them one); it is needed, force and contact are allowed");
+  const testing::CommandResult free = run("--mesh=part.geo --out=refused");
+  EXPECT_EQ(free.code, 2);
+  EXPECT_EQ(
+      free.err,
+      "bench: part.geo: no edges in a physical curve named displacement (others found: "
+      "'clamped'; --role gives them one); --role=NUMBER=displacement holds one of its curves:\n"
+      "  curve  names    role     length mm  from    by        to\n"
+      "  1      force    force    1          (0, 0)  (0.5, 0)  (1, 0)\n"
+      "  2      contact  contact  1          (1, 0)  (1, 0.5)  (1, 1)\n"
+      "  3      force    force    1          (1, 1)  (0.5, 1)  (0, 1)\n"
+      "  4      clamped  force    1          (0, 1)  (0, 0.5)  (0, 0)\n");
   expect_refusal("--mesh=nowhere.geo", "nowhere.geo: cannot be opened: No such file or directory");
   expect_refusal("--mesh=part.geo --role clamped=fixed",
                  "--role: clamped=fixed (allowed: NAME=ROLE with displacement, force, contact, or "
@@ -160,10 +236,12 @@ TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {
                  "part.geo: --parameter: size is none of its parameters (those of its "
                  "DefineConstant: h)");
   expect_refusal("--mesh=Mesh0 --mesh-size=1",
-                 "--mesh-size=1: no Gmsh model is among the meshes (allowed: with --mesh=*.geo, "
-                 "*.step, *.brep, *.iges)");
+                 "--mesh-size=1: no Gmsh model is among the meshes (allowed: with --mesh=" +
+                     std::string(model_extensions) + ")");
   testing::write_text(bench_.path("part.geo"), "foo bar;\n");
-  expect_refusal("--mesh=part.geo", "part.geo: Gmsh: 'part.geo', line 1: Unknown variable 'bar'");
+  bench_.expect_refusal(
+      "--mesh=part.geo --out=refused",
+      "part.geo: Gmsh: 'part.geo', line 1: Unknown variable 'bar' (read by Gmsh ");
   // The second is wrong: nothing is kept of the first.
   testing::write_text(bench_.path("part.geo"), square);
   testing::write_text(bench_.path("exit.geo"), "Exit;\n");

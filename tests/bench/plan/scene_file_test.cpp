@@ -268,7 +268,19 @@ TEST_F(SceneFile, ComplaintsOfTransformationsAndLayers) {
 }
 
 TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
-  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 32), "frction: unknown key (allowed: t");
+  EXPECT_EQ(complaint(R"({"frction": 0.2})").substr(0, 50),
+            "frction: unknown key, perhaps friction (allowed: t");
+  EXPECT_EQ(complaint(R"({"gravity": 0.2})").substr(0, 32), "gravity: unknown key (allowed: t");
+  EXPECT_EQ(
+      complaint(R"({"roles": ["force"]})"),
+      "roles: [\"force\"] (allowed: an object with a curve's name or number, numbers \"1-4\", "
+      "or \"rest\" as each key)");
+  EXPECT_EQ(
+      complaint(R"({"roles": {"3": "held"}})"),
+      "roles: 3: \"held\" (allowed: displacement, force, contact, or one of these with a name: "
+      "force:top)");
+  EXPECT_EQ(complaint(R"({"length_unit": "cm"})"),
+            "length_unit: \"cm\" (allowed: \"mm\", \"m\" or \"inch\", of a model's lengths)");
   EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
   EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: >= 0)");
   EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
@@ -292,6 +304,17 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
   EXPECT_EQ(complaint("[]"), "the file: [] (allowed: a JSON object)");
   EXPECT_EQ(complaint("{\"friction\": 0.2").substr(0, 22), "not JSON: parse error ");
   EXPECT_EQ(complaint("").substr(0, 22), "not JSON: parse error ");
+}
+
+TEST_F(SceneFile, HowAMeshIsMadeOfAModel) {
+  const auto settings = [&](const char* text) {
+    return read_scene_file(testing::write_text(folder_ / "a.json", text)).model_settings;
+  };
+  using Texts = std::vector<std::string>;
+  EXPECT_EQ(settings("{}"), Texts{});
+  EXPECT_EQ(settings(R"({"roles": {"1-4": "force:side", "a=b": "contact"}, "length_unit": "m"})"),
+            (Texts{"--length-unit=m", "--role=1-4=force:side", "--role=a=b=contact"}));
+  EXPECT_EQ(settings(R"({"length_unit": "mm"})"), Texts{});
 }
 
 TEST_F(SceneFile, AMissingFileIsNamed) {

@@ -1,0 +1,81 @@
+#include "meshgen/gmsh_input.hpp"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "mesh/model_format.hpp"
+#include "meshgen/abaqus.hpp"
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
+
+namespace airybench {
+namespace {
+
+std::string unpacked(const std::filesystem::path& file) {
+  constexpr std::size_t most = std::size_t{1} << 30;
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> packed(gzopen(file.c_str(), "rb"), gzclose);
+  if (!packed) throw InputError("cannot be opened");
+  std::string text;
+  std::array<char, 1 << 16> part;
+  int n = 0;
+  while ((n = gzread(packed.get(), part.data(), part.size())) > 0) {
+    text.append(part.data(), static_cast<std::size_t>(n));
+    if (text.size() > most) throw InputError("unpacked it is larger than 1 GiB");
+  }
+  int error = Z_OK;
+  const std::string why = gzerror(packed.get(), &error);
+  if (n < 0 || error != Z_OK) throw InputError("not a whole gzip file: " + why);
+  return text;
+}
+
+// Gmsh knows a mesh by its first line, before which there may be comments.
+std::size_t begin_of_mesh(const std::string& text) {
+  for (const char* first : {"$MeshFormat", "$NOD", "$Comments"}) {
+    if (text.starts_with(first)) return 0;
+    const std::size_t at = text.find(fmt::format("\n{}", first));
+    if (at < 4096) return at + 1;
+  }
+  return text.npos;
+}
+
+}  // namespace
+
+GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
+  const ModelFormat format = format_of(model);
+  const std::filesystem::path place = folder_.path() / model_name(model);
+  if (is_gzipped(model)) {
+    file_ = folder_.path() / model.stem();
+    write_file_atomically(file_, unpacked(model));
+  }
+  if (format == ModelFormat::abaqus) {
+    const std::string text = file_text(file_);
+    file_ = place.string() + ".msh";
+    write_file_atomically(file_, msh_of_abaqus(text));
+  } else if (format == ModelFormat::msh || format == ModelFormat::other) {
+    const std::string text = file_text(file_);
+    const std::size_t begin = begin_of_mesh(text);
+    if (begin == text.npos)
+      throw InputError(fmt::format("no {} (what can be read: {})",
+                                   format == ModelFormat::msh ? "mesh" : "model",
+                                   model_extensions));
+    if (begin == 0) return;
+    file_ = place.string() + ".msh";
+    write_file_atomically(file_, text.substr(begin));
+  } else if (format == ModelFormat::geo) {
+    const std::string text = file_text(file_);
+    if (text.empty() || text.ends_with('\n')) return;
+    // Gmsh passes over a last line that does not end, but not where the file is included.
+    const std::filesystem::path whole = std::filesystem::absolute(file_);
+    std::string including = fmt::format("Include \"{}\";\n", whole.string());
+    if (std::error_code error; std::filesystem::exists(whole.string() + ".opt", error))
+      including += fmt::format("Include \"{}.opt\";\n", whole.string());
+    file_ = folder_.path() / "including.geo";
+    write_file_atomically(file_, including);
+  }
+}
+
+}  // namespace airybench

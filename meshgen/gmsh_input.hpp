@@ -1,0 +1,23 @@
+// The file that Gmsh opens for a user's model.
+#pragma once
+
+#include <filesystem>
+
+#include "support/atomic_file.hpp"
+
+namespace airybench {
+
+// The model's own file, or one in a temporary folder: what a *.gz holds, an Abaqus file as MSH, a
+// .geo whose last line does not end included by another. While it lives.
+class GmshInput {
+ public:
+  // Throws InputError, without the file's name.
+  explicit GmshInput(const std::filesystem::path& model);
+  const std::filesystem::path& file() const { return file_; }
+
+ private:
+  TemporaryFolder folder_;
+  std::filesystem::path file_;
+};
+
+}  // namespace airybench

@@ -1,0 +1,44 @@
+// The triangles of the open Gmsh model, in the plane, and the curves around them.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace airybench {
+
+using Nodes = std::array<std::size_t, 2>;  // Gmsh's node numbers of an edge
+
+struct ModelCurve {
+  int number = 0;                  // Gmsh's; higher ones: sides that no curve has
+  std::vector<std::string> names;  // of its physical curves, "7" of an unnamed one
+  std::vector<Nodes> sides;        // on the boundary, the body on their left
+  std::vector<Nodes> inner;        // its other edges
+  std::string label;               // "force:top", see give_roles
+  bool is_named() const { return !names.empty(); }
+};
+
+struct ModelTriangle {
+  std::array<std::size_t, 3> nodes;  // counter-clockwise
+  int body, surface;                 // row of body_names; Gmsh's number
+};
+
+struct PlaneModel {
+  std::map<std::size_t, Eigen::Vector2d> position;  // mm, of the triangles' nodes
+  std::vector<ModelTriangle> triangles;
+  std::vector<std::string> body_names;
+  std::vector<ModelCurve> curves;  // those of Gmsh with an edge, by number, then the others
+};
+
+// Of the physical surfaces, or of all where there is none. Quadrilaterals are split by the shorter
+// diagonal, elements of higher order reduced to their corners, the planes y = constant and x =
+// constant turned; a note tells of each. Sides of the boundary that no curve has become curves from
+// corner to corner. Throws InputError.
+PlaneModel read_plane_model(double mm_per_unit, std::vector<std::string>& notes);
+
+// A curve's sides as connected walks of nodes; a closed one ends where it begins.
+std::vector<std::vector<std::size_t>> walks_of(const ModelCurve& curve);
+
+}  // namespace airybench

@@ -1,0 +1,210 @@
+#include "meshgen/roles.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "mesh/mesh.hpp"
+#include "support/errors.hpp"
+#include "support/lists.hpp"
+#include "support/numbers.hpp"
+#include "support/text_table.hpp"
+
+namespace airybench {
+namespace {
+
+enum class Rank { none, rest, name, range, number };
+
+struct Candidate {
+  Rank rank = Rank::none;
+  std::string label;
+};
+
+struct Range {
+  std::int64_t first, last;
+};
+std::optional<Range> range_of(const std::string& text) {
+  const std::size_t dash = std::min(text.find('-', 1), text.size());
+  const auto first = parse_whole(text.substr(0, dash)),
+             last = dash == text.size() ? first : parse_whole(text.substr(dash + 1));
+  if (!first || !last || *first > *last) return {};
+  return Range{*first, *last};
+}
+
+std::string shown(const ModelCurve& curve) {
+  return curve.is_named() ? fmt::format("'{}'", fmt::join(curve.names, "', '"))
+                          : std::to_string(curve.number);
+}
+
+std::string list_of(const std::set<std::string>& names) {
+  constexpr std::size_t most = 20;
+  std::vector<std::string> first(names.begin(), names.end());
+  const bool has_more = first.size() > most;
+  first.resize(std::min(first.size(), most));
+  return fmt::format("{}{}", fmt::join(first, ", "), has_more ? ", …" : "");
+}
+
+class Giver {
+ public:
+  Giver(std::vector<ModelCurve>& curves, const std::map<std::string, std::string>& roles)
+      : curves_(curves), roles_(roles), candidates_(curves.size()) {}
+
+  void give(std::vector<std::string>& notes) {
+    for (std::size_t k = 0; k < curves_.size(); ++k)
+      for (const std::string& name : curves_[k].names)
+        if (!roles_.contains(name) && parse_boundary_label(name)) add(k, Rank::name, name);
+    for (const auto& [key, label] : roles_)
+      if (!add_to_matching(key, label)) refuse(key);
+    std::set<std::string> free;
+    for (std::size_t k = 0; k < curves_.size(); ++k) {
+      curves_[k].label = candidates_[k].label;
+      if (!curves_[k].label.empty() || curves_[k].sides.empty()) continue;
+      curves_[k].label = "force";
+      free.insert(shown(curves_[k]));
+    }
+    if (!free.empty())
+      notes.push_back(
+          fmt::format("no role is given to its curves {}: they are free (force)", list_of(free)));
+  }
+
+ private:
+  void add(std::size_t k, Rank rank, const std::string& label) {
+    Candidate& now = candidates_[k];
+    if (rank == now.rank && label != now.label)
+      throw InputError(fmt::format("curve {}: its roles are {} and {}; one is allowed",
+                                   curves_[k].number, now.label, label));
+    if (rank > now.rank) now = {rank, label};
+  }
+
+  bool add_to_matching(const std::string& key, const std::string& label) {
+    if (label.find_first_of("\"\n") != label.npos)
+      throw InputError(fmt::format("--role: {}: no quotes or line ends are allowed", key));
+    bool is_used = false;
+    const auto add_where = [&](Rank rank, const auto& belongs) {
+      for (std::size_t k = 0; k < curves_.size(); ++k)
+        if (belongs(curves_[k])) {
+          add(k, rank, label);
+          is_used = true;
+        }
+      return is_used;
+    };
+    const auto is_on_boundary = [](const ModelCurve& c) { return !c.sides.empty(); };
+    if (add_where(Rank::name, [&](const ModelCurve& c) {
+          return std::ranges::find(c.names, key) != c.names.end();
+        }))
+      return true;
+    if (key == "rest") {
+      add_where(Rank::rest, is_on_boundary);
+      return true;
+    }
+    const std::optional<Range> range = range_of(key);
+    return range && add_where(range->first == range->last ? Rank::number : Rank::range,
+                              [&](const ModelCurve& c) {
+                                return is_on_boundary(c) && c.number >= range->first &&
+                                       c.number <= range->last;
+                              });
+  }
+
+  [[noreturn]] void refuse(const std::string& key) const {
+    std::set<std::string> physical;
+    std::vector<std::string> all;
+    std::string numbers;
+    for (const ModelCurve& curve : curves_) {
+      for (const std::string& name : curve.names) physical.insert("'" + name + "'");
+      all.insert(all.end(), curve.names.begin(), curve.names.end());
+      if (!curve.sides.empty())
+        numbers += (numbers.empty() ? "" : ", ") + std::to_string(curve.number);
+    }
+    const std::string nearest = nearest_of(key, all);
+    throw InputError(fmt::format(
+        "--role: it has no physical curve '{}'{} (its physical curves: {}; its curves: {})", key,
+        nearest.empty() ? "" : fmt::format(", perhaps '{}'", nearest),
+        physical.empty() ? "none" : list_of(physical), numbers));
+  }
+
+  std::vector<ModelCurve>& curves_;
+  const std::map<std::string, std::string>& roles_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+void give_roles(PlaneModel& model, const ModelOptions& options, std::vector<std::string>& notes) {
+  Giver(model.curves, options.roles).give(notes);
+}
+
+std::string table_of(const PlaneModel& model) {
+  constexpr std::size_t most = 40;
+  const auto place = [&](const Eigen::Vector2d& p) {
+    const auto zero = [](double x) { return x == 0 ? 0. : x; };  // no "-0"
+    return fmt::format("({:.4g}, {:.4g})", zero(p.x()), zero(p.y()));
+  };
+  std::vector<std::vector<std::string>> rows = {
+      {"curve", "names", "role", "length mm", "from", "by", "to"}};
+  std::size_t left_out = 0;
+  for (const ModelCurve& curve : model.curves) {
+    if (curve.sides.empty()) continue;
+    if (rows.size() > most) {
+      ++left_out;
+      continue;
+    }
+    double length = 0;
+    for (const auto& [a, b] : curve.sides)
+      length += (model.position.at(b) - model.position.at(a)).norm();
+    const std::vector<std::size_t> walk = walks_of(curve).front();
+    const auto at = [&](std::size_t k) { return model.position.at(walk[k]); };
+    const std::size_t middle = walk.size() / 2;
+    const Eigen::Vector2d by =
+        walk.size() % 2 == 0 ? Eigen::Vector2d((at(middle - 1) + at(middle)) / 2) : at(middle);
+    rows.push_back({std::to_string(curve.number),
+                    curve.is_named() ? fmt::format("{}", fmt::join(curve.names, ", ")) : "-",
+                    curve.label.empty() ? "-" : curve.label, fmt::format("{:.4g}", length),
+                    place(at(0)), place(by), place(at(walk.size() - 1))});
+  }
+  std::string table;
+  std::istringstream lines(aligned_table(rows, rows.front().size()));
+  for (std::string line; std::getline(lines, line);)
+    table += (table.empty() ? "  " : "\n  ") + line;
+  if (left_out > 0) table += fmt::format("\n  … and {} more", left_out);
+  return table;
+}
+
+std::string json_of(const PlaneModel& model, const std::string& name) {
+  using Json = nlohmann::ordered_json;
+  const auto pair = [](const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); };
+  Json json = {{"model", name},
+               {"bodies", model.body_names},
+               {"vertices_mm", Json::array()},
+               {"triangles", Json::array()},
+               {"curves", Json::array()}};
+  std::map<std::size_t, int> row;
+  for (const auto& [node, p] : model.position) {
+    row.emplace(node, static_cast<int>(row.size()));
+    json["vertices_mm"].push_back(pair(p));
+  }
+  for (const ModelTriangle& triangle : model.triangles) {
+    const auto& [a, b, c] = triangle.nodes;
+    json["triangles"].push_back({row[a], row[b], row[c]});
+  }
+  for (const ModelCurve& curve : model.curves) {
+    if (curve.sides.empty()) continue;
+    Json walks = Json::array();
+    for (const std::vector<std::size_t>& walk : walks_of(curve)) {
+      Json& places = walks.emplace_back(Json::array());
+      for (const std::size_t node : walk) places.push_back(pair(model.position.at(node)));
+    }
+    json["curves"].push_back({{"number", curve.number},
+                              {"names", curve.names},
+                              {"role", curve.label},
+                              {"walks_mm", std::move(walks)}});
+  }
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace airybench

@@ -1,0 +1,24 @@
+// The role of each curve of a model.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "meshgen/model_options.hpp"
+#include "meshgen/plane_model.hpp"
+
+namespace airybench {
+
+// Labels the curves: by their numbers in the options, then by ranges of these, then by their
+// physical names, as they are or as the options label them, then by the options' "rest". What is
+// left on the boundary is free, "force"; a note lists it. Throws InputError.
+void give_roles(PlaneModel& model, const ModelOptions& options, std::vector<std::string>& notes);
+
+// The curves on the boundary: number, names, role, length, ends, middle. Lines are indented.
+std::string table_of(const PlaneModel& model);
+
+// {"model", "bodies": [name], "vertices_mm": [[x, y]], "triangles": [[vertex, vertex, vertex]],
+//  "curves": [{"number", "names", "role", "walks_mm": [[[x, y]]]}]}, those on the boundary.
+std::string json_of(const PlaneModel& model, const std::string& name);
+
+}  // namespace airybench

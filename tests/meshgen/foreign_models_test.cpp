@@ -1,0 +1,202 @@
+// The models of tests/data/models, each of a kind that other programs or people make. All but the
+// quadrilaterals are a trapezium with the corners (0, 0), (10, 0), (8, 5), (2, 5).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "meshgen/convert.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/mesh_checks.hpp"
+#include "tests/support/places.hpp"
+
+namespace airybench::foreign_models_test {
+namespace {
+
+using Texts = std::vector<std::string>;
+using Lengths = std::map<std::string, double>;
+
+std::filesystem::path model(const std::string& name) {
+  return testing::test_data("models/" + name);
+}
+
+const double side = std::hypot(2, 5);
+const Lengths held_above = {{"contact:sole", 10}, {"displacement:head", 6}, {"force", 2 * side}};
+
+struct Kind {
+  std::string file;
+  Texts roles;
+  Lengths lengths;  // mm, of the boundary by its labels
+  Texts notes;      // after the file's name, or how they begin
+  std::string length_unit = "";
+  Texts bodies = {"steel"};
+};
+
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.file; }
+
+class ForeignModels : public ::testing::TestWithParam<Kind> {};
+
+TEST_P(ForeignModels, BecomeMeshes) {
+  const Kind& kind = GetParam();
+  const std::filesystem::path file = model(kind.file);
+  const ConvertedModel converted =
+      convert_model(file, model_options_of(kind.roles, {}, "", kind.length_unit));
+  EXPECT_NO_THROW(validate(converted.mesh));
+  const Lengths lengths = testing::length_of_boundaries(converted.mesh);
+  ASSERT_EQ(lengths.size(), kind.lengths.size());
+  for (const auto& [label, length] : kind.lengths) {
+    ASSERT_TRUE(lengths.contains(label)) << label;
+    EXPECT_NEAR(lengths.at(label), length, 1e-6) << label;
+  }
+  EXPECT_EQ(converted.mesh.body_names, kind.bodies);
+  ASSERT_EQ(converted.notes.size(), kind.notes.size());
+  for (std::size_t k = 0; k < kind.notes.size(); ++k)
+    EXPECT_EQ(converted.notes[k].substr(0, file.string().size() + 2 + kind.notes[k].size()),
+              file.string() + ": " + kind.notes[k]);
+}
+
+const Texts by_numbers = {"1=contact:sole", "3=displacement:head"};
+const std::string free_2_4 = "no role is given to its curves 2, 4: they are free (force)",
+                  free_sides = "no role is given to its curves ";
+
+std::vector<Kind> kinds() {
+  const Texts body = {"body"};
+  return {
+      {"numbers.geo", by_numbers, held_above, {free_2_4}, "", body},
+      {"numbers.geo",
+       {"3=displacement", "1-2=contact", "rest=force:left"},
+       {{"displacement", 6}, {"contact", 10 + side}, {"force:left", side}},
+       {},
+       "",
+       body},
+      // A number's role counts more than its range's, and that more than the rest's.
+      {"numbers.geo",
+       {"1-4=force", "1=contact:sole", "3=displacement:head", "rest=contact"},
+       held_above,
+       {},
+       "",
+       body},
+      {"names.geo",
+       {"Support=displacement", "1=contact", "7=force:flank"},
+       {{"displacement", 6}, {"contact", 10}, {"force:flank", side}, {"force", side}},
+       {"no role is given to its curves 4: they are free (force)"},
+       "",
+       body},
+      {"names.geo",
+       {"Support=displacement", "rest=force"},
+       {{"displacement", 6}, {"force", 10 + 2 * side}},
+       {},
+       "",
+       body},
+      {"two_surfaces.geo",
+       {"3=displacement", "rest=force"},
+       {{"displacement", 6}, {"force", 2 * side + 2 * std::hypot(5, 5)}},
+       {},
+       "",
+       {"body1", "body2"}},
+      {"options.geo", {}, held_above, {free_2_4}},
+      {"unended.geo", {}, held_above, {free_2_4}},
+      {"metres.geo", {}, held_above, {free_2_4}, "m"},
+      {"scaled.geo",
+       {},
+       held_above,
+       {"lengths are multiplied by its Mesh.ScalingFactor, 1000", free_2_4}},
+      {"upright.geo",
+       {},
+       held_above,
+       {"it lies in the plane y = 7: its x and z are x and y here", free_2_4}},
+      {"sideways.geo",
+       {},
+       held_above,
+       {"it lies in the plane x = -3: its y and z are x and y here", free_2_4}},
+      {"recombined.geo",
+       {},
+       held_above,
+       {"elements of higher order are reduced to their corners",
+        "9 quadrilaterals are split by the shorter diagonal", free_2_4}},
+      {"old.msh",
+       {"11=contact:sole", "12=displacement:head", "13=force"},
+       held_above,
+       {},
+       "",
+       body},
+      {"trapezium.msh.gz", {}, held_above, {"no role is given to its curves 'sides': they are"}},
+      {"trapezium.unv", {}, held_above, {"no role is given to its curves 'sides': they are"}},
+      {"trapezium.vtk", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.bdf", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.mesh", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.stl", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.brep", by_numbers, held_above, {free_2_4}, "", body},
+      {"trapezium.brep",
+       {"rest=displacement"},
+       {{"displacement", 25.4 * (16 + 2 * side)}},
+       {},
+       "inch",
+       body},
+      {"plate.inp",
+       {"Ssole=contact:sole", "Nhead=displacement:head", "Nleft=force"},
+       held_above,
+       {"2 quadrilaterals are split by the shorter diagonal", "no role is given to its curves "},
+       "",
+       {"Eall"}},
+  };
+}
+
+INSTANTIATE_TEST_SUITE_P(OfEachKind, ForeignModels, ::testing::ValuesIn(kinds()));
+
+// The first is nearest to a square where its nodes 2 and 4 face each other; the second is concave.
+TEST(ForeignModel, QuadrilateralsAreSplitInside) {
+  const Mesh mesh = convert_model(model("quadrilaterals.msh")).mesh;
+  ASSERT_EQ(mesh.triangles.size(), 4u);
+  const MeshEdges edges = number_edges(mesh);
+  const auto has_edge = [&](int a, int b) {  // nodes
+    return std::ranges::find(edges.vertices, std::array{a - 1, b - 1}) != edges.vertices.end();
+  };
+  EXPECT_TRUE(has_edge(2, 4));
+  EXPECT_TRUE(has_edge(2, 6));
+}
+
+TEST(ForeignModel, FileOfOptionsNextToAModelIsObeyed) {
+  const auto vertices = [](const char* file) {
+    return convert_model(model(file), model_options_of(by_numbers, {}, "")).mesh.vertices.size();
+  };
+  EXPECT_GT(vertices("options.geo"), 2 * vertices("numbers.geo"));
+}
+
+TEST(ForeignModel, SizesAreInMillimetresWhateverTheUnit) {
+  const Mesh mesh = convert_model(model("metres.geo"), model_options_of({}, {}, "0.5", "m")).mesh;
+  EXPECT_GT(mesh_sizes(mesh).contact_edges, 18);
+  EXPECT_LT(mesh_sizes(mesh).contact_edges, 24);
+}
+
+TEST(ForeignModel, WhatCannotBeReadIsTold) {
+  struct Refusal {
+    std::string file, role, begin, part = {};
+  };
+  const std::string readable = "(what can be read: *.geo, *.msh, *.step, ";
+  for (const auto& [file, role, begin, part] : std::vector<Refusal>{
+           {"numbers.geo", "", "no edges in a physical curve named displacement; --role=NUMBER=",
+            "\n  3      -      force  6          (8, 5)   "},
+           {"names.geo", "Suport=displacement",
+            "--role: it has no physical curve 'Suport', perhaps 'Support' (its physical curves: "
+            "'7', 'Sole', 'Support'; its curves: 1, 2, 3, 4)"},
+           {"numbers.geo", "5=displacement",
+            "--role: it has no physical curve '5' (its physical curves: none; its curves: 1, 2, "},
+           {"apart.geo", "3=displacement",
+            "2 separate pieces, which do not join: surface 1 from (0, 0) to (10, 5); surface 2 "
+            "from "
+            "(0, -5) to (10, 0); the body must be one (in Gmsh, Coherence or BooleanFragments "},
+           {"tilted.geo", "", "it lies in no plane x, y or z = constant (x from 0 to 10, y from "},
+           {"solid.inp", "", "line 6: elements of type C3D4 (allowed: of a plane body, as CPE3, "},
+           {"trapezium.med", "", "Gmsh 4.", " is built without MED here (allowed: "},
+           {"options.geo.opt", "", "no model " + readable}}) {
+    const std::filesystem::path path = model(file);
+    const std::string what = testing::complaint_of<MeshError>([&] {
+      convert_model(path, model_options_of(role.empty() ? Texts{} : Texts{role}, {}, ""));
+    });
+    EXPECT_TRUE(what.starts_with(path.string() + ": " + begin)) << what;
+    EXPECT_NE(what.find(part), std::string::npos) << what;
+  }
+}
+
+}  // namespace
+}  // namespace airybench::foreign_models_test
