@@ -14,7 +14,7 @@
 #include "bench/external/answer.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"

@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "bench/problems/hdf5_handle.hpp"
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 namespace {

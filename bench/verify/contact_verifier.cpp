@@ -4,7 +4,7 @@
 
 #include "bench/verify/verifier.hpp"
 #include "solvers/base/dense_products.hpp"
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
 namespace airybench {

@@ -9,9 +9,10 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <utility>
 #include <vector>
+
+#include "solvers/base/index_lists.hpp"
 
 namespace airybench {
 
@@ -108,21 +109,16 @@ void add_product(const ElementMatricesIn<Scalar>& K, const Eigen::VectorX<Scalar
 template <typename Scalar>
 Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
   constexpr int size = ElementMatricesIn<Scalar>::size;
-  // The elements' columns, by unknown.
-  std::vector<int> first(static_cast<std::size_t>(K.order) + 1, 0);
-  for (const auto& unknown : K.unknown)
-    for (const int u : unknown)
-      if (u >= 0) ++first[u + 1];
-  std::partial_sum(first.begin(), first.end(), first.begin());
-  std::vector<int> columns(static_cast<std::size_t>(first.back()));  // size e + j
-  std::vector<int> next(first.begin(), first.end() - 1);
-  for (int e = 0; e < K.count(); ++e)
-    for (int j = 0; j < size; ++j)
-      if (const int u = K.unknown[e][j]; u >= 0) columns[next[u]++] = size * e + j;
+  // Columns size e + j of the elements, by unknown.
+  const IndexLists columns = gather_lists(K.order, [&](auto add) {
+    for (int e = 0; e < K.count(); ++e)
+      for (int j = 0; j < size; ++j)
+        if (const int u = K.unknown[e][j]; u >= 0) add(u, size * e + j);
+  });
   // Calls visit(row, element, i, j) for the entries that a column of K sums.
   const auto visit_column = [&](int column, auto visit) {
-    for (int k = first[column]; k < first[column + 1]; ++k) {
-      const int e = columns[k] / size, j = columns[k] % size;
+    for (const int of_element : columns[column]) {
+      const int e = of_element / size, j = of_element % size;
       for (int i = 0; i < size; ++i)
         if (const int row = K.unknown[e][i]; row >= column) visit(row, e, i, j);
     }

@@ -1,9 +1,9 @@
 // A body that is condensed once and solved for several load cases.
 //
-// Neither a factor nor D knows of loads: S, C and K are the body's. So what another displacement,
-// traction, body force, gap or friction costs is G, the contact law, the recovery and the check:
-// two solves instead of a factorisation and n_c + 1 of them. Without friction other rows are known
-// than with it (D has the normal ones only), and that is another body.
+// S, C, K, their factors and D do not depend on the loads. So another displacement, traction, body
+// force, gap or friction costs G, the contact law, the recovery and the check: two solves instead
+// of a factorisation and n_c + 1 solves. A body with friction and one without are two bodies: D of
+// the latter has the normal rows only.
 //
 //   RunControl control;
 //   control.keep_body = true;
@@ -11,15 +11,15 @@
 //   set_load_case(system, other);                        // dual_system.hpp
 //   const Solution second = run(first.solve_again, system, control);
 //
-// A kept body is the answer's that has solve_again, and of that answer's copies: not for two
-// threads at once.
+// The answer that has solve_again owns the kept body, together with its copies. Not for two threads
+// at once.
 #pragma once
 
 #include "solvers/base/method.hpp"
 
 namespace airybench {
 
-// `solve`, but std::invalid_argument for what is not the body of the first load case.
+// `solve`, which throws std::invalid_argument for another body than that of the first load case.
 Solve for_the_same_body(const DualSystem& first, Solve solve);
 
 }  // namespace airybench

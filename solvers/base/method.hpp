@@ -1,4 +1,4 @@
-// What a method is to the harness: a name, what it needs, and a function.
+// A method as the harness sees it: a name, what it needs, and a function.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,7 @@ struct Tuning {
   std::vector<GridPoint> grid;
 };
 
-// What decides how accurate the answer is, for studies that turn it.
+// The parameter that decides how accurate the answer is, for studies that vary it.
 enum class AccuracyKnob {
   none,              // a direct method: it has one accuracy
   krylov_tolerance,  // RunControl::tolerance
@@ -44,12 +44,12 @@ struct Method {
   std::string summary = {};         // one line
   bool in_paper = false;            // named there; these are run by default
   Blocks blocks = Blocks::airy;     // what it needs assembled
-  // Another discrete problem, in displacements: its stresses do not balance and are not those of
-  // the reference; it is judged by the discretisation error alone.
+  // It solves another discrete problem, in displacements: its stresses do not balance and are not
+  // those of the reference, so it is judged by the discretisation error alone.
   bool in_displacements = false;
   std::vector<Stage> stages = {Stage::order,   Stage::factor,  Stage::condense,
                                Stage::contact, Stage::recover, Stage::check};  // in order
-  // Another's, by its program's own word for its version (bench/external); empty: ours.
+  // Version of the external program, as it reports it (bench/external); empty: the method is ours.
   std::string program = {};
   // The force multipliers stay in the factorised or iterated matrix (BLIND, SYMMLQ): without
   // contact there is nothing to condense.
@@ -57,17 +57,17 @@ struct Method {
   Solve solve = {};                 // bodies; null: it takes contact problems only
   SolveContact solve_contact = {};  // contact problems without a body; null: it takes none
   std::string general_name = {};    // "SYMMLQ:DTIC3" where the name is an alias; else empty
-  // An iterative method is run to a target error: the harness begins with this tolerance per
-  // target error and tightens it. Zero: its error does not follow RunControl::tolerance.
+  // Of an iterative method: the harness starts with this tolerance per target error and tightens
+  // it until the target is met. Zero: its error does not follow RunControl::tolerance.
   double first_tolerance = 0;
   double paper_tolerance = 0;  // RunControl::tolerance with the paper's stop; zero: it has its own
   AccuracyKnob knob = AccuracyKnob::none;
   // Chooses parameters for a problem, outside the time of the solve; null: there are none. `solve`
-  // then does both.
+  // chooses and solves.
   std::function<Tuning(const DualSystem&, const RunControl&)> tune = {};
 
   const std::string& identity() const { return general_name.empty() ? name : general_name; }
-  // The tolerance of an iteration decides when it ends: it has a stop to choose.
+  // Its iteration has a stop to choose.
   bool is_iterative() const {
     return is_tightened() || knob == AccuracyKnob::krylov_tolerance ||
            knob == AccuracyKnob::uzawa_iterations || knob == AccuracyKnob::stop;

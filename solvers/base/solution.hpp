@@ -33,12 +33,12 @@ struct IterationHistory {
   std::vector<double> residual;  // one per iteration
 };
 
-// Of a solve that was another program's.
+// Of a solve by another program.
 struct ProgramRun {
   double wall_s = 0;            // from its start to its end
-  double not_solve_s = 0;       // of our time what its own clock leaves out: start-up, files
-  std::int64_t peak_bytes = 0;  // resident, of it and all that it started
-  std::string log;              // what it left of itself for the reader
+  double not_solve_s = 0;       // part of our time that its own clock leaves out: start-up, files
+  std::int64_t peak_bytes = 0;  // resident, of it and its child processes
+  std::string log;              // its log for the reader
 };
 
 // Wall clock of an iteration's pieces, in whatever stage it ran.
@@ -65,11 +65,11 @@ struct Solution {
   // low vertex, x, y at its high one; mm.
   Eigen::Matrix4Xd edge_moments;
   StageTimes times;
-  // By the method's own count, entries × size: what it holds from one stage to the next, and the
-  // vectors of its iteration. Without the blocks.
+  // Counted by the method as entries × size: what it holds between stages, and the vectors of its
+  // iteration. Without the blocks.
   ByOwner<std::size_t> storage;
   std::size_t file_bytes = 0;                 // more of its matrices, in a file
-  std::optional<std::int64_t> library_bytes;  // CHOLMOD, MUMPS: what they say that they hold
+  std::optional<std::int64_t> library_bytes;  // as CHOLMOD and MUMPS count them
   // Of its factor or preconditioner: non-zeros, and the additions and multiplications of the
   // numeric factorisation.
   std::optional<std::int64_t> factor_entries;
@@ -80,19 +80,18 @@ struct Solution {
   std::optional<int> uzawa_iterations;
   std::optional<IterationTimes> iteration_times;  // two levels only
   std::vector<IterationHistory> histories;
-  std::string parameters;  // what was chosen or had to be changed: "r=20, rho=32", "shift=0.002"
+  std::string parameters;  // chosen or changed by the method: "r=20, rho=32", "shift=0.002"
   std::optional<double> done_fraction, error_so_far;  // on timeout, where known
-  // The method's own, of what the verifier measures: the largest of its relative errors. Above
-  // RunControl::target_error the method says `inaccurate`.
+  // The method's own estimate of the largest relative error that the verifier measures.
   std::optional<double> error_estimate;
   std::optional<double> condition_estimate;  // of the equilibrated matrix it factorises, 1-norm
   std::optional<ProgramRun> program;
   // With RunControl::keep_body, where the method can: solves another load case of the same body
-  // with what this solve has factorised and condensed, which it owns (kept_body.hpp).
+  // with the factor and D of this solve, which it owns (kept_body.hpp).
   std::function<Solution(const DualSystem& load_case, const RunControl&)> solve_again;
 };
 
-// The storage of its matrices, wherever they are: without the vectors of an iteration.
+// On the heap and in files, without the vectors of an iteration.
 std::size_t matrix_bytes(const Solution& solution);
 
 // Thrown when time is up; the runner of methods turns it into Status::timeout.
@@ -100,11 +99,11 @@ struct TimeoutReached : std::runtime_error {
   explicit TimeoutReached(const std::string& message, std::optional<double> done = {},
                           std::optional<double> error = {})
       : std::runtime_error(message), done_fraction(done), error_so_far(error) {}
-  // Makes the fraction of one right-hand side one of all, so many being done before it.
+  // Turns the fraction of one right-hand side into that of all, `others` being done before it.
   void count_before(int others) {
     if (done_fraction) done_fraction = (others + *done_fraction) / (others + 1);
   }
-  std::optional<double> done_fraction;  // of the work, 0 … 1, where it can be told
+  std::optional<double> done_fraction;  // of the work, 0 … 1, where known
   std::optional<double> error_so_far;   // the relative residual that was reached
 };
 // A numerical dead end inside a kernel; the runner of methods turns it into Status::breakdown.
@@ -112,7 +111,7 @@ struct Breakdown : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// A cooperative time limit, asked between right-hand sides, panels and iterations.
+// A cooperative time limit, checked between right-hand sides, panels and iterations.
 class Deadline {
  public:
   Deadline() = default;  // none
@@ -128,7 +127,6 @@ class Deadline {
     if (!end_) return std::numeric_limits<double>::infinity();
     return std::chrono::duration<double>(*end_ - std::chrono::steady_clock::now()).count();
   }
-  // Throws TimeoutReached naming what was being done.
   void check(std::string_view doing) const {
     if (passed()) throw TimeoutReached("time limit reached during " + std::string(doing));
   }
@@ -137,7 +135,7 @@ class Deadline {
   std::optional<std::chrono::steady_clock::time_point> end_;
 };
 
-// Of the solvers of a condensed contact law (contact_result.hpp).
+// Of the solvers of a condensed contact law (condensed.hpp).
 struct ContactOptions {
   ContactSolver solver = ContactSolver::newton;
   double tolerance = 1e-12;  // ‖natural map‖ ≤ tolerance · ‖F_C‖
@@ -149,7 +147,7 @@ struct ContactOptions {
   std::function<ContactResult(const contact::Problem&)> by = {};
 };
 
-// What a method is told. Its solvers take options of their own, which it makes from this.
+// What a method is told. It makes the options of its solvers from this.
 struct RunControl {
   Deadline deadline;
   bool histories = false;  // keep iteration histories
@@ -164,8 +162,7 @@ struct RunControl {
   ContactOptions contact = {};              // with the paper's stop its solver is Gauss–Seidel
 };
 
-// What all checks end with: the estimate into the solution, and `inaccurate` where it is above the
-// target.
+// Stores the estimate; the status is `inaccurate` where it is above the target.
 void judge_by_own_estimate(double estimate, const RunControl& control, Solution& solution);
 
 }  // namespace airybench

@@ -7,7 +7,7 @@
 
 #include "assembly/sparse_bytes.hpp"
 #include "solvers/direct/condition.hpp"
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 namespace {

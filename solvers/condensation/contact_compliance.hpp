@@ -23,7 +23,7 @@ namespace airybench {
 class ContactCompliance {
  public:
   explicit ContactCompliance(const Problem& problem);
-  // Whether K_e of the triangle is asked for: at a contact edge, or beside a triangle that is.
+  // Whether K_e of the triangle is needed: at a contact edge, or next to a triangle at one.
   bool asks_for(int triangle) const;
   // Every triangle that is asked for, once.
   void add(int triangle, const ElementMatrices::Matrix& K_e);

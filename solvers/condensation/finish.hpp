@@ -21,9 +21,8 @@ enum class Refine { no, yes };
 // SaddleSolve with the matrices of the load case at hand, which are those of the first.
 using BodySolve = std::function<void(const DualSystem&, SaddleVector&)>;
 
-// Of a method in the Airy function. recover: x and the multipliers that belong to F_C. solve: as
-// for any right-hand side. owner: of all that `solve` refers to, so that it can be kept; without
-// one nothing is.
+// Of a method in the Airy function. recover: x and the multipliers that belong to F_C. solve: for
+// any right-hand side. owner: of all that `solve` refers to; without one no body is kept.
 //
 // Other load cases need no more than D and `solve`:  [S Cᵀ; C 0] (x, λ, λ') = (q, F, F_C − F0)  has
 // λ' = G for F_C = 0, and is the recovery for the F_C found.

@@ -1,4 +1,4 @@
-// The formulas of hybrid_element.hpp, for whoever instantiates them for a scalar of their own.
+// The templates of hybrid_element.hpp, to be instantiated for another scalar.
 #pragma once
 
 #include <algorithm>

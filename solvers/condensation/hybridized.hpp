@@ -48,7 +48,8 @@ template <typename Scalar = double>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact);
 
-// Another load case of the same body: b and ū0 anew. With a body force all f_e are made again.
+// Another load case of the same body: replaces b and ū0. With a body force it computes all f_e
+// again.
 template <typename Scalar>
 void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system);
 

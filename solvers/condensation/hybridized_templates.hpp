@@ -1,4 +1,4 @@
-// The templates of hybridized.hpp, for whoever instantiates them for a scalar of their own.
+// The templates of hybridized.hpp, to be instantiated for another scalar.
 #pragma once
 
 #include <limits>

@@ -1,6 +1,6 @@
 #include "solvers/condensation/library_stiffness.hpp"
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 #include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {

@@ -1,5 +1,5 @@
-// StiffnessFactor by the libraries that the paper's methods use, so that HYBRID's formulation and
-// its factor can be told apart. K is put together, and asked for no more.
+// StiffnessFactor by the libraries that the paper's methods use, so that measurements separate
+// HYBRID's formulation from its factor. Each has its own copy of K.
 #pragma once
 
 #include "assembly/sparse_bytes.hpp"

@@ -9,7 +9,7 @@
 
 namespace airybench {
 
-// System: K u = b + F_C, whose b set_load_case(problem, system) makes anew; K stays.
+// System: K u = b + F_C; set_load_case(problem, system) replaces b and keeps K.
 template <typename System>
 struct StiffnessBody {
   System system;
@@ -17,8 +17,8 @@ struct StiffnessBody {
   contact::Problem condensed;
 };
 
-// Has the solution solve other load cases, if the control says so. finish(load case, control, body,
-// solution): what comes after D and G.
+// Sets solve_again if the control asks for it. finish(load case, control, body, solution): all that
+// follows D and G.
 template <typename System, typename Finish>
 void keep_if_told(const DualSystem& first, const RunControl& control,
                   std::shared_ptr<StiffnessBody<System>> body, Finish finish, Solution& solution) {

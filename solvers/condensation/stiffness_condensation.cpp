@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 #include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {

@@ -13,12 +13,12 @@
 
 namespace airybench {
 
-// A factor of K as methods in displacements ask for it, whoever makes it. In the order of its
-// functions; without contact unknowns D and G are empty.
+// A factor of K for methods in displacements. Its functions are called in their order here; without
+// contact unknowns D and G are empty.
 class StiffnessFactor {
  public:
   virtual ~StiffnessFactor() = default;
-  virtual std::size_t matrix_bytes() const { return 0; }  // of a K of its own, not yet factorised
+  virtual std::size_t matrix_bytes() const { return 0; }  // of its own copy of K, until factor()
   virtual void analyse() = 0;                             // throws std::bad_alloc
   // Throws Breakdown where K is not positive definite, TimeoutReached, std::bad_alloc.
   virtual void factor(const Deadline& deadline) = 0;

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "solvers/condensation/three_step.hpp"
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 #include "solvers/krylov/symmetric_product.hpp"
 #include "solvers/preconditioners/drop_tolerance.hpp"
 

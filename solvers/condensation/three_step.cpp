@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 

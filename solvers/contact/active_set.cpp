@@ -6,7 +6,8 @@
 #include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
-#include "solvers/direct/dense_lu.hpp"
+#include "solvers/contact/point_laws.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 
@@ -19,23 +20,21 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   std::vector<double> ratio;
   row.reserve(static_cast<std::size_t>(F.size()));
   ratio.reserve(static_cast<std::size_t>(F.size()));
-  const Eigen::VectorXd predicted = F - r.cwiseQuotient(D.diagonal());
+  const std::vector<PointLaw> laws = laws_of(contact, F - r.cwiseQuotient(D.diagonal()));
   Eigen::VectorXd next = Eigen::VectorXd::Zero(F.size());  // F with the statuses' forces in it
   for (int p = 0; p < contact.count; ++p) {
     const int n = m * p, t = n + 1;
-    if (!(predicted(n) < 0)) continue;
+    if (!laws[p].closed) continue;
     row.push_back(n);
-    ratio.push_back(0);
+    ratio.push_back(laws[p].ratio);
     next(n) = F(n);
     if (m == 1) continue;
-    const double mu = contact.friction_at(p), bound = -mu * predicted(n);
-    if (std::abs(predicted(t)) <= bound) {
+    if (laws[p].sticks) {
       row.push_back(t);
       ratio.push_back(0);
       next(t) = F(t);
     } else {
-      ratio.back() = predicted(t) > 0 ? -mu : mu;
-      next(t) = ratio.back() * F(n);
+      next(t) = laws[p].ratio * F(n);
     }
   }
   const auto closed = static_cast<Eigen::Index>(row.size());

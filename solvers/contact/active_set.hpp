@@ -15,7 +15,7 @@
 #pragma once
 
 #include "assembly/load_scale.hpp"
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 

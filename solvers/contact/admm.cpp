@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "solvers/contact/coulomb_law.hpp"
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 

@@ -9,11 +9,11 @@
 // zero. Coulomb's law is no minimum, there is no proof of convergence; z counts by its natural map.
 //
 // w is chosen while it runs: where F − z and the change of z, both in W's norm, are apart by more
-// than 10, it is multiplied or divided by 2 (ibid., 3.4.1), and D + W is factorised anew. It may
-// change ever more rarely, so that it comes to rest.
+// than 10, it is multiplied or divided by 2 (ibid., 3.4.1), and D + W is factorised again. It
+// may change less and less often, so that it settles.
 #pragma once
 
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 

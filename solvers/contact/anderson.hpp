@@ -2,7 +2,7 @@
 // (gauss_seidel.hpp), f = g(F) − F.
 #pragma once
 
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 

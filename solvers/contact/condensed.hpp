@@ -1,10 +1,65 @@
-// The condensed contact problem (contact_problem.hpp) as the last stage of a method.
+// The condensed contact problem (contact_problem.hpp): what its solvers return, how they know that
+// they are done, and the last stage of a method.
 #pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "assembly/contact_problem.hpp"
 #include "solvers/base/solution.hpp"
 
 namespace airybench {
+
+struct ContactResult {
+  Eigen::VectorXd F_C;  // N
+  // By ContactOptions::tolerance, or by ContactOptions::acceptable where it ended.
+  bool converged = false;
+  int iterations = 0;                                                     // sweeps
+  int active_set_steps = 0;                                               // active_set.hpp
+  double natural_map_residual = std::numeric_limits<double>::infinity();  // relative to ‖F_C‖
+  std::vector<double> history;  // ‖change of an iteration‖/‖F_C‖; if ContactOptions::history
+};
+
+// That of coulomb_law.hpp, with r = D F − G − ḡ.
+double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F);
+
+// By options.by or options.solver. Throws TimeoutReached.
+ContactResult solve_contact(const contact::Problem& problem, const ContactOptions& options = {},
+                            const Deadline& deadline = {});
+
+// G + ḡ, so that r = D F − offset.
+Eigen::VectorXd contact_offset(const contact::Problem& problem);
+
+// Iterates F ← next(F), which returns the norm of its change, until the natural map is below the
+// tolerance or options.most_iterations are done, and says which. The map is asked for when the
+// change is below the tolerance. Throws TimeoutReached.
+template <typename Next>
+ContactResult iterate_contact(const contact::Problem& problem, const ContactOptions& options,
+                              const Deadline& deadline, Next next) {
+  ContactResult result;
+  Eigen::VectorXd& F = result.F_C;
+  F = options.start.size() > 0 ? options.start : Eigen::VectorXd::Zero(problem.points.size());
+  const auto ask = [&](double allowed) {
+    result.natural_map_residual = relative_natural_map(problem, F);
+    return result.natural_map_residual <= allowed;
+  };
+  while (result.iterations < options.most_iterations && !result.converged) {
+    const double change = next(F);
+    ++result.iterations;
+    const double norm = F.norm();
+    if (!std::isfinite(norm)) return result;
+    if (options.history) result.history.push_back(norm > 0 ? change / norm : 0);
+    if (change <= options.tolerance * norm)
+      result.converged = ask(norm > 0 ? options.tolerance : 0);
+    if (result.iterations % 64 == 0) deadline.check("the contact law's iterations");
+  }
+  if (!result.converged && result.iterations > 0) {
+    const bool any = F.squaredNorm() > 0;
+    result.converged = ask(any ? std::max(options.tolerance, options.acceptable) : 0);
+  }
+  return result;
+}
 
 // ‖F‖_D = √(Fᵀ D F), √(N mm): the energy norm of the stresses that contact forces alone make.
 double D_norm(const Eigen::MatrixXd& D, const Eigen::VectorXd& F);

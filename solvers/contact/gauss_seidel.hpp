@@ -4,7 +4,7 @@
 //   for every point p:  b = Σ_{q≠p} D_pq F_q − G_p − ḡ_p,   F_p from the law with r = D_pp F_p + b
 #pragma once
 
-#include "solvers/contact/contact_result.hpp"
+#include "solvers/contact/condensed.hpp"
 
 namespace airybench {
 

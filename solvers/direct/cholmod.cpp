@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 namespace {

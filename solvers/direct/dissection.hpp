@@ -10,11 +10,11 @@
 #include <array>
 #include <vector>
 
-#include "solvers/direct/index_lists.hpp"
+#include "solvers/base/index_lists.hpp"
 
 namespace airybench {
 
-// The stage of each of so many vertices: to be eliminated by ascending stages, in any order within
+// The stage of each vertex: to be eliminated by ascending stages, in any order within
 // one. vertices: of each element; centres: of each element, mm.
 std::vector<int> dissect(int vertex_count, const IndexLists& vertices,
                          const std::vector<std::array<double, 2>>& centres);

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "solvers/base/element_matrices.hpp"
-#include "solvers/direct/index_lists.hpp"
+#include "solvers/base/index_lists.hpp"
 
 namespace airybench {
 

@@ -1,21 +1,18 @@
-// What a factor holds and what it took to make it, into the solution of the method that uses it:
-// bytes, non-zeros, flops, and the library's own count where it has one.
+// What a factor holds and what it took to make it, into the solution of the method that uses it.
 #pragma once
 
-#include "solvers/direct/cholmod.hpp"
-#include "solvers/direct/multifrontal.hpp"
-#include "solvers/direct/mumps.hpp"
-#include "solvers/direct/skyline.hpp"
+#include "solvers/base/solution.hpp"
 
 namespace airybench {
 
-void count_factor(const SkylineFactor& factor, Solution& solution);
-void count_factor(const MultifrontalFactor& factor, Solution& solution);
-// Makes it, too, in the stages `order` and `factor`.
-SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const Deadline& deadline,
-                               Solution& solution);
-// After the solves: their workspace stays, and counts.
-void count_factor(const CholmodFactor& factor, Solution& solution);
-void count_factor(const MumpsFactor& factor, Solution& solution);
+// Of a library's factor after the solves, whose workspace stays and counts.
+template <typename Factor>
+void count_factor(const Factor& factor, Solution& solution) {
+  solution.storage[MemoryOwner::factor] = factor.bytes();
+  solution.factor_entries = factor.entries();
+  solution.factor_flops = factor.flops();
+  if constexpr (requires { factor.library_bytes(); })
+    solution.library_bytes = static_cast<std::int64_t>(factor.library_bytes());
+}
 
 }  // namespace airybench

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 #include "solvers/direct/per_processor.hpp"
 #include "support/map_at_once.hpp"
 

@@ -1,9 +1,9 @@
 // Multifrontal LDLᵀ factorisation by sequential MUMPS (Amestoy, Duff, L'Excellent & Koster 2001,
 // doi:10.1137/S0895479899358194).
 //
-//   P A Pᵀ = L D Lᵀ, D of 1×1 and 2×2 blocks, with threshold pivoting inside the fronts; of a
-// positive definite A, which is believed, D is diagonal and nothing is pivoted. On request the last
-// unknowns C are not eliminated, and what is left of them is their Schur complement:
+//   P A Pᵀ = L D Lᵀ, D of 1×1 and 2×2 blocks, with threshold pivoting inside the fronts; where
+// the caller says that A is positive definite, D is diagonal and nothing is pivoted. On request the
+// last unknowns C are not eliminated, and what is left of them is their Schur complement:
 //
 //   A = ⎡ A_II A_CIᵀ ⎤       schur() = A_CC − A_CI A_II⁻¹ A_CIᵀ
 //       ⎣ A_CI A_CC  ⎦       reduce(b) = b_C − A_CI A_II⁻¹ b_I

@@ -7,6 +7,7 @@
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/base/parallel.hpp"
+#include "solvers/direct/factor_counts.hpp"
 
 namespace airybench {
 namespace {
@@ -222,6 +223,17 @@ SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<doub
                           const Deadline& deadline) {
   SkylineFactor factor{std::move(profile), {}, {}};
   factor_panels(factor, lower, deadline, [](std::size_t) {});
+  return factor;
+}
+
+SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const Deadline& deadline,
+                               Solution& solution) {
+  SkylineProfile profile = run_stage(solution.times, Stage::order, MemoryOwner::factor,
+                                     [&] { return analyse_skyline(lower); });
+  SkylineFactor factor = run_stage(solution.times, Stage::factor, MemoryOwner::factor, [&] {
+    return factor_ldlt(std::move(profile), lower, deadline);
+  });
+  count_factor(factor, solution);
   return factor;
 }
 

@@ -72,6 +72,8 @@ struct SkylineFactor {
   SkylineProfile profile;
   std::vector<std::vector<double>> values;  // L, the three blocks of each panel
   Eigen::VectorXd diagonal;                 // D, in the panels' order
+  std::int64_t entries() const { return profile.profile; }
+  double flops() const { return profile.factor_flops; }
   std::size_t bytes() const {
     return static_cast<std::size_t>(profile.stored + diagonal.size()) * sizeof(double) +
            profile.bytes();
@@ -81,6 +83,10 @@ struct SkylineFactor {
 // Throws Breakdown with row and value at a pivot that is zero or not finite; TimeoutReached.
 SkylineFactor factor_ldlt(SkylineProfile profile, const Eigen::SparseMatrix<double>& lower,
                           const Deadline& deadline = {});
+
+// The same with its analysis, as the stages `order` and `factor` of a solution, counted.
+SkylineFactor factor_in_stages(const Eigen::SparseMatrix<double>& lower, const Deadline& deadline,
+                               Solution& solution);
 
 // Row by row and without keeping the whole: calls visit(i, j, l, d) for every row i in order, with
 // l = L_ij, L_i,j+1, …, L_i,i−1 and d = D_j, …, D_i, both valid during the call only. What no later

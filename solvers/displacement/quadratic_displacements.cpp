@@ -57,15 +57,6 @@ void add_nodal(Eigen::Matrix2Xd forces, const std::map<int, Eigen::Matrix2d>& fr
         b(number) += forces(k, node);
 }
 
-}  // namespace
-
-std::size_t QuadraticDisplacements::bytes() const {
-  return K.bytes() + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
-         unknown.size() * sizeof(unknown[0]);
-}
-
-namespace {
-
 // A triangle in the unknowns' directions.
 struct Element {
   std::array<int, 6> nodes;
@@ -109,6 +100,11 @@ void add_loads(const Problem& problem, const std::map<int, Eigen::Matrix2d>& fra
 }
 
 }  // namespace
+
+std::size_t QuadraticDisplacements::bytes() const {
+  return K.bytes() + static_cast<std::size_t>(b.size() + given.u.size()) * sizeof(double) +
+         unknown.size() * sizeof(unknown[0]);
+}
 
 QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem) {
   QuadraticDisplacements system;

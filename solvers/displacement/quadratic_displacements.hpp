@@ -38,7 +38,7 @@ struct QuadraticDisplacements {
   std::size_t bytes() const;                      // of K, b and what is given
 };
 QuadraticDisplacements assemble_quadratic_displacements(const Problem& problem);
-// Another load case of the same body: b, what is given, and the contact law anew.
+// Another load case of the same body: replaces b, what is given, and the contact law.
 void set_load_case(const Problem& problem, QuadraticDisplacements& system);
 
 // The coefficients of all nodes, in x and y, from the unknowns.

@@ -10,7 +10,7 @@
 //   z = M⁻¹ w − Z h,   ‖w − V h‖²_M⁻¹ = w·z,   z_{j+1} = z / √(w·z)
 //
 // one vector per iteration. That is classical Gram–Schmidt, and its norms are differences of
-// squares: at most seven digits can be had at a time, and the caller forms the residual anew.
+// squares: a solve gains seven digits at most, and the caller then forms a new residual.
 #pragma once
 
 #include <Eigen/Core>

@@ -37,8 +37,8 @@ struct KrylovOptions {
   int threads = 1;               // each with lanes of its own
 };
 
-// Of the vectors of a solve for so many right-hand sides, with so many rows per lane; those of the
-// preconditioner's operators counted.
+// Of the vectors of a solve for `count` right-hand sides, with `rows` rows per lane, including
+// those of the preconditioner's operators.
 std::size_t iteration_bytes(const KrylovOptions& options, int count, Eigen::Index rows);
 
 struct KrylovSummary {

@@ -21,7 +21,7 @@ namespace airybench {
 // s of the next step: Bernstein coefficients on Γ_C, as in Loads. Empty without friction.
 std::vector<std::array<double, 3>> slid_after(const DualSystem& system, const Solution& answer);
 
-// What friction takes in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
+// The work of friction in a step, −Σ F_t Δr_t ≥ 0, N mm; zero without friction.
 double dissipation_Nmm(const DualSystem& system, const Solution& answer);
 
 // The same path with every step in two halves: in the middle loads and gap are the mean of what
@@ -31,8 +31,8 @@ Problem with_half_steps(const Problem& first);
 // step: from 0. The system is that of the step, its slip measured from this path's own past.
 using VisitStep = std::function<void(int step, const DualSystem& system, const Solution& answer)>;
 
-// Solves a problem and its later steps, and shows each. Ends early at a step that has no answer;
-// returns the last one solved, whose load case the system then has.
+// Solves a problem and its later steps, and calls visit() after each. Stops at the first step that
+// has no answer. Returns the last answer; the system then has its load case.
 Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunControl& control,
                           const VisitStep& visit = {});
 Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,

@@ -1,6 +1,6 @@
 // ALM: the augmented Lagrangian method with given parameters, ALM:r=…,rho=…, and with the best of
 // the paper's grid.
-#include "solvers/uzawa/uzawa_answer.hpp"
+#include "solvers/uzawa/augmented_lagrangian.hpp"
 
 #include <algorithm>
 #include <array>

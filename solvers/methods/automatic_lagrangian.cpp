@@ -3,7 +3,7 @@
 #include "solvers/base/kept_body.hpp"
 #include "solvers/direct/factor_counts.hpp"
 #include "solvers/uzawa/accelerated_lagrangian.hpp"
-#include "solvers/uzawa/uzawa_answer.hpp"
+#include "solvers/uzawa/augmented_lagrangian.hpp"
 
 namespace airybench {
 namespace {

@@ -5,6 +5,8 @@
 #include "solvers/base/dense_products.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/direct/factor_counts.hpp"
+#include "solvers/direct/mumps.hpp"
+#include "solvers/direct/skyline.hpp"
 
 namespace airybench {
 namespace {

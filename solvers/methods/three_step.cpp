@@ -3,8 +3,10 @@
 // CHOLMOD's supernodal Cholesky factorisation.
 #include "solvers/condensation/three_step.hpp"
 #include "solvers/base/method.hpp"
+#include "solvers/direct/cholmod.hpp"
 #include "solvers/direct/condition.hpp"
 #include "solvers/direct/factor_counts.hpp"
+#include "solvers/direct/skyline.hpp"
 
 namespace airybench {
 namespace {

@@ -20,12 +20,12 @@ namespace airybench {
 using Apply = std::function<void(LaneBlock& X)>;
 
 struct Preconditioner {
-  // Gives an operator with a workspace of its own for blocks of so many lanes: one for each thread.
+  // Makes an operator with its own workspace for blocks of `lanes` lanes: one for each thread.
   std::function<Apply(int lanes)> applier;
-  std::size_t bytes = 0;            // of what it stores
-  std::int64_t entries = 0;         // of its triangular factors, as far as it has its own
+  std::size_t bytes = 0;
+  std::int64_t entries = 0;         // of its own triangular factors
   std::optional<double> flops;      // that made them
-  Eigen::Index workspace_rows = 0;  // of every operator, per lane
+  Eigen::Index workspace_rows = 0;  // of each operator, per lane
   double shift = 0;  // added to the diagonal of S so that the factorisation did not break down
 };
 

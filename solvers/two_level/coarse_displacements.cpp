@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 namespace {

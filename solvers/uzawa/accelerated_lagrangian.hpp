@@ -22,7 +22,7 @@
 //
 // The stop `target` is primal as iterate_uzawa's, and dual ‖P(g) − P(v)‖ ≤ tolerance · ‖C_C φ +
 // F0‖, the natural map with R for 1/ρ. Where the residual has not fallen for 200 iterations and is
-// within 100 times the tolerance, it is at rounding, and what that is worth the check says.
+// within 100 times the tolerance, it is at rounding; the check then judges the answer.
 #pragma once
 
 #include "solvers/direct/cholmod.hpp"
@@ -41,8 +41,8 @@ Eigen::VectorXd row_penalties(const DualSystem& system, double weight_F, double 
 // The vectors of its iteration.
 std::size_t accelerated_bytes(const DualSystem& system);
 
-// `penalised.factor` has workspace of its own. Nothing of the system's size is
-// allocated inside an iteration, but for histories. Throws TimeoutReached.
+// Nothing of the system's size is allocated inside an iteration, but for histories. Not const:
+// `penalised.factor` has its own workspace. Throws TimeoutReached.
 UzawaResult iterate_accelerated(const DualSystem& system, PenalisedFactor& penalised,
                                 const UzawaOptions& options, const Deadline& deadline = {});
 

@@ -63,7 +63,7 @@ struct UzawaResult {
   std::vector<double> history;  // max(primal, dual), or i_C for the paper's stop; one per iteration
 };
 
-// Of the iterates of so many ρ, and of their results.
+// Of the iterates and results of `count` values of ρ.
 std::size_t uzawa_bytes(const DualSystem& system, int count);
 
 // One iteration for every ρ, side by side: they share the reading of the factor. race: the others
@@ -73,7 +73,7 @@ std::vector<UzawaResult> iterate_uzawa(const DualSystem& system, const Augmented
                                        const std::vector<double>& rhos, const UzawaOptions& options,
                                        bool race = false, const Deadline& deadline = {});
 
-// What S̃⁻¹ is to who needs no more of it: S̃ = S + Cᵀ R C, solve: x ← S̃⁻¹ x.
+// S̃ = S + Cᵀ R C as a function, solve: x ← S̃⁻¹ x.
 struct PenalisedSolve {
   Eigen::VectorXd R;
   std::function<void(Eigen::VectorXd& x)> solve;
@@ -86,5 +86,13 @@ PenalisedSolve penalised_solve(const DualSystem& system, const AugmentedFactor& 
 // relative residual. False where that is not reached in 500 iterations.
 bool solve_saddle(const DualSystem& system, const PenalisedSolve& penalised, SaddleVector& v,
                   const Deadline& deadline = {});
+
+UzawaOptions uzawa_options(const RunControl& control);
+
+// From the end of an iteration to the solution: φ, stresses, status, and the check. parameters: for
+// the record and for messages. penalised: for the check's conjugate gradients.
+void store_uzawa_answer(const DualSystem& system, const RunControl& control,
+                        const PenalisedSolve& penalised, const std::string& parameters,
+                        UzawaResult result, Solution& solution);
 
 }  // namespace airybench

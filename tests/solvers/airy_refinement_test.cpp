@@ -9,7 +9,6 @@
 #include "assembly/scene.hpp"
 #include "solvers/condensation/airy_residual.hpp"
 #include "solvers/condensation/three_step.hpp"
-#include "solvers/direct/factor_counts.hpp"
 #include "solvers/direct/skyline.hpp"
 #include "tests/support/dense_operators.hpp"
 #include "tests/support/posed.hpp"

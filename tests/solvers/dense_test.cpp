@@ -3,8 +3,7 @@
 #include <limits>
 
 #include "solvers/base/dense_products.hpp"
-#include "solvers/direct/dense_cholesky.hpp"
-#include "solvers/direct/dense_lu.hpp"
+#include "solvers/direct/dense_factors.hpp"
 #include "tests/support/dense_operators.hpp"
 
 namespace airybench::dense_test {

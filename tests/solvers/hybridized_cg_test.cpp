@@ -4,7 +4,6 @@
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "solvers/contact/condensed.hpp"
-#include "solvers/contact/contact_result.hpp"
 #include "solvers/krylov/gmres.hpp"
 #include "solvers/two_level/preconditioner.hpp"
 #include "tests/support/condensed.hpp"

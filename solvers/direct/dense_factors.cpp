@@ -1,13 +1,25 @@
-#include "solvers/direct/dense_cholesky.hpp"
+#include "solvers/direct/dense_factors.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 #include "solvers/base/solution.hpp"
-#include "solvers/direct/lapack.hpp"
 #include "solvers/direct/per_processor.hpp"
+
+// Of LAPACK, which brings no header. Triangle "L": the lower one.
+extern "C" {
+void dpotri_(const char* triangle, const int* n, double* matrix, const int* stride, int* info,
+             std::size_t length_of_triangle);
+void dgesv_(const int* n, const int* columns, double* matrix, const int* stride, int* pivots,
+            double* right, const int* right_stride, int* info);
+void dsgesv_(const int* n, const int* columns, double* matrix, const int* stride, int* pivots,
+             const double* b, const int* b_stride, double* x, const int* x_stride, double* residual,
+             float* rounded, int* refinements, int* info);
+}
 
 namespace airybench {
 namespace {
@@ -90,6 +102,27 @@ Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L) {
     throw Breakdown("dense Cholesky factor: zero at " + std::to_string(info) + " on its diagonal");
   for (int j = 0; j < n; ++j) L.row(j).tail(n - j - 1) = L.col(j).tail(n - j - 1).transpose();
   return L;
+}
+
+Eigen::VectorXd solve_by_lu(Eigen::MatrixXd A, Eigen::VectorXd b) {
+  constexpr int worth_rounding = 128;  // below, conversions cost what floats save
+  const auto n = static_cast<int>(A.rows());
+  if (n == 0) return b;
+  Eigen::VectorXi pivots(n);
+  const int columns = 1;
+  int info = 0;
+  if (n < worth_rounding) {
+    dgesv_(&n, &columns, A.data(), &n, pivots.data(), b.data(), &n, &info);
+  } else {
+    Eigen::VectorXd x(n), residual(n);
+    Eigen::VectorXf rounded(static_cast<Eigen::Index>(n) * (n + columns));
+    int refinements = 0;
+    dsgesv_(&n, &columns, A.data(), &n, pivots.data(), b.data(), &n, x.data(), &n, residual.data(),
+            rounded.data(), &refinements, &info);
+    b = std::move(x);
+  }
+  if (info != 0) b.setConstant(std::numeric_limits<double>::quiet_NaN());
+  return b;
 }
 
 }  // namespace airybench

@@ -1,4 +1,4 @@
-// Cholesky factorisation of a dense block, and the inverse from it.
+// Factors of dense blocks: Cholesky, and the inverse from it; LU.
 #pragma once
 
 #include <string>
@@ -29,5 +29,9 @@ bool factorise_in_place(DenseBlock A);
 // (L Lᵀ)⁻¹, exactly symmetric, from the lower triangle of L. Throws Breakdown where L has a zero on
 // its diagonal.
 Eigen::MatrixXd inverse_from_factor(Eigen::MatrixXd L);
+
+// A⁻¹ b by LU with partial pivoting, large ones in float and refined, in double where that does not
+// settle (dsgesv: Langou et al. 2006, doi:10.1145/1188455.1188573); not finite where A is singular.
+Eigen::VectorXd solve_by_lu(Eigen::MatrixXd A, Eigen::VectorXd b);
 
 }  // namespace airybench
