@@ -52,8 +52,6 @@ std::string complaint_of(const ProgramEnd& end) {
   return fmt::format("{} ended with exit code {}: {}", converter, end.exit_code, last);
 }
 
-bool can_convert_models() { return program_of_ours(converter).has_value(); }
-
 // bench does not link Gmsh, so meshgen converts in a separate process; its notes go to standard
 // error. settings: options of `meshgen --convert`. Throws FileError.
 std::string mesh_text_of_model(const std::filesystem::path& model,
@@ -61,7 +59,7 @@ std::string mesh_text_of_model(const std::filesystem::path& model,
   const auto program = program_of_ours(converter);
   if (!program)
     throw FileError(
-        fmt::format("{}: a Gmsh model, but there is no {} beside this program (Debian: "
+        fmt::format("{}: a Gmsh model, but there is no {} next to this program (Debian: "
                     "install libgmsh-dev and build again, as ./run bench does)",
                     model.string(), converter));
   std::vector<std::string> arguments = {"--convert=" + model.string(), "--out=-"};
@@ -103,7 +101,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const Options& optio
   try {
     return read_mesh_file(path);
   } catch (const ForeignMeshError&) {
-    if (!can_convert_models()) throw;
+    if (!program_of_ours(converter)) throw;
   }
   return converted(path, options);
 }
