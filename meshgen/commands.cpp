@@ -19,6 +19,7 @@
 #include "support/data_folder.hpp"
 #include "support/process.hpp"
 #include "support/sha256.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench {
 namespace {

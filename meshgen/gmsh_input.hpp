@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "support/atomic_file.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace airybench {
 

@@ -10,8 +10,8 @@
 #include "meshgen/complaints.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/no_programs.hpp"
-#include "support/atomic_file.hpp"
 #include "support/process.hpp"
+#include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {

@@ -54,8 +54,6 @@ std::string complaint_of(const ProgramEnd& end) {
                      text.substr(text.rfind('\n') + 1));
 }
 
-bool can_convert_models() { return program_of_ours(converter).has_value(); }
-
 // bench does not link Gmsh, so meshgen reads models in a separate process; its notes go to standard
 // error. mode: --convert, --show; settings: options of these. Throws FileError.
 std::string said_of_model(const std::string& mode, const std::filesystem::path& model,
@@ -63,7 +61,7 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
   const auto program = program_of_ours(converter);
   if (!program)
     throw FileError(
-        fmt::format("{}: a Gmsh model, but there is no {} beside this program (Debian: "
+        fmt::format("{}: a Gmsh model, but there is no {} next to this program (Debian: "
                     "install libgmsh-dev and build again, as ./run bench does)",
                     model.string(), converter));
   std::vector<std::string> arguments = {mode + "=" + model.string(), "--out=-"};
@@ -120,7 +118,7 @@ MeshFile read_or_convert(const std::filesystem::path& path, const Options& optio
   try {
     return read_mesh_file(path);
   } catch (const ForeignMeshError&) {
-    if (!can_convert_models() || is_of_catalogue(path)) throw;
+    if (!program_of_ours(converter) || is_of_catalogue(path)) throw;
   }
   return converted(path, options, settings);
 }

@@ -67,20 +67,16 @@ const Record* TrackedRun::find(const std::string& case_name) const {
   return found == cases.end() ? nullptr : &*found;
 }
 
-std::string TrackedRun::context_value(const std::string& key) const {
-  return context_word(context, key);
-}
-
 std::string TrackedRun::machine() const {
-  return fmt::format("{}, {} processors, {} threads", context_value("cpu"), context_value("cpus"),
-                     context_value("threads"));
+  return fmt::format("{}, {} processors, {} threads", context_word(context, "cpu"),
+                     context_word(context, "cpus"), context_word(context, "threads"));
 }
 
 TrackedRun tracked_run_of(std::vector<Record> records, const std::string& source) {
   if (records.empty()) throw RecordError(source + ": no records (a night needs some)");
   TrackedRun run;
   run.context = records.front().context;
-  run.date = run.context_value("date");
+  run.date = context_word(run.context, "date");
   if (!is_date(run.date))
     throw RecordError(fmt::format("{}:1: context: date: \"{}\" (allowed: as 2026-11-21T03:00:00Z)",
                                   source, run.date));

@@ -42,25 +42,25 @@ struct TrackedRun {
   bool failed = false;
   bool times_judged = false;  // the machine has enough runs
 
-  const Record* find(const std::string& case_name) const;   // or null
-  std::string context_value(const std::string& key) const;  // "" if absent
+  const Record* find(const std::string& case_name) const;  // or null
   // Processor, processor count, threads. Only runs of the same machine are compared.
   std::string machine() const;
 };
 
-// Context and date of the first record. Throws FileError: no records, or no usable date.
+// All of these throw FileError, which names the file.
+
+// Context and date of the first record.
 TrackedRun tracked_run_of(std::vector<Record> records, const std::string& source);
 
-// Throws FileError.
 TrackedRun parse_tracked_run(const std::string& text, const std::filesystem::path& file);
-// By date. Empty if there is no folder. Throws FileError, with the broken file's name.
+// By date. Empty if there is no folder.
 std::vector<TrackedRun> read_history(const std::filesystem::path& folder);
 
-// A new file's name: the date, with "-2", "-3", … for runs of the same second. Throws FileError
-// if the history has this very run.
+// A new file's name: the date, with "-2", "-3", … for runs of the same second. Refuses a run that
+// the history has.
 std::filesystem::path file_for(const TrackedRun& run, const std::filesystem::path& folder,
                                const std::vector<TrackedRun>& history);
-// Atomic. Throws FileError.
+// Atomic.
 void write_tracked_run(const TrackedRun& run);
 
 }  // namespace airybench

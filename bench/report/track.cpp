@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "bench/records/context.hpp"
 #include "bench/records/robust.hpp"
 
 namespace airybench {
@@ -18,8 +19,9 @@ constexpr std::array library_keys = {"compiler", "compiler_flags", "build_type",
                                      "blas",     "blas_core",      "heap_probe"};
 
 bool same_libraries(const TrackedRun& a, const TrackedRun& b) {
-  return std::ranges::all_of(
-      library_keys, [&](const char* key) { return a.context_value(key) == b.context_value(key); });
+  return std::ranges::all_of(library_keys, [&](const char* key) {
+    return context_word(a.context, key) == context_word(b.context, key);
+  });
 }
 
 // The case in the last earlier run with has(run, record); null: none.
@@ -94,9 +96,9 @@ void compare_contexts(const TrackedRun& before, const TrackedRun& now,
                                     Kind::changed, now.date));
   std::string changes;
   for (const char* key : library_keys)
-    if (before.context_value(key) != now.context_value(key))
+    if (context_word(before.context, key) != context_word(now.context, key))
       changes += fmt::format("{}{}: {} → {}", changes.empty() ? "" : "; ", key,
-                             before.context_value(key), now.context_value(key));
+                             context_word(before.context, key), context_word(now.context, key));
   if (changes.empty()) return;
   Finding& finding = findings.emplace_back(
       finding_of(all_cases, Lane::counters, "libraries", {}, {}, Kind::changed, now.date));

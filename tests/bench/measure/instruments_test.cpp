@@ -33,10 +33,10 @@ TEST(NoiseKernel, DoesTheSameWorkEveryTimeAndAllocatesNothing) {
 TEST(NoiseKernel, OnSeveralThreadsEndsWithTheLastAndKeepsNothing) {
   const std::int64_t before = heap::live_bytes();
   EXPECT_GT(run_noise_kernel(3), 0);
-  EXPECT_LT(heap::live_bytes(), before + (1 << 20));  // threads keep a little of their own
+  EXPECT_LT(heap::live_bytes(), before + (1 << 20));  // threads keep a little
 }
 
-// A pass beside a case of another process times no copies of pages.
+// A pass next to a case of another process times no copies of pages.
 TEST(NoiseKernel, TakesNoNewPagesAfterAFork) {
   const auto faults = [] {
     rusage usage;

@@ -153,7 +153,7 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
           {"assemble gap", s.contact.gap.size() > 0},
           {"contact: tangential law", s.contact.count > 0 && s.contact.components == 2}})
       EXPECT_EQ(is_there, runs[stage]) << scene.name << ": " << stage;
-    if (!GetParam().in_displacements) {  // which has control points of its own
+    if (!GetParam().in_displacements) {  // which has its control points
       EXPECT_EQ(m.solution.F_C.size(), s.contact.size()) << scene.name;
     }
     const bool sweeps = runs["contact"] && !m.solution.uzawa_iterations;
@@ -161,7 +161,7 @@ TEST_P(LeanScenes, TimesAndBlocksAreThoseOfTheStagesDecided) {
   }
 }
 
-// What MUMPS takes by itself: it orders each matrix anew, and from version 5.7 on the workspace for
+// What MUMPS takes by itself: it orders each matrix, and from version 5.7 on the workspace for
 // a smaller one may be larger, by up to 0.3 % of the peak as seen.
 std::int64_t of_mumps(const Method& method, const Measured& m) {
   const bool by_mumps = method.name == "HYBRID:MUMPS" ||

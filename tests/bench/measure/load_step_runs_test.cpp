@@ -111,7 +111,7 @@ TEST(LoadStepRuns, EveryStepHasItsTotalErrorBoundsAndIntervals) {
   }
 }
 
-// u_t is less what slipped before: the way back would else have an error of its own past.
+// u_t is less what slipped before: the way back would else have an error of its past.
 TEST(LoadStepRuns, WithFrictionTheErrorOfAStepIsOfItsOwnSlip) {
   Options options;
   options.fields = true;

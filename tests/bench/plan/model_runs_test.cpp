@@ -270,7 +270,7 @@ TEST_F(ModelRuns, WithoutMeshgenOneLineSaysWhatToInstall) {
                               "' && bin/bench --mesh=part.geo --out=o >out.txt 2>err.txt";
   EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 2);
   EXPECT_EQ(bench_.content("err.txt"),
-            "bench: part.geo: a Gmsh model, but there is no meshgen beside this program (Debian: "
+            "bench: part.geo: a Gmsh model, but there is no meshgen next to this program (Debian: "
             "install libgmsh-dev and build again, as ./run bench does)\n");
   EXPECT_FALSE(fs::exists(bench_.path("o")));
 }

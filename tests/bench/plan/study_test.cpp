@@ -42,7 +42,7 @@ TEST(Study, PointsTurnTheKnobOfTheMethod) {
     for (const TurnedMethod& point : error_points(method(name))) {
       EXPECT_EQ(point.method.name, name);
       EXPECT_EQ(point.method.is_iterative(), method(name).is_iterative());
-      EXPECT_FALSE(point.method.is_tightened());  // the harness shall not tighten it
+      EXPECT_FALSE(point.method.is_tightened());  // the harness must not tighten it
       if (point.knob.value) {
         EXPECT_EQ(point.knob.name, knob);
         EXPECT_FALSE(point.knob.stop);

@@ -109,7 +109,7 @@ TEST(Compare, RunsMustHaveBeenInterleaved) {
   EXPECT_NE(compared(first_all_of_a).text().find("run A, B, A, B"), std::string::npos);
 }
 
-// Runs of two programs whose times differ by `ratio`. Every run has a pace of its own, which all
+// Runs of two programs whose times differ by `ratio`. Every run has its pace, which all
 // its repetitions and cases share and which drifts from run to run.
 Sides drifting(double ratio, unsigned seed, int runs, int cases) {
   std::mt19937 engine(seed);
