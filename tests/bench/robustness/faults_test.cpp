@@ -1,5 +1,6 @@
-// Faults of the machine: whichever open, write, fsync, rename, fork, send or recv of a run fails, the run ends
-// with an exit code, leaves nothing half-written, and --resume comes to the undisturbed result.
+// Faults of the machine: whichever open, write, fsync, rename, fork, send or recv of a run fails,
+// the run ends with an exit code, leaves nothing half-written, and --resume comes to the
+// undisturbed result.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -84,7 +85,8 @@ TEST_P(NthFault, IsSurvivedAndResumed) {
   std::cout << n - 1 << " calls of " << GetParam() << " failed, one at a time\n";
 }
 INSTANTIATE_TEST_SUITE_P(Of, NthFault,
-                         ::testing::Values("open", "write", "fsync", "rename", "fork", "send", "recv"),
+                         ::testing::Values("open", "write", "fsync", "rename", "fork", "send",
+                                           "recv"),
                          [](const auto& of) { return std::string(of.param); });
 
 // Of some six thousand, in all three processes: of the program, and of BLAS, CHOLMOD and the rest.
@@ -161,6 +163,22 @@ TEST(MachineFault, OfALimitOnProcessorTime) {
   EXPECT_EQ(bench.records()[0]["status"], "machine_fault") << bench.records()[0]["status_reason"];
   EXPECT_NE(bench.records()[0]["status_reason"].get<std::string>().find("limit on processor time"),
             std::string::npos);
+}
+
+// Of the program's guardian and of the program.
+TEST(MachineFault, OfAProgramThatCannotBeForked) {
+  for (const int fork : {3, 4}) {
+    const BenchCommand bench;
+    testing::write_text(bench.path("one.json"),
+                        R"({"name": "one", "reads": "condensed", "format": "matrix-market",
+                            "returns": "contact_forces", "command": ["true"]})");
+    EXPECT_EQ(bench
+                  .run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
+                       with_fault("fork", fork))
+                  .code,
+              1);
+    EXPECT_EQ(bench.record()["status"], "machine_fault") << bench.record()["status_reason"];
+  }
 }
 
 // Its fork waits for ever: 20 seconds later the main process no longer does.
