@@ -1,7 +1,7 @@
-// Starts, watches and ends processes; every fork of the project is in process.cpp.
+// Starts, watches and ends processes; every fork of the project is in process.cpp (start()).
 //
 //   ChildProcess   a function of this program in a fork; both exchange lines of text
-//   run_program    another program, with all that it starts
+//   run_program    another program, with all that it starts (program.cpp)
 //
 // Both end when this process ends, even by a crash.
 #pragma once

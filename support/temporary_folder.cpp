@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include "support/atomic_file.hpp"
@@ -47,12 +48,10 @@ void for_each_entry(int folder, const Visit& visit) {
   closedir(entries);
 }
 
-}  // namespace
-
 // What is in a folder of `top` and cannot be removed yet moves to `top`: the depth of folders takes
 // neither stack nor descriptors nor long paths.
-void remove_folder(const fs::path& folder) {
-  const int top = open_folder(AT_FDCWD, folder.c_str());
+void remove_folder(int parent, const char* folder) {
+  const int top = open_folder(parent, folder);
   int moved = 0;
   for (bool removes = top >= 0; removes;) {
     removes = false;
@@ -72,23 +71,26 @@ void remove_folder(const fs::path& folder) {
     });
   }
   if (top >= 0) close(top);
-  remove_entry(AT_FDCWD, folder.c_str());
+  remove_entry(parent, folder);
 }
 
+}  // namespace
+
+void remove_folder(const fs::path& folder) { remove_folder(AT_FDCWD, folder.c_str()); }
+
 void remove_abandoned_folders() {
-  std::error_code error;
-  for (fs::directory_iterator entry(parent_of_all(), error), end; !error && entry != end;
-       entry.increment(error)) {
+  const int parent = open(parent_of_all().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  for_each_entry(parent, [&](const char* name) {
     struct stat found = {};
-    const char* const name = entry->path().c_str();
-    if (!entry->path().filename().string().starts_with(prefix) || lstat(name, &found) != 0 ||
-        found.st_uid != geteuid())
-      continue;
-    const int folder = open_folder(AT_FDCWD, name);
-    if (folder < 0) continue;
-    if (lock(folder)) remove_folder(name);
+    if (!std::string_view(name).starts_with(prefix) ||
+        fstatat(parent, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || found.st_uid != geteuid())
+      return;
+    const int folder = open_folder(parent, name);
+    if (folder < 0) return;
+    if (lock(folder)) remove_folder(parent, name);
     close(folder);
-  }
+  });
+  if (parent >= 0) close(parent);
 }
 
 TemporaryFolder::TemporaryFolder() {

@@ -102,15 +102,19 @@ class ProgramSolve {
   Eigen::MatrixXd array(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
     return read_array(output_, name, rows, columns);
   }
+  Eigen::VectorXd contact_forces(Eigen::Index rows) const {
+    return rows > 0 ? Eigen::VectorXd(array("F_C.mtx", rows, 1)) : Eigen::VectorXd();
+  }
   const Answer& answer() const { return answer_; }
 
   void end_handing_over() {
     work_.reset();
     run_.not_solve_s = seconds_since(start_) - answer_.time_s;
   }
-  Solution take_over(const RunControl& control) {
+  Solution take_over(const RunControl& control, Eigen::VectorXd F_C = {}) {
     end_handing_over();
     Solution solution;
+    solution.F_C = std::move(F_C);
     note(control, solution);
     for (const auto& [stage, seconds] : answer_.stages) solution.times[stage] = seconds;
     return solution;
@@ -156,10 +160,7 @@ Solution solve_airy(const Caller& caller, const DualSystem& system, const RunCon
   ProgramSolve program(
       caller, [&] { return airy_files(system, caller.declaration.format); }, control);
   const Eigen::VectorXd x = program.array("x.mtx", system.n(), 1);
-  Eigen::VectorXd F_C;
-  if (system.n_c() > 0) F_C = program.array("F_C.mtx", system.n_c(), 1);
-  Solution solution = program.take_over(control);
-  solution.F_C = std::move(F_C);
+  Solution solution = program.take_over(control, program.contact_forces(system.n_c()));
   const StageTimer timer(solution.times, Stage::recover);
   solution.phi = airy_function(system, x);
   solution.stress = stress_of_airy_function(*system.problem, solution.phi);
@@ -194,14 +195,6 @@ Solution solve_body(const Caller& caller, const DualSystem& system, const RunCon
   return solution;
 }
 
-void subtract_motion(const Problem& problem, Eigen::Matrix4Xd& moments) {
-  for (int edge = 0; edge < problem.edges.count(); ++edge) {
-    const auto& [low, high] = problem.edges.vertices[edge];
-    moments.col(edge) -=
-        problem.motion.moments(problem.mesh.vertices[low], problem.mesh.vertices[high]);
-  }
-}
-
 Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
                                const RunControl& control) {
   const Problem& problem = *system.problem;
@@ -209,12 +202,13 @@ Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
       caller, [&] { return body_files(problem, caller.declaration.format); }, control);
   Eigen::Matrix4Xd moments =
       program.array("edge_displacements_mm.mtx", problem.edges.count(), 4).transpose();
-  Eigen::VectorXd F_C;
-  if (system.contact.count > 0) F_C = program.array("F_C.mtx", system.contact.size(), 1);
-  Solution solution = program.take_over(control);
-  solution.F_C = std::move(F_C);
+  Solution solution = program.take_over(control, program.contact_forces(system.contact.size()));
   const StageTimer timer(solution.times, Stage::recover);
-  subtract_motion(problem, moments);
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    const auto& [low, high] = problem.edges.vertices[edge];
+    moments.col(edge) -=
+        problem.motion.moments(problem.mesh.vertices[low], problem.mesh.vertices[high]);
+  }
   MomentsCheck own = check_moments(system, moments);
   solution.stress = std::move(own.stress);
   solution.contact_displacement = std::move(own.contact_displacement);
@@ -224,7 +218,7 @@ Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
 
 Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& contact,
                           const std::string& format) {
-  if (format != "fclib") return program.array("F_C.mtx", contact.size(), 1);
+  if (format != "fclib") return program.contact_forces(contact.size());
   const Eigen::VectorXd F = -program.array("r.mtx", 2 * contact.count, 1);
   if (contact.components == 2) return F;
   return F(Eigen::seqN(0, contact.count, 2));
@@ -272,6 +266,8 @@ auto with_no_answer(AnySolve solve) {
       return failed(why.status, why.what());
     } catch (const FileError& why) {
       return failed(Status::breakdown, fmt::format("its answer: {}", why.what()));
+    } catch (const std::system_error& why) {  // no process could be started
+      return failed(Status::machine_fault, why.what());
     }
   };
 }

@@ -235,19 +235,15 @@ std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size
 void IsolatedScene::prepare_all() {
   if (prepared_ && process_ != nullptr) return;
   const auto start = std::chrono::steady_clock::now();
-  bool was_suspended = false;
-  const auto prepare_each = [&] {
-    was_suspended = false;
+  for (int attempt = 1;; ++attempt) {
+    bool was_suspended = false;
     for (std::size_t k = 0; k < cases_.size(); ++k)
       if (why_skipped(cases_[k]->posed.problem, cases_[k]->method).empty()) {
         prepare(k);
         was_suspended |= process_ != nullptr && process_->was_suspended();
       }
-  };
-  prepare_each();
-  for (int attempt = 1; was_suspended && attempt < most_tries; ++attempt) {
+    if (!was_suspended || attempt == most_tries) break;
     process_.reset();  // it has timed the assembly
-    prepare_each();
   }
   prepared_ = true;
   preparation_s_ += seconds_since(start);
@@ -269,8 +265,11 @@ void IsolatedScene::prepare(std::size_t k) {
     }
     if (ask("prepare", k)) break;
     throw_if_interrupted();
-    const std::string why = obituary_of(process_->end(), board_, options_).message;
-    switch (board_.activity()) {
+    const ChildEnd& end = process_->end();
+    const bool is_from_outside =
+        end.stopped || is_unheard(end) || (end.signal == SIGKILL && end.oom_killed == false);
+    const std::string why = obituary_of(end, board_, options_).message;
+    switch (is_from_outside ? Activity::none : board_.activity()) {
       case Activity::assembly:
         left_out_.blocks[cases_[k]->method.blocks] = why;
         break;
@@ -280,7 +279,7 @@ void IsolatedScene::prepare(std::size_t k) {
       case Activity::reference:
         left_out_.reference = "no reference: " + why;
         break;
-      default:  // killed from outside: try again
+      default:  // try again
         break;
     }
     board_.ends();

@@ -166,6 +166,22 @@ TEST(MachineFault, OfALimitOnProcessorTime) {
             std::string::npos);
 }
 
+// Of the program's guardian and of the program.
+TEST(MachineFault, OfAProgramThatCannotBeForked) {
+  for (const int fork : {3, 4}) {
+    const BenchCommand bench;
+    testing::write_text(bench.path("one.json"),
+                        R"({"name": "one", "reads": "condensed", "format": "matrix-market",
+                            "returns": "contact_forces", "command": ["true"]})");
+    EXPECT_EQ(bench
+                  .run("--external=one.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o",
+                       with_fault("fork", fork))
+                  .code,
+              1);
+    EXPECT_EQ(bench.record()["status"], "machine_fault") << bench.record()["status_reason"];
+  }
+}
+
 // Its fork waits for ever: 20 seconds later the main process no longer does.
 TEST(MachineFault, OfASilentProcess) {
   const BenchCommand bench;

@@ -343,6 +343,23 @@ TEST_F(Isolation, WhatBreaksTheAssemblyIsEveryCasesRecord) {
   EXPECT_NE(records[0].status_reason.find("assembly"), std::string::npos);
 }
 
+TEST_F(Isolation, AKillFromOutsideLeavesNothingOut) {
+  if (!oom_kills()) return;
+  auto problem = std::make_shared<Problem>(*posed_.body());
+  const std::filesystem::path marker = folder_ / "killed";
+  problem->loads.displacement_mm = [marker](const Eigen::Vector2d&, int) -> Eigen::Vector2d {
+    if (!std::filesystem::exists(marker)) {
+      testing::write_text(marker, "");
+      die_of(SIGKILL);
+    }
+    return Eigen::Vector2d::Zero();
+  };
+  posed_.problem = problem;
+  for (const Record& record : run(select_methods("HYBRID,P2")))
+    EXPECT_EQ(record.status, Status::ok) << record.status_reason;
+  EXPECT_TRUE(std::filesystem::exists(marker));
+}
+
 TEST_F(Isolation, RepetitionsAreInterleavedAndAllKept) {
   options_.interleave = true;
   options_.repetitions = 5;
