@@ -10,21 +10,29 @@ an adaptive loop have one. NAME.csv next to each picture has its numbers. Exit 2
 or a folder that cannot be written; one line says which, and its files stay as they were.
 """
 import argparse
+import math
+import re
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 
 import matplotlib
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import Colormap, LogNorm
 from matplotlib.figure import Figure
 
 import command
-import error_pictures as errors
 from case_names import words_of_file
-from drawing import PAGE_WIDTH, write_small_png
-from field_drawing import scales_of
-from field_panel import contact_points, draw_legend, draw_panel, is_tall, layout_of, width_of
+from drawing import PAGE_WIDTH, axes_at, text_at, write_small_png
+from field_drawing import COLORMAP, areas, draw_body, draw_boundary, scales_of
+from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
+                         layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
-from words import plain
+from words import csv_of, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
@@ -38,6 +46,17 @@ HEADING = (
     "stresses linear\non each third of a triangle, nothing averaged. Below or beside each body its contact "
     "faces, enlarged\nand laid out straight: elements, contact points (two per edge) or a band of their "
     "states, contact pressure.\nScene and method: ")
+# Pictures of the error: inches, of a map and of levels of a loop.
+MAP_DPI, LEVELS_DPI = 120, 110
+SHADES = 24  # few, for a small file
+DECADES = 5  # of the scale of a map at most
+TENTH = 0.1
+HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
+LEVEL = re.compile(r"(?P<mesh>.+)%2Badapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
+SHOWN, LEVEL_LEFT, GAP, LEVEL_HIGHEST = 3, 0.5, 0.12, 4.2  # of levels, inches
+TITLE, WORDS, BARS = 0.55, 0.34, 0.75
+
+Level = tuple[Fields, np.ndarray, float | None]  # fields, shares (T,) of e², total error
 
 
 def compose(rows: list[list[Fields]]) -> Figure:
@@ -58,6 +77,116 @@ def compose(rows: list[list[Fields]]) -> Figure:
         top -= height
     draw_legend(figure, scales)
     return figure
+
+
+def share_of_worst(share: np.ndarray) -> float:
+    worst = np.sort(share)[::-1][:max(1, round(TENTH * len(share)))]
+    return float(worst.sum() / share.sum())
+
+
+def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades: Colormap,
+                **edges: object) -> None:
+    axes.add_collection(PolyCollection(s.placed(s.triangles), array=np.maximum(values, norm.vmin),
+                                       norm=norm, cmap=shades, rasterized=True, **edges))
+    draw_boundary(axes, s)
+
+
+def draw_bar(figure: Figure, mappable: ScalarMappable, left: float, width: float,
+             words: str) -> None:
+    """left, width: of the figure's."""
+    top = figure.get_size_inches()[1]
+    bar = figure.colorbar(mappable, orientation="horizontal",
+                          cax=figure.add_axes([left, 0.38 / top, width, 0.1 / top]))
+    bar.ax.tick_params(pad=1, length=2)
+    bar.set_label(words, labelpad=0)
+
+
+def draw_map(s: Fields, share: np.ndarray) -> Figure:
+    """share (T,): of the squared error, 1; its triangles in the order of s."""
+    width = min(PAGE_WIDTH, width_of(s, HIGHEST))
+    height = body_height(s, width)
+    width = max(width, NARROWEST)
+    figure = Figure(figsize=(width, TOP + height + BOTTOM))
+    view = view_of(s)
+    across = height / slenderness(s)
+    axes = axes_at(figure, (width + LEFT - RIGHT) / 2 - across / 2, TOP, across, height,
+                   xlim=view.intervalx, ylim=view.intervaly)
+    high = 10.0 ** math.ceil(math.log10(share.max()))
+    low = max(share[share > 0].min(), high / 10**DECADES)
+    norm = LogNorm(10.0 ** math.floor(math.log10(low)), high, clip=True)
+    shades = colormaps[COLORMAP].resampled(SHADES)
+    draw_shares(axes, s, share, norm, shades, edgecolor="white",
+                linewidths=np.clip(10 / math.sqrt(len(share)), 0.06, 0.4))
+    label_body(axes)
+    title = f"{words_of_file(s.name)}: where the discretisation error is"
+    text_at(figure, 0.1, 0.1, plain(title), weight="bold",
+            fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
+    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; a tenth of them "
+            f"has {100 * share_of_worst(share):.0f} % of the squared error.")
+    draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
+             "share of the squared error in a triangle, 1")
+    return figure
+
+
+def map_table(s: Fields, share: np.ndarray) -> str:
+    lines = zip(range(1, len(share) + 1), *s.triangles.mean(axis=1).T, areas(s), share)
+    names = ("triangle", "x_mm", "y_mm", "area_mm2", "error_share")
+    return csv_of(lines, *((name, lambda line, k=k: float(line[k]) if k else line[k])
+                           for k, name in enumerate(names)))
+
+
+def levels_in(names: list[str]) -> list[str]:
+    """The first, a middle and the last level of the first loop with three or more."""
+    loops: dict[tuple[str, str], list[tuple[int, str]]] = {}
+    for name in names:
+        if found := LEVEL.fullmatch(name):
+            loops.setdefault((found["mesh"], found["case"]), []).append((int(found["level"]), name))
+    for levels in loops.values():
+        if len(levels) >= SHOWN:
+            ordered = [name for _, name in sorted(levels)]
+            return [ordered[0], ordered[len(ordered) // 2], ordered[-1]]
+    return []
+
+
+def draw_levels(levels: list[Level]) -> Figure:
+    scales = scales_of([levels[-1][0]])  # of the finest
+    view = view_of(levels[0][0])
+    panel = (PAGE_WIDTH - LEVEL_LEFT - len(levels) * GAP) / len(levels)
+    height = panel * slenderness(levels[0][0])
+    if height > LEVEL_HIGHEST:
+        panel, height = panel * LEVEL_HIGHEST / height, LEVEL_HIGHEST
+    figure = Figure(figsize=(PAGE_WIDTH, TITLE + 2 * (height + WORDS) + BARS))
+    text_at(figure, 0.1, 0.08, plain(f"{levels[0][0].mesh.split('+')[0]}, adapted"), fontsize=11,
+            weight="bold")
+    step = (PAGE_WIDTH - LEVEL_LEFT) / len(levels)
+    norm = LogNorm(1e-2, 1e2, clip=True)
+    shades = colormaps["cividis"].resampled(SHADES)
+    for k, (s, share, error) in enumerate(levels):
+        upper, lower = (
+            axes_at(figure, LEVEL_LEFT + k * step + (step - GAP - panel) / 2,
+                    TITLE + row * (height + WORDS), panel, height, xlim=view.intervalx,
+                    ylim=view.intervaly) for row in (0, 1))
+        draw_body(upper, s, scales)
+        words = f"{len(s.corners)} triangles"
+        upper.set_title(words if error is None else f"{words}, {100 * error:.2g} %", pad=4)
+        draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")
+        label_body(upper, x="", y="y in mm" if k == 0 else "")
+        label_body(lower, y="y in mm" if k == 0 else "")
+        upper.tick_params(labelleft=k == 0, labelbottom=False)
+        lower.tick_params(labelleft=k == 0)
+    draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
+             "largest shear stress in the plane, MPa; brightest: or more")
+    draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
+             "a triangle's part of the squared error over their mean, 1")
+    return figure
+
+
+def levels_table(levels: list[Level]) -> str:
+    return csv_of(levels, ("mesh", lambda level: level[0].mesh),
+                  ("n_phi", lambda level: level[0].n_phi),
+                  ("triangles", lambda level: len(level[1])),
+                  ("error_total", lambda level: level[2]),
+                  ("error_share_of_worst_tenth", lambda level: share_of_worst(level[1])))
 
 
 def write(figure: Figure, path: Path) -> None:
@@ -110,17 +239,17 @@ def draw(args: argparse.Namespace) -> None:
     if args.each or not chosen:
         for name, s in solutions.items():
             save_composed(out, f"fields_{name}", [[s]], "png")
-    levels = errors.levels_in(list(maps))
+    levels = levels_in(list(maps))
     if levels and all(maps[name][1].any() for name in levels):
         shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in levels]
-        save(out, "adapted_meshes", errors.levels_table(shown),
-             png=partial(write_small_png, errors.draw_levels(shown), errors.LEVELS_DPI))
+        save(out, "adapted_meshes", levels_table(shown),
+             png=partial(write_small_png, draw_levels(shown), LEVELS_DPI))
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
-        save(out, f"error_map_{name}", errors.map_table(s, share),
-             png=partial(write_small_png, errors.draw_map(s, share), errors.MAP_DPI, colours=200))
+        save(out, f"error_map_{name}", map_table(s, share),
+             png=partial(write_small_png, draw_map(s, share), MAP_DPI, colours=200))
 
 
 def main() -> None:

@@ -37,7 +37,7 @@ WORDS = {"other_solution": "another solution than the reference's",
 def in_blocks(columns: list[Item], left: float, narrowest: float,
               widest: float) -> tuple[list[list[Item]], float]:
     """Columns of a grid that begins at `left`, in as few blocks as their width allows; the width."""
-    room = PAGE_WIDTH - left - MARGIN
+    room = max(PAGE_WIDTH - left - MARGIN, narrowest)  # names may be wider than the page
     most = math.ceil(len(columns) / math.ceil(len(columns) * narrowest / room))
     return [columns[k:k + most] for k in range(0, len(columns), most)], min(widest, room / most)
 

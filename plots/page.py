@@ -15,18 +15,178 @@ import base64
 import hashlib
 import html
 import json
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from datetime import datetime, timezone
 from pathlib import Path
 
+import pandas as pd
+
 import command
-from page_data import OF_A_CASE, page_data, read_history
-from records import RecordsError, lines_file, read
+from case_names import case_name
+from records import (FIELDS, FINITE, FLAG, KEYS, NAME, TEXT, Kind, RecordsError, checked, is_text,
+                     json_of, lines_file, one_of, read, text_of, with_derived)
 
 PARTS = Path(__file__).resolve().parent / "page"
 SCRIPTS = ("format.js", "chart.js", "table.js", "page.js")
+FORMAT = "airybench-night-1"
+OF_A_CASE = ("mesh", "scene", "method", "status")  # required by the page
+GROUPS = {"s": "time", "B": "memory", "1": "error"}  # of quantities, by their units; else work
+QUANTITIES = {f["name"]: f for f in FIELDS if f["label"]}
+# The table's columns, in the order shown.
+COLUMNS = ("mesh", "scene", "method", "stop", "status", "n_phi", "time_s", "time_mad_s",
+           *(key for key in QUANTITIES if key != "time_s"))
+HEADS = {"n_phi": "n_phi", "time_mad_s": "±"}
+OF_SERIES = [*QUANTITIES, "time_low_s", "time_high_s"]
+GROUPED_BY = ["name", "mesh", "scene", "family", "body"]  # of a case
+# They differ from night to night anyway.
+ALWAYS_NEW = {"date", "host", "load_1min_at_start"}
 
 
-def main() -> None:
-    command.run(__doc__, add_arguments, make, "a file to write")
+@dataclass(frozen=True)
+class Night:
+    date: str                  # ISO 8601
+    context: dict[str, str]    # where and with what
+    noise: dict                # median_s, mad_s of the same kernel, night by night
+    cases: pd.DataFrame        # as of records.jsonl
+    verdicts: list[dict]       # case, lane, quantity, kind, since, sentence
+    failed: bool
+    times_judged: bool = True  # False: too few nights of this machine
+
+    @property
+    def revision(self) -> str:
+        return self.context.get("git_revision", "unknown")
+
+
+def moment(date: str) -> datetime:
+    """Dates compare as moments: with and without an offset, which then is UTC."""
+    parsed = datetime.fromisoformat(date)
+    return parsed if parsed.tzinfo else parsed.replace(tzinfo=timezone.utc)
+
+
+def is_date(value: object) -> bool:
+    try:
+        return is_text(value) and bool(moment(value))
+    except ValueError:
+        return False
+
+
+def instance(kind: type, allowed: str) -> Kind:
+    return Kind(allowed, lambda value: isinstance(value, kind), empty=None, may_be_empty=False)
+
+
+DATE = Kind("a date in ISO 8601", is_date, may_be_empty=False)
+VERDICT = {"case": NAME, "lane": one_of(("counters", "errors", "times", "status"), False),
+           "quantity": NAME, "kind": one_of(("worse", "better", "changed"), False), "since": DATE,
+           "sentence": TEXT}
+NIGHT = {"date": DATE, "context": instance(dict, "an object of texts"),
+         "noise": instance(dict, "an object"), "cases": instance(list, "a list"),
+         "verdicts": instance(list, "a list"), "failed": FLAG, "times_judged": FLAG}
+
+
+def read_history(folder: Path) -> list[Night]:
+    files = sorted((folder / "nights").glob("*.json"))
+    if not files:
+        raise RecordsError(f"{folder / 'nights'}: no *.json; expected what bench track writes")
+    return sorted(map(read_night, files), key=lambda night: moment(night.date))
+
+
+def read_night(file: Path) -> Night:
+    night = json_of(text_of(file), str(file))
+    if not isinstance(night, dict) or night.get("format") != FORMAT:
+        raise RecordsError(f"{file}: not a night; expected an object with format {FORMAT}")
+    night = {"noise": {}, "verdicts": [], "times_judged": True} | night
+
+    def of(items: str = "") -> Callable[[int], str]:
+        return lambda k: f"{file}: {items}[{k}]" if items else str(file)
+
+    checked([night], NIGHT, NIGHT, of())
+    context, noise = night["context"], night["noise"]
+    checked([context], dict.fromkeys(context, TEXT), context, of())
+    checked([noise], dict.fromkeys(("median_s", "mad_s"), FINITE), (), of())
+    verdicts = checked(night["verdicts"], VERDICT, VERDICT, of("verdicts"))
+    cases = checked(night["cases"], KEYS, OF_A_CASE, of("cases"))
+    return Night(night["date"], context, noise, cases, verdicts.to_dict("records"),
+                 night["failed"], night["times_judged"])
+
+
+def page_data(nights: list[Night], records: pd.DataFrame | None) -> dict:
+    """JSON for the page's script. records: of the run to list; None: the last night's cases."""
+    last, before = nights[-1], nights[-2] if len(nights) > 1 else None
+    cases = named(pd.concat([night.cases.assign(night=k) for k, night in enumerate(nights)],
+                            ignore_index=True))
+    run = cases[cases.night == len(nights) - 1] if records is None else named(records)
+    bodies = list(dict.fromkeys(cases.sort_values("n_phi", kind="stable").body))
+    return {
+        "nights": [{"date": night.date, "revision": night.revision} for night in nights],
+        "noise": {key: [night.noise.get(key) for night in nights] for key in ("median_s", "mad_s")},
+        "bodies": bodies,
+        "cases": sorted(series(cases, len(nights)), key=lambda case: (
+            bodies.index(case["body"]), case["mesh"], case["scene"])),
+        "quantities": [{"key": key, "name": f["label"], "group": GROUPS.get(f["unit"], "work")}
+                       for key, f in QUANTITIES.items() if cases[key].notna().any()],
+        "errors": [key for key, f in QUANTITIES.items() if f["unit"] == "1"],
+        "marks": marks(nights),
+        "last": {"failed": last.failed, "times_judged": last.times_judged,
+                 "verdicts": last.verdicts, "statuses": list(last.cases.status)},
+        "columns": [{"key": key, "name": HEADS.get(key, head_of(key))} for key in COLUMNS
+                    if run[key].map(is_there).any()],
+        "rows": [{key: value for key, value in row.items() if is_there(value)}
+                 for row in run[list(dict.fromkeys((*GROUPED_BY, *COLUMNS, "status_reason")))]
+                 .to_dict("records")],
+        "context": environment(last, before),
+    }
+
+
+def head_of(key: str) -> str:
+    """peak_heap_bytes -> peak heap."""
+    return key.removesuffix("_s").removesuffix("_bytes").replace("_", " ")
+
+
+def named(cases: pd.DataFrame) -> pd.DataFrame:
+    cases = with_derived(cases)
+    return cases.assign(name=[case_name(case) for case in cases.to_dict("records")])
+
+
+def is_there(value: object) -> bool:
+    return value is not None and value != ""
+
+
+def series(cases: pd.DataFrame, nights: int) -> Iterator[dict]:
+    """Per case and quantity its values, one per night; None: no value."""
+    for name, own in cases.groupby("name", sort=False):
+        by_night = own.drop_duplicates("night", keep="last").set_index("night") \
+            .reindex(range(nights)).astype(object)
+        by_night = by_night.where(by_night.notna(), None)
+        yield own.iloc[-1][GROUPED_BY].to_dict() | {
+            "method": name.split("/", 2)[2], "status": list(by_night.status),
+            "values": {key: list(by_night[key]) for key in OF_SERIES
+                       if by_night[key].notna().any()}}
+
+
+def marks(nights: list[Night]) -> list[dict]:
+    """Every change once, as in the latest night that reports it, with the number of its own night."""
+    latest = {}
+    for night in nights:
+        for verdict in night.verdicts:
+            name = verdict["case"]
+            latest[name, verdict["quantity"], moment(verdict["since"])] = verdict
+    found = []
+    for (name, _, since), verdict in latest.items():
+        after = [k for k, night in enumerate(nights) if moment(night.date) >= since]
+        if after:
+            found.append({"case": name, "night": after[0]} |
+                         {key: verdict[key] for key in ("lane", "quantity", "kind", "since",
+                                                        "sentence")})
+    return found
+
+
+def environment(last: Night, before: Night | None) -> list[dict]:
+    """Keys of the last two nights; `differs` where the night before had another value."""
+    old = before.context if before else last.context
+    return [{"key": key, "value": last.context.get(key), "before": old.get(key),
+             "differs": key not in ALWAYS_NEW and last.context.get(key) != old.get(key)}
+            for key in sorted(last.context.keys() | old.keys())]
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -76,6 +236,10 @@ def figures(folder: Path) -> str:
                      f'<img alt="{name}" src="data:image/png;base64,{image}"></button>'
                      f'<figcaption>{name}</figcaption></figure>')
     return "\n".join(shown)
+
+
+def main() -> None:
+    command.run(__doc__, add_arguments, make, "a file to write")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@ import csv
 import gzip
 import json
 import math
+import re
 import zlib
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, make_dataclass
@@ -79,6 +80,11 @@ def to_number(cell: str) -> float | str:
         return cell
 
 
+def whole(digits: str) -> int | float:
+    """A float if it is too large for numpy's integers; ValueError: too many digits."""
+    return int(digits) if abs(int(digits)) < 2**63 else float(digits)
+
+
 def number(allowed: str, accepts: Callable[[float], bool]) -> Kind:
     return Kind(allowed, lambda value: is_number(value) and accepts(value), to_number, None)
 
@@ -93,7 +99,7 @@ FLAG = Kind("true or false", lambda value: isinstance(value, bool),
             lambda cell: {"true": True, "false": False}.get(cell, cell), False, False)
 COUNT = Kind("a whole number, 0 or more",
              lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0,
-             lambda cell: int(cell) if cell.isascii() and cell.isdigit() else cell, None, False)
+             lambda cell: int(cell) if re.fullmatch("[0-9]{1,18}", cell) else cell, None, False)
 POSITIVE = number("a number above 0", lambda x: x > 0)
 NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)
 FINITE = number("a number", lambda x: True)
@@ -323,7 +329,7 @@ def json_of(text: str, place: str) -> object:
     def refuse(constant: str) -> None:
         raise RecordsError(f"{place}: {constant} is not JSON; expected null")
     try:
-        return json.loads(text, parse_constant=refuse)
+        return json.loads(text, parse_constant=refuse, parse_int=whole)
     except json.JSONDecodeError as error:
         at = f"{place}:{error.lineno}" if "\n" in text else place
         raise RecordsError(f"{at}: not JSON: {error.msg}; expected an object")

@@ -10,7 +10,6 @@ import numpy as np
 import drawn
 import running  # finds plots
 
-import error_pictures
 import field_drawing
 import field_panel
 import gallery
@@ -52,7 +51,7 @@ class UprightTest(unittest.TestCase):
     def test_bodies_lie_as_they_were_drawn(self) -> None:
         for mesh in ("Mesh0", "Mesh4+adapt2", "bar"):
             s = bar(10, 8, 1, mesh=mesh)
-            for figure in (gallery.compose([[s]]), error_pictures.draw_map(s, np.array([0.3, 0.7]))):
+            for figure in (gallery.compose([[s]]), gallery.draw_map(s, np.array([0.3, 0.7]))):
                 body = figure.axes[0]
                 self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x in mm", "y in mm"))
                 for low, high in (body.get_xlim(), body.get_ylim()):
@@ -66,7 +65,7 @@ class UprightTest(unittest.TestCase):
 
     def test_type_can_be_read_and_stays_on_the_sheet(self) -> None:
         for s in (bar(10, 8, 1), bar(10, 40, 4), bar(40, 5, 3, edges=40)):
-            for figure in (gallery.compose([[s]]), error_pictures.draw_map(s, np.array([0.3, 0.7]))):
+            for figure in (gallery.compose([[s]]), gallery.draw_map(s, np.array([0.3, 0.7]))):
                 self.assertLessEqual(figure.get_size_inches()[0], PAGE_WIDTH)
                 painted, renderer = drawn.paint(figure)
                 for words in painted:

@@ -12,7 +12,6 @@ import numpy as np
 
 from running import FolderTest, run, run_command
 
-import error_pictures
 import field_drawing
 import fields
 import gallery
@@ -153,8 +152,8 @@ class GalleryTest(FolderTest):
             write_solution(self.fields, name)
             write_shares(self.fields, name, [0.25, 0.75])
         self.assertEqual([names[0], names[2], names[3]],
-                         error_pictures.levels_in([*sorted(names), NAMES[0]]))
-        self.assertEqual([], error_pictures.levels_in(names[:2]))
+                         gallery.levels_in([*sorted(names), NAMES[0]]))
+        self.assertEqual([], gallery.levels_in(names[:2]))
         with SMALL:
             status, out, err = run(gallery, self.results)
         self.assertEqual((status, err), (0, ""))
@@ -225,12 +224,12 @@ class GalleryTest(FolderTest):
 class ErrorMapTest(unittest.TestCase):
     def test_share_of_the_worst_tenth(self) -> None:
         share = np.r_[np.full(90, 1.0), np.full(10, 9.0)]
-        self.assertAlmostEqual(error_pictures.share_of_worst(share), 0.5)
-        self.assertAlmostEqual(error_pictures.share_of_worst(np.array([3.0, 1.0])), 0.75)
+        self.assertAlmostEqual(gallery.share_of_worst(share), 0.5)
+        self.assertAlmostEqual(gallery.share_of_worst(np.array([3.0, 1.0])), 0.75)
 
     def test_every_triangle_has_its_colour(self) -> None:
         s = solution()
-        drawn = error_pictures.draw_map(s, np.array([1e-9, 0.9])).axes[0].collections[0]
+        drawn = gallery.draw_map(s, np.array([1e-9, 0.9])).axes[0].collections[0]
         self.assertEqual(len(drawn.get_paths()), 2)
         np.testing.assert_allclose(drawn.get_array(), [1e-5, 0.9])  # five decades, no more
 

@@ -109,6 +109,10 @@ class AtlasTest(drawn.FiguresTest):
                 inches = axes.get_position().width * figure.get_size_inches()[0]
                 self.assertGreaterEqual(inches / axes.get_xlim()[1], atlas_figure.NARROWEST - 1e-9)
 
+    def test_a_name_may_be_wider_than_the_page(self) -> None:
+        rows = read([row | dict(scene="a" * 255 + row["scene"]) for row in self.many(3)])
+        self.assertEqual(len(atlas_figure.draw(rows).axes), 3)
+
     def test_its_table_has_the_digits(self) -> None:
         rows = read(made_up.stability_study())
         table = drawn.table_of(drawn.plan(rows, "stability_Mesh0"))

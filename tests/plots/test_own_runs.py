@@ -13,7 +13,7 @@ import made_up  # finds plots
 import drawn
 import figures
 import made_up_history
-import page_data
+import page
 from drawing import STYLE, Drawing
 
 BODIES = {"punch": ["punch1", "punch2", "punch3"],
@@ -144,7 +144,7 @@ class OwnRunTest(unittest.TestCase):
         for night in range(2):
             made = made_up_history.made_up_night(night) | {"cases": ordinary_run(), "verdicts": []}
             (history / "nights" / f"{night}.json").write_text(json.dumps(made), encoding="utf-8")
-        data = page_data.page_data(page_data.read_history(history), None)
+        data = page.page_data(page.read_history(history), None)
         self.assertEqual(data["bodies"], list(BODIES))
         self.assertEqual([case["body"] for case in data["cases"]], ["punch"] * 25 + ["dovetail"] * 25)
         own = [case for case in data["cases"] if case["family"] == "NEWTON"]
