@@ -147,7 +147,9 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
   const auto show = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
     const LastWords last_words(model.string());
     std::vector<std::string> notes;
-    const PlaneModel plane = read_model(model, used, about_to_mesh, notes);
+    ModelOptions all_shown = used;
+    all_shown.roles.emplace("rest", "force");  // the table tells which are free
+    const PlaneModel plane = read_model(model, all_shown, about_to_mesh, notes);
     for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
     const std::string json = json_of(plane, model_name(model));
     if (out == "-") {
