@@ -35,19 +35,21 @@ void print_summary(const std::filesystem::path& file, const Mesh& mesh) {
       quality.smallest_angle_deg, quality.min_mean_ratio, quality.mean_mean_ratio);
 }
 
-// A mesh with notes is made anew each time, so that they are said.
 Mesh converted_or_cached(const std::filesystem::path& model, const ModelOptions& options,
                          const AboutToMesh& about_to_mesh) {
   const std::filesystem::path file = cached_file(model, options);
-  if (!file.empty())
-    if (std::optional<Mesh> mesh = cached_mesh(file)) return std::move(*mesh);
-  const LastWords last_words(model.string());
-  ConvertedModel converted = convert_model(model, options, about_to_mesh);
-  if (!file.empty() && converted.notes.empty())
-    if (const auto why_not = keep_mesh(file, converted.mesh))
-      converted.notes.push_back(fmt::format("the mesh is not kept for next time: {}", *why_not));
-  for (const std::string& note : converted.notes) fmt::print(stderr, "note: {}\n", note);
-  return std::move(converted.mesh);
+  std::optional<ConvertedModel> kept;
+  if (!file.empty()) kept = cached_model(file);
+  if (!kept) {
+    const LastWords last_words(model.string());
+    kept = convert_model(model, options, about_to_mesh);
+    if (!file.empty())
+      if (const auto why_not = keep_model(file, *kept))
+        fmt::print(stderr, "note: the mesh is not kept for next time: {}\n", *why_not);
+  }
+  for (const std::string& note : kept->notes)
+    fmt::print(stderr, "note: {}: {}\n", model.string(), note);
+  return std::move(kept->mesh);
 }
 
 std::string last_line_of(std::string text) {
@@ -148,8 +150,11 @@ int show_command(const std::filesystem::path& model, const ModelOptions& options
   const auto show = [&](const ModelOptions& used, const AboutToMesh& about_to_mesh) {
     const LastWords last_words(model.string());
     std::vector<std::string> notes;
-    const PlaneModel plane = read_model(model, used, about_to_mesh, notes);
-    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+    ModelOptions all_shown = used;
+    all_shown.roles.emplace("rest", "force");  // the table tells which are free
+    const PlaneModel plane = read_model(model, all_shown, about_to_mesh, notes);
+    for (const std::string& note : notes)
+      fmt::print(stderr, "note: {}: {}\n", model.string(), note);
     const std::string json = json_of(plane, model_name(model));
     if (out == "-") {
       fmt::print("{}\n", json);

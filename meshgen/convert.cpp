@@ -167,9 +167,7 @@ PlaneModel read_model(const std::filesystem::path& file, const ModelOptions& opt
   if (!std::filesystem::is_regular_file(file, error))
     throw MeshError(file.string() + ": no such file");
   try {
-    PlaneModel model = open_and_read(file, options, about_to_mesh, notes);
-    for (std::string& note : notes) note = file.string() + ": " + note;
-    return model;
+    return open_and_read(file, options, about_to_mesh, notes);
   } catch (const InputError& complaint) {
     throw MeshError(file.string() + ": " + complaint.what());
   } catch (...) {

@@ -21,7 +21,7 @@ namespace airybench {
 
 struct ConvertedModel {
   Mesh mesh;
-  std::vector<std::string> notes;  // what the user should know of it, a line each
+  std::vector<std::string> notes;  // for the user, a line each without the file's name
 };
 
 // Opens a GmshSession (none may live), because a model may set Gmsh's options. Nodes of no triangle

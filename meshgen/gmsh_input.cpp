@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
+#include <sstream>
 #include <string>
 
 #include "mesh/model_format.hpp"
@@ -42,6 +44,31 @@ std::size_t begin_of_mesh(const std::string& text) {
   return text.npos;
 }
 
+// An element of MSH 2 in ASCII has any number of tags; Gmsh wants the physical group and the curve
+// or surface. Text without such elements comes back as it is.
+std::string with_two_tags(const std::string& text) {
+  if (!text.starts_with("$MeshFormat\n2") || text.find("\n$Elements") == text.npos) return text;
+  std::istringstream lines(text);
+  std::string out;
+  bool in_elements = false;
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
+    if (line.starts_with("$")) in_elements = line.starts_with("$Elements");
+    std::istringstream fields(line);
+    long number = 0, type = 0, tags = 0, group = 0;
+    if (!in_elements || !(fields >> number >> type >> tags) || tags > 1) continue;
+    if (tags == 1 && !(fields >> group)) continue;
+    std::string nodes;
+    std::getline(fields, nodes);
+    line = fmt::format("{} {} 2 {} {}{}", number, type, group, std::max(group, 1L), nodes);
+  }
+  return out;
+}
+
+bool is_ascii(const std::string& text) {
+  const std::size_t version = text.find('\n') + 1;
+  return text.substr(version, text.find('\n', version) - version).find(" 0 ") != text.npos;
+}
+
 }  // namespace
 
 GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
@@ -62,9 +89,11 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
       throw InputError(fmt::format("no {} (what can be read: {})",
                                    format == ModelFormat::msh ? "mesh" : "model",
                                    model_extensions));
-    if (begin == 0) return;
+    const std::string mesh = text.substr(begin);
+    const std::string readable = is_ascii(mesh) ? with_two_tags(mesh) : mesh;
+    if (readable == text || readable == text + "\n") return;
     file_ = place.string() + ".msh";
-    write_file_atomically(file_, text.substr(begin));
+    write_file_atomically(file_, readable);
   } else if (format == ModelFormat::geo) {
     const std::string text = file_text(file_);
     if (text.empty() || text.ends_with('\n')) return;

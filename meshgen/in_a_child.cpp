@@ -57,7 +57,8 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
   with_6.algorithm = 6;
   const Attempt second = attempt([&](const AboutToMesh& begin) { return work(with_6, begin); });
   if (second.end.signal != 0)
-    return complain(cause + (first.algorithm ? ", and with 6" : ""), exit_failure);
+    return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
+                    exit_failure);
   fmt::print(stderr, "note: {}: meshed with 6\n", cause);
   return second.end.exit_code;
 }

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <sstream>
 
 #include "mesh/model_format.hpp"
 #include "mesh/msh_format.hpp"
 #include "meshgen/geo_script.hpp"
 #include "meshgen/gmsh_mesher.hpp"
 #include "support/atomic_file.hpp"
+#include "support/errors.hpp"
+#include "support/file_text.hpp"
 #include "support/sha256.hpp"
 
 namespace airybench {
@@ -19,6 +22,10 @@ constexpr const char* made_by = "airybench converts models, 2";  // another numb
 std::filesystem::path folder_of_variable(const char* name) {
   const char* value = std::getenv(name);
   return value == nullptr ? "" : value;
+}
+
+std::filesystem::path notes_of(std::filesystem::path mesh) {
+  return mesh.replace_extension(".notes");
 }
 
 }  // namespace
@@ -43,18 +50,27 @@ std::filesystem::path cached_file(const std::filesystem::path& model, const Mode
   return folder / (sha256_hex(inputs) + ".msh");
 }
 
-std::optional<Mesh> cached_mesh(const std::filesystem::path& file) {
+std::optional<ConvertedModel> cached_model(const std::filesystem::path& file) {
   try {
-    return read_msh(file);
-  } catch (const MeshError&) {
+    ConvertedModel kept{read_msh(file), {}};
+    if (std::error_code error; !std::filesystem::exists(notes_of(file), error)) return kept;
+    std::istringstream notes(file_text(notes_of(file)));
+    for (std::string note; std::getline(notes, note);) kept.notes.push_back(note);
+    return kept;
+  } catch (const InputError&) {
     return {};
   }
 }
 
-std::optional<std::string> keep_mesh(const std::filesystem::path& file, const Mesh& mesh) {
+std::optional<std::string> keep_model(const std::filesystem::path& file,
+                                      const ConvertedModel& converted) {
+  std::string notes;
+  for (const std::string& note : converted.notes) notes += note + "\n";
   try {
     make_folder(file.parent_path());
-    write_file_atomically(file, msh_text(mesh));
+    if (!notes.empty())
+      write_file_atomically(notes_of(file), notes);  // first: a mesh has its notes
+    write_file_atomically(file, msh_text(converted.mesh));
     return {};
   } catch (const FileError& error) {
     return error.what();

@@ -7,8 +7,9 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 
-#include "mesh/mesh.hpp"
+#include "meshgen/convert.hpp"
 #include "meshgen/model_options.hpp"
 
 namespace airybench {
@@ -21,9 +22,10 @@ std::filesystem::path cache_folder();
 std::filesystem::path cached_file(const std::filesystem::path& model, const ModelOptions& options);
 
 // Empty: it is not there, or no mesh.
-std::optional<Mesh> cached_mesh(const std::filesystem::path& file);
+std::optional<ConvertedModel> cached_model(const std::filesystem::path& file);
 
-// Keeps it where that is possible; returns why it is not.
-std::optional<std::string> keep_mesh(const std::filesystem::path& file, const Mesh& mesh);
+// Keeps mesh and notes where that is possible; returns why it is not.
+std::optional<std::string> keep_model(const std::filesystem::path& file,
+                                      const ConvertedModel& converted);
 
 }  // namespace airybench

@@ -135,9 +135,10 @@ class ModelReader {
             surface,
             body_named(surfaces.size() == 1 ? "body" : fmt::format("body{}", surface), surface));
     }
-    if (!model_.triangles.empty() && empty_surfaces_.empty()) return;
     std::string reason;
     gmsh::logger::getLastError(reason);
+    // Without an error they are parts of a compound, whose triangles are in another surface.
+    if (!model_.triangles.empty() && (empty_surfaces_.empty() || reason.empty())) return;
     const std::string what = empty_surfaces_.empty()
                                  ? "it has no surface"
                                  : fmt::format("surface {} has no triangles", empty_surfaces_[0]);

@@ -20,10 +20,11 @@ from matplotlib.patheffects import withStroke
 import command
 from drawing import MARGIN, PAGE_WIDTH, STYLE, TYPE, write
 from field_drawing import ROLE
+from records import RecordsError
 from words import plain
 
 FAINT = dict(facecolors="0.93", edgecolors="0.8", linewidths=0.3)
-ALTERNATE = ("-", "tab:blue"), ("-", "tab:orange"), ("-", "tab:green"), ("-", "tab:purple")
+COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:purple")
 HIGHEST, LEGEND = 7.0, 0.5  # inches: the body's picture; below it
 
 
@@ -50,7 +51,7 @@ def draw(model: dict) -> Figure:
     axes.set_aspect("equal")
     axes.add_collection(PolyCollection(vertices[np.array(model["triangles"])], **FAINT))
     for k, curve in enumerate(model["curves"]):
-        colour = ALTERNATE[k % len(ALTERNATE)][1]
+        colour = COLOURS[k % len(COLOURS)]
         style = ROLE[curve["role"].partition(":")[0]] | {"color": colour}
         for walk in curve["walks_mm"]:
             axes.plot(*np.array(walk).T, **style)
@@ -68,7 +69,10 @@ def draw(model: dict) -> Figure:
 
 
 def show(arguments: argparse.Namespace) -> None:
-    model = json.loads(arguments.curves.read_text(encoding="utf-8"))
+    try:
+        model = json.loads(arguments.curves.read_text(encoding="utf-8"))
+    except ValueError as error:
+        raise RecordsError(f"{arguments.curves}: {error}; expected the JSON of meshgen --show") from error
     with matplotlib.rc_context(STYLE):
         command.replace_all(arguments.picture.parent,
                             {arguments.picture.name: partial(write, draw(model))})
@@ -79,5 +83,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("picture", type=Path, metavar="PICTURE.png")
 
 
-if __name__ == "__main__":
+def main() -> None:
     command.run(__doc__, add_arguments, show, "a picture's place")
+
+
+if __name__ == "__main__":
+    main()

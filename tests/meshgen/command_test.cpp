@@ -234,6 +234,34 @@ TEST_F(Command, ConvertedMeshesAreKeptByContent) {
   EXPECT_EQ(cached().size(), 3u);
 }
 
+TEST_F(Command, NotesAreKeptWithTheirMesh) {
+  fs::copy_file(testing::test_data("models/numbers.geo"), folder / "a.geo");
+  for (int k = 0; k < 2; ++k) {
+    const Outcome outcome = run("--convert=a.geo --role=3=displacement --out=a.msh");
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.err,
+              "note: a.geo: no role is given to its curves 1, 2, 4: they are free (force)\n");
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / ".cache"), {}), 2);
+}
+
+TEST_F(Command, ShowsTheCurvesOfAModel) {
+  fs::copy_file(testing::test_data("models/names.geo"), folder / "a.geo");
+  const Outcome outcome = run("--show=a.geo --role=Support=displacement");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "");
+  EXPECT_EQ(outcome.out,
+            "  curve  names    role          length mm  from     by        to\n"
+            "  1      Sole     force         10         (0, 0)   (5, 0)    (10, 0)\n"
+            "  2      7        force         5.385      (10, 0)  (9, 2.5)  (8, 5)\n"
+            "  3      Support  displacement  6          (8, 5)   (5, 5)    (2, 5)\n"
+            "  4      -        force         5.385      (2, 5)   (1, 2.5)  (0, 0)\n"
+            "picture: a.png\n");
+  EXPECT_TRUE(text_of(folder / "a.png").starts_with("\x89PNG"));
+  expect_refusal("--show=a.geo --out=a.pdf", 2, {"'a.pdf'", ".png"});
+  expect_refusal("--show=none.geo", 1, {"none.geo: no such file"});
+}
+
 TEST_F(Command, AnUnusableCacheStopsNothing) {
   write_text(folder / "a.geo", triangle_geo);
   const Outcome outcome = run("--convert=a.geo --out=a.msh",

@@ -106,8 +106,8 @@ TEST_F(SceneFile, ComplaintsOfBoundaryGroups) {
   EXPECT_EQ(complaint(R"({"boundary": []})"),
             "boundary: [] (allowed: an object with a boundary group as each key)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure": 3}}})"),
-            "boundary: force: pressure: unknown key (allowed: traction_MPa, pressure_MPa, "
-            "displacement_mm, support, friction, clearance_mm, wall, face)");
+            "boundary: force: pressure: unknown key, perhaps pressure_MPa (allowed: traction_MPa, "
+            "pressure_MPa, displacement_mm, support, friction, clearance_mm, wall, face)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"pressure_MPa": [1, 2]}}})"),
             "boundary: force: pressure_MPa: [1,2] (allowed: a number)");
   EXPECT_EQ(complaint(R"({"boundary": {"force": {"traction_MPa": 3}}})"),
