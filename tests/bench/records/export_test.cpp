@@ -321,7 +321,7 @@ TEST_F(ExportCommand, WrongInputIsOneLineAndNothingIsWritten) {
   expect_line(". --format=csv",
               "./nights: no *.json in it (a folder that bench track wrote has them)");
   write_text(bench_.path("nights/a.json"), "{\"format\": 1}");
-  expect_line(". --format=csv", "./nights/a.json: format: 1 (allowed: \"airybench-night-1\")");
+  expect_line(". --format=csv", "./nights/a.json: format: 1 (allowed: airybench-night-1)");
 }
 
 }  // namespace
