@@ -76,6 +76,7 @@ class ChildProcess {
   std::optional<std::string> ask(
       const std::string& line, const GiveUp& give_up = [](double) { return false; });
   const ChildEnd& end() const { return end_; }
+  pid_t pid() const { return pid_; }  // -1: it has ended
   // During the last ask(): the child, or this process for over a second.
   bool was_suspended() const { return was_suspended_; }
 
@@ -83,7 +84,7 @@ class ChildProcess {
   void finish(int patience_ms);  // reaps the child; kills it after patience_ms
   bool is_stopped() const;
 
-  pid_t pid_ = -1;  // -1: reaped
+  pid_t pid_ = -1;
   std::optional<std::int64_t> oom_kills_before_;
   std::optional<Channel> channel_;
   ChildEnd end_;
@@ -118,6 +119,11 @@ struct ProgramLimits {
 //
 // Throws std::system_error (no process, no shared memory), std::runtime_error (guardian killed).
 ChildEnd run_program(const Program& program, const ProgramLimits& limits);
+
+// From now on processes whose parent has ended become this process's children, not those of init.
+void adopt_orphans();
+// Ends all descendants of this process but these children of it and theirs.
+void end_others_than(const std::vector<pid_t>& children);
 
 // Returns the output as text. Also throws FileError if there is no temporary folder.
 struct ProgramEnd : ChildEnd {

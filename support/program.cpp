@@ -42,14 +42,15 @@ class SharedEnd {
   void* page_;
 };
 
-std::vector<pid_t> descendants(pid_t of) {
+std::vector<pid_t> descendants(pid_t of, const std::vector<pid_t>& except = {}) {
   std::vector<pid_t> found = {of};
   for (std::size_t k = 0; k < found.size(); ++k) {
     std::error_code error;
     const std::string tasks = fmt::format("/proc/{}/task", found[k]);
     for (const auto& task : std::filesystem::directory_iterator(tasks, error)) {
       std::ifstream children(task.path() / "children");
-      for (pid_t child; children >> child;) found.push_back(child);
+      for (pid_t child; children >> child;)
+        if (std::ranges::find(except, child) == except.end()) found.push_back(child);
     }
   }
   found.erase(found.begin());
@@ -58,16 +59,16 @@ std::vector<pid_t> descendants(pid_t of) {
 
 // Repeats because a process may start another while they are killed.
 void end_descendants(const std::vector<pid_t>& except,
-                     const std::function<void(pid_t, int status)>& reaped = {}) {
-  for (bool any = true; any; usleep(1000)) {
-    any = false;
-    for (const pid_t process : descendants(getpid())) {
-      if (std::ranges::find(except, process) != except.end()) continue;
-      any = true;
+                     const std::function<void(pid_t, int status)>& reaped) {
+  constexpr int most_tries = 5000;  // another user's process cannot be killed
+  std::vector<pid_t> left;
+  for (int k = 0; k < most_tries && !(left = descendants(getpid(), except)).empty(); ++k) {
+    for (const pid_t process : left) {
       kill(process, SIGKILL);
       int status = 0;
-      if (waitpid(process, &status, WNOHANG) > 0 && reaped) reaped(process, status);
+      if (waitpid(process, &status, WNOHANG) > 0) reaped(process, status);
     }
+    usleep(1000);
   }
 }
 
@@ -113,7 +114,7 @@ class Guardian {
       : program_(program), limits_(limits), end_(end) {}
 
   void run(pid_t parent) {
-    prctl(PR_SET_CHILD_SUBREAPER, 1);
+    adopt_orphans();
     prctl(PR_SET_PDEATHSIG, SIGCONT);  // a stopped one must see that its parent has ended
     sigset_t all, before;              // the guardian must outlive a signal that ends its parent
     sigfillset(&all);
@@ -196,19 +197,25 @@ int status_of(pid_t guardian) {
 
 }  // namespace
 
+void adopt_orphans() { prctl(PR_SET_CHILD_SUBREAPER, 1); }
+
+void end_others_than(const std::vector<pid_t>& children) {
+  end_descendants(children, [](pid_t, int) {});
+}
+
 ChildEnd run_program(const Program& program, const ProgramLimits& limits) {
   const SharedEnd end;
   const pid_t parent = getpid();
   const std::vector<pid_t> others = descendants(parent);
   int adopts = 0;
   prctl(PR_GET_CHILD_SUBREAPER, &adopts);
-  prctl(PR_SET_CHILD_SUBREAPER, 1);  // of a guardian that is killed
+  adopt_orphans();  // of a guardian that is killed
   const pid_t guardian =
       start(WhenParentEnds::go_on, [&] { Guardian(program, limits, *end).run(parent); });
   const int error = errno;
   const int status = guardian < 0 ? 0 : status_of(guardian);
   const bool is_killed = !WIFEXITED(status) || WEXITSTATUS(status) != 0;
-  if (is_killed) end_descendants(others);
+  if (is_killed) end_others_than(others);
   prctl(PR_SET_CHILD_SUBREAPER, adopts);
   if (guardian < 0) fail_to("a program's process", error);
   if (is_killed) throw std::runtime_error("the program's guardian was ended");

@@ -88,6 +88,14 @@ struct CaseProcess {
   std::unique_ptr<ChildProcess> process;
 };
 
+// Of external programs: one may have killed its guardian and its case's process.
+void end_orphans(const std::map<std::size_t, CaseProcess>& processes) {
+  std::vector<pid_t> children;
+  for (const auto& [k, own] : processes)
+    if (own.process != nullptr) children.push_back(own.process->pid());
+  end_others_than(children);
+}
+
 Record record_of_end(const Case& c, const Options& options, const TimedRun& last) {
   Record record = blank_record(c, options);
   record.status = last.status;
@@ -102,6 +110,7 @@ Record record_of_end(const Case& c, const Options& options, const TimedRun& last
 void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const Options& options,
                  ActivityBoard& board, const LeftOut& left_out) {
   tell_refused_memory_at_exit();
+  adopt_orphans();
   set_threads(1);  // OpenMP's threads would not survive the forks
   Workbench bench(cases.front()->posed.problem, options, left_out);
   bench.show_on(&board);
@@ -133,8 +142,10 @@ void serve_scene(Channel& channel, const std::vector<const Case*>& cases, const 
         own.board.skip(suspended_s);
         return is_overdue(own.board, options);
       });
-      if (!answer) last = obituary_of(own.process->end(), own.board, options);
-      return !answer || !own.process->was_suspended();
+      if (answer) return !own.process->was_suspended();
+      last = obituary_of(own.process->end(), own.board, options);
+      end_orphans(processes);
+      return true;
     };
     try {
       for (int attempts = 1; !ask(); ++attempts) {

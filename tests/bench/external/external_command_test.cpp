@@ -225,18 +225,17 @@ TEST_F(ExternalCommand, AnInterruptedRunLeavesNothing) {
   testing::wait_for([&] { return std::filesystem::is_empty(bench_.path("tmp")); });
 }
 
-// Those of the case's process and of the guardian, which nobody survives to remove.
 TEST_F(ExternalCommand, WhatKillsBothOfItsParentsLeavesNothing) {
   write_right();
   std::filesystem::create_directories(bench_.path("tmp"));
-  declare("one", "condensed", "kill -KILL $(cut -d' ' -f4 /proc/$PPID/stat) $PPID; sleep 1000");
+  declare("one", "condensed",
+          "(setsid sleep 1000 & echo $! > orphan); "
+          "kill -KILL $(cut -d' ' -f4 /proc/$PPID/stat) $PPID; sleep 1000");
   const testing::EnvironmentVariable folder("TMPDIR", bench_.path("tmp").string());
   const auto records = records_of("", 1);
   EXPECT_NE(records.at("one")["status"], "ok");
-  testing::wait_for([&] {  // the program itself ends a moment after its guardian
-    remove_abandoned_folders();
-    return std::filesystem::is_empty(bench_.path("tmp"));
-  });
+  EXPECT_TRUE(std::filesystem::is_empty(bench_.path("tmp")));
+  EXPECT_FALSE(testing::is_there(std::stoi(bench_.content("orphan"))));
 }
 
 // All of a run, as a scheduler does, for longer than the limit.
