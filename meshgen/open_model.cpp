@@ -56,7 +56,9 @@ struct StraightLine {
 std::vector<StraightLine> straight_lines_around(int surface) {
   double x0, y0, z0, x1, y1, z1;
   gmsh::model::getBoundingBox(2, surface, x0, y0, z0, x1, y1, z1);
-  const double least = std::min({x1 - x0, y1 - y0, z1 - z0});
+  const double least = std::min({x1 - x0, y1 - y0, z1 - z0}),
+               most = std::max({x1 - x0, y1 - y0, z1 - z0});
+  if (least > 1e-6 * most) return {};  // in none of the planes that a body may lie in
   const std::size_t first = least == x1 - x0 && least < z1 - z0 ? 1 : 0,
                     second = least == z1 - z0 ? 1 : 2;
   std::vector<StraightLine> lines;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gmsh.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,7 +20,7 @@ namespace {
 [[noreturn]] void refuse_model(const std::string& what) { throw InputError(what); }
 
 Nodes in_order(const Nodes& edge) {
-  return {std::minmax({edge[0], edge[1]}).first, std::max(edge[0], edge[1])};
+  return {std::min(edge[0], edge[1]), std::max(edge[0], edge[1])};
 }
 
 class ModelReader {
