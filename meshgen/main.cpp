@@ -13,6 +13,7 @@
 #include "meshgen/commands.hpp"
 #include "support/data_folder.hpp"
 #include "support/numbers.hpp"
+#include "support/terminal.hpp"
 #include "support/this_process.hpp"
 
 namespace {
@@ -241,5 +242,6 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
+  airybench::escape_on_terminals();
   return airybench::checked_exit_code(parse_and_run(argc, argv), "meshgen");
 }
