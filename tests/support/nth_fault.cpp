@@ -1,7 +1,7 @@
 // Preloaded into bench: the n-th call of one kind, counted over a run and its child processes,
 // fails.
 //
-//   AIRYBENCH_FAULT=write:7   the kind (open, write, fsync, rename, fork, alloc) and which call of
+//   AIRYBENCH_FAULT=write:7   the kind (open, read, write, fsync, rename, fork, alloc) and which call of
 //                             it; allocations from main() on, of the program and its libraries;
 //                             hang: a fork that does not return
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
@@ -74,6 +74,10 @@ int open(const char* path, int flags, ...) {
 ssize_t write(int descriptor, const void* bytes, size_t count) {
   if (fails("write", ENOSPC)) return -1;
   return real<ssize_t(int, const void*, size_t)>("write")(descriptor, bytes, count);
+}
+ssize_t read(int descriptor, void* bytes, size_t count) {
+  if (fails("read", EIO)) return -1;
+  return real<ssize_t(int, void*, size_t)>("read")(descriptor, bytes, count);
 }
 int fsync(int descriptor) {
   if (fails("fsync", EIO)) return -1;
