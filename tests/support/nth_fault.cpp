@@ -1,8 +1,9 @@
 // Preloaded into bench: the n-th call of one kind, counted over a run and its child processes,
 // fails.
 //
-//   AIRYBENCH_FAULT=write:7   the kind (open, read, write, fsync, rename, fork, alloc) and which call of
-//                             it; allocations from main() on, of the program and its libraries;
+//   AIRYBENCH_FAULT=write:7   the kind (open, read, write, fsync, rename, fork, alloc) and which
+//                             call of it; allocations from main() on, of the program and its
+//                             libraries;
 //                             hang: a fork that does not return
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
 #include <dlfcn.h>
