@@ -3,16 +3,19 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <map>
 #include <new>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
 
 #include "bench/commands/commands.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "support/errors.hpp"
+#include "support/terminal.hpp"
 #include "support/this_process.hpp"
 
 namespace {
@@ -37,6 +40,13 @@ int complain(std::string_view what, int exit_code) {
   return exit_code;
 }
 
+// What the machine refused.
+std::string refusal_of(const std::system_error& error) {
+  const auto* const of_file = dynamic_cast<const std::filesystem::filesystem_error*>(&error);
+  if (of_file == nullptr) return error.what();
+  return fmt::format("{}: {}", of_file->path1().string(), error.code().message());
+}
+
 int run(int argc, char** argv) {
   try {
     airybench::restart_with_better_blas_core(argv);
@@ -57,9 +67,11 @@ int run(int argc, char** argv) {
     return complain(error.what(), airybench::wrong_usage);
   } catch (const std::bad_alloc&) {
     return complain("out of memory", airybench::did_not_finish);
-  } catch (const std::exception& error) {
+  } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0 || std::ferror(stderr) != 0)  // fmt throws on a failed write
       return airybench::wrong_usage;
+    return complain(refusal_of(error), airybench::wrong_usage);
+  } catch (const std::exception& error) {
     return complain(fmt::format("a defect of this program: {}", error.what()),
                     airybench::did_not_finish);
   }
@@ -76,8 +88,11 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
+  airybench::escape_on_terminals();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
-  if (const std::string lack = airybench::lack_of_address_space(1); !lack.empty())
-    std::_Exit(complain(lack, airybench::wrong_usage));  // std::exit() would wait for BLAS
+  for (const std::string& lack :
+       {airybench::lack_of_stack_or_descriptors(), airybench::lack_of_address_space(1)})
+    if (!lack.empty())
+      std::_Exit(complain(lack, airybench::wrong_usage));  // std::exit() would wait for BLAS
   return airybench::checked_exit_code(run(argc, argv), "bench");
 }

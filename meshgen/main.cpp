@@ -14,6 +14,7 @@
 #include "meshgen/complaints.hpp"
 #include "support/data_folder.hpp"
 #include "support/numbers.hpp"
+#include "support/terminal.hpp"
 #include "support/this_process.hpp"
 
 namespace {
@@ -240,5 +241,6 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
+  airybench::escape_on_terminals();
   return airybench::checked_exit_code(parse_and_run(argc, argv), "meshgen");
 }

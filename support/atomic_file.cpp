@@ -1,12 +1,14 @@
 #include "support/atomic_file.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <random>
 #include <system_error>
+#include <utility>
 
 #include "support/errors.hpp"
 #include "support/temporary_folder.hpp"
@@ -15,6 +17,9 @@ namespace airybench {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::string_view part_mark = ".part";
+constexpr std::size_t part_digits = 20;
 
 [[noreturn]] void fail_to_write(const fs::path& file, int error) {
   throw FileError(file.string() + ": cannot be written: " + std::generic_category().message(error));
@@ -37,7 +42,7 @@ bool make_beside(const fs::path& target, fs::path& made, const Make& make) {
   do {
     std::random_device random;
     made = target;
-    made += ".part" + std::to_string(random()) + std::to_string(random());
+    made += fmt::format("{}{:010}{:010}", part_mark, random(), random());
     if (make(made.c_str())) return true;
   } while (errno == EEXIST);
   return false;
@@ -70,30 +75,70 @@ void sync_folder(const fs::path& folder) {
   close(descriptor);
 }
 
-void write_file_atomically(const fs::path& file, std::string_view bytes) {
-  const fs::path target = end_of_links(file);
+void check_can_write(const fs::path& file) {
+  const fs::path target = end_of_links(file), folder = target.parent_path();
   struct stat there = {};
   const bool exists = stat(target.c_str(), &there) == 0;
+  if (!exists && errno != ENOENT) fail_to_write(file, errno);
   if (exists && !S_ISREG(there.st_mode))
     throw FileError(file.string() +
                     ": is no regular file (allowed: one, or a name that is not there)");
-  fs::path beside;
-  int descriptor = -1;
-  const bool is_made = make_beside(target, beside, [&](const char* name) {
-    descriptor = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    return descriptor >= 0;
+  const auto check = [&](const char* name, int how) {
+    if (faccessat(AT_FDCWD, name, how, AT_EACCESS) != 0) fail_to_write(file, errno);
+  };
+  if (exists) check(target.c_str(), W_OK);
+  check(folder.empty() ? "." : folder.c_str(), W_OK | X_OK);
+}
+
+NewFile::NewFile(const fs::path& file) : file_(file), target_(end_of_links(file)) {
+  check_can_write(file);
+  const bool is_made = make_beside(target_, beside_, [&](const char* name) {
+    descriptor_ = open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor_ >= 0;
   });
   if (!is_made) fail_to_write(file, errno);
-  int error = write_all(descriptor, bytes);
-  if (error == 0 && exists && fchmod(descriptor, there.st_mode & 07777) != 0) error = errno;
-  if (error == 0 && fsync(descriptor) != 0) error = errno;
-  if (close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0 && rename(beside.c_str(), target.c_str()) != 0) error = errno;
-  if (error != 0) {
-    unlink(beside.c_str());
-    fail_to_write(file, error);
+}
+
+NewFile::~NewFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!beside_.empty()) unlink(beside_.c_str());
+}
+
+void NewFile::write(std::string_view bytes) {
+  if (const int error = write_all(descriptor_, bytes); error != 0) fail_to_write(file_, error);
+}
+
+void NewFile::complete() {
+  struct stat there = {};
+  const bool exists = stat(target_.c_str(), &there) == 0;
+  if ((exists && fchmod(descriptor_, there.st_mode & 07777) != 0) || fsync(descriptor_) != 0 ||
+      close(std::exchange(descriptor_, -1)) != 0)
+    fail_to_write(file_, errno);
+}
+
+void NewFile::take_place() {
+  if (rename(beside_.c_str(), target_.c_str()) != 0) fail_to_write(file_, errno);
+  beside_.clear();
+  sync_folder(target_.parent_path());
+}
+
+void write_file_atomically(const fs::path& file, std::string_view bytes) {
+  NewFile next(file);
+  next.write(bytes);
+  next.complete();
+  next.take_place();
+}
+
+void remove_leftovers(const fs::path& folder) {
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const std::size_t mark = name.rfind(part_mark);
+    if (mark == name.npos || !entry.is_regular_file(error) || entry.is_symlink(error)) continue;
+    const std::string number = name.substr(mark + part_mark.size());
+    if (number.size() == part_digits && number.find_first_not_of("0123456789") == number.npos)
+      fs::remove(entry.path(), error);
   }
-  sync_folder(target.parent_path());
 }
 
 void make_folder(const fs::path& folder) {

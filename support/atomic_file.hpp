@@ -8,9 +8,33 @@
 
 namespace airybench {
 
-// Follows a link and keeps the permissions of the file it replaces. Throws FileError "file: why",
-// also for anything but a regular file; the old file is untouched then.
+// Throws FileError "file: why" if the file cannot be written: it is not a regular file, or file or
+// folder are read-only for this user. Follows links.
+void check_can_write(const std::filesystem::path& file);
+
+// The new content of a file, next to it under a temporary name. Until take_place() succeeds, the
+// old file is untouched. Follows links and keeps the permissions of the file that it replaces. All
+// throw FileError "file: why", the constructor as check_can_write().
+class NewFile {
+ public:
+  explicit NewFile(const std::filesystem::path& file);
+  ~NewFile();  // removes it unless it has taken its place
+  NewFile(const NewFile&) = delete;
+  NewFile& operator=(const NewFile&) = delete;
+
+  void write(std::string_view bytes);
+  void complete();    // returns when it is on disk
+  void take_place();  // after complete()
+
+ private:
+  std::filesystem::path file_, target_, beside_;
+  int descriptor_ = -1;
+};
+
 void write_file_atomically(const std::filesystem::path& file, std::string_view bytes);
+
+// Removes the temporary files that killed processes left in this folder. The caller holds its lock.
+void remove_leftovers(const std::filesystem::path& folder);
 
 using Files = std::map<std::string, std::string>;  // bytes by name
 

@@ -5,6 +5,7 @@
 #include <pthread.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -33,11 +34,12 @@ void close_in_children() {
 std::string holder(int descriptor) {
   struct stat folder = {};
   fstat(descriptor, &folder);
-  const std::string inode = fmt::format(":{}", folder.st_ino);
+  const std::string inode =
+      fmt::format("{:02x}:{:02x}:{}", major(folder.st_dev), minor(folder.st_dev), folder.st_ino);
   std::ifstream locks("/proc/locks");
   std::string number, kind, how, access, process, file, rest;
   while (locks >> number >> kind >> how >> access >> process >> file && std::getline(locks, rest))
-    if (kind == "FLOCK" && file.ends_with(inode)) return "process " + process;
+    if (kind == "FLOCK" && file == inode) return "process " + process;
   return "another process";
 }
 

@@ -1,6 +1,9 @@
 #include "support/this_process.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -10,6 +13,7 @@
 #include <exception>
 #include <iostream>
 #include <new>
+#include <vector>
 
 #include "support/errors.hpp"
 #include "support/process.hpp"
@@ -26,6 +30,8 @@ void on_interrupt(int signal) {
   }
   interrupting_signal = signal;
 }
+
+bool output_was_closed = false;
 
 const char* last_words = "";
 int last_code = 0;
@@ -48,7 +54,6 @@ Interrupted::Interrupted(int number)
 
 void catch_interrupts() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow becomes a write error, which we report
 }
 
 bool is_interrupted() { return interrupting_signal != 0; }
@@ -58,10 +63,35 @@ void throw_if_interrupted() {
 }
 
 void open_standard_streams() {
+  std::signal(SIGXFSZ, SIG_IGN);
   for (const int descriptor : {0, 1, 2})
-    if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF)
+    if (fcntl(descriptor, F_GETFD) == -1 && errno == EBADF) {
+      if (descriptor == 1) output_was_closed = true;
       // open() returns the lowest free descriptor: this one.
       static_cast<void>(open("/dev/null", descriptor == 0 ? O_RDONLY : O_WRONLY));
+    }
+}
+
+void require_standard_output() {
+  if (output_was_closed)
+    throw UsageError("standard output: is closed (allowed: an open one, or --out=FILE)");
+}
+
+std::string lack_of_stack_or_descriptors() {
+  constexpr rlim_t least_stack = 1024 * 1024;
+  constexpr int least_descriptors = 24;
+  rlimit stack = {};
+  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur < least_stack)
+    return fmt::format("the stack is limited to {} KiB (ulimit -s; allowed: from {} KiB on)",
+                       stack.rlim_cur / 1024, least_stack / 1024);
+  std::vector<int> taken;
+  for (int free = 0; free < least_descriptors; ++free)
+    if (const int descriptor = fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0); descriptor >= 0)
+      taken.push_back(descriptor);
+  for (const int descriptor : taken) close(descriptor);
+  if (taken.size() == least_descriptors) return "";
+  return fmt::format("only {} files can be opened (ulimit -n; allowed: from {} on)", taken.size(),
+                     least_descriptors);
 }
 
 int checked_exit_code(int code, const char* program) {

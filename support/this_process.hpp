@@ -2,11 +2,19 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace airybench {
 
 // Opens /dev/null on closed descriptors 0 to 2, or the first files opened would take their place.
+// A file that may not grow (ulimit -f) becomes a write error from here on, not the end by SIGXFSZ.
 void open_standard_streams();
+// For commands whose result goes there. Throws UsageError if standard output was closed at the
+// start.
+void require_standard_output();
+
+// Why stack (ulimit -s) or free descriptors (ulimit -n) are too few for any command; "" if not.
+std::string lack_of_stack_or_descriptors();
 
 // Ctrl-C, SIGTERM or SIGHUP; what() names it. The results so far are on disk.
 struct Interrupted : std::runtime_error {

@@ -13,6 +13,7 @@
 #include "bench/measure/environment.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/records/csv.hpp"
+#include "bench/records/record_files.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/run/adapted_scenes.hpp"
 #include "bench/run/runner.hpp"
@@ -200,6 +201,8 @@ int advise_command(int argc, const char* const* argv) {
   double budget_s = 60;
   const Options options = parse_advise(argc, argv, budget_s);
   require_threads(options.threads);
+  check_takes_records(options.out);
+  if (std::filesystem::exists(options.out)) check_can_write(options.out / "advice.csv");
   catch_interrupts();
   const PosedScene start = one_posed_scene(options);
   const std::vector<Method> chosen = select_methods(options.methods);
@@ -221,7 +224,7 @@ int advise_command(int argc, const char* const* argv) {
   }
   set_threads(options.threads);
   const Context context = context_of_run(options);
-  const std::vector<Record> records = run_cases(plan, options, context).records;
+  const std::vector<Record> records = run_cases(plan, options, context).records();
 
   const double goal = *options.adapt.front().error;
   std::vector<Advice> rows;
@@ -251,7 +254,7 @@ int advise_command(int argc, const char* const* argv) {
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;
   with_fields.repetitions = 1;
-  end_run(run_cases({*planned}, with_fields, context).records, options.out, true);
+  end_run(run_cases({*planned}, with_fields, context), options.out, true);
   return all_ok;
 }
 

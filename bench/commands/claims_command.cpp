@@ -10,6 +10,7 @@
 #include "bench/report/claims.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -75,6 +76,7 @@ int claims_command(int argc, const char* const* argv) {
       ->capture_default_str();
   app.add_option("--out", out, "also write the table to this file, *.md");
   parse_command_line(app, argc, argv);
+  if (out.empty()) require_standard_output();
   if (!out.empty() && out.extension() != ".md")
     throw UsageError(fmt::format("--out: {} (allowed: a name that ends in .md)", out.string()));
 

@@ -11,6 +11,7 @@
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -71,6 +72,7 @@ int compare_command(int argc, const char* const* argv) {
              "per cent: smaller changes of a time are no change");
   app.add_option("--out", out, "also write the comparison to this file, *.md or *.json");
   parse_command_line(app, argc, argv);
+  if (out.empty()) require_standard_output();
   if (!out.empty() && out.extension() != ".md" && out.extension() != ".json")
     throw UsageError(
         fmt::format("--out: {} (allowed: a name that ends in .md or .json)", out.string()));

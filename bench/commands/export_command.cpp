@@ -12,6 +12,7 @@
 #include "bench/report/history.hpp"
 #include "bench/report/tracker_formats.hpp"
 #include "support/atomic_file.hpp"
+#include "support/this_process.hpp"
 
 namespace airybench {
 namespace {
@@ -67,8 +68,11 @@ int export_command(int argc, const char* const* argv) {
       ->check(CLI::IsMember(formats));
   app.add_option("--out", out, "file to write; default: standard output");
   parse_command_line(app, argc, argv);
+  if (out.empty()) require_standard_output();
 
-  const bool is_history = format == "csv" && std::filesystem::is_directory(folder / "nights");
+  std::error_code error;
+  const bool is_history =
+      format == "csv" && std::filesystem::is_directory(folder / "nights", error);
   const std::vector<Record> cases = is_history
                                         ? cases_of_history(folder)
                                         : read_records(records_file_in(folder), Studies::include);

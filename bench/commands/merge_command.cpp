@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
-#include <type_traits>
+#include <set>
 
 #include "bench/commands/command_line.hpp"
 #include "bench/plan/mesh_files.hpp"
@@ -25,7 +26,7 @@ libraries, threads, tolerances and limits, and of one plan; each case may be the
 there. What is refused is named, and nothing is written then.
 
 With --runs the folders are whole runs of different plans, which may differ in limits and repetitions, too; no case
-may be there twice.
+may be there twice, and every plan must be complete.
 
 Meshes that lie in a run's folder (of --adapt, of models) are copied; fields and figures are not.
 
@@ -50,10 +51,8 @@ MergeOptions parse_merge(int argc, const char* const* argv) {
   app.footer(merge_footer);
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
   app.add_option("--out", options.out, "folder of the whole")->required();
-  CLI::Option* incomplete =
-      app.add_flag("--incomplete", options.incomplete, "also when cases of the plan are missing");
-  app.add_flag("--runs", options.runs, "the folders are different runs, not shards of one")
-      ->excludes(incomplete);
+  app.add_flag("--incomplete", options.incomplete, "also when cases of a plan are missing");
+  app.add_flag("--runs", options.runs, "the folders are different runs, not shards of one");
   parse_command_line(app, argc, argv);
   return options;
 }
@@ -102,20 +101,6 @@ void refuse_mixtures(const std::vector<RecordLine>& all, Sameness sameness) {
   }
 }
 
-template <typename Key, typename KeyOf>
-std::map<Key, RecordLine> by(const std::vector<RecordLine>& all, KeyOf key_of) {
-  std::map<Key, RecordLine> cases;
-  for (const RecordLine& line : all) {
-    const Key key = key_of(line);
-    const auto [there, is_new] = cases.emplace(key, line);
-    if (is_new) continue;
-    std::string name = name_of(line.record).text();
-    if constexpr (std::is_integral_v<Key>) name = fmt::format("case {}, {}", key, name);
-    throw FileError(fmt::format("{} and {}: both are {}", there->second.place, line.place, name));
-  }
-  return cases;
-}
-
 // 0 if the records are older than that word of the context.
 std::int64_t cases_planned(const RecordLine& line) {
   constexpr std::int64_t most = 1'000'000;
@@ -138,28 +123,41 @@ std::int64_t number_of(const RecordLine& line) {
   return number;
 }
 
-void refuse_missing(const std::map<std::int64_t, RecordLine>& cases, std::int64_t planned) {
-  constexpr int most_named = 10;
-  std::vector<std::string> missing;
-  for (std::int64_t number = 1; number <= planned; ++number)
-    if (!cases.contains(number)) missing.push_back(std::to_string(number));
-  const std::size_t count = missing.size();
-  if (count == 0) return;
-  if (count > most_named) missing.resize(most_named);
-  throw FileError(
-      fmt::format("{} of {} cases are missing: {}{} (go on with the shard by "
-                  "--resume, or take --incomplete)",
-                  count, planned, fmt::join(missing, ", "), count > most_named ? ", …" : ""));
+// Throws FileError if a case is there twice: by its name, of shards by its number.
+void refuse_twins(const std::vector<RecordLine>& all, bool runs) {
+  std::map<std::pair<std::int64_t, std::string>, const RecordLine*> cases;
+  for (const RecordLine& line : all) {
+    const std::string name = name_of(line.record).text();
+    const std::int64_t number = runs ? 0 : number_of(line);
+    const auto [there, is_new] = cases.emplace(std::pair(number, runs ? name : ""), &line);
+    if (!is_new)
+      throw FileError(fmt::format("{} and {}: both are {}", there->second->place, line.place,
+                                  runs ? name : fmt::format("case {}, {}", number, name)));
+  }
 }
 
-std::vector<RecordLine> of_shards(const std::vector<RecordLine>& all, bool incomplete) {
-  const auto cases = by<std::int64_t>(all, number_of);
-  // refuse_mixtures() has checked that all lines have the same plan.
-  const std::int64_t planned = cases_planned(all.front());
-  if (!incomplete) refuse_missing(cases, planned);
-  std::vector<RecordLine> lines;
-  for (const auto& [number, line] : cases) lines.push_back(line);
-  return lines;
+// Throws FileError if cases of a plan are missing. Records that are older than plans pass.
+void refuse_missing(const std::vector<RecordLine>& all) {
+  constexpr int most_named = 10;
+  std::map<std::string, std::pair<std::int64_t, std::set<std::int64_t>>> plans;
+  for (const RecordLine& line : all) {
+    auto& [planned, there] = plans[context_word(line.record, "plan_sha256")];
+    planned = cases_planned(line);
+    if (planned > 0) there.insert(number_of(line));
+  }
+  for (const auto& [plan, cases] : plans) {
+    const auto& [planned, there] = cases;
+    std::vector<std::string> missing;
+    for (std::int64_t number = 1; number <= planned; ++number)
+      if (!there.contains(number)) missing.push_back(std::to_string(number));
+    const std::size_t count = missing.size();
+    if (count == 0) continue;
+    if (count > most_named) missing.resize(most_named);
+    throw FileError(
+        fmt::format("{} of {} cases are missing: {}{} (go on by --resume, or take "
+                    "--incomplete)",
+                    count, planned, fmt::join(missing, ", "), count > most_named ? ", …" : ""));
+  }
 }
 
 }  // namespace
@@ -169,15 +167,15 @@ int merge_command(int argc, const char* const* argv) {
   OwnMeshes meshes;
   std::vector<RecordLine> lines = read_all(options, meshes);
   refuse_mixtures(lines, options.runs ? Sameness::different_runs : Sameness::same_sources);
-  if (options.runs)
-    by<std::string>(lines, [](const RecordLine& line) { return name_of(line.record).text(); });
-  else
-    lines = of_shards(lines, options.incomplete);
-  write_records(options.out, lines);
+  refuse_twins(lines, options.runs);
+  if (!options.incomplete) refuse_missing(lines);
+  if (!options.runs) std::ranges::sort(lines, {}, number_of);
+  check_takes_records(options.out);
   for (const auto& [path, file] : meshes) {
     make_folder((options.out / path).parent_path());
     write_file_atomically(options.out / path, file_text(file));
   }
+  write_records(options.out, lines);
   fmt::print("{} records of {} folders in {}\n", lines.size(), options.folders.size(),
              options.out.string());
   return all_ok;

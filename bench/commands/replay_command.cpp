@@ -212,7 +212,7 @@ int replay_command(int argc, const char* const* argv) {
   const Case planned = case_of(record, asked.record, asked.folder, options);
   catch_interrupts();
   const RunResult result = run_cases({planned}, options, context);
-  const Record& now = result.records.front();
+  const Record now = result.record(0);
   bool same = true;
   fmt::print("{:<20}  {:>14}  {:>14}\n", name_of(record).text(), "recorded", "now");
   for (const auto& [key, must_be_same] : compared) {

@@ -16,9 +16,11 @@
 #include "bench/plan/plan.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
+#include "bench/records/record_files.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/run/adapted_scenes.hpp"
 #include "bench/run/isolated_scene.hpp"
+#include "bench/run/noise_watch.hpp"
 #include "bench/run/progress.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
@@ -97,17 +99,13 @@ void print_prediction(const std::vector<Case>& plan, const Options& options) {
   print_left_out(plan, options);
 }
 
-void print_warnings(const Context& context, const RunResult& result, const Options& options) {
-  std::vector<double> noise;
-  for (const Record& record : result.records)
-    noise.insert(noise.end(), record.noise_kernel_samples_s.begin(),
-                 record.noise_kernel_samples_s.end());
-  for (const std::string& warning : machine_warnings(context, least_repetitions(options), noise))
-    fmt::print("note: {}\n", warning);
-  if (const int early = accepted_too_early(result.records); early > 0)
+void print_warnings(const std::vector<std::string>& of_machine, const EarlyPasses& early,
+                    std::size_t cases) {
+  for (const std::string& warning : of_machine) fmt::print("note: {}\n", warning);
+  if (early.count() > 0)
     fmt::print(
         "note: {} of {} cases passed as quiet before the machine became quieter than it had been\n",
-        early, result.records.size());
+        early.count(), cases);
 }
 
 // The paper's methods cannot solve bodies with holes; HYBRID and P2 can.
@@ -163,6 +161,8 @@ int run_command(int argc, const char* const* argv) {
     options.meshes = *options.figure == 3 ? "Mesh3" : "Mesh0..Mesh7";
     options.methods = *options.figure == 3 ? figure_3_methods : default_methods(options.study);
   }
+  const bool only_plans = options.explain || options.dry_run;
+  if (options.list || only_plans) require_standard_output();
   if (options.list) {
     print_list(other_programs(options));
     return all_ok;
@@ -173,8 +173,8 @@ int run_command(int argc, const char* const* argv) {
                shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
-  const bool only_plans = options.explain || options.dry_run;
   if (!only_plans) require_threads(options.threads);
+  if (!only_plans) check_takes_records(options.out);  // before meshes are written there
   if (!options.adapt.empty())
     catch_interrupts();               // adapting solves; a signal just ends other planning
   std::vector<std::string> short_of;  // goals of --adapt that were not reached
@@ -194,22 +194,30 @@ int run_command(int argc, const char* const* argv) {
   context["cases_planned"] = std::to_string(whole.size());
   context["plan_sha256"] = fingerprint(whole);
   const RunResult result = run_cases(plan, options, context);
-  fmt::print("\n{}\n", results_table(result.records));
+  ResultsTable table;
+  EarlyPasses early;
+  std::vector<double> noise;
+  bool all_solved = short_of.empty();
+  const std::size_t cases = result.names.size();
+  for (std::size_t k = 0; k < cases; ++k) {
+    const Record record = result.record(k);
+    table.add(record);
+    early.add(record);
+    std::ranges::copy(record.noise_kernel_samples_s, std::back_inserter(noise));
+    all_solved = all_solved && (record.status == Status::ok || record.status == Status::skipped);
+  }
+  fmt::print("\n{}\n", table.text());
   if (result.earlier > 0)
-    fmt::print("{} of these {} records were there already{}\n", result.earlier,
-               result.records.size(),
-               result.torn ? ", and the start of another, which was run again" : "");
-  if (result.earlier < static_cast<int>(plan.size())) fmt::print("{}\n", times_line(result.times));
-  print_warnings(context, result, options);
+    fmt::print("{} of these {} records were there already{}\n", result.earlier, cases,
+               result.files->was_torn() ? ", and the start of another, which was run again" : "");
+  if (result.earlier < std::ssize(plan)) fmt::print("{}\n", times_line(result.times));
+  print_warnings(machine_warnings(context, least_repetitions(options), noise), early, cases);
   fmt::print("records.jsonl, results.csv, results.json in {}\n", options.out.string());
-  end_run(result.records, options.out, options.fields);
-  if (result.records.size() != plan.size())
-    throw std::logic_error(fmt::format("{} of {} cases have no record",
-                                       plan.size() - result.records.size(), plan.size()));
-  if (!short_of.empty()) return some_case_failed;
-  for (const Record& record : result.records)
-    if (record.status != Status::ok && record.status != Status::skipped) return some_case_failed;
-  return all_ok;
+  end_run(result, options.out, options.fields);
+  if (cases != plan.size())
+    throw std::logic_error(
+        fmt::format("{} of {} cases have no record", plan.size() - cases, plan.size()));
+  return all_solved ? all_ok : some_case_failed;
 }
 
 }  // namespace airybench

@@ -14,7 +14,6 @@
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
-#include "bench/run/runner.hpp"
 #include "mesh/selection.hpp"
 #include "support/errors.hpp"
 #include "support/sha256.hpp"
@@ -76,14 +75,16 @@ bool is_newer(const fs::path& file, const fs::path& than) {
          fs::last_write_time(file, error) >= fs::last_write_time(than, error);
 }
 
-std::string picture_line(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
-  const auto last = std::find_if(records.rbegin(), records.rend(), [](const Record& r) {
-    return r.n_phi && !is_named_after_catalogue(r.mesh);
-  });
-  if (last == records.rend()) return "";
-  for (const Record& record : records) {
-    if (!has_fields || record.mesh != last->mesh) continue;
-    const std::string name = name_of(record).file();
+std::string picture_line(const RunResult& result, const fs::path& out, bool has_fields) {
+  const auto mesh_of = [](const std::string& name) { return name.substr(0, name.find('/')); };
+  std::string mesh;  // the last body outside the catalogue
+  for (std::size_t k = result.names.size(); k-- > 0 && mesh.empty();)
+    if (!is_named_after_catalogue(mesh_of(result.names[k])) && result.record(k).n_phi)
+      mesh = mesh_of(result.names[k]);
+  if (mesh.empty()) return "";
+  for (std::size_t k = 0; k < result.names.size(); ++k) {
+    if (!has_fields || mesh_of(result.names[k]) != mesh) continue;
+    const std::string name = name_of(result.record(k)).file();
     const fs::path grid = out / "fields" / (name + ".vtu"),
                    picture = out / "figures" / ("fields_" + name + ".png");
     std::error_code error;
@@ -93,7 +94,7 @@ std::string picture_line(const std::vector<Record>& records, const fs::path& out
     return fmt::format("ParaView: {}  (a picture: ./run figures {})\n", grid.string(),
                        out.string());
   }
-  return fmt::format("for a picture of {}: --fields\n", last->mesh);
+  return fmt::format("for a picture of {}: --fields\n", mesh);
 }
 
 }  // namespace
@@ -143,13 +144,13 @@ std::string shell_word(const std::string& word) {
   return quoted + "'";
 }
 
-void end_run(const std::vector<Record>& records, const fs::path& out, bool has_fields) {
+void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");
   if (then != nullptr && *then != '\0' &&
       std::system(fmt::format("{} {}", then, shell_word(out.string())).c_str()) != 0)
     std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
-  fmt::print("{}", picture_line(records, out, has_fields));
+  fmt::print("{}", picture_line(result, out, has_fields));
 }
 
 }  // namespace airybench

@@ -6,8 +6,8 @@
 
 #include "bench/plan/options.hpp"
 #include "bench/plan/plan.hpp"
-#include "bench/records/record.hpp"
 #include "bench/report/prediction.hpp"
+#include "bench/run/runner.hpp"
 
 namespace airybench {
 
@@ -23,6 +23,6 @@ std::string shell_word(const std::string& word);  // quoted if necessary
 // Runs the shell command $AIRYBENCH_THEN with the results folder as its last argument; notes a
 // failure. Then prints which picture of the last mesh outside the catalogue to open, or how to get
 // one. has_fields: the run has written fields.
-void end_run(const std::vector<Record>& records, const std::filesystem::path& out, bool has_fields);
+void end_run(const RunResult& result, const std::filesystem::path& out, bool has_fields);
 
 }  // namespace airybench

@@ -144,6 +144,8 @@ int track_command(int argc, const char* const* argv) {
   if (!options.from.empty()) run = run_in(options.from);
   make_folder(options.history);
   const FolderLock lock(options.history);
+  make_folder(options.history / "nights");
+  check_can_write(options.history / "nights/new");
   std::vector<TrackedRun> history = read_history(options.history);  // before hours of measuring
   if (options.judge_only) return track_and_print(history, options);
   if (!run) run = measure(options);

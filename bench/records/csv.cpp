@@ -34,18 +34,18 @@ std::string csv_cell(const std::string& given) {
   return text.find_first_of(",\"\r\n") == text.npos ? text : in_quotes(text);
 }
 
-std::string csv_text(const std::vector<Record>& records) {
-  const std::vector<const Field*> columns = fields_with(column);
+std::string csv_header() {
   std::string text;
-  for (const Field* field : columns) text += (text.empty() ? "" : ",") + std::string(field->name);
-  text += "\n";
-  for (const Record& record : records) {
-    std::string separator;
-    for (const Field* field : columns)
-      text += std::exchange(separator, ",") + cell(field->value(record));
-    text += "\n";
-  }
-  return text;
+  for (const Field* field : fields_with(column))
+    text += (text.empty() ? "" : ",") + std::string(field->name);
+  return text + "\n";
+}
+
+std::string csv_row(const Record& record) {
+  std::string text, separator;
+  for (const Field* field : fields_with(column))
+    text += std::exchange(separator, ",") + cell(field->value(record));
+  return text + "\n";
 }
 
 std::string series_csv(const std::vector<Record>& records) {

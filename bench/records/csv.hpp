@@ -9,7 +9,8 @@
 namespace airybench {
 
 // results.csv: a header and a row per record; a cell is empty if the field does not apply.
-std::string csv_text(const std::vector<Record>& records);
+std::string csv_header();
+std::string csv_row(const Record& record);
 
 // A cell in quotation marks, always or if necessary; no spreadsheet evaluates it as a formula.
 std::string csv_quoted(const std::string& text);

@@ -1,11 +1,9 @@
 #include "bench/records/google_benchmark.hpp"
 
-#include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
 #include <boost/math/statistics/univariate_statistics.hpp>
 #include <cmath>
-#include <sstream>
 #include <stdexcept>
 
 #include "bench/records/context.hpp"
@@ -92,8 +90,7 @@ std::vector<Run> runs_of(const Record& record, std::size_t family) {
   return runs;
 }
 
-Json context_of(const std::vector<Record>& cases) {
-  const Context known = cases.empty() ? Context() : cases.front().context;
+Json context_of(const Context& known) {
   Json context = {
       {"date", context_word(known, "date")},
       {"host_name", ""},
@@ -109,20 +106,35 @@ Json context_of(const std::vector<Record>& cases) {
   return context;
 }
 
+// ReportContext() would describe the exporting machine.
+std::string head_of(const Context& context) {
+  return "{\n  \"context\": " + indented_json_text(context_of(context), 2) +
+         ",\n  \"benchmarks\": [\n";
+}
+
 }  // namespace
 
-std::string google_benchmark_json(const std::vector<Record>& cases) {
-  std::ostringstream text;
-  // ReportContext() would describe the exporting machine.
-  text << "{\n  \"context\": " << indented_json_text(context_of(cases), 2)
-       << ",\n  \"benchmarks\": [\n";
-  benchmark::JSONReporter reporter;
-  reporter.SetOutputStream(&text);
-  for (std::size_t k = 0; k < cases.size(); ++k) reporter.ReportRuns(runs_of(cases[k], k));
-  reporter.Finalize();
-  if (!Json::accept(text.str()))
+std::string GoogleBenchmarkJson::add(const Record& record) {
+  const std::string head = cases_ == 0 ? head_of(record.context) : "";
+  reporter_.ReportRuns(runs_of(record, cases_++));
+  const std::string runs = text_.str();
+  text_.str("");
+  if (!Json::accept("[" + runs.substr(runs.find('{')) + "]"))
     throw std::runtime_error("Google Benchmark's reporter wrote what is not JSON");
-  return text.str();
+  return head + runs;
+}
+
+std::string GoogleBenchmarkJson::end() {
+  const std::string head = cases_ == 0 ? head_of({}) : "";
+  reporter_.Finalize();
+  return head + text_.str();
+}
+
+std::string google_benchmark_json(const std::vector<Record>& cases) {
+  GoogleBenchmarkJson json;
+  std::string text;
+  for (const Record& record : cases) text += json.add(record);
+  return text + json.end();
 }
 
 }  // namespace airybench

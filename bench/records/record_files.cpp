@@ -12,112 +12,168 @@
 namespace airybench {
 namespace {
 
-std::string text_of(const std::vector<RecordLine>& lines) {
-  std::string text;
-  for (const RecordLine& line : lines) text += json_text(line.json) + "\n";
-  return text;
-}
+namespace fs = std::filesystem;
 
 // Called before records change, so that no summary outlives its records.
-void remove_summaries(const std::filesystem::path& folder) {
+void remove_summaries(const fs::path& folder) {
   std::error_code ignored;
-  for (const char* stale : {"results.csv", "results.json"})
-    std::filesystem::remove(folder / stale, ignored);
+  for (const char* stale : {"results.csv", "results.json"}) fs::remove(folder / stale, ignored);
 }
 
-struct Summaries {
-  std::string csv, google_benchmark;
+class Summaries {
+ public:
+  explicit Summaries(const fs::path& folder)
+      : csv_(folder / "results.csv"), google_benchmark_(folder / "results.json") {
+    csv_.write(csv_header());
+  }
+  void add(const Record& record) {
+    csv_.write(csv_row(record));
+    google_benchmark_.write(runs_.add(record));
+  }
+  void complete() {
+    google_benchmark_.write(runs_.end());
+    csv_.complete();
+    google_benchmark_.complete();
+  }
+  void take_place() {
+    csv_.take_place();
+    google_benchmark_.take_place();
+  }
+
+ private:
+  NewFile csv_, google_benchmark_;
+  GoogleBenchmarkJson runs_;
 };
-Summaries summaries_of(const std::vector<RecordLine>& lines) {
-  std::vector<Record> records;
-  for (const RecordLine& line : lines) records.push_back(line.record);
-  return {csv_text(records), google_benchmark_json(records)};
-}
 
-void write(const Summaries& summaries, const std::filesystem::path& folder) {
-  write_file_atomically(folder / "results.csv", summaries.csv);
-  write_file_atomically(folder / "results.json", summaries.google_benchmark);
-}
-
-std::filesystem::path folder_for_records(const std::filesystem::path& folder) {
-  make_folder(folder);
+void check_files(const fs::path& folder) {
   for (const char* name : {"records.jsonl", "results.csv", "results.json"})
-    if (const auto file = std::filesystem::status(folder / name);
-        std::filesystem::exists(file) && !std::filesystem::is_regular_file(file))
-      throw FileError(
-          fmt::format("{}: is no regular file (allowed: one, or a name that is not there)",
-                      (folder / name).string()));
-  if (const auto packed = folder / "records.jsonl.gz"; std::filesystem::exists(packed))
+    check_can_write(folder / name);
+  std::error_code error;
+  if (const auto packed = folder / "records.jsonl.gz"; fs::exists(packed, error))
     throw FileError(packed.string() +
                     ": packed records are only read (allowed: another folder, or gunzip before)");
+}
+
+fs::path folder_for_records(const fs::path& folder) {
+  make_folder(folder);
+  check_files(folder);
   return folder;
 }
 
 }  // namespace
 
-void write_records(const std::filesystem::path& folder, const std::vector<RecordLine>& lines) {
-  const Summaries summaries = summaries_of(lines);
-  const FolderLock lock(folder_for_records(folder));
-  remove_summaries(folder);
-  write_file_atomically(folder / "records.jsonl", text_of(lines));
-  write(summaries, folder);
+void check_takes_records(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return;
+  check_files(folder);
+  const FolderLock lock(folder);
 }
 
-RecordFiles::RecordFiles(const std::filesystem::path& folder, Context context, Keep keep)
+void write_records(const fs::path& folder, const std::vector<RecordLine>& lines) {
+  const FolderLock lock(folder_for_records(folder));
+  NewFile records(folder / "records.jsonl");
+  Summaries summaries(folder);
+  for (const RecordLine& line : lines) {
+    records.write(json_text(line.json) + "\n");
+    summaries.add(line.record);
+  }
+  records.complete();
+  summaries.complete();
+  remove_summaries(folder);
+  records.take_place();
+  summaries.take_place();
+}
+
+RecordFiles::RecordFiles(const fs::path& folder, Context context, Keep keep)
     : folder_(folder_for_records(folder)),
       lock_(folder_),
       context_(std::move(context)),
       keep_(keep) {
-  if (keep_ == Keep::none) return;
-  RecordLines there = read_record_lines(records_file());
-  lines_ = std::move(there.lines);
-  torn_ = there.torn;
-  if (keep_ == Keep::finished)
-    for (std::size_t i = 0; i < lines_.size(); ++i) {
-      const RecordLine& line = lines_[i];
-      const std::string differs =
-          differences(line.record.context, context_, Sameness::same_program);
-      if (!differs.empty())
-        throw FileError(fmt::format("{}: of another run, which does not mix with this one: {}",
-                                    line.place, differs));
-      if (line.record.status != Status::machine_fault)
-        finished_.emplace(name_of(line.record).text(), i);
-    }
-  if (torn_) rewrite();
+  for (const char* part : {"", "fields", "programs"}) remove_leftovers(folder_ / part);
+  if (keep_ == Keep::none || !fs::exists(records_file())) return;
+  torn_ = ends_torn_ = read_lines(records_file(), [&](const std::string& text, const Line& line) {
+    const std::string place = place_of(records_file(), line);
+    const Record record = record_of_text(text, place);
+    const std::string differs = keep_ == Keep::finished
+                                    ? differences(record.context, context_, Sameness::same_program)
+                                    : "";
+    if (!differs.empty())
+      throw FileError(
+          fmt::format("{}: of another run, which does not mix with this one: {}", place, differs));
+    lines_.emplace(name_of(record).text(), line);
+  });
+  journal_ = Journal(records_file(), static_cast<std::int64_t>(fs::file_size(records_file())));
+}
+
+Record RecordFiles::read(const Line& line) const {
+  return record_of_text(journal_.text_of(line), place_of(records_file(), line));
+}
+
+Record RecordFiles::read(const std::string& case_name) const {
+  return read(lines_.lower_bound(case_name)->second);
 }
 
 std::optional<Record> RecordFiles::finished(const Record& blank) const {
+  if (keep_ != Keep::finished) return {};
   const std::string name = name_of(blank).text();
-  const auto found = finished_.find(name);
-  if (found == finished_.end()) return {};
-  const RecordLine& line = lines_[found->second];
-  for (const char* key : {"mesh_sha256", "scene_definition", "program"})
-    if (field_named(key).value(line.record) != field_named(key).value(blank))
-      throw FileError(fmt::format("{}: {}: another than now, for {}", line.place, key, name));
-  return line.record;
+  const auto [first, end] = lines_.equal_range(name);
+  for (auto found = first; found != end; ++found) {
+    Record record = read(found->second);
+    if (record.status == Status::machine_fault) continue;
+    for (const char* key : {"mesh_sha256", "scene_definition", "program"})
+      if (field_named(key).value(record) != field_named(key).value(blank))
+        throw FileError(fmt::format("{}: {}: another than now, for {}",
+                                    place_of(records_file(), found->second), key, name));
+    return record;
+  }
+  return {};
 }
 
-void RecordFiles::rewrite() {
-  journal_ = Journal();
+std::vector<std::pair<Line, std::string>> RecordFiles::lines_in_order() const {
+  std::vector<std::pair<Line, std::string>> order;
+  for (const auto& [name, line] : lines_) order.emplace_back(line, name);
+  std::ranges::sort(order, {}, [](const auto& line) { return line.first.begin; });
+  return order;
+}
+
+void RecordFiles::rewrite_with(const std::string& case_name, const std::string& text) {
+  NewFile next(records_file());
+  std::multimap<std::string, Line> moved;
+  Line line;
+  const auto add = [&](const std::string& name, const std::string& added) {
+    next.write(added + "\n");
+    line = {line.begin, std::ssize(added), line.number + 1};
+    moved.emplace(name, line);
+    line.begin += line.size + 1;
+  };
+  for (const auto& [there, name] : lines_in_order())
+    if (name != case_name) add(name, journal_.text_of(there));
+  add(case_name, text);
+  next.complete();
   remove_summaries(folder_);
-  write_file_atomically(records_file(), text_of(lines_));
-  journal_ = Journal(records_file());
+  next.take_place();
+  lines_ = std::move(moved);
+  ends_torn_ = false;
+  journal_ = Journal(records_file(), line.begin);
 }
 
 void RecordFiles::append(Record record) {
   record.context = context_;
-  const std::string name = name_of(record).text();
-  const auto replaced = std::erase_if(
-      lines_, [&](const RecordLine& line) { return name_of(line.record).text() == name; });
-  if (!journal_.is_open() || replaced > 0) rewrite();
-  Json json = to_json(record);
-  journal_.append(json_text(json));
-  lines_.push_back({"", std::move(json), std::move(record)});
+  const std::string name = name_of(record).text(), text = json_text(to_json(record));
+  if (!journal_.is_open() || ends_torn_ || lines_.contains(name)) return rewrite_with(name, text);
+  remove_summaries(folder_);
+  const std::int64_t begin = journal_.append(text);
+  lines_.emplace(name, Line{begin, std::ssize(text), std::ssize(lines_) + 1});
 }
 
-void RecordFiles::finish() const {
-  if (keep_ == Keep::none && lines_.empty()) return;  // an earlier run's files stay
-  write(summaries_of(lines_), folder_);
+void RecordFiles::finish() {
+  if (journal_.is_open()) {  // else an earlier run's files stay
+    Summaries summaries(folder_);
+    for (const auto& [line, name] : lines_in_order()) summaries.add(read(line));
+    summaries.complete();
+    summaries.take_place();
+  }
+  lock_.reset();
 }
 
 }  // namespace airybench

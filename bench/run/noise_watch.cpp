@@ -141,14 +141,15 @@ void NoiseWatch::keep_quietest(std::vector<Record> earlier, Record& record,
                             name_of(record).text(), attempts, kept);
 }
 
-int accepted_too_early(const std::vector<Record>& records) {
-  std::optional<double> quiet_s;
-  for (const Record& r : records)
-    if (is_judged(r)) quiet_s = std::min(quiet_s.value_or(*r.noise_quiet_s), *r.noise_quiet_s);
-  return static_cast<int>(std::ranges::count_if(records, [&](const Record& r) {
-    return is_judged(r) && !r.noisy &&
-           noise_of(r.noise_kernel_samples_s, *quiet_s) > *r.retry_noisy;
-  }));
+void EarlyPasses::add(const Record& r) {
+  if (!is_judged(r)) return;
+  quiet_s_ = std::min(quiet_s_.value_or(*r.noise_quiet_s), *r.noise_quiet_s);
+  if (!r.noisy) passed_.push_back({r.noise_kernel_samples_s, *r.retry_noisy});
+}
+
+int EarlyPasses::count() const {
+  return static_cast<int>(std::ranges::count_if(
+      passed_, [&](const Passed& p) { return noise_of(p.passes_s, *quiet_s_) > p.most_noise; }));
 }
 
 }  // namespace airybench

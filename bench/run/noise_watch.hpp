@@ -74,6 +74,18 @@ class NoiseWatch {
 };
 
 // Counts records that passed as quiet but would not by the run's final quiet level.
-int accepted_too_early(const std::vector<Record>& records);
+class EarlyPasses {
+ public:
+  void add(const Record& record);
+  int count() const;
+
+ private:
+  struct Passed {
+    std::vector<double> passes_s;
+    double most_noise;
+  };
+  std::vector<Passed> passed_;
+  std::optional<double> quiet_s_;
+};
 
 }  // namespace airybench

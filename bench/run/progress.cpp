@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <set>
 
 #include "bench/records/robust.hpp"
 #include "support/seconds_since.hpp"
@@ -33,6 +32,7 @@ struct Column {
   const char* header;
   const char* field;  // shown if any record has it; nullptr: always shown
   std::string (*text)(const Record&);
+  bool of_total_error = false;
 };
 
 std::string whole(const std::optional<std::int64_t>& number) {
@@ -44,7 +44,7 @@ std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
 
-constexpr std::array<Column, 14> table_columns = {{
+constexpr std::array<Column, 16> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
@@ -63,54 +63,40 @@ constexpr std::array<Column, 14> table_columns = {{
     {"natural map", "siconos_error",
      [](const Record& r) { return show_error(r.natural_map_residual); }},
     {"Siconos", "siconos_error", [](const Record& r) { return show_error(r.siconos_error); }},
+    {"error total", "error_total", [](const Record& r) { return show_error(r.error_total); }, true},
+    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); },
+     true},
     {"status", nullptr, [](const Record& r) { return std::string(name_of(r.status)); }},
 }};
-constexpr std::array<Column, 2> columns_of_errors = {{
-    {"error total", "error_total", [](const Record& r) { return show_error(r.error_total); }},
-    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); }},
-}};
-
-bool any_has(const std::vector<Record>& records, const char* field) {
-  return std::ranges::any_of(
-      records, [&](const Record& r) { return !field_named(field).value(r).is_null(); });
-}
-
-// Shows the total error only where the methods do not all share their mesh's.
-std::vector<Column> columns_for(const std::vector<Record>& records) {
-  std::vector<Column> columns;
-  for (const Column& c : table_columns)
-    if (c.field == nullptr || any_has(records, c.field)) columns.push_back(c);
-  const bool total =
-      any_has(records, "adapt_level") || std::ranges::any_of(records, &Record::in_displacements);
-  if (total)
-    for (const Column& c : columns_of_errors)
-      if (any_has(records, c.field)) columns.insert(columns.end() - 1, c);
-  return columns;
-}
-
 }  // namespace
 
-std::string results_table(const std::vector<Record>& records) {
-  const std::vector<Column> columns = columns_for(records);
-  std::vector<std::vector<std::string>> rows(1);
-  for (const Column& column : columns) rows.front().emplace_back(column.header);
-  for (const Record& r : records) {
-    rows.emplace_back();
-    for (const Column& column : columns) rows.back().push_back(column.text(r));
+void ResultsTable::add(const Record& r) {
+  const auto has = [&](const char* field) { return !field_named(field).value(r).is_null(); };
+  for (const Column& column : table_columns)
+    if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
+  shows_total_ = shows_total_ || has("adapt_level") || r.in_displacements;
+  rows_.emplace_back();
+  for (const Column& column : table_columns) rows_.back().push_back(column.text(r));
+  if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
+  if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
+  if (r.status != Status::ok)
+    reasons_ += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
+  else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
+           !r.status_reason.empty() && !r.other_solution && said_.insert(line).second)
+    reasons_ += line;
+}
+
+std::string ResultsTable::text() const {
+  std::vector<std::vector<std::string>> shown(rows_.size() + 1);
+  for (std::size_t c = 0; c < table_columns.size(); ++c) {
+    const Column& column = table_columns[c];
+    if ((column.field != nullptr && !fields_.contains(column.field)) ||
+        (column.of_total_error && !shows_total_))
+      continue;
+    shown.front().emplace_back(column.header);
+    for (std::size_t r = 0; r < rows_.size(); ++r) shown[r + 1].push_back(rows_[r][c]);
   }
-  std::string table = aligned_table(rows, 1);
-  for (const Record& r : records)
-    if (r.precision && !r.precision_reached && r.time_s) table += imprecise_line(r);
-  for (const Record& r : records)
-    if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) table += noisy_line(r);
-  std::set<std::string> said;  // lines that all methods on a mesh share
-  for (const Record& r : records)
-    if (r.status != Status::ok)
-      table += fmt::format("{}: {}: {}\n", name_of(r).text(), name_of(r.status), r.status_reason);
-    else if (const std::string line = fmt::format("{}/{}: {}\n", r.mesh, r.scene, r.status_reason);
-             !r.status_reason.empty() && !r.other_solution && said.insert(line).second)
-      table += line;
-  return table;
+  return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons_;
 }
 
 namespace {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,18 @@
 
 namespace airybench {
 
-std::string results_table(const std::vector<Record>& records);
+class ResultsTable {
+ public:
+  void add(const Record& record);
+  std::string text() const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;  // with all columns
+  std::set<std::string> fields_;                // that some record has
+  bool shows_total_ = false;  // the total error: only where methods do not all share their mesh's
+  std::string imprecise_, noisy_, reasons_;
+  std::set<std::string> said_;  // reasons that all methods on a mesh share
+};
 
 // Estimates the time to come from the cases done, with cost ∝ n_φ^1.7 (as measured for 3STEPD).
 class Progress {

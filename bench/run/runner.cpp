@@ -96,8 +96,13 @@ std::string run_benchmarks(const std::string& filter, Listener::Ended ended) {
 class SceneRunner {
  public:
   SceneRunner(const std::vector<const Case*>& cases, const Options& options, RecordFiles& files,
-              Progress& progress, NoiseWatch& watch)
-      : planned_(cases), options_(options), files_(files), progress_(progress), watch_(watch) {
+              Progress& progress, NoiseWatch& watch, RunTimes& times)
+      : planned_(cases),
+        options_(options),
+        files_(files),
+        progress_(progress),
+        watch_(watch),
+        times_(times) {
     cases_.resize(cases.size());
   }
 
@@ -114,12 +119,6 @@ class SceneRunner {
     if (options_.interleave) write_finished();
   }
 
-  std::vector<Record> records() const {
-    std::vector<Record> result;
-    for (const Measured& c : cases_)
-      if (c.finished) result.push_back(*c.record);
-    return result;
-  }
   double preparation_s() const { return scene_.preparation_s(); }
 
  private:
@@ -196,6 +195,9 @@ class SceneRunner {
       });
       files_.append(*c.record);
       std::cerr << progress_.line(*c.record) << std::flush;
+      times_.runs_s += c.record->runs_s.value_or(0);
+      times_.judging_s += c.wall_s - c.record->runs_s.value_or(0);
+      c.record.reset();  // it is on disk
     }
   }
 
@@ -242,6 +244,7 @@ class SceneRunner {
   RecordFiles& files_;
   Progress& progress_;
   NoiseWatch& watch_;
+  RunTimes& times_;
   IsolatedScene scene_{planned_, options_};
   std::vector<Measured> cases_;
 };
@@ -289,19 +292,16 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   const auto start = std::chrono::steady_clock::now();
   initialize_benchmark(options.interleave);
   const Keep keep = options.resume ? Keep::finished : options.append ? Keep::others : Keep::none;
-  RecordFiles files(options.out, context, keep);
+  auto files = std::make_unique<RecordFiles>(options.out, context, keep);
   remove_abandoned_folders();
   NoiseWatch watch(options.retry_noisy, machine);
   RunResult result;
-  result.torn = files.was_torn();
-  std::map<std::int64_t, Record> records;  // by case number
   std::vector<std::vector<const Case*>> scenes;
   std::vector<std::int64_t> n_phi;
   for (const Case& c : plan) {
     const Record blank = blank_record(c, options);
-    if (auto earlier = files.finished(blank)) {
+    if (const auto earlier = files->finished(blank)) {
       watch.learn(*earlier);
-      records[c.number] = std::move(*earlier);
       ++result.earlier;
       continue;
     }
@@ -312,25 +312,28 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   }
   Progress progress(std::move(n_phi));
   for (const auto& cases : scenes) {
-    SceneRunner run(cases, options, files, progress, watch);
+    SceneRunner run(cases, options, *files, progress, watch, result.times);
     try {
       run.run();
     } catch (const Interrupted&) {
-      files.finish();
+      files->finish();
       throw;
-    }
-    for (Record& record : run.records()) {
-      result.times.runs_s += record.runs_s.value_or(0);
-      result.times.judging_s += record.wall_s.value_or(0) - record.runs_s.value_or(0);
-      records[record.case_number.value_or(0)] = std::move(record);
     }
     result.times.preparation_s += run.preparation_s();
   }
-  files.finish();
-  for (auto& [number, record] : records) result.records.push_back(std::move(record));
+  files->finish();
+  for (const Case& c : plan)
+    if (std::string name = c.name().text(); files->has(name)) result.names.push_back(name);
+  result.files = std::move(files);
   result.times.judging_s -= result.times.preparation_s;  // included in the first case's wall time
   result.times.wall_s = seconds_since(start);
   return result;
+}
+
+std::vector<Record> RunResult::records() const {
+  std::vector<Record> all;
+  for (std::size_t k = 0; k < names.size(); ++k) all.push_back(record(k));
+  return all;
 }
 
 }  // namespace airybench

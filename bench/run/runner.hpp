@@ -10,6 +10,7 @@
 //   RecordFiles      bench/records: a line on disk
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "bench/plan/plan.hpp"
 #include "bench/records/context.hpp"
 #include "bench/records/record.hpp"
+#include "bench/records/record_files.hpp"
 #include "bench/run/noise_watch.hpp"
 
 namespace airybench {
@@ -30,10 +32,13 @@ struct RunTimes {
 };
 
 struct RunResult {
-  std::vector<Record> records;  // of all planned cases, in plan order, earlier ones included
-  int earlier = 0;              // records that --resume found
-  bool torn = false;            // the file had a half-written line
+  std::unique_ptr<const RecordFiles> files;
+  std::vector<std::string> names;  // of the planned cases that have a record, in plan order
+  int earlier = 0;                 // records that --resume found
   RunTimes times;
+
+  Record record(std::size_t k) const { return files->read(names[k]); }
+  std::vector<Record> records() const;  // all of them in memory
 };
 
 // Prints progress to standard error. Throws FileError, Interrupted; the records so far are on disk.

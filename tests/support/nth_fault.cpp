@@ -2,8 +2,8 @@
 // fails.
 //
 //   AIRYBENCH_FAULT=write:7   the kind (open, read, write, fsync, rename, send, recv, fork, alloc)
-//                             and which call of it; reads and allocations from main() on, of the
-//                             program and its libraries; hang: a fork that does not return
+//                             and which call of it; allocations from main() on, of the program and
+//                             its libraries; hang: a fork that does not return
 //   AIRYBENCH_FAULT_TOLD=FILE is made when it has failed
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -77,7 +77,7 @@ ssize_t write(int descriptor, const void* bytes, size_t count) {
   return real<ssize_t(int, const void*, size_t)>("write")(descriptor, bytes, count);
 }
 ssize_t read(int descriptor, void* bytes, size_t count) {
-  if (in_main && fails("read", EIO)) return -1;
+  if (fails("read", EIO)) return -1;
   return real<ssize_t(int, void*, size_t)>("read")(descriptor, bytes, count);
 }
 int fsync(int descriptor) {

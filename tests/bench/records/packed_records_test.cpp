@@ -46,6 +46,46 @@ TEST(Gzip, RefusesWhatIsCutOrDamaged) {
   EXPECT_GT(refused, 100);
 }
 
+// A few kilobytes unpack to what would fill the memory.
+TEST(PackedRecords, AreLimitedInLinesAndInAll) {
+  const BenchCommand bench;
+  const auto write = [&](const std::string& bytes) {
+    std::filesystem::create_directories(bench.path("o"));
+    testing::write_text(bench.path("o/records.jsonl.gz"), bytes);
+  };
+  const std::string longest(std::size_t{16} << 20, ' ');
+  write(packed(longest + " "));
+  for (const char* command : {"export o --format=csv", "merge o --out=p", "claims o"})
+    bench.expect_refusal(
+        command, "o/records.jsonl.gz:1: a line longer than 16 MiB (allowed: up to 16 MiB)\n");
+  const std::string part = packed(longest + "\n");
+  std::string bomb;
+  for (int member = 0; member < 64; ++member) bomb += part;
+  write(bomb);
+  EXPECT_LT(bomb.size(), 2u << 20);
+  std::string why;
+  try {
+    read_lines(bench.path("o/records.jsonl.gz"), [](const std::string&, const Line&) {});
+  } catch (const FileError& refused) {
+    why = refused.what();
+  }
+  EXPECT_TRUE(why.ends_with(": unpacks to more than 1 GiB (allowed: up to 1 GiB)")) << why;
+  LineSplitter lines("f", [](const std::string&, const Line&) {});
+  lines.add(std::string(1'000'000, '\n'));
+  EXPECT_THROW(lines.add("\n"), FileError);
+}
+
+TEST(Records, OfOneLineThatIsHalfWrittenAreNone) {
+  const BenchCommand bench;
+  std::filesystem::create_directories(bench.path("o"));
+  testing::write_text(bench.path("o/records.jsonl"), "{\"mesh\":\"Mes");
+  for (const char* command : {"export o --format=csv", "merge o --out=p", "claims o", "compare o o",
+                              "track --history=h --from=o"})
+    bench.expect_refusal(command,
+                         "o/records.jsonl: only the start of a record (of a run "
+                         "that was ended; --resume goes on)\n");
+}
+
 TEST(PackedRecords, AreReadByEveryCommandAndNotWrittenTo) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID,P2 --repetitions=2 --out=o").code, 0);

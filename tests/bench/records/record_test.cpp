@@ -8,7 +8,6 @@
 #include <set>
 
 #include "bench/records/csv.hpp"
-#include "bench/records/journal.hpp"
 #include "bench/records/record_reader.hpp"
 #include "bench/records/summary.hpp"
 #include "bench/run/progress.hpp"
@@ -69,7 +68,7 @@ Record filled() {
 }
 
 TEST(Record, CsvIsUnroundedQuotedAndEmptyWhereNothingApplies) {
-  const std::string text = csv_text({filled()});
+  const std::string text = csv_header() + csv_row(filled());
   const auto newline = text.find('\n');
   EXPECT_EQ(text.substr(0, 18), "mesh,scene,method,");
   const std::string row = text.substr(newline + 1);
@@ -153,7 +152,8 @@ TEST(Record, OfATextThatIsNoneIsRefusedInOneLine) {
 TEST(Record, OfEveryRunThatIsCommittedComesBack) {
   for (const char* run : {"paper", "error", "stability"}) {
     const std::filesystem::path file = records_file_in(testing::results_folder() / run);
-    std::vector<std::string> lines = journal_lines_of(text_of(file)).lines;
+    std::vector<std::string> lines;
+    read_lines(file, [&](const std::string& text, const Line&) { lines.push_back(text); });
     EXPECT_GT(lines.size(), 50u) << file;
     lines.resize(std::min<std::size_t>(lines.size(), 200));
     for (const std::string& line : lines) {
@@ -248,7 +248,9 @@ TEST(Terminal, TableNamesWhatWentWrong) {
   record.mesh = "Mesh0";
   record.status = Status::timeout;
   record.status_reason = "time limit reached during the contact sweeps";
-  const std::string table = results_table({record});
+  ResultsTable results;
+  results.add(record);
+  const std::string table = results.text();
   EXPECT_NE(table.find("Mesh0/default/3STEPD: timeout: time limit reached during"),
             std::string::npos);
 }

@@ -134,6 +134,27 @@ TEST(Resume, AfterAFullDisk) {
   for (const auto& [name, record] : first) EXPECT_EQ(whole.at(name), record);
 }
 
+// The new records are on disk before the old ones go.
+TEST(Rerun, WithoutSpaceForARecordLeavesTheEarlierRun) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(six + "--out=o").code, 0);
+  const auto files = [&] {
+    std::string all;
+    for (const char* name : {"records.jsonl", "results.csv", "results.json"})
+      all += bench.content(std::string("o/") + name);
+    return all;
+  };
+  const std::string before = files();
+  expect_refused(bench.run(six + "--out=o", "ulimit -f 2; "),
+                 "o/records.jsonl: cannot be written: File too large");
+  EXPECT_EQ(files(), before);
+  std::filesystem::create_directories(bench.path("more"));
+  testing::write_text(bench.path("more/records.jsonl"), bench.content("o/records.jsonl"));
+  expect_refused(bench.run("merge more --out=o", "ulimit -f 16; "),
+                 "cannot be written: File too large");
+  EXPECT_EQ(files(), before);
+}
+
 TEST(Resume, RefusesToMixAndSaysWhatDiffers) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run("--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o").code, 0);
@@ -244,7 +265,13 @@ TEST(Runs, OfDifferentPlansJoinInTheirOrder) {
   };
   refused("a b", "do not mix: ");
   refused("--runs a b a", "both are Mesh0/default/3STEPD");
-  refused("--runs --incomplete a b", "--incomplete");
+  // As of a run that has not ended.
+  const std::string lines = bench.content("a/records.jsonl");
+  std::filesystem::create_directories(bench.path("begun"));
+  testing::write_text(bench.path("begun/records.jsonl"), lines.substr(0, lines.find('\n') + 1));
+  refused("--runs b begun", "1 of 2 cases are missing: 2 (");
+  EXPECT_EQ(bench.run("merge --runs --incomplete b begun --out=some").code, 0);
+  EXPECT_EQ(bench.records("some").size(), 2u);
   ASSERT_EQ(bench.run(hybrid + "--target-error=1e-5 --out=c").code, 0);
   refused("--runs a c", "do not mix: target_error: 1e-06 and 1e-05");
 }

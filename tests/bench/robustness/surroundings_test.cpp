@@ -5,7 +5,8 @@
 
 #include <algorithm>
 
-#include "tests/support/bench_command.hpp"
+#include "support/terminal.hpp"
+#include "tests/support/other_user.hpp"
 #include "tests/support/sanitized.hpp"
 
 namespace airybench::surroundings_test {
@@ -24,8 +25,8 @@ int redirected(const BenchCommand& bench, const std::string& arguments, const st
   return WIFEXITED(status) && WEXITSTATUS(status) < 128 ? WEXITSTATUS(status) : -1;
 }
 
-class ClosedStreams : public ::testing::TestWithParam<const char*> {};
-TEST_P(ClosedStreams, AreNoRecordsFile) {
+class Closed : public ::testing::TestWithParam<const char*> {};
+TEST_P(Closed, AreNoRecordsFile) {
   const BenchCommand bench;
   EXPECT_EQ(redirected(bench, two, GetParam()), 0);
   const std::vector<Json> records = bench.records();
@@ -36,8 +37,21 @@ TEST_P(ClosedStreams, AreNoRecordsFile) {
   }
   EXPECT_EQ(bench.run(two + "--resume").code, 0) << "the folder can be read";
 }
-INSTANTIATE_TEST_SUITE_P(All, ClosedStreams,
+INSTANTIATE_TEST_SUITE_P(Streams, Closed,
                          ::testing::Values("2>&-", ">&-", ">&- 2>&-", "<&- >&- 2>&-", "<&-"));
+
+TEST(ClosedStreams, AreToldWhereTheResultGoes) {
+  const BenchCommand bench;
+  ASSERT_EQ(bench.run(two).code, 0);
+  for (const char* arguments :
+       {"export o --format=csv", "claims o", "compare o o", "--list", "--mesh=Mesh0 --dry-run"}) {
+    EXPECT_EQ(redirected(bench, arguments, ">&- 2>err.txt"), 2) << arguments;
+    EXPECT_EQ(bench.content("err.txt"),
+              "bench: standard output: is closed (allowed: an open one, or --out=FILE)\n")
+        << arguments;
+  }
+  EXPECT_EQ(redirected(bench, "export o --format=csv --out=o.csv", ">&-"), 0);
+}
 
 TEST(FullStreams, AreTold) {
   const BenchCommand bench;
@@ -84,50 +98,76 @@ TEST(AddressSpace, ThatIsTooSmallForBlasIsRefused) {
 }
 #endif
 
-// The program and a mesh where another user can start it: the build tree may be in a home that only
-// its owner enters.
-void copied_into(const std::filesystem::path& folder) {
-  const std::filesystem::path meshes = folder / "share" / "airybench" / "meshes";
-  std::filesystem::create_directories(meshes);
-  std::filesystem::create_directories(folder / "bin");
-  std::filesystem::copy(testing::bench_executable(), folder / "bin" / "bench");
-  std::filesystem::copy(testing::mesh_file("Mesh0"), meshes);
-  std::filesystem::permissions(folder, std::filesystem::perms::all);
+TEST(Limits, ThatNoCommandCanLiveWithAreTold) {
+  const BenchCommand bench;
+  for (const char* limit : {"ulimit -s 100; ", "ulimit -s 1023; "})
+    bench.expect_refusal(two, " KiB (ulimit -s; allowed: from 1024 KiB on)", limit);
+  bench.expect_refusal(two, " files can be opened (ulimit -n; allowed: from 24 on)",
+                       "ulimit -n 20; ");
+  EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
 }
 
-// The exit code of what a shell does in the test's folder, as another user than root.
-int as_user(const BenchCommand& bench, const std::string& shell) {
-  std::filesystem::permissions(bench.path(""), std::filesystem::perms::all);
-  const std::string user = geteuid() == 0 ? "setpriv --reuid=54321 --clear-groups " : "";
-  const std::string command = "cd '" + bench.path("").string() + "' && exec 9<bin/bench && " +
-                              "timeout -s KILL 60 " + user + "bash -c '" + shell +
-                              "' >out.txt 2>err.txt";
+TEST(Machine, WithoutProcIsNoDefectOfTheProgram) {
+  if (testing::sanitized || std::system("unshare -m true 2>/dev/null") != 0)
+    GTEST_SKIP() << "needs root, to take /proc away, and a program that sanitizers let do without";
+  const BenchCommand bench;
+  const std::string command =
+      "cd '" + bench.path("").string() + "' && unshare -m sh -c \"umount -l /proc && '" +
+      testing::bench_executable().string() + "' --list\" >out.txt 2>err.txt";
   const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_EQ(bench.content("err.txt"), "bench: /proc/self/exe: No such file or directory\n");
+}
+
+TEST(Terminal, ShowsWhatItWouldObey) {
+  EXPECT_EQ(escaped_for_terminal("Größe ≤ 5\t\n"), "Größe ≤ 5\t\n");
+  EXPECT_EQ(escaped_for_terminal("a\x1b[31mb\rc\x7f"), "a\\x1b[31mb\\x0dc\\x7f");
+  EXPECT_EQ(escaped_for_terminal("\u202Ehsm.\u2066\u200F\u061C\u0085"),
+            "\\u202ehsm.\\u2066\\u200f\\u061c\\u0085");
+  EXPECT_EQ(escaped_for_terminal("\xffx\xc3\xe2\x82"), "\\xffx\\xc3\\xe2\\x82");
+}
+
+// script is a terminal. The records keep the name.
+TEST(Terminal, IsGivenNoControlCharactersOfNames) {
+  const BenchCommand bench;
+  const std::string name = "M\u202Eod";
+  std::filesystem::copy(testing::mesh_file("Mesh0"), bench.path(name + ".msh"));
+  const std::string command = "cd '" + bench.path("").string() + "' && script -qec \"'" +
+                              testing::bench_executable().string() + "' --mesh='./" + name +
+                              ".msh' --method=HYBRID --repetitions=1 --out='o\x1b[31m'\" shown.txt "
+                              ">/dev/null </dev/null";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  std::string shown = bench.content("shown.txt");
+  shown.erase(0, shown.find('\n'));  // the command, which script wrote
+  EXPECT_NE(shown.find("[1/1] M\\u202eod/default/HYBRID: ok"), shown.npos) << shown;
+  EXPECT_NE(shown.find("results.json in o\\x1b[31m"), shown.npos) << shown;
+  EXPECT_EQ(shown.find('\x1b'), shown.npos);
+  EXPECT_EQ(shown.find("\u202E"), shown.npos);
+  EXPECT_EQ(bench.record("o\x1b[31m")["mesh"], name);
 }
 
 // OpenMP would end the case's process, and BLAS this one.
 TEST(Processes, ThatAreTooFewForTheThreadsAreRefused) {
   const BenchCommand bench;
-  copied_into(bench.path(""));
-  EXPECT_EQ(
-      as_user(bench, "ulimit -u 8; OPENBLAS_NUM_THREADS=1 exec bin/bench " + two + "--threads=6"),
-      2)
+  testing::copy_program_to(bench.path(""));
+  EXPECT_EQ(testing::run_as_user(
+                bench, "ulimit -u 8; OPENBLAS_NUM_THREADS=1 exec bin/bench " + two + "--threads=6"),
+            2)
       << bench.content("err.txt");
   EXPECT_NE(bench.content("err.txt").find("bench: --threads: 6 (allowed: fewer"), std::string::npos)
       << bench.content("err.txt");
   EXPECT_FALSE(std::filesystem::exists(bench.path("o")));
 }
 
-// Descriptor 9 is the program, which its user can start, but not look around.
 TEST(Processes, OfAProgramInAFolderThatOthersCannotEnterSayWhatIsMissing) {
   if (geteuid() != 0) GTEST_SKIP() << "needs root, to become another user";
   const BenchCommand bench;
-  copied_into(bench.path(""));
-  EXPECT_EQ(as_user(bench, "exec /proc/self/fd/9 " + two), 0) << bench.content("err.txt");
+  testing::copy_program_to(bench.path(""));
+  EXPECT_EQ(testing::run_as_user(bench, "exec /proc/self/fd/9 " + two), 0)
+      << bench.content("err.txt");
   std::filesystem::permissions(bench.path("bin"), std::filesystem::perms::owner_all);
   std::filesystem::permissions(bench.path("share"), std::filesystem::perms::owner_all);
-  EXPECT_EQ(as_user(bench, "exec /proc/self/fd/9 --list"), 2);
+  EXPECT_EQ(testing::run_as_user(bench, "exec /proc/self/fd/9 --list"), 2);
   EXPECT_EQ(bench.content("err.txt"),
             "bench: " + bench.path("share/airybench/meshes").string() +
                 ": the program's data cannot be read: Permission denied\n");

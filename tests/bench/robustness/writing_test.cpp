@@ -102,7 +102,7 @@ TEST(FolderLock, IsOneProcesssUntilItEnds) {
   fs::create_directories(bench.path("h"));
   const auto refused = [&](const std::string& arguments) {
     const std::string before = bench.content("a/records.jsonl");
-    bench.expect_refusal(arguments, ": in use by process " + std::to_string(getpid()) + " on ");
+    bench.expect_refusal(arguments, ": in use by process " + std::to_string(getpid()));
     EXPECT_EQ(bench.content("a/records.jsonl"), before);
   };
   ASSERT_EQ(bench.run(quick + "--out=part").code, 0);
@@ -118,9 +118,22 @@ TEST(FolderLock, IsOneProcesssUntilItEnds) {
   }
   EXPECT_EQ(bench.run(quick + "--out=a").code, 0);
   EXPECT_EQ(bench.run("track --history=h --from=part").code, 0);
-  EXPECT_FALSE(fs::exists(bench.path("a/.lock"))) << "nothing is left of it";
-  write_text(bench.path("a/.lock"), "process 1 on a machine that is no more");
-  EXPECT_EQ(bench.run(quick + "--out=a").code, 0) << "what a killed run left";
+  EXPECT_EQ(entries_of(bench.path("a")), 3u) << "nothing is left of it";
+}
+
+// Earlier versions wrote to a file .lock, and removed it.
+TEST(FolderLock, TouchesNoFile) {
+  const BenchCommand bench;
+  fs::create_directories(bench.path("a"));
+  fs::create_directories(bench.path("b"));
+  write_text(bench.path("mine"), "precious");
+  fs::create_hard_link(bench.path("mine"), bench.path("a/.lock"));
+  ASSERT_EQ(mkfifo(bench.path("b/.lock").c_str(), 0666), 0);
+  EXPECT_EQ(bench.run(quick + "--out=a").code, 0);
+  EXPECT_EQ(bench.run(quick + "--out=b").code, 0);
+  EXPECT_EQ(bench.content("mine"), "precious");
+  EXPECT_EQ(fs::hard_link_count(bench.path("mine")), 2u);
+  EXPECT_TRUE(fs::is_fifo(bench.path("b/.lock")));
 }
 
 TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
@@ -132,6 +145,20 @@ TEST(FolderLock, OfTwoRunsAtOnceTheSecondIsRefused) {
   first.end(SIGKILL);
   EXPECT_FALSE(bench.records().empty());
   EXPECT_EQ(bench.run(two + "--out=o").code, 0) << "a killed run holds nothing";
+}
+
+TEST(Leftovers, OfKilledRunsAreRemovedByTheNext) {
+  const BenchCommand bench;
+  fs::create_directories(bench.path("o/fields"));
+  const std::string number = "01234567890123456789";
+  for (const std::string& left : {"records.jsonl.part" + number, "fields/a.vtu.part" + number})
+    write_text(bench.path("o/" + left), "left");
+  for (const std::string& mine : {std::string("a.part1"), "b.part" + number + "x", "c" + number})
+    write_text(bench.path("o/" + mine), "mine");
+  fs::create_symlink("a.part1", bench.path("o/d.part" + number));
+  ASSERT_EQ(bench.run(quick + "--out=o").code, 0);
+  EXPECT_EQ(entries_of(bench.path("o")), 3u + 4u + 1u);
+  EXPECT_EQ(entries_of(bench.path("o/fields")), 0u);
 }
 
 TEST(Records, DeletedDuringARunAreMissed) {

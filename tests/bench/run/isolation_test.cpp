@@ -61,7 +61,7 @@ class Isolation : public ::testing::Test {
     return run_between(std::vector<Method>{method}).front();
   }
   std::vector<Record> run(const std::vector<Method>& methods) {
-    return run_cases(plan_cases({posed_}, methods), options_, {}).records;
+    return run_cases(plan_cases({posed_}, methods), options_, {}).records();
   }
 
   Isolation() {
@@ -222,7 +222,7 @@ class IsolationAtSize : public Isolation {
   // Of the large body; the small one is solved after it.
   Record run_large(const Method& method) {
     const std::vector<Record> records =
-        run_cases(plan_cases({large_, posed_}, {method}), options_, {}).records;
+        run_cases(plan_cases({large_, posed_}, {method}), options_, {}).records();
     EXPECT_EQ(records.size(), 2u);
     EXPECT_EQ(records.back().status, Status::ok) << records.back().status_reason;
     EXPECT_GT(records.front().n_phi, testing::sanitized ? 12'000 : 50'000);

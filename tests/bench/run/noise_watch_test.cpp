@@ -131,12 +131,17 @@ TEST(NoiseWatch, SaysHowManyPassedBeforeItWasQuiet) {
     r.noise_quiet_s = 1;
     r.noise_kernel_samples_s = {1, 1, 1};
   }
-  EXPECT_EQ(accepted_too_early(records), 0);
+  const auto count = [&] {
+    EarlyPasses early;
+    for (const Record& r : records) early.add(r);
+    return early.count();
+  };
+  EXPECT_EQ(count(), 0);
   records[0].noise_quiet_s = 2;
   records[0].noise_kernel_samples_s = {2, 2, 2};
-  EXPECT_EQ(accepted_too_early(records), 1);
+  EXPECT_EQ(count(), 1);
   records[0].noisy = true;  // was said already
-  EXPECT_EQ(accepted_too_early(records), 0);
+  EXPECT_EQ(count(), 0);
 }
 
 // Whole runs, each case in its process.
@@ -144,7 +149,7 @@ class RetryNoisy : public ::testing::Test {
  protected:
   std::vector<Record> run(const char* names = "HYBRID,P2") {
     return run_cases(plan_cases({posed_}, select_methods(names)), options_, {}, made_up_.machine())
-        .records;
+        .records();
   }
   RetryNoisy() {
     options_.out = folder_ / "o";
@@ -234,7 +239,7 @@ TEST_F(RetryNoisy, RecordsAFailureInALaterAttempt) {
   };
   made_up_.then(6, 2);
   const auto records =
-      run_cases(plan_cases({posed_}, {method}), options_, {}, made_up_.machine()).records;
+      run_cases(plan_cases({posed_}, {method}), options_, {}, made_up_.machine()).records();
   EXPECT_EQ(records.front().status, Status::crashed);
   EXPECT_EQ(records.front().status_reason, "in a timed run: no such luck");
   EXPECT_TRUE(records.front().samples_s.empty());
