@@ -61,18 +61,30 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
 
 @contextmanager
 def locked_parts(folder: Path) -> Iterator[Path]:
-    """A folder for unfinished files. `folder` is locked, so what is there already is a killed run's."""
-    descriptor, parts = os.open(folder, os.O_RDONLY), folder / PARTS
+    """A folder for unfinished files, locked, so what is in it already is a killed run's."""
+    parts = folder / PARTS
+    os.stat(folder)  # or the message would name the parts
+    descriptor = locked(parts)
     try:
-        with suppress(OSError):  # not every file system locks folders
-            fcntl.flock(descriptor, fcntl.LOCK_EX)
-        shutil.rmtree(parts, ignore_errors=True)
-        parts.mkdir()
+        for left in parts.iterdir():
+            left.unlink()
         yield parts
-        os.fsync(descriptor)
     finally:
         shutil.rmtree(parts, ignore_errors=True)
         os.close(descriptor)
+    synchronise(folder)
+
+
+def locked(folder: Path) -> int:
+    while True:
+        folder.mkdir(exist_ok=True)
+        with suppress(FileNotFoundError):  # its last owner removes it
+            descriptor = os.open(folder, os.O_RDONLY)
+            with suppress(OSError):  # not every file system locks folders
+                fcntl.flock(descriptor, fcntl.LOCK_EX)
+            if folder.exists() and os.path.samestat(folder.stat(), os.fstat(descriptor)):
+                return descriptor
+            os.close(descriptor)
 
 
 def text_writer(text: str) -> Callable[[Path], object]:

@@ -29,8 +29,12 @@ fs::path parent_of_all() {
 
 // -1: it is no folder, or somebody else's.
 int open_folder(int parent, const char* name) {
-  fchmodat(parent, name, S_IRWXU, AT_SYMLINK_NOFOLLOW);
   return openat(parent, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+int open_to_remove(int parent, const char* name) {
+  fchmodat(parent, name, S_IRWXU, AT_SYMLINK_NOFOLLOW);
+  return open_folder(parent, name);
 }
 
 bool lock(int folder) { return flock(folder, LOCK_EX | LOCK_NB) == 0; }
@@ -51,13 +55,13 @@ void for_each_entry(int folder, const Visit& visit) {
 // What is in a folder of `top` and cannot be removed yet moves to `top`: the depth of folders takes
 // neither stack nor descriptors nor long paths.
 void remove_folder(int parent, const char* folder) {
-  const int top = open_folder(parent, folder);
+  const int top = open_to_remove(parent, folder);
   int moved = 0;
   for (bool removes = top >= 0; removes;) {
     removes = false;
     for_each_entry(top, [&](const char* name) {
       if (!remove_entry(top, name)) {
-        const int inner = open_folder(top, name);
+        const int inner = open_to_remove(top, name);
         if (inner < 0) return;
         for_each_entry(inner, [&](const char* entry) {
           if (remove_entry(inner, entry)) return;
@@ -85,7 +89,8 @@ void remove_abandoned_folders() {
     if (!std::string_view(name).starts_with(prefix) ||
         fstatat(parent, name, &found, AT_SYMLINK_NOFOLLOW) != 0 || found.st_uid != geteuid())
       return;
-    const int folder = open_folder(parent, name);
+    int folder = open_folder(parent, name);  // which may be in use: its permissions stay
+    if (folder < 0 && errno == EACCES) folder = open_to_remove(parent, name);
     if (folder < 0) return;
     if (lock(folder)) remove_folder(parent, name);
     close(folder);

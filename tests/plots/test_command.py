@@ -56,7 +56,7 @@ class FilesTest(FolderTest):
 
     def test_two_runs_do_not_meet_in_a_folder(self) -> None:
         def write(path: Path) -> None:
-            other = os.open(self.figures, os.O_RDONLY)
+            other = os.open(path.parent, os.O_RDONLY)
             self.addCleanup(os.close, other)
             with self.assertRaises(BlockingIOError):
                 fcntl.flock(other, fcntl.LOCK_EX | fcntl.LOCK_NB)

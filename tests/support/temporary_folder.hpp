@@ -13,7 +13,9 @@
 namespace airybench::testing {
 
 struct TemporaryFolder : airybench::TemporaryFolder {
-  TemporaryFolder() {}  // user-provided: Clang wants it for a const member
+  TemporaryFolder() {  // other users may enter
+    std::filesystem::permissions(path(), std::filesystem::perms{0755});
+  }
   std::filesystem::path operator/(const std::string& name) const { return path() / name; }
 };
 

@@ -280,7 +280,7 @@ TEST_F(SceneFile, ComplaintsNameKeyValueAndWhatIsAllowed) {
       "roles: 3: \"held\" (allowed: displacement, force, contact, or one of these with a name: "
       "force:top)");
   EXPECT_EQ(complaint(R"({"length_unit": "cm"})"),
-            "length_unit: \"cm\" (allowed: \"mm\", \"m\" or \"inch\", of a model's lengths)");
+            "length_unit: \"cm\" (allowed: mm, m, inch, of a model's lengths)");
   EXPECT_EQ(complaint(R"({"friction": "0.2"})"), "friction: \"0.2\" (allowed: a number)");
   EXPECT_EQ(complaint(R"({"friction": -1})"), "friction: -1 (allowed: >= 0)");
   EXPECT_EQ(complaint(R"({"poisson": 0.5})"),
@@ -313,7 +313,7 @@ TEST_F(SceneFile, HowAMeshIsMadeOfAModel) {
   using Texts = std::vector<std::string>;
   EXPECT_EQ(settings("{}"), Texts{});
   EXPECT_EQ(settings(R"({"roles": {"1-4": "force:side", "a=b": "contact"}, "length_unit": "m"})"),
-            (Texts{"--length-unit=m", "--role=1-4=force:side", "--role=a=b=contact"}));
+            (Texts{"--role=1-4=force:side", "--role=a=b=contact", "--length-unit=m"}));
   EXPECT_EQ(settings(R"({"length_unit": "mm"})"), Texts{});
 }
 

@@ -153,7 +153,8 @@ TEST(Study, AFilesComplaintNamesKeyValueAndWhatIsAllowed) {
     return what.substr(file.string().size() + 2);
   };
   EXPECT_EQ(complaint(R"({"about": "a", "methods": "P2"})"),
-            "methods: unknown key (allowed: about, points, method, options, scenes, once, "
+            "methods: unknown key, perhaps method (allowed: about, points, method, options, "
+            "scenes, once, "
             "condition, bounds)");
   EXPECT_EQ(complaint("{}"), "about: is missing (allowed: a text)");
   EXPECT_EQ(complaint(R"({"about": "a", "points": "all"})"),
@@ -250,10 +251,10 @@ Record point_record(const std::string& study, std::optional<double> tolerance) {
 }
 
 TEST(Study, RecordsReplaceTheirOwnKindOnlyAndClaimsPassThemOver) {
-  const testing::TemporaryFolder folder;
-  const std::filesystem::path file = folder.path() / "records.jsonl";
+  const testing::TemporaryFolder scratch;
+  const std::filesystem::path folder = scratch / "o", file = folder / "records.jsonl";
   const auto append = [&](const Record& record) {
-    RecordFiles(folder.path(), {}, Keep::others).append(record);
+    RecordFiles(folder, {}, Keep::others).append(record);
   };
   const auto count_lines = [&] {
     std::ifstream in(file);
