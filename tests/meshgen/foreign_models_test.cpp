@@ -198,9 +198,9 @@ TEST(ForeignModel, WhatCannotBeReadIsTold) {
            {"trapezium.med", "", "Gmsh 4.", " is built without MED here (allowed: "},
            {"options.geo.opt", "", "no model " + readable}}) {
     const std::filesystem::path path = model(file);
-    const std::string what = testing::complaint_of<MeshError>([&] {
-      convert_model(path, model_options_of(role.empty() ? Texts{} : Texts{role}, {}, ""));
-    });
+    const ModelOptions options = model_options_of(role.empty() ? Texts{} : Texts{role}, {}, "");
+    const std::string what =
+        testing::complaint_of<MeshError>([&] { convert_model(path, options); });
     EXPECT_TRUE(what.starts_with(path.string() + ": " + begin)) << what;
     EXPECT_NE(what.find(part), std::string::npos) << what;
   }
