@@ -73,10 +73,10 @@ ssize_t write_escaped(void* cookie, const char* bytes, std::size_t size) {
   return errno == 0 ? static_cast<ssize_t>(size) : 0;
 }
 
-void escape(std::FILE*& stream, int descriptor, int buffering, std::ostream& same) {
-  if (isatty(descriptor) == 0) return;
+void escape(std::FILE*& stream, Terminal* terminal, int buffering, std::ostream& same) {
+  if (isatty(terminal->descriptor) == 0) return;
   std::FILE* const escaping =
-      fopencookie(new Terminal{descriptor, ""}, "w", {nullptr, write_escaped, nullptr, nullptr});
+      fopencookie(terminal, "w", {nullptr, write_escaped, nullptr, nullptr});
   if (escaping == nullptr) return;
   setvbuf(escaping, nullptr, buffering, BUFSIZ);
   stream = escaping;
@@ -103,8 +103,11 @@ std::string escaped_for_terminal(std::string_view text) {
 }
 
 void escape_on_terminals() {
-  escape(stdout, STDOUT_FILENO, _IOLBF, std::cout);
-  escape(stderr, STDERR_FILENO, _IONBF, std::cerr);
+  // Never destroyed, because the C library flushes after the last destructor.
+  static Terminal* const out = new Terminal{STDOUT_FILENO, ""};
+  static Terminal* const err = new Terminal{STDERR_FILENO, ""};
+  escape(stdout, out, _IOLBF, std::cout);
+  escape(stderr, err, _IONBF, std::cerr);
 }
 
 }  // namespace airybench
