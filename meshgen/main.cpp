@@ -234,7 +234,7 @@ int parse_and_run(int argc, char** argv) {
     return airybench::complain(fmt::format("{} (valid: {})", error.what(), valid_options(app)),
                                airybench::exit_usage);
   }
-  return airybench::complained([&] { return run(app, arguments); });
+  return run(app, arguments);
 }
 
 }  // namespace
@@ -242,5 +242,6 @@ int parse_and_run(int argc, char** argv) {
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
   airybench::escape_on_terminals();
-  return airybench::checked_exit_code(parse_and_run(argc, argv), "meshgen");
+  return airybench::checked_exit_code(
+      airybench::complained([&] { return parse_and_run(argc, argv); }), "meshgen");
 }
