@@ -129,7 +129,6 @@ bool Channel::send(const std::string& line) {
   const std::string text = line + "\n";
   for (std::size_t sent = 0; sent < text.size() && error_ == 0;) {
     const ssize_t n = ::send(socket_, text.data() + sent, text.size() - sent, MSG_NOSIGNAL);
-    if (n < 0 && is_closed(errno)) return false;
     if (n < 0 && errno != EINTR) error_ = errno;
     if (n > 0) sent += static_cast<std::size_t>(n);
   }
@@ -149,9 +148,8 @@ std::optional<std::string> Channel::receive(const std::function<bool()>& give_up
     if (events <= 0) continue;  // a tick, or a signal
     std::array<char, 65536> buffer;
     const ssize_t n = recv(socket_, buffer.data(), buffer.size(), 0);
-    if (n < 0 && errno == EINTR) continue;
-    if (n == 0 || (n < 0 && is_closed(errno))) return {};
-    if (n < 0) error_ = errno;
+    if (n == 0) return {};
+    if (n < 0 && errno != EINTR) error_ = errno;
     if (n > 0) received_.append(buffer.data(), static_cast<std::size_t>(n));
   }
   return {};
@@ -222,8 +220,11 @@ std::optional<std::string> ChildProcess::ask(const std::string& line, const Give
   };
   std::optional<std::string> answer;
   if (channel_->send(line)) answer = channel_->receive(gives_up);
+  if (answer) return answer;
   end_.channel_error = channel_->error();
-  if (!answer) finish(end_.timed_out || end_.stopped || end_.channel_error != 0 ? 0 : 2000);
+  const bool may_have_ended = end_.channel_error == 0 || is_closed(end_.channel_error);
+  finish(end_.timed_out || end_.stopped || !may_have_ended ? 0 : 2000);
+  if (may_have_ended && !end_.lingered) end_.channel_error = 0;  // its end closed the line
   return answer;
 }
 

@@ -50,7 +50,7 @@ class Channel {
   bool send(const std::string& line);
   // Also empty if give_up(), asked ten times a second, returns true.
   std::optional<std::string> receive(const std::function<bool()>& give_up = {});
-  int error() const { return error_; }  // errno of a failed call, not of a closed end
+  int error() const { return error_; }  // errno of a failed call
 
  private:
   int socket_, error_ = 0;

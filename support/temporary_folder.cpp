@@ -109,6 +109,7 @@ TemporaryFolder::TemporaryFolder() {
     if (mkdtemp(name.data()) == nullptr) fail();
     path_ = name;
     lock_ = open(name.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (lock_ < 0 && errno == ENOENT) continue;  // another run has removed it
     if (lock_ < 0) {
       const int why = errno;
       rmdir(name.c_str());
@@ -118,7 +119,7 @@ TemporaryFolder::TemporaryFolder() {
     // Without locks (some network file systems) nobody takes it for abandoned.
     const bool is_ours = lock(lock_) || errno != EWOULDBLOCK;
     if (is_ours && is_open_as(lock_, path_)) return;
-    close(lock_);  // another run removes it
+    close(lock_);  // another run is removing it
   }
 }
 
