@@ -71,6 +71,7 @@ void check_takes_records(const fs::path& folder) {
 
 void write_records(const fs::path& folder, const std::vector<RecordLine>& lines) {
   const FolderLock lock(folder_for_records(folder));
+  remove_leftovers(folder);
   NewFile records(folder / "records.jsonl");
   Summaries summaries(folder);
   for (const RecordLine& line : lines) {

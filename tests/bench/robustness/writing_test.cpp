@@ -159,6 +159,10 @@ TEST(Leftovers, OfKilledRunsAreRemovedByTheNext) {
   ASSERT_EQ(bench.run(quick + "--out=o").code, 0);
   EXPECT_EQ(entries_of(bench.path("o")), 3u + 4u + 1u);
   EXPECT_EQ(entries_of(bench.path("o/fields")), 0u);
+  fs::create_directories(bench.path("merged"));
+  write_text(bench.path("merged/results.csv.part" + number), "left");
+  ASSERT_EQ(bench.run("merge o --out=merged").code, 0);
+  EXPECT_EQ(entries_of(bench.path("merged")), 3u);
 }
 
 TEST(Records, DeletedDuringARunAreMissed) {
