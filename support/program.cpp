@@ -121,16 +121,13 @@ class Guardian {
     sigprocmask(SIG_BLOCK, &all, &before);
     std::signal(SIGCHLD, SIG_DFL);
     std::array<int, 2> until_executed;  // its writing end is closed by execvp()
-    if (pipe2(until_executed.data(), O_CLOEXEC) != 0) {
-      end_.start_error = errno;
-      return;
-    }
     const auto begun = std::chrono::steady_clock::now();
-    program_pid_ = start(WhenParentEnds::end, [&] {
-      become(program_, limits_, before);
-      end_.start_error = errno;
-      _exit(127);
-    });
+    if (pipe2(until_executed.data(), O_CLOEXEC) == 0)
+      program_pid_ = start(WhenParentEnds::end, [&] {
+        become(program_, limits_, before);
+        end_.start_error = errno;
+        _exit(127);
+      });
     if (program_pid_ < 0) {
       end_.start_error = errno;
       return;

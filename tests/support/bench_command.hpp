@@ -52,6 +52,12 @@ class BenchCommand {
   }
   std::filesystem::path path(const std::string& name) const { return folder_ / name; }
   std::string content(const std::string& name) const { return text_of(folder_ / name); }
+  std::string results(const std::string& folder) const {  // records and both summaries
+    std::string all;
+    for (const char* name : {"/records.jsonl", "/results.csv", "/results.json"})
+      all += content(folder + name);
+    return all;
+  }
   // Of a folder that has one.
   Json record(const std::string& folder = "o") const {
     const std::vector<Json> all = records(folder);

@@ -138,21 +138,15 @@ TEST(Resume, AfterAFullDisk) {
 TEST(Rerun, WithoutSpaceForARecordLeavesTheEarlierRun) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(six + "--out=o").code, 0);
-  const auto files = [&] {
-    std::string all;
-    for (const char* name : {"records.jsonl", "results.csv", "results.json"})
-      all += bench.content(std::string("o/") + name);
-    return all;
-  };
-  const std::string before = files();
+  const std::string before = bench.results("o");
   expect_refused(bench.run(six + "--out=o", "ulimit -f 2; "),
                  "o/records.jsonl: cannot be written: File too large");
-  EXPECT_EQ(files(), before);
+  EXPECT_EQ(bench.results("o"), before);
   std::filesystem::create_directories(bench.path("more"));
   testing::write_text(bench.path("more/records.jsonl"), bench.content("o/records.jsonl"));
   expect_refused(bench.run("merge more --out=o", "ulimit -f 16; "),
                  "cannot be written: File too large");
-  EXPECT_EQ(files(), before);
+  EXPECT_EQ(bench.results("o"), before);
 }
 
 TEST(Resume, RefusesToMixAndSaysWhatDiffers) {

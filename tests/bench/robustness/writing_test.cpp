@@ -188,13 +188,7 @@ TEST(Merge, ValidatesAllBeforeItWrites) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run(two + "--out=whole").code, 0);
   ASSERT_EQ(bench.run(two + "--out=bad").code, 0);
-  const auto files = [&] {
-    std::string all;
-    for (const char* name : {"records.jsonl", "results.csv", "results.json"})
-      all += bench.content(std::string("whole/") + name);
-    return all;
-  };
-  const std::string before = files();
+  const std::string before = bench.results("whole");
   for (const auto& [key, value] : {std::pair<const char*, Json>("status", ""),
                                    {"grid", Json::array({Json::object()})},
                                    {"memory_by_owner", 3},
@@ -208,7 +202,7 @@ TEST(Merge, ValidatesAllBeforeItWrites) {
                records[0].dump() + "\n" + records[1].dump() + "\n");
     bench.expect_refusal("merge bad --out=whole",
                          std::string("bad/records.jsonl:2: ") + key + ": ");
-    EXPECT_EQ(files(), before) << key;
+    EXPECT_EQ(bench.results("whole"), before) << key;
   }
 }
 
