@@ -88,8 +88,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
-  airybench::escape_on_terminals();
   airybench::end_for_lack_of_memory_with("bench: out of memory\n", airybench::did_not_finish);
+  airybench::escape_on_terminals();
   for (const std::string& lack :
        {airybench::lack_of_stack_or_descriptors(), airybench::lack_of_address_space(1)})
     if (!lack.empty())

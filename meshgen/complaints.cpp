@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <iostream>
+#include <new>
 #include <stdexcept>
 
 namespace airybench {
@@ -19,6 +20,8 @@ int complained(const std::function<int()>& act) {
     return act();
   } catch (const std::invalid_argument& error) {
     return complain(error.what(), exit_usage);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory", exit_failure);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return exit_usage;  // which fmt throws for
     return complain(error.what(), exit_failure);

@@ -241,7 +241,9 @@ int parse_and_run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   airybench::open_standard_streams();
-  airybench::escape_on_terminals();
-  return airybench::checked_exit_code(
-      airybench::complained([&] { return parse_and_run(argc, argv); }), "meshgen");
+  const auto whole_run = [&] {
+    airybench::escape_on_terminals();
+    return parse_and_run(argc, argv);
+  };
+  return airybench::checked_exit_code(airybench::complained(whole_run), "meshgen");
 }

@@ -114,6 +114,7 @@ TEST(NthRead, ThatFailsIsNoDefectOfTheProgram) {
 TEST(NthAllocation, IsSurvivedAndResumed) {
   const char* const asked = std::getenv("AIRYBENCH_ALLOCATION_STRIDE");
   const int stride = asked == nullptr ? 127 : std::atoi(asked);
+  constexpr int first_ones = 10;  // main() is not yet ready for everything
   const std::string one = "--mesh=./m.msh --method=HYBRID --repetitions=1 --out=o ";
   const auto place_mesh = [](const BenchCommand& bench) {
     fs::copy_file(testing::test_data("fuzz/mesh/good-groups"), bench.path("m.msh"));
@@ -124,7 +125,7 @@ TEST(NthAllocation, IsSurvivedAndResumed) {
   const auto records = lasting(undisturbed);
   int failures = 0, without_memory = 0;
   bool failed = true;
-  for (int n = 1; failed; n += stride) {
+  for (int n = 1; failed; n += n < first_ones ? 1 : stride) {
     const BenchCommand bench;
     place_mesh(bench);
     SCOPED_TRACE("allocation " + std::to_string(n));
@@ -133,11 +134,14 @@ TEST(NthAllocation, IsSurvivedAndResumed) {
     failures += failed;
     EXPECT_GE(result.code, 0) << "ended by a signal: " << result.err;
     EXPECT_LE(result.code, 3) << result.err;
-    if (fs::exists(bench.path("o"))) {
+    // The JSON library allocates in destructors, where a refusal ends the run without any others.
+    const bool is_ended_at_once = result.code == 3;
+    if (fs::exists(bench.path("o")) && !is_ended_at_once) {
       EXPECT_EQ(strangers(bench), "");
     }
     const CommandResult resumed = bench.run(one + "--resume");
     ASSERT_LE(resumed.code, 1) << resumed.err;
+    EXPECT_EQ(strangers(bench), "");
     if (resumed.code == 0) {
       EXPECT_EQ(lasting(bench), records);
       continue;
