@@ -13,7 +13,7 @@
 #include "meshgen/in_a_child.hpp"
 #include "meshgen/last_words.hpp"
 #include "meshgen/mesh_cache.hpp"
-#include "meshgen/roles.hpp"
+#include "meshgen/shown_model.hpp"
 #include "meshgen/tooth_mesh.hpp"
 #include "support/atomic_file.hpp"
 #include "support/data_folder.hpp"

@@ -14,6 +14,7 @@
 #include "meshgen/gmsh_mesher.hpp"
 #include "meshgen/open_model.hpp"
 #include "meshgen/roles.hpp"
+#include "meshgen/shown_model.hpp"
 
 namespace airybench {
 namespace {
@@ -163,18 +164,19 @@ std::string about_version(const std::string& message, const std::filesystem::pat
 
 PlaneModel read_model(const std::filesystem::path& file, const ModelOptions& options,
                       const AboutToMesh& about_to_mesh, std::vector<std::string>& notes) {
+  const std::string place = file.string() + ": ";
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error))
-    throw MeshError(file.string() + ": no such file");
+  if (!std::filesystem::is_regular_file(file, error)) throw MeshError(place + "no such file");
   try {
     return open_and_read(file, options, about_to_mesh, notes);
   } catch (const InputError& complaint) {
-    throw MeshError(file.string() + ": " + complaint.what());
+    const std::string why = complaint.what();  // reading the file itself: names it
+    throw MeshError(why.starts_with(place) ? why : place + why);
   } catch (...) {
     const std::string message = message_of_gmsh();
     const bool starts_program = message.find("aborting system call") != message.npos;
     throw MeshError(
-        file.string() + ": Gmsh: " + message +
+        place + "Gmsh: " + message +
         (starts_program ? " (a model may start no programs)" : about_version(message, file)));
   }
 }

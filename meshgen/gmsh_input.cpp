@@ -1,38 +1,20 @@
 #include "meshgen/gmsh_input.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
-#include <array>
-#include <memory>
 #include <sstream>
 #include <string>
 
 #include "mesh/model_format.hpp"
 #include "meshgen/abaqus.hpp"
+#include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
+#include "support/gzip.hpp"
 
 namespace airybench {
 namespace {
-
-std::string unpacked(const std::filesystem::path& file) {
-  constexpr std::size_t most = std::size_t{1} << 30;
-  const std::unique_ptr<gzFile_s, int (*)(gzFile)> packed(gzopen(file.c_str(), "rb"), gzclose);
-  if (!packed) throw InputError("cannot be opened");
-  std::string text;
-  std::array<char, 1 << 16> part;
-  int n = 0;
-  while ((n = gzread(packed.get(), part.data(), part.size())) > 0) {
-    text.append(part.data(), static_cast<std::size_t>(n));
-    if (text.size() > most) throw InputError("unpacked it is larger than 1 GiB");
-  }
-  int error = Z_OK;
-  const std::string why = gzerror(packed.get(), &error);
-  if (n < 0 || error != Z_OK) throw InputError("not a whole gzip file: " + why);
-  return text;
-}
 
 // Gmsh knows a mesh by its first line, before which there may be comments.
 std::size_t begin_of_mesh(const std::string& text) {
@@ -76,7 +58,7 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
   const std::filesystem::path place = folder_.path() / model_name(model);
   if (is_gzipped(model)) {
     file_ = folder_.path() / model.stem();
-    write_file_atomically(file_, unpacked(model));
+    write_file_atomically(file_, unpacked_text(model));
   }
   if (format == ModelFormat::abaqus) {
     const std::string text = file_text(file_);

@@ -14,11 +14,4 @@ namespace airybench {
 // left on the boundary is free, "force"; a note lists it. Throws InputError.
 void give_roles(PlaneModel& model, const ModelOptions& options, std::vector<std::string>& notes);
 
-// The curves on the boundary: number, names, role, length, ends, middle. Lines are indented.
-std::string table_of(const PlaneModel& model);
-
-// {"model", "bodies": [name], "vertices_mm": [[x, y]], "triangles": [[vertex, vertex, vertex]],
-//  "curves": [{"number", "names", "role", "walks_mm": [[[x, y]]]}]}, those on the boundary.
-std::string json_of(const PlaneModel& model, const std::string& name);
-
 }  // namespace airybench

@@ -41,7 +41,4 @@ enum class Studies { leave_out, include };
 std::vector<Record> read_records(const std::filesystem::path& file,
                                  Studies studies = Studies::leave_out);
 
-// Unpacks a .gz (RFC 1952) with one or several members. Throws FileError "file: why".
-std::string unpacked(const std::string& bytes, const std::string& file);
-
 }  // namespace airybench

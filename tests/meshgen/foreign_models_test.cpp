@@ -8,6 +8,7 @@
 #include "tests/support/complaint.hpp"
 #include "tests/support/mesh_checks.hpp"
 #include "tests/support/places.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace airybench::foreign_models_test {
 namespace {
@@ -159,6 +160,18 @@ TEST(ForeignModel, FileOfOptionsNextToAModelIsObeyed) {
     return convert_model(model(file), model_options_of(by_numbers, {}, "")).mesh.vertices.size();
   };
   EXPECT_GT(vertices("options.geo"), 2 * vertices("numbers.geo"));
+}
+
+TEST(ForeignModel, ACutOrDamagedGzipIsRefused) {
+  const testing::TemporaryFolder folder;
+  const std::string whole = testing::text_of(model("trapezium.msh.gz"));
+  for (const auto& [bytes, why] : std::map<std::string, std::string>{
+           {whole.substr(0, whole.size() / 2), "ends before what gzip has packed does"},
+           {whole + "more", "is not of gzip, or damaged"}}) {
+    const std::filesystem::path file = testing::write_text(folder / "m.msh.gz", bytes);
+    EXPECT_EQ(testing::complaint_of<MeshError>([&] { convert_model(file); }),
+              file.string() + ": " + why);
+  }
 }
 
 TEST(ForeignModel, SizesAreInMillimetresWhateverTheUnit) {

@@ -3,6 +3,7 @@
 
 #include "bench/records/record_reader.hpp"
 #include "support/errors.hpp"
+#include "support/gzip.hpp"
 #include "tests/support/bench_command.hpp"
 
 namespace airybench::packed_records_test {
@@ -19,27 +20,33 @@ std::string packed(const std::string& text) {
   return testing::text_of(folder / "text.gz");
 }
 
+std::string unpacked(const std::string& bytes) {
+  const TemporaryFolder folder;
+  testing::write_text(folder / "f", bytes);
+  return unpacked_text(folder / "f");
+}
+
 TEST(Gzip, UnpacksMembersOneAfterAnother) {
   std::string large;
   for (int line = 0; line < 20000; ++line) large += std::to_string(line * line) + "\n";
-  EXPECT_EQ(unpacked(packed(large), "f"), large);
-  EXPECT_EQ(unpacked(packed(""), "f"), "");
-  EXPECT_EQ(unpacked(packed("one\n") + packed("two\n"), "f"), "one\ntwo\n");
+  EXPECT_EQ(unpacked(packed(large)), large);
+  EXPECT_EQ(unpacked(packed("")), "");
+  EXPECT_EQ(unpacked(packed("one\n") + packed("two\n")), "one\ntwo\n");
 }
 
 TEST(Gzip, RefusesWhatIsCutOrDamaged) {
   const std::string text = "one\ntwo\nthree\n", whole = packed(text);
   for (std::size_t length = 0; length < whole.size(); ++length)
-    EXPECT_THROW(unpacked(whole.substr(0, length), "f"), FileError) << length;
+    EXPECT_THROW(unpacked(whole.substr(0, length)), FileError) << length;
   int refused = 0;
   for (std::size_t at = 0; at < whole.size(); ++at)
     for (int bit = 0; bit < 8; ++bit) {
       std::string changed = whole;
       changed[at] = static_cast<char>(changed[at] ^ 1 << bit);
       try {
-        EXPECT_EQ(unpacked(changed, "f"), text) << at;  // time or system in the header
+        EXPECT_EQ(unpacked(changed), text) << at;  // time or system in the header
       } catch (const FileError& why) {
-        EXPECT_EQ(std::string(why.what()).substr(0, 3), "f: ");
+        EXPECT_NE(std::string(why.what()).find("/f: "), std::string::npos);
         ++refused;
       }
     }

@@ -13,6 +13,7 @@
 #include "bench/run/progress.hpp"
 #include "support/atomic_file.hpp"
 #include "support/file_text.hpp"
+#include "support/gzip.hpp"
 #include "support/text_table.hpp"
 #include "tests/support/places.hpp"
 
@@ -113,7 +114,7 @@ TEST(Record, ComesBackFromJson) {
 }
 
 std::string text_of(const std::filesystem::path& file) {
-  return file.extension() == ".gz" ? unpacked(file_text(file), file) : file_text(file);
+  return file.extension() == ".gz" ? unpacked_text(file) : file_text(file);
 }
 
 TEST(Record, OfATextIsThatOfItsJson) {
