@@ -43,7 +43,7 @@ BODY = 5.0  # highest body in its own picture
 HEADING = (
     r"Largest shear stress in the plane, "
     r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
-    "stresses linear\non each third of a triangle, nothing averaged. Below or beside each body its contact "
+    "stresses linear\non each third of a triangle, nothing averaged. Below or next to each body its contact "
     "faces, enlarged\nand laid out straight: elements, contact points (two per edge) or a band of their "
     "states, contact pressure.\nScene and method: ")
 # Pictures of the error: inches, of a map and of levels of a loop.

@@ -142,12 +142,12 @@ def noise(rows: list[Row]) -> Iterator[str]:
     if samples:
         middle = np.median(samples)
         spread = np.median(np.abs(samples - middle)) / middle
-        yield ("A fixed loop, timed beside every case, scattered by "
+        yield ("A fixed loop, timed before and after every case, scattered by "
                f"{percent(spread)} (median absolute deviation over median of {len(samples)} times).")
     for share in sorted({row.retry_noisy for row in rows if row.retry_noisy}):
         own = [row for row in rows if row.retry_noisy == share and row.noise_attempts]
         again = sum(row.noise_attempts > 1 for row in own)
-        yield (f"A case beside which that loop was slower or scattered by more than {percent(share)} was "
+        yield (f"A case around which that loop was slower or scattered by more than {percent(share)} was "
                f"measured again, up to three times: {again} of {len(own)} were, and "
                f"{sum(row.noisy for row in own)} never had a quiet attempt.")
     told = (NOT_NEGATIVE.of_text(context_of(row)["load_1min_at_start"]) for row in rows)
@@ -170,7 +170,7 @@ def errors(rows: list[Row]) -> Iterator[str]:
     judged = [row for row in rows if row.error_force is not None or row.error_stress is not None]
     if judged:
         known = [row.reference_error for row in judged if row.reference_error is not None]
-        told = "" if len(known) == len(judged) else f" in the {len(known)} cases that say it"
+        told = "" if len(known) == len(judged) else f" in the {len(known)} cases that report it"
         yield ("Errors are of the algebra, not of the mesh: relative, in the energy norms ∫ σ:C:σ of "
                "stresses and FᵀDF of contact forces, against a reference solution of the same discrete "
                "problem, by hybridized elements and refined in long double"

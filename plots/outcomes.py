@@ -29,8 +29,8 @@ MARKS = {
 }
 WORDS = {"other_solution": "another solution than the reference's",
          "unstressed": "no stress, so no relative error",
-         "unverified": "said ok, and no reference can tell",
-         "wrong_success": "wrong success: said ok, and is not", "timeout": "time limit reached",
+         "unverified": "reported ok, and no reference can tell",
+         "wrong_success": "wrong success: reported ok, and is not", "timeout": "time limit reached",
          "machine_fault": "no process or no file to be had"}
 
 

@@ -61,8 +61,9 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
       ->capture_default_str();
   add_number(app, "--timeout", Least::above_zero, most_of_a_limit, options.timeout_s,
              "seconds that one solve may take");
-  add_number(app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
-             "seconds for measuring methods: what earlier records say does not fit in is left out");
+  add_number(
+      app, "--budget", Least::above_zero, most_of_a_limit, budget_s,
+      "seconds for measuring methods; leaves out those that do not fit in by earlier records");
   add_memory_limit(app, options);
   app.add_option("--out", options.out, "folder of the output files")->capture_default_str();
   parse_command_line(app, argc, argv);

@@ -63,6 +63,10 @@ void add_model_settings(CLI::App& app, std::vector<std::string>& settings);
 // --mesh with model settings, and --scene: one of each.
 void add_one_body(CLI::App& app, Options& options);
 
+// Stores an argument of Google Benchmark's as options, because plan and records depend on them.
+// Throws UsageError.
+void take_benchmark_argument(const std::string& argument, Options& options);
+
 Options parse_options(int argc, const char* const* argv);  // throws UsageError, HelpRequested
 
 }  // namespace airybench

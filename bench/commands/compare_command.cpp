@@ -21,7 +21,7 @@ Verdicts  faster, slower    p (Mann-Whitney of the runs' medians, adjusted by Ho
                             at most 5 %, the effect is above the minimum one and above the drift of the
                             machine, and the runs were interleaved
           not separated     chance, drift or the time of day can be the reason, or there are too few
-                            runs: how many would do is said below
+                            runs: how many would do is printed below
 Repetitions within a run are not independent: the unit is the run. So run A and B in turn, each time
 into a folder of its own. With one run each only statuses can fail.
 

@@ -6,7 +6,6 @@
 
 #include "bench/commands/command_line.hpp"
 #include "bench/measure/build_info.hpp"
-#include "bench/records/json.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "mesh/model_format.hpp"
@@ -31,7 +30,7 @@ Other commands (each has --help)
 Everything after "--" goes to Google Benchmark.
 
 Exit status  0  every case is ok, or skipped with a reason
-             1  some case is not, or a mesh could not be adapted as far as --adapt says
+             1  some case is not, or a mesh could not be adapted as far as --adapt asks
              2  wrong usage, or a file that cannot be used or written: one line on standard error
              3  out of memory, or a defect of bench itself: one line on standard error (so with every
                 command)
@@ -80,33 +79,6 @@ void refuse_replaced(int argc, const char* const* argv) {
     const std::string_view word = argv[i];
     if (const auto found = replaced.find(word.substr(0, word.find('='))); found != replaced.end())
       throw UsageError(fmt::format("{}: is now {}", found->first, found->second));
-  }
-}
-
-// Stores Google Benchmark's arguments as options, because plan and records depend on them.
-void take_benchmark_argument(const std::string& argument, Options& options) {
-  const auto value_of = [&](std::string_view option) -> std::optional<std::string> {
-    if (!argument.starts_with(option)) return {};
-    return argument.substr(option.size());
-  };
-  if (const auto filter = value_of("--benchmark_filter=")) {
-    options.filter = *filter;
-  } else if (const auto pair = value_of("--benchmark_context=")) {
-    const std::size_t equals = pair->find('=');
-    if (equals == pair->npos || equals == 0 || !is_utf8(*pair))
-      throw UsageError(fmt::format("-- --benchmark_context={}: (allowed: key=value in UTF-8)",
-                                   is_utf8(*pair) ? shortened(*pair) : "…"));
-    options.own_context[pair->substr(0, equals)] = pair->substr(equals + 1);
-  } else if (const auto word = value_of("--benchmark_enable_random_interleaving=")) {
-    if (*word != "true" && *word != "false")
-      throw UsageError(fmt::format(
-          "-- --benchmark_enable_random_interleaving={} (allowed: true, false)", shortened(*word)));
-    options.interleave = *word == "true";
-  } else {
-    throw UsageError(
-        fmt::format("-- {}: not for bench's runs (allowed: --benchmark_filter=, "
-                    "--benchmark_enable_random_interleaving=, --benchmark_context=)",
-                    shortened(argument)));
   }
 }
 

@@ -56,7 +56,7 @@ bool is_option(const std::string& argument, const std::string& name) {
 
 TrackOptions parse_track(int argc, const char* const* argv) {
   TrackOptions options;
-  CLI::App app("Measures a nightly selection, adds it to a history, and says what has changed.",
+  CLI::App app("Measures a nightly selection, adds it to a history, and reports what has changed.",
                "bench track");
   app.footer(track_footer);
   app.allow_extras();

@@ -158,13 +158,19 @@ void RecordFiles::rewrite_with(const std::string& case_name, const std::string& 
   journal_ = Journal(records_file(), line.begin);
 }
 
-void RecordFiles::append(Record record) {
+Record RecordFiles::append(Record record) {
   record.context = context_;
-  const std::string name = name_of(record).text(), text = json_text(to_json(record));
-  if (!journal_.is_open() || ends_torn_ || lines_.contains(name)) return rewrite_with(name, text);
-  remove_summaries(folder_);
-  const std::int64_t begin = journal_.append(text);
-  lines_.emplace(name, Line{begin, std::ssize(text), std::ssize(lines_) + 1});
+  const Json json = to_json(record);
+  record = record_of(json, "its record");
+  const std::string name = name_of(record).text(), text = json_text(json);
+  if (!journal_.is_open() || ends_torn_ || lines_.contains(name)) {
+    rewrite_with(name, text);
+  } else {
+    remove_summaries(folder_);
+    const std::int64_t begin = journal_.append(text);
+    lines_.emplace(name, Line{begin, std::ssize(text), std::ssize(lines_) + 1});
+  }
+  return record;
 }
 
 void RecordFiles::finish() {

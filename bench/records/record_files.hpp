@@ -35,9 +35,10 @@ class RecordFiles {
   // if mesh, scene or program differs.
   std::optional<Record> finished(const Record& blank) const;
 
-  // Adds the context. The line is on disk when append() returns. Throws FileError; the records so
-  // far are untouched then.
-  void append(Record record);
+  // Adds the context; returns the record as it will be read. The line is on disk when append()
+  // returns. Throws FileError, or RecordError for values that could not be read; the records so far
+  // are untouched then.
+  Record append(Record record);
   void finish();  // writes results.csv and results.json, and unlocks the folder
 
   bool has(const std::string& case_name) const { return lines_.contains(case_name); }

@@ -12,15 +12,6 @@ namespace airybench {
 
 namespace {
 
-LineSplitter::Take adding_to(RecordLines& result, const std::filesystem::path& file) {
-  return [&result, file](const std::string& text, const Line& line) {
-    RecordLine& added = result.lines.emplace_back();
-    added.place = place_of(file, line);
-    added.json = json_of_text(text, added.place);
-    added.record = record_of(added.json, added.place);
-  };
-}
-
 void check_is_there(const std::filesystem::path& file) {
   std::error_code error;
   if (std::filesystem::is_regular_file(file, error)) return;
@@ -50,14 +41,6 @@ bool read_lines(const std::filesystem::path& file, const LineSplitter::Take& tak
   return lines.is_torn();
 }
 
-RecordLines record_lines_of(const std::string& text, const std::string& file) {
-  RecordLines result;
-  LineSplitter lines(file, adding_to(result, file));
-  lines.add(text);
-  result.torn = lines.is_torn();
-  return result;
-}
-
 std::filesystem::path records_file_in(const std::filesystem::path& folder) {
   std::filesystem::path file = folder / "records.jsonl", packed = folder / "records.jsonl.gz";
   std::error_code error;
@@ -69,10 +52,15 @@ std::filesystem::path records_file_in(const std::filesystem::path& folder) {
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder) {
   const std::filesystem::path file = records_file_in(folder);
   check_is_there(file);
-  RecordLines result;
-  const bool torn = read_lines(file, adding_to(result, file));
-  check_has_records(file, torn, result.lines.empty());
-  return std::move(result.lines);
+  std::vector<RecordLine> lines;
+  const bool torn = read_lines(file, [&](const std::string& text, const Line& line) {
+    RecordLine& added = lines.emplace_back();
+    added.place = place_of(file, line);
+    added.json = json_of_text(text, added.place);
+    added.record = record_of(added.json, added.place);
+  });
+  check_has_records(file, torn, lines.empty());
+  return lines;
 }
 
 std::vector<Record> read_records(const std::filesystem::path& file, Studies studies) {

@@ -18,11 +18,6 @@ struct RecordLine {
   Record record;
 };
 
-struct RecordLines {
-  std::vector<RecordLine> lines;
-  bool torn = false;  // an incomplete last line was left out
-};
-
 // records.jsonl, or records.jsonl.gz if only that exists.
 std::filesystem::path records_file_in(const std::filesystem::path& folder);
 
@@ -32,7 +27,6 @@ std::filesystem::path records_file_in(const std::filesystem::path& folder);
 bool read_lines(const std::filesystem::path& file, const LineSplitter::Take& take);
 std::string place_of(const std::filesystem::path& file, const Line& line);  // "o/records.jsonl:3"
 
-RecordLines record_lines_of(const std::string& text, const std::string& file);  // file: in messages
 // Throws FileError, also if the folder has no file of records, or only the start of a record.
 std::vector<RecordLine> lines_in(const std::filesystem::path& folder);
 

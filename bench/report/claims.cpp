@@ -211,7 +211,7 @@ void alm_is_slightly_faster_than_3stepd(Evidence& evidence) {
     for (double& sample : alm->samples_s) sample += tuning_s;
     return ratio_of(*alm, *direct);
   };
-  evidence.over_meshes("beside the claim: (ALM + its tuning)/3STEPD", meshes, with_tuning, {});
+  evidence.over_meshes("not in the claim: (ALM + its tuning)/3STEPD", meshes, with_tuning, {});
 }
 
 void alm_needs_the_least_memory(Evidence& evidence) {

@@ -305,9 +305,11 @@ Record IsolatedScene::examine(std::size_t k) {
   examined_.insert(k);
   const std::optional<std::string> answer = ask("examine", k);
   throw_if_interrupted();
-  if (answer)
-    return record_of_case(*cases_[k], options_,
-                          [&] { return record_of(parse_json(*answer), "its record"); });
+  try {
+    if (answer) return record_of_text(*answer, "its record");
+  } catch (const RecordError& wrong) {
+    return record_of_defect(*cases_[k], options_, wrong);
+  }
   end_process();
   std::tie(record.status, record.status_reason) = why_no_process_;
   return record;
@@ -340,14 +342,10 @@ void IsolatedScene::end(std::size_t k) {
   if (!cases_[k]->method.program.empty()) remove_abandoned_folders();
 }
 
-Record record_of_case(const Case& c, const Options& options, const std::function<Record()>& read) {
-  try {
-    return read();
-  } catch (const RecordError& wrong) {
-    Record record = blank_record(c, options);
-    record.status_reason = wrong.what();
-    return record;
-  }
+Record record_of_defect(const Case& c, const Options& options, const RecordError& wrong) {
+  Record record = blank_record(c, options);
+  record.status_reason = wrong.what();
+  return record;
 }
 
 }  // namespace airybench

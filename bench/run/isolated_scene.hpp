@@ -11,7 +11,6 @@
 // Commands are lines, "prepare 3", "examine 3", "time 3", "end 3"; answers are JSON on a line.
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <set>
 #include <string>
@@ -60,8 +59,8 @@ class IsolatedScene {
 
 TimedRun obituary_of(const ChildEnd& end, const ActivityBoard& board, const Options& options);
 
-// If it is none by record_fields.def, that is its case's crash.
-Record record_of_case(const Case& c, const Options& options, const std::function<Record()>& read);
+// Of a case whose record cannot be read: a crash.
+Record record_of_defect(const Case& c, const Options& options, const RecordError& wrong);
 
 // From now on exit() after a refused allocation ends this process with no_memory_exit_code.
 void tell_refused_memory_at_exit();

@@ -113,7 +113,7 @@ bool NoiseWatch::is_noisy(const Record& record) const {
 
 std::string NoiseWatch::line(const Record& record, std::size_t attempt, int most_attempts) const {
   return fmt::format(
-      "{}: noise {:.1f} % (allowed {:g} %) beside attempt {} of at most {}, median {}: measured "
+      "{}: noise {:.1f} % (allowed {:g} %) around attempt {} of at most {}, median {}: measured "
       "again\n",
       name_of(record).text(), 100 * noise_beside(record.noise_kernel_samples_s), 100 * *most_noise_,
       attempt, most_attempts, show_seconds(median(record.samples_s)));

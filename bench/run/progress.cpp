@@ -23,7 +23,7 @@ std::string imprecise_line(const Record& r) {
 }
 
 std::string noisy_line(const Record& r) {
-  return fmt::format("{}: noise {:.1f} % beside the least noisy of {} attempts, not {:g} %\n",
+  return fmt::format("{}: noise {:.1f} % around the least noisy of {} attempts, not {:g} %\n",
                      name_of(r).text(), 100 * *r.noise_share, *r.noise_attempts,
                      100 * *r.retry_noisy);
 }

@@ -189,15 +189,19 @@ class SceneRunner {
       if (options_.retry_noisy) scene_.end(k);
       watch_.keep_quietest(std::move(c.noisy), *c.record, std::cerr);
       c.record->wall_s = c.wall_s;
-      *c.record = record_of_case(*planned_[k], options_, [&] {
-        summarise(*c.record);
-        return record_of(to_json(*c.record), "its record");
-      });
-      files_.append(*c.record);
+      *c.record = append(*planned_[k], std::move(*c.record));
       std::cerr << progress_.line(*c.record) << std::flush;
       times_.runs_s += c.record->runs_s.value_or(0);
       times_.judging_s += c.wall_s - c.record->runs_s.value_or(0);
       c.record.reset();  // it is on disk
+    }
+  }
+  Record append(const Case& planned, Record record) {
+    try {
+      summarise(record);
+      return files_.append(std::move(record));
+    } catch (const RecordError& wrong) {
+      return files_.append(record_of_defect(planned, options_, wrong));
     }
   }
 

@@ -81,8 +81,8 @@ def draw(rows: list[Row]) -> Figure:
         "A column is a method, a row an extreme scene, by group. ok: all errors and residuals at "
         "most the target; " + ("the deeper its blue, the smaller its errors of stresses and contact "
                                "forces, from 1e-6 to 1e-15. " if deep else
-                               "its number n says that the errors of stresses and contact forces are "
-                               "at most 1e-n; +: no such error is known. ") +
+                               "its number n: the errors of stresses and contact forces are at "
+                               "most 1e-n; +: no such error is known. ") +
         "Empty: not in the study. Below: how many of a method's cases are ok.")
     for k, grid in enumerate(grids):
         axes = axes_at(figure, left, TITLE + k * (block + BETWEEN) + above, cell * len(grid), height,

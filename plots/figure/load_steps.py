@@ -35,7 +35,7 @@ def draw(rows: list[Row]) -> Figure | str:
         TOP + HEIGHT + BOTTOM, "Load steps",
         "Time of all steps of a path to the same loads, over their number. Level at the left: what "
         "a body costs once, its condensation; rising in proportion to the right: what each step "
-        "costs anew, contact law, recovery and check, or a whole iteration. "
+        "adds, contact law, recovery and check, or a whole iteration. "
         f"{threads(rows)}."
         + (f" {lost} of {len(rows)} cases have no answer and are not drawn." if lost else ""))
     meshes = by_mesh(timed)

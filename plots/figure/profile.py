@@ -195,7 +195,7 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
                   order_depends_on_best(shown[0].values)])
     if len(shown[0].resampled) > 1:
         yield (f"Bands: {100 * CONFIDENCE:.0f} % of {RESAMPLES} bootstrap "
-               "resamples of each case's repetitions; of the choice of cases they say nothing.")
+               "resamples of each case's repetitions; they do not cover the choice of cases.")
     if cases.absent:
         yield f"Left out, with records of too few of the cases: {', '.join(cases.absent)}."
     if cases.dropped:

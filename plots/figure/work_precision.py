@@ -57,7 +57,7 @@ def caption(rows: list[Row], known: list[Row], floor: float, target: float) -> I
     knobs = sorted({row.knob for row in known if row.knob})
     words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
              f"{threads(known)}. Error of the contact forces against the reference, a point "
-             f"per solve. Joined: a method with its knob turned ({', '.join(knobs) or 'none'}); "
+             f"per solve. Joined: a method at several values of a parameter ({', '.join(knobs) or 'none'}); "
              f"single points: methods run to their end. Dashed: the target error {short(target)}.")
     for family, own in families_of(curves_of(known)).items():
         words += (f" {family}, thick: the best of its {len({row.method for row in own})} given r "

@@ -1,19 +1,12 @@
 // The built `meshgen`, run as a user runs it.
 #include <fmt/format.h>
 #include <gmsh.h>
-#include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <string>
 
 #include "mesh/msh_format.hpp"
-#include "meshgen/catalogue.hpp"
-#include "meshgen/gmsh_mesher.hpp"
-#include "support/sha256.hpp"
-#include "tests/support/places.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/meshgen_command.hpp"
 
 namespace airybench::command_test {
 namespace {
@@ -32,49 +25,9 @@ Physical Curve("displacement") = {1, 2, 3};
 Physical Surface("steel") = {1};
 )";
 
-struct Outcome {
-  int exit_code;
-  std::string out, err;
-};
+using Outcome = testing::MeshgenOutcome;
 
-class Command : public ::testing::Test {
- protected:
-  // -1: ended by a signal.
-  static int exit_code_of(const std::string& command) {
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  // Arguments as in a shell, in the folder of this test.
-  Outcome run(const std::string& arguments, const std::string& environment = "") const {
-    const std::string command =
-        "cd '" + folder.path().string() + "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
-        testing::meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
-    const int exit_code = exit_code_of(command);
-    return {exit_code, text_of(folder / ".out"), text_of(folder / ".err")};
-  }
-  // Exit code 2 or 1, nothing on standard output, one line on standard error that holds `parts`.
-  void expect_refusal(const std::string& arguments, int exit_code,
-                      std::initializer_list<const char*> parts) const {
-    SCOPED_TRACE("meshgen " + arguments);
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.exit_code, exit_code);
-    EXPECT_EQ(outcome.out, "");
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_TRUE(outcome.err.starts_with("meshgen: ")) << outcome.err;
-    for (const char* part : parts)
-      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
-  }
-  // Names in the test's folder but for those of run().
-  std::vector<std::string> files() const {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder.path()))
-      if (!entry.path().filename().string().starts_with('.'))
-        names.push_back(entry.path().filename().string());
-    std::sort(names.begin(), names.end());
-    return names;
-  }
-  const testing::TemporaryFolder folder;
-};
+class Command : public testing::MeshgenCommand {};
 
 using Names = std::vector<std::string>;
 
@@ -340,87 +293,6 @@ TEST_F(Command, FileOfOptionsNextToAModelIsOfItsMesh) {
   EXPECT_GT(vertices("Mesh.MeshSizeFactor = 0.1;\n"), 2 * fine);
   write_text(folder / "a.geo.opt", "SystemCall \"touch started\";\n");
   expect_refusal("--convert=a.geo --out=a.msh", 1, {"a model may start no programs"});
-}
-
-TEST_F(Command, ModifiesAMesh) {
-  const Outcome outcome =
-      run("--modify=Mesh0 --refine=1 --grade=10,0,100 --slivers=1e3,5 --scale=2 --stretch=1,0.5 "
-          "--move=-1,3 --keep-contact-edges=4 --keep-displacement-edges=2 --layers=1,0,4 "
-          "--out=new.msh");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const Mesh mesh = read_msh(folder / "new.msh");
-  EXPECT_EQ(mesh.name, "new");
-  EXPECT_EQ(mesh.body_names, (Names{"layer 1", "layer 2", "layer 3", "layer 4"}));
-  EXPECT_EQ(mesh_sizes(mesh).contact_edges, 4);
-  EXPECT_EQ(mesh_sizes(mesh).displacement_edges, 2);
-  double right = 0;
-  for (const auto& vertex : mesh.vertices) right = std::max(right, vertex.x());
-  EXPECT_EQ(right, 2 * 10 - 1);
-  // What is written can be changed again.
-  EXPECT_EQ(run("--modify=new.msh --keep-force-edges=0 --out=new.msh").exit_code, 0);
-  EXPECT_EQ(mesh_sizes(read_msh(folder / "new.msh")).force_edges, 0);
-  EXPECT_EQ(files(), Names{"new.msh"});
-}
-
-TEST_F(Command, ModifiedByNothingIsTheSameFile) {
-  EXPECT_EQ(run("--modify=Mesh3 --out=same.msh").exit_code, 0);
-  EXPECT_EQ(text_of(folder / "same.msh"), text_of(testing::mesh_file("Mesh3")));
-}
-
-TEST_F(Command, CheckOfTheRepositoryPasses) {
-  const Outcome outcome = run("--check");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  for (const char* part : {"Mesh7", "50483", "Tab. 1 prints n_C = 38", "the mesh has 40"})
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << part;
-}
-
-TEST_F(Command, CheckNoticesAnotherMeshAndAnotherHashAlsoByTheEnvironment) {
-  fs::copy(testing::mesh_folder(), folder / "meshes");
-  fs::copy_file(folder / "meshes/Mesh0.msh", folder / "meshes/Mesh1.msh",
-                fs::copy_options::overwrite_existing);
-  write_text(folder / "meshes/Mesh2.msh", text_of(folder / "meshes/Mesh2.msh") + "\n");
-  for (const Outcome& outcome :
-       {run("--check --meshes=meshes"), run("--check", "AIRYBENCH_MESH_DIR=meshes")}) {
-    EXPECT_EQ(outcome.exit_code, 1);
-    for (const char* part :
-         {"Mesh1: n_phi is 761, should be 1973\n", "Mesh2: SHA256SUMS has another hash\n"})
-      EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
-  }
-}
-
-TEST_F(Command, CheckNeedsTheFiles) {
-  expect_refusal("--check --meshes=nowhere", 1, {"nowhere/SHA256SUMS: cannot be opened"});
-  fs::copy(testing::mesh_folder(), folder / "meshes");
-  fs::remove(folder / "meshes/Mesh5.msh");
-  expect_refusal("--check --meshes=meshes", 1, {"meshes/Mesh5.msh: cannot be opened"});
-}
-
-TEST_F(Command, RemakesIdenticalFiles) {
-  if (const GmshSession session; gmsh_version() != catalogue_gmsh_version)
-    GTEST_SKIP() << "another version of Gmsh makes other meshes";
-  const Outcome outcome = run("--mesh='Mesh0..Mesh1,Mesh[0-2]' --out=new");
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.out << outcome.err;
-  std::string expected;
-  for (const std::string name : {"Mesh0", "Mesh1", "Mesh2"}) {
-    const fs::path file = testing::mesh_file(name);
-    expected += name + "  " + sha256_of_file(file) + "  identical\n";
-    EXPECT_EQ(sha256_of_file(folder / "new" / (name + ".msh")), sha256_of_file(file));
-  }
-  EXPECT_EQ(outcome.out, expected);
-  EXPECT_EQ(exit_code_of("cd '" + (folder / "new").string() +
-                         "' && sha256sum --status --strict -c SHA256SUMS"),
-            0);
-}
-
-TEST_F(Command, RemakeNoticesADifferenceAndSaysTheVersions) {
-  fs::create_directory(folder / "meshes");
-  write_text(folder / "meshes/Mesh0.msh", "another mesh");
-  const Outcome outcome = run("--mesh=Mesh0,Mesh1 --meshes=meshes");
-  EXPECT_EQ(outcome.exit_code, 1);
-  for (const char* part : {"  differs from meshes/Mesh0.msh\n", "  missing: meshes/Mesh1.msh\n",
-                           "The catalogue was made with Gmsh 4.8.4; this library is Gmsh "})
-    EXPECT_NE(outcome.out.find(part), std::string::npos) << outcome.out;
-  EXPECT_EQ(text_of(folder / "meshes/Mesh0.msh"), "another mesh");
 }
 
 }  // namespace

@@ -1,0 +1,62 @@
+// The built `meshgen`, run as a user runs it, in a temporary folder.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "tests/support/places.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::testing {
+
+struct MeshgenOutcome {
+  int exit_code;
+  std::string out, err;
+};
+
+class MeshgenCommand : public ::testing::Test {
+ protected:
+  // -1: ended by a signal.
+  static int exit_code_of(const std::string& command) {
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  // Arguments as in a shell, in the folder of this test.
+  MeshgenOutcome run(const std::string& arguments, const std::string& environment = "") const {
+    const std::string command =
+        "cd '" + folder.path().string() + "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
+        meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
+    const int exit_code = exit_code_of(command);
+    return {exit_code, text_of(folder / ".out"), text_of(folder / ".err")};
+  }
+  // Exit code 2 or 1, nothing on standard output, one line on standard error that holds `parts`.
+  void expect_refusal(const std::string& arguments, int exit_code,
+                      std::initializer_list<const char*> parts) const {
+    SCOPED_TRACE("meshgen " + arguments);
+    const MeshgenOutcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code);
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("meshgen: ")) << outcome.err;
+    for (const char* part : parts)
+      EXPECT_NE(outcome.err.find(part), std::string::npos) << outcome.err;
+  }
+  // Names in the test's folder but for those of run().
+  std::vector<std::string> files() const {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+      if (!entry.path().filename().string().starts_with('.'))
+        names.push_back(entry.path().filename().string());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+  const TemporaryFolder folder;
+};
+
+}  // namespace airybench::testing
