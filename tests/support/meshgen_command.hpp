@@ -29,9 +29,9 @@ class MeshgenCommand : public ::testing::Test {
   }
   // Arguments as in a shell, in the folder of this test.
   MeshgenOutcome run(const std::string& arguments, const std::string& environment = "") const {
-    const std::string command =
-        "cd '" + folder.path().string() + "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
-        meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
+    const std::string command = "cd '" + folder.path().string() +
+                                "' && AIRYBENCH_CACHE_DIR=.cache " + environment + " '" +
+                                meshgen_executable().string() + "' " + arguments + " >.out 2>.err";
     const int exit_code = exit_code_of(command);
     return {exit_code, text_of(folder / ".out"), text_of(folder / ".err")};
   }
