@@ -5,6 +5,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -44,6 +45,17 @@ void refuse_volumes() {
     throw InputError(fmt::format(
         "{} volume(s); the body must be plane: one or more faces in a plane z = constant",
         volumes));
+}
+
+// Gmsh meshes a body of any size, until the memory ends.
+void refuse_huge() {
+  constexpr double most = 1e9;
+  std::array<double, 6> box;
+  gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
+  for (const double coordinate : box)
+    if (!(std::abs(coordinate) <= most))
+      throw InputError(fmt::format("it has a coordinate {:.6g} (allowed: up to {:g} in size)",
+                                   coordinate, most));
 }
 
 // A straight curve from a to b.
@@ -263,6 +275,7 @@ OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& opti
   refuse_volumes();
   if (!has_mesh()) {
     set_sizes(options, mm_per_unit_);
+    refuse_huge();
     refuse_crossing_lines();
     generate(options, about_to_mesh);
   } else if (options.size_factor || options.longest_edge_mm) {
