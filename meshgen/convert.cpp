@@ -199,10 +199,10 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   const PlaneModel model = read_model(file, options, about_to_mesh, converted.notes);
   Mesh& mesh = converted.mesh;
   try {
+    check_one_piece(model);
     refuse_misspelt_roles(model);
     check_curves(model);
     check_is_held(model);
-    check_one_piece(model);
     mesh = mesh_of(model);
   } catch (const InputError& complaint) {
     throw MeshError(file.string() + ": " + complaint.what());

@@ -53,14 +53,13 @@ int in_a_child(const std::filesystem::path& model, const ModelOptions& options,
                   first.algorithm ? "meshed with Mesh.Algorithm=" + *first.algorithm : "read this",
                   signal_name(first.end.signal));
   if (!first.is_crash()) return complain(cause, exit_failure);
-  ModelOptions other = options;
-  other.algorithm = first.algorithm == "6" ? 5 : 6;
-  const Attempt second = attempt([&](const AboutToMesh& begin) { return work(other, begin); });
+  ModelOptions with_6 = options;
+  with_6.algorithm = 6;
+  const Attempt second = attempt([&](const AboutToMesh& begin) { return work(with_6, begin); });
   if (second.end.signal != 0)
-    return complain(
-        first.algorithm ? fmt::format("{}, and with {}", cause, *other.algorithm) : cause,
-        exit_failure);
-  fmt::print(stderr, "note: {}: meshed with {}\n", cause, *other.algorithm);
+    return complain(cause + (first.algorithm && first.algorithm != "6" ? ", and with 6" : ""),
+                    exit_failure);
+  fmt::print(stderr, "note: {}: meshed with 6\n", cause);
   return second.end.exit_code;
 }
 
