@@ -39,6 +39,7 @@ class LineReader {
   template <typename Number>
   Number field(std::string_view what) {
     Number value{};
+    if (rest_.starts_with("+")) rest_.remove_prefix(1);
     const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
     if (error != std::errc() ||
         (end != rest_.data() + rest_.size() && !std::isspace(static_cast<unsigned char>(*end))))
@@ -47,6 +48,7 @@ class LineReader {
     skip_blanks();
     return value;
   }
+  bool is_at(char c) const { return rest_.starts_with(c); }
   std::string quoted_name() {
     const auto close = rest_.size() >= 2 && rest_[0] == '"' ? rest_.find('"', 1) : rest_.npos;
     if (close == rest_.npos) fail("a name in double quotes expected, found '" + shown() + "'");
@@ -113,6 +115,7 @@ PhysicalGroups read_physical_names(LineReader& reader, Mesh& mesh) {
   for (int i = 0; i < count; ++i) {
     reader.next_line("a physical name");
     const int dimension = reader.field<int>("a dimension");
+    if (reader.is_at('"')) reader.fail<ForeignMeshError>("MSH 2.0: a name without dimension");
     const int tag = reader.field<int>("a physical group's number");
     const std::string name = reader.quoted_name();
     reader.end_of_line();
@@ -179,7 +182,7 @@ void read_elements(LineReader& reader, const PhysicalGroups& groups,
       reader.fail<ForeignMeshError>(name + ": type " + std::to_string(type) +
                                     " (allowed: 1, 2-node line; 2, 3-node triangle)");
     const int tags = reader.field<int>(name + ": the number of tags");
-    if (tags < 1) reader.fail(name + ": needs a first tag, its physical group");
+    if (tags < 1) reader.fail<ForeignMeshError>(name + ": needs a first tag, its physical group");
     const int group = reader.field<int>(name + ": a physical group");
     for (int tag = 1; tag < tags; ++tag) reader.field<int>(name + ": a tag");
     const auto vertex = [&] {

@@ -140,8 +140,21 @@ std::optional<Mesh> own_mesh(const std::filesystem::path& file, const ModelOptio
 
 PlaneModel open_and_read(const std::filesystem::path& file, const ModelOptions& options,
                          const AboutToMesh& about_to_mesh, std::vector<std::string>& notes) {
-  const OpenModel open(file, options, about_to_mesh, notes);
-  PlaneModel model = read_plane_model(open.mm_per_unit(), notes);
+  const auto plane_model = [&](const ModelOptions& used) {
+    notes.clear();
+    const OpenModel open(file, used, about_to_mesh, notes);
+    return read_plane_model(open.mm_per_unit(), notes);
+  };
+  PlaneModel model;
+  try {
+    model = plane_model(options);
+  } catch (const FlatTriangleError& error) {  // of Gmsh, at sizes that differ very much
+    if (options.algorithm) throw;
+    ModelOptions with_1 = options;
+    with_1.algorithm = 1;
+    model = plane_model(with_1);
+    notes.push_back(fmt::format("{}: meshed with Mesh.Algorithm=1", error.what()));
+  }
   give_roles(model, options, notes);
   return model;
 }
@@ -188,9 +201,10 @@ ConvertedModel convert_model(const std::filesystem::path& file, const ModelOptio
   const PlaneModel model = read_model(file, options, about_to_mesh, converted.notes);
   Mesh& mesh = converted.mesh;
   try {
+    check_one_piece(model);
+    refuse_misspelt_roles(model);
     check_curves(model);
     check_is_held(model);
-    check_one_piece(model);
     mesh = mesh_of(model);
   } catch (const InputError& complaint) {
     throw MeshError(file.string() + ": " + complaint.what());

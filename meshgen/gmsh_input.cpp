@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string>
 
@@ -16,6 +17,16 @@
 namespace airybench {
 namespace {
 
+// Text without a mark of its encoding and blanks at the ends of lines; other data as they are.
+std::string tidied(const std::string& text) {
+  if (text.find('\0') != text.npos) return text;
+  std::istringstream lines(text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0));
+  std::string out;
+  for (std::string line; std::getline(lines, line); out += '\n')
+    out.append(line, 0, line.find_last_not_of(" \t\r") + 1);
+  return out;
+}
+
 // Gmsh knows a mesh by its first line, before which there may be comments.
 std::size_t begin_of_mesh(const std::string& text) {
   for (const char* first : {"$MeshFormat", "$NOD", "$Comments"}) {
@@ -27,23 +38,69 @@ std::size_t begin_of_mesh(const std::string& text) {
 }
 
 // An element of MSH 2 in ASCII has any number of tags; Gmsh wants the physical group and the curve
-// or surface. Text without such elements comes back as it is.
-std::string with_two_tags(const std::string& text) {
+// or surface, and no empty lines. A name of MSH 2.0 has no dimension; Gmsh wants one, and 2.2.
+std::string as_gmsh_wants(const std::string& text) {
   if (!text.starts_with("$MeshFormat\n2") || text.find("\n$Elements") == text.npos) return text;
   std::istringstream lines(text);
-  std::string out;
-  bool in_elements = false;
-  for (std::string line; std::getline(lines, line); out += line + "\n") {
-    if (line.starts_with("$")) in_elements = line.starts_with("$Elements");
+  std::string out, section;
+  std::size_t names_at = 0;  // in the text written
+  int names = 0;
+  for (std::string line; std::getline(lines, line);
+       out += line.find_first_not_of(" \t\r") == line.npos ? "" : line + "\n") {
+    if (line.starts_with("$")) section = line;
     std::istringstream fields(line);
     long number = 0, type = 0, tags = 0, group = 0;
-    if (!in_elements || !(fields >> number >> type >> tags) || tags > 1) continue;
-    if (tags == 1 && !(fields >> group)) continue;
-    std::string nodes;
-    std::getline(fields, nodes);
-    line = fmt::format("{} {} 2 {} {}{}", number, type, group, std::max(group, 1L), nodes);
+    std::string rest;
+    if (section.starts_with("$PhysicalNames")) {
+      if (line == section) names_at = out.size() + line.size() + 1;
+      if (!(fields >> number >> std::ws) || fields.peek() != '"') continue;
+      std::getline(fields, rest);
+      line = fmt::format("1 {0} {1}\n2 {0} {1}", number, rest);
+      names += 2;
+    } else if (section.starts_with("$Elements")) {
+      if (!(fields >> number >> type >> tags) || tags > 1) continue;
+      if (tags == 1 && !(fields >> group)) continue;
+      std::getline(fields, rest);
+      line = fmt::format("{} {} 2 {} {}{}", number, type, group, std::max(group, 1L), rest);
+    }
   }
-  return out;
+  if (names == 0) return out;
+  out.replace(names_at, out.find('\n', names_at) - names_at, std::to_string(names));
+  const std::size_t version = out.find('\n') + 1;
+  return out.replace(version, out.find('\n', version) - version, "2.2 0 8");
+}
+
+// Gmsh passes over what is missing.
+void check_stl(const std::string& text) {
+  std::istringstream lines(text);
+  int facets = 0, vertices = 0;
+  std::string word;
+  for (std::string line; std::getline(lines, line);) {
+    word.clear();
+    std::istringstream(line) >> word;
+    std::ranges::transform(word, word.begin(),
+                           [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (word == "vertex") ++vertices;
+    if (word == "facet") ++facets;
+    if (word != "endfacet" && word != "facet" && word != "endsolid") continue;
+    const int all = 3 * (facets - (word == "facet"));
+    if (vertices != all)
+      throw InputError(fmt::format("facet {} has not 3 vertices", facets - (word == "facet")));
+  }
+  if (word != "endsolid") throw InputError("its last line is not endsolid; is it truncated?");
+}
+
+// Where the whole shape, "+1 0", is missing at the end, OpenCASCADE reads on for ever.
+void check_brep(const std::string& text) {
+  std::size_t end = text.size();
+  for (int lines = 0; lines < 2 && end != text.npos; ++lines) {  // a last line "0" may follow
+    const std::size_t last = text.find_last_not_of(" \r\n", end - 1);
+    if (last == text.npos) break;
+    end = text.rfind('\n', last);
+    const char sign = text[end + 1];
+    if ((sign == '+' || sign == '-' || sign == 'i' || sign == 'e') && text[last] != '*') return;
+  }
+  throw InputError("its end is missing; is it truncated?");
 }
 
 bool is_ascii(const std::string& text) {
@@ -55,37 +112,50 @@ bool is_ascii(const std::string& text) {
 
 GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
   const ModelFormat format = format_of(model);
-  const std::filesystem::path place = folder_.path() / model_name(model);
   if (is_gzipped(model)) {
     file_ = folder_.path() / model.stem();
     write_file_atomically(file_, unpacked_text(model));
   }
-  if (format == ModelFormat::abaqus) {
-    const std::string text = file_text(file_);
-    file_ = place.string() + ".msh";
-    write_file_atomically(file_, msh_of_abaqus(text));
-  } else if (format == ModelFormat::msh || format == ModelFormat::other) {
-    const std::string text = file_text(file_);
-    const std::size_t begin = begin_of_mesh(text);
-    if (begin == text.npos)
-      throw InputError(fmt::format("no {} (what can be read: {})",
-                                   format == ModelFormat::msh ? "mesh" : "model",
-                                   model_extensions));
-    const std::string mesh = text.substr(begin);
-    const std::string readable = is_ascii(mesh) ? with_two_tags(mesh) : mesh;
-    if (readable == text || readable == text + "\n") return;
-    file_ = place.string() + ".msh";
-    write_file_atomically(file_, readable);
-  } else if (format == ModelFormat::geo) {
-    const std::string text = file_text(file_);
+  const std::string text = file_text(file_);
+  if (format == ModelFormat::cad) {
+    if (text.find("CASCADE Topology") < 4096) check_brep(text);
+    return;
+  }
+  const bool is_binary = text.find('\0') != text.npos;
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+    throw InputError("it is UTF-16 text (allowed: UTF-8)");
+  const auto give = [&](const std::filesystem::path& name, const std::string& other) {
+    file_ = folder_.path() / name;
+    write_file_atomically(file_, other);
+  };
+  const std::string mesh_name = model_name(model) + ".msh";
+  if (format == ModelFormat::geo) {
     if (text.empty() || text.ends_with('\n')) return;
     // Gmsh passes over a last line that does not end, but not where the file is included.
     const std::filesystem::path whole = std::filesystem::absolute(file_);
     std::string including = fmt::format("Include \"{}\";\n", whole.string());
     if (std::error_code error; std::filesystem::exists(whole.string() + ".opt", error))
       including += fmt::format("Include \"{}.opt\";\n", whole.string());
-    file_ = folder_.path() / "including.geo";
-    write_file_atomically(file_, including);
+    give("including.geo", including);
+  } else if (format == ModelFormat::abaqus) {
+    give(mesh_name, msh_of_abaqus(tidied(text)));
+  } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
+    if (format == ModelFormat::outline && !is_binary) check_stl(text);
+    for (const char* of_text : {".unv", ".bdf", ".mesh"})
+      if (is_binary && file_.extension() == of_text)
+        throw InputError("it holds the byte 0 (allowed: text)");
+    if (const std::string tidy = tidied(text); tidy != text)
+      give(is_gzipped(model) ? model.stem() : model.filename(), tidy);
+  } else {
+    const std::string tidy = tidied(text);
+    const std::size_t begin = begin_of_mesh(tidy);
+    if (begin == tidy.npos)
+      throw InputError(fmt::format("no {} (what can be read: {})",
+                                   format == ModelFormat::msh ? "mesh" : "model",
+                                   model_extensions));
+    const std::string mesh = tidy.substr(begin);
+    const std::string readable = is_ascii(mesh) ? as_gmsh_wants(mesh) : mesh;
+    if (readable != text && readable != text + "\n") give(mesh_name, readable);
   }
 }
 

@@ -106,6 +106,10 @@ std::string message_of_gmsh() {
     throw;
   } catch (const std::runtime_error& error) {
     return error.what();
+  } catch (const std::exception&) {
+    throw;
+  } catch (...) {
+    return "OpenCASCADE cannot read it";  // throws what is no std::exception
   }
 }
 

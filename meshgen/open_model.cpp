@@ -5,6 +5,7 @@
 #include <gmsh.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -44,6 +45,17 @@ void refuse_volumes() {
     throw InputError(fmt::format(
         "{} volume(s); the body must be plane: one or more faces in a plane z = constant",
         volumes));
+}
+
+// Gmsh meshes a body of any size, until the memory ends.
+void refuse_huge() {
+  constexpr double most = 1e9;
+  std::array<double, 6> box;
+  gmsh::model::getBoundingBox(-1, -1, box[0], box[1], box[2], box[3], box[4], box[5]);
+  for (const double coordinate : box)
+    if (!(std::abs(coordinate) <= most))
+      throw InputError(fmt::format("it has a coordinate {:.6g} (allowed: up to {:g} in size)",
+                                   coordinate, most));
 }
 
 // A straight curve from a to b.
@@ -193,8 +205,9 @@ void refuse_if_not_built_for(const std::filesystem::path& file) {
   gmsh::option::getString("General.BuildOptions", built_with);
   if (model_name(file) + ".med" == file.filename() && built_with.find(" Med") == built_with.npos)
     throw InputError(fmt::format(
-        "Gmsh {} is built without MED here (allowed: the mesh in another format, as .unv)",
-        gmsh_version()));
+        "Gmsh {} is built without MED here (allowed: the mesh in another format; a Gmsh with MED, as "
+        "that of gmsh.info, makes one: gmsh {} -save -o {}.msh)",
+        gmsh_version(), file.filename().string(), model_name(file)));
 }
 
 double scaling_factor(std::vector<std::string>& notes) {
@@ -263,6 +276,7 @@ OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& opti
   refuse_volumes();
   if (!has_mesh()) {
     set_sizes(options, mm_per_unit_);
+    refuse_huge();
     refuse_crossing_lines();
     generate(options, about_to_mesh);
   } else if (options.size_factor || options.longest_edge_mm) {

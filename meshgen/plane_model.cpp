@@ -34,7 +34,7 @@ class ModelReader {
   }
 
   PlaneModel model(double mm_per_unit, std::vector<std::string>& notes) {
-    read_triangles();
+    read_triangles(notes);
     read_positions(mm_per_unit, notes);
     orient();
     read_curves();
@@ -110,24 +110,56 @@ class ModelReader {
     return static_cast<int>(body);
   }
 
-  void read_triangles() {
+  static std::string name_of(int group, std::size_t groups) {
+    std::string name;
+    gmsh::model::getPhysicalName(2, group, name);
+    return !name.empty() ? name : groups == 1 ? "body" : fmt::format("body{}", group);
+  }
+
+  // The groups that are bodies, with their surfaces. A group that others make up ("all") is none;
+  // any other surface in two is refused, for they may differ in material.
+  static std::map<int, std::vector<int>> bodies_among(const gmsh::vectorpair& groups,
+                                                      std::vector<std::string>& notes) {
+    std::map<int, std::vector<int>> members;
+    std::multimap<std::size_t, int> by_size;
+    std::map<int, std::set<int>> groups_of;  // a surface's
+    for (const auto& [dimension, group] : groups) {
+      gmsh::model::getEntitiesForPhysicalGroup(2, group, members[group]);
+      by_size.emplace(members[group].size(), group);
+      for (const int surface : members[group]) groups_of[surface].insert(group);
+    }
+    const auto shown = [&](int group) { return name_of(group, groups.size()); };
+    for (auto largest = by_size.rbegin(); largest != by_size.rend(); ++largest) {
+      const int group = largest->second;
+      const std::set<int> whole(members[group].begin(), members[group].end());
+      const auto is_part = [&](int other) {
+        return std::ranges::all_of(members[other], [&](int s) { return whole.contains(s); });
+      };
+      const bool is_made_up = std::ranges::all_of(whole, [&](int surface) {
+        const std::set<int>& of = groups_of[surface];
+        return of.size() > 1 && std::ranges::all_of(of, is_part);
+      });
+      if (!is_made_up || whole.empty()) continue;
+      notes.push_back(
+          fmt::format("physical surface '{}' is no body: each of its surfaces is in another one",
+                      shown(group)));
+      for (const int surface : whole) groups_of[surface].erase(group);
+      members.erase(group);
+    }
+    for (const auto& [surface, of] : groups_of)
+      if (of.size() > 1)
+        refuse_model(
+            fmt::format("surface {} is in the physical surfaces '{}' and '{}'; one body is allowed",
+                        surface, shown(*of.begin()), shown(*std::next(of.begin()))));
+    return members;
+  }
+
+  void read_triangles(std::vector<std::string>& notes) {
     gmsh::vectorpair groups, surfaces;
     gmsh::model::getPhysicalGroups(groups, 2);
-    std::map<int, int> group_of_surface;
-    for (const auto& [dimension, group] : groups) {
-      std::string name;
-      gmsh::model::getPhysicalName(2, group, name);
-      if (name.empty()) name = groups.size() == 1 ? "body" : fmt::format("body{}", group);
-      const int body = body_named(name, group);
-      std::vector<int> of_group;
-      gmsh::model::getEntitiesForPhysicalGroup(2, group, of_group);
-      for (const int surface : of_group) {
-        if (!group_of_surface.emplace(surface, group).second)
-          refuse_model(
-              fmt::format("surface {} is in the physical surfaces {} and {}; one body is allowed",
-                          surface, group_of_surface[surface], group));
-        read_surface(surface, body);
-      }
+    for (const auto& [group, members] : bodies_among(groups, notes)) {
+      const int body = body_named(name_of(group, groups.size()), group);
+      for (const int surface : members) read_surface(surface, body);
     }
     if (groups.empty()) {
       gmsh::model::getEntities(surfaces, 2);
@@ -151,7 +183,7 @@ class ModelReader {
     for (const ModelTriangle& triangle : model_.triangles)
       for (const std::size_t node : triangle.nodes) box.extend(place(node));
     constexpr std::string_view names = "xyz";
-    constexpr double tolerance = 1e-9;
+    constexpr double tolerance = 1e-6;  // of coordinates in single precision
     const auto is_constant = [&](int axis) {
       double extent = 0;
       for (int other = 0; other < 3; ++other)
@@ -188,8 +220,9 @@ class ModelReader {
       const double longest_squared =
           std::max({(pb - pa).squaredNorm(), (pc - pb).squaredNorm(), (pa - pc).squaredNorm()});
       if (!(std::abs(twice_area) > flat_triangle_tolerance * longest_squared))
-        refuse_model(fmt::format("triangle of nodes {}, {}, {} at ({:.6g}, {:.6g}) has zero area",
-                                 a, b, c, pa.x(), pa.y()));
+        throw FlatTriangleError(
+            fmt::format("triangle of nodes {}, {}, {} at ({:.6g}, {:.6g}) has zero area", a, b, c,
+                        pa.x(), pa.y()));
       if (twice_area < 0) std::swap(b, c);
     }
   }

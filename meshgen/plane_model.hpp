@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "support/errors.hpp"
+
 namespace airybench {
 
 using Nodes = std::array<std::size_t, 2>;  // Gmsh's node numbers of an edge
@@ -17,6 +19,7 @@ struct ModelCurve {
   std::vector<Nodes> sides;        // on the boundary, the body on their left
   std::vector<Nodes> inner;        // its other edges
   std::string label;               // "force:top", see give_roles
+  bool is_unnamed_role = false;    // the label is that of the rest, or of what is free
   bool is_named() const { return !names.empty(); }
 };
 
@@ -32,10 +35,14 @@ struct PlaneModel {
   std::vector<ModelCurve> curves;  // those of Gmsh with an edge, by number, then the others
 };
 
+struct FlatTriangleError : InputError {
+  using InputError::InputError;
+};
+
 // Of the physical surfaces, or of all where there is none. Quadrilaterals are split by the shorter
 // diagonal, elements of higher order reduced to their corners, the planes y = constant and x =
 // constant turned; a note tells of each. Sides of the boundary that no curve has become curves from
-// corner to corner. Throws InputError.
+// corner to corner. Throws InputError, FlatTriangleError.
 PlaneModel read_plane_model(double mm_per_unit, std::vector<std::string>& notes);
 
 // A curve's sides as connected walks of nodes; a closed one ends where it begins.

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -47,6 +48,30 @@ std::string list_of(const std::set<std::string>& names) {
   return fmt::format("{}{}", fmt::join(first, ", "), has_more ? ", …" : "");
 }
 
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
+bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
+
+// The role that a name may mean: "contct", "Contact", "forces", "contact_left", "left contact".
+// Empty: none.
+std::string role_meant_by(const std::string& name) {
+  std::vector<std::string> words(1);
+  for (const char c : lower(name)) {
+    if (is_letter(c))
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  for (const std::string& word : words)
+    for (const std::string_view role : boundary_role_names)
+      if (word.starts_with(role) || word.ends_with(role)) return std::string(role);
+  return nearest_of(words.front(), {boundary_role_names.begin(), boundary_role_names.end()});
+}
+
 class Giver {
  public:
   Giver(std::vector<ModelCurve>& curves, const std::map<std::string, std::string>& roles)
@@ -61,6 +86,7 @@ class Giver {
     std::set<std::string> free;
     for (std::size_t k = 0; k < curves_.size(); ++k) {
       curves_[k].label = candidates_[k].label;
+      curves_[k].is_unnamed_role = candidates_[k].rank <= Rank::rest;
       if (!curves_[k].label.empty() || curves_[k].sides.empty()) continue;
       curves_[k].label = "force";
       free.insert(shown(curves_[k]));
@@ -118,7 +144,8 @@ class Giver {
       if (!curve.sides.empty())
         numbers += (numbers.empty() ? "" : ", ") + std::to_string(curve.number);
     }
-    const std::string nearest = nearest_of(key, all);
+    const auto same = std::ranges::find(all, lower(key), lower);  // but for capitals
+    const std::string nearest = same != all.end() ? *same : nearest_of(key, all);
     throw InputError(fmt::format(
         "--role: it has no physical curve '{}'{} (its physical curves: {}; its curves: {})", key,
         nearest.empty() ? "" : fmt::format(", perhaps '{}'", nearest),
@@ -134,6 +161,18 @@ class Giver {
 
 void give_roles(PlaneModel& model, const ModelOptions& options, std::vector<std::string>& notes) {
   Giver(model.curves, options.roles).give(notes);
+}
+
+void refuse_misspelt_roles(const PlaneModel& model) {
+  for (const ModelCurve& curve : model.curves)
+    for (const std::string& name : curve.names) {
+      if (curve.sides.empty() || !curve.is_unnamed_role) continue;
+      const std::string meant = role_meant_by(name);
+      if (!meant.empty())
+        throw InputError(
+            fmt::format("physical curve '{}': no role, perhaps {} (allowed: {}; or --role={}=ROLE)",
+                        name, meant, boundary_labels_allowed, name));
+    }
 }
 
 }  // namespace airybench

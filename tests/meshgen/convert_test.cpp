@@ -331,11 +331,9 @@ TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
        "its curves:\n  curve  names  role   length mm ",
        "\n  7      -      force  1          (2, 0)  (2, "},
       {"no_displacement.geo", with_roles("\"displacement\"", "\"Displacement\""),
-       "no edges in a physical curve named displacement (others found: 'Displacement'; --role "
-       "gives them one); --role=NUMBER=displacement holds one of its curves:\n  curve  names       "
-       "  "
-       "role     length mm ",
-       "\n  2      Displacement  force    1          (0, 1)  (0, "},
+       "physical curve 'Displacement': no role, perhaps displacement (allowed: displacement, "
+       "force, "
+       "contact, or one of these with a name: force:top; or --role=Displacement=ROLE)"},
       {"role_inside.geo", with_roles("contact\") = {7", "contact\") = {4, 7"),
        "physical curve 'contact': edge from (1, ", " is not on the body's boundary"},
       {"two_roles.geo", with_roles("contact\") = {7", "contact\") = {6, 7"),
@@ -343,7 +341,7 @@ TEST_F(Convert, RefusesWhatIsWrongWithAModelInOneLine) {
       {"two_bodies.geo",
        two_squares_geometry + roles +
            "Physical Surface(\"steel\", 1) = {1, 2};\nPhysical Surface(\"iron\", 2) = {2};\n",
-       "surface 2 is in the physical surfaces 1 and 2; one body is allowed"},
+       "surface 2 is in the physical surfaces 'steel' and 'iron'; one body is allowed"},
       {"flat.msh", replaced(clockwise_plate, "50 0.5 0.5", "50 0.5 0"),
        "triangle of nodes 20, 10, 50 at (1, 0) has zero area"},
       {"apart.geo",

@@ -1,8 +1,9 @@
-// The models of tests/data/models, each of a kind that other programs or people make. All but the
-// quadrilaterals are a trapezium with the corners (0, 0), (10, 0), (8, 5), (2, 5).
+// The models of tests/data/models, each of a kind that other programs or people make. Most of them
+// are a trapezium with the corners (0, 0), (10, 0), (8, 5), (2, 5).
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 
 #include "meshgen/convert.hpp"
 #include "tests/support/complaint.hpp"
@@ -93,6 +94,24 @@ std::vector<Kind> kinds() {
        {},
        "",
        {"body1", "body2"}},
+      {"whole_and_parts.geo",
+       {"3=displacement", "rest=force"},
+       {{"displacement", 6}, {"force", 2 * side + 2 * std::hypot(5, 5)}},
+       {"physical surface 'whole' is no body: each of its surfaces is in another one"},
+       "",
+       {"upper", "lower"}},
+      {"corner.geo",
+       {"rest=displacement"},
+       {{"displacement", 80}},
+       {"triangle of nodes "},
+       "",
+       body},
+      {"mesh2_0.msh",
+       {"11=contact:sole", "12=displacement:head", "13=force"},
+       held_above,
+       {},
+       "",
+       {"plate"}},
       {"options.geo", {}, held_above, {free_2_4}},
       {"unended.geo", {}, held_above, {free_2_4}},
       {"metres.geo", {}, held_above, {free_2_4}, "m"},
@@ -189,6 +208,92 @@ TEST(ForeignModel, AMeshWithOneTagTakesRoles) {
   EXPECT_EQ(mesh_sizes(mesh).displacement_edges, 1);
 }
 
+// As other programs, editors and transfers leave the files: the mesh is the same, or none is made.
+TEST(ForeignModel, TextsAreReadWhateverWroteThem) {
+  const auto lines_end_with = [](const std::string& end) {
+    return [=](const std::string& text) {
+      std::string out;
+      for (const std::string& line : testing::lines_of(text)) out += line + end;
+      return out;
+    };
+  };
+  const testing::TemporaryFolder folder;
+  for (const char* name : {"names.geo", "old.msh", "mesh2_0.msh", "trapezium.unv", "trapezium.vtk",
+                           "trapezium.bdf", "trapezium.mesh", "trapezium.stl", "plate.inp"}) {
+    const std::string text = testing::text_of(model(name));
+    const ModelOptions held = model_options_of({"rest=displacement"}, {}, "");
+    const auto sizes_of = [&](const std::string& changed) {
+      return mesh_sizes(convert_model(testing::write_text(folder / name, changed), held).mesh);
+    };
+    const MeshSizes sizes = sizes_of(text);
+    for (const std::string& changed :
+         {lines_end_with("\r\n")(text), lines_end_with(" \t\n")(text), "\xef\xbb\xbf" + text}) {
+      EXPECT_EQ(sizes_of(changed).n_phi, sizes.n_phi) << name;
+      EXPECT_EQ(sizes_of(changed).displacement_edges, sizes.displacement_edges) << name;
+    }
+  }
+}
+
+TEST(ForeignModel, DamagedTextIsToldAsSuch) {
+  const testing::TemporaryFolder folder;
+  const auto complaint = [&](const std::string& name, const std::string& text) {
+    const std::filesystem::path file = testing::write_text(folder / name, text);
+    const std::string what = testing::complaint_of<MeshError>(
+        [&] { convert_model(file, model_options_of({"rest=displacement"}, {}, "")); });
+    return what.substr(std::min(what.size(), file.string().size() + 2));
+  };
+  const auto text = [](const char* name) { return testing::text_of(model(name)); };
+  const std::string stl = text("trapezium.stl"), brep = text("trapezium.brep");
+  const std::size_t second_facet = stl.find("facet normal", stl.find("endfacet") + 9);
+  const std::string cut = "its last line is not endsolid; is it truncated?";
+  EXPECT_EQ(complaint("cut.stl", stl.substr(0, second_facet)), cut);
+  EXPECT_EQ(complaint("cut.stl", stl.substr(0, stl.rfind("vertex"))), cut);
+  std::string one_more = stl;
+  one_more.insert(stl.rfind("vertex"), "vertex 1 1 0\n");
+  EXPECT_EQ(complaint("four.stl", one_more), "facet 2 has not 3 vertices");
+  EXPECT_EQ(complaint("cut.brep", brep.substr(0, brep.size() / 2)),
+            "its end is missing; is it truncated?");
+  std::string commas = brep;
+  std::ranges::replace(commas, '.', ',');
+  EXPECT_EQ(complaint("commas.brep", commas), "Gmsh: OpenCASCADE cannot read it");
+  EXPECT_EQ(complaint("zero.mesh", text("trapezium.mesh").insert(300, 1, '\0')),
+            "it holds the byte 0 (allowed: text)");
+  EXPECT_EQ(complaint("wide.geo", "\xff\xfeP"), "it is UTF-16 text (allowed: UTF-8)");
+  std::string huge = text("numbers.geo");
+  huge.replace(huge.find("{10, 0"), 6, "{1e30, 0");
+  EXPECT_EQ(complaint("huge.geo", huge),
+            "it has a coordinate 1e+30 (allowed: up to 1e+09 in size)");
+}
+
+// A name that resembles a role is asked about, unless the role is given to it.
+TEST(ForeignModel, ANameLikeARoleIsAskedAbout) {
+  const std::string begin = "physical curve '", no_role = "': no role, perhaps ";
+  for (const auto& [name, role] :
+       std::vector<std::pair<std::string, std::string>>{{"contct", "contact"},
+                                                        {"Contact", "contact"},
+                                                        {"contacts", "contact"},
+                                                        {"contact_left", "contact"},
+                                                        {"left contact", "contact"},
+                                                        {"ForceTop", "force"},
+                                                        {"dispalcement:top", "displacement"},
+                                                        {"contact:", "contact"}}) {
+    std::string text = testing::text_of(model("names.geo"));
+    const testing::TemporaryFolder folder;
+    const std::filesystem::path file = folder.path() / "named.geo";
+    std::ofstream(file) << text.replace(text.find("Sole"), 4, name);
+    const auto complaint = [&](Texts roles) {
+      roles.insert(roles.end(), {"Support=displacement", "7=force"});
+      return testing::complaint_of<MeshError>(
+          [&] { convert_model(file, model_options_of(roles, {}, "")); });
+    };
+    EXPECT_TRUE(complaint({}).starts_with(file.string() + ": " + begin + name + no_role + role))
+        << complaint({});
+    EXPECT_EQ(complaint({"rest=force"}), complaint({})) << name;
+    EXPECT_EQ(complaint({name + "=force"}), "no complaint");
+    EXPECT_EQ(complaint({"1=contact"}), "no complaint");
+  }
+}
+
 TEST(ForeignModel, WhatCannotBeReadIsTold) {
   struct Refusal {
     std::string file, role, begin, part = {};
@@ -200,6 +305,8 @@ TEST(ForeignModel, WhatCannotBeReadIsTold) {
            {"names.geo", "Suport=displacement",
             "--role: it has no physical curve 'Suport', perhaps 'Support' (its physical curves: "
             "'7', 'Sole', 'Support'; its curves: 1, 2, 3, 4)"},
+           {"plate.inp", "SSOLE=displacement",
+            "--role: it has no physical curve 'SSOLE', perhaps 'Ssole' "},
            {"numbers.geo", "5=displacement",
             "--role: it has no physical curve '5' (its physical curves: none; its curves: 1, 2, "},
            {"apart.geo", "3=displacement",
