@@ -49,7 +49,7 @@ TEST_F(AdviseCommand, TheCommandRunsAsItIsPrinted) {
 }
 
 TEST_F(AdviseCommand, HopelessMethodsAreLeftOutByForecast) {
-  ASSERT_EQ(bench("--mesh=Mesh0 --error=2% --method=HYBRID,SDTIC3 --budget=1000 --out=o"), 0)
+  ASSERT_EQ(bench("--mesh=Mesh0 --error=0.5% --method=HYBRID,SDTIC3 --budget=1000 --out=o"), 0)
       << complaint();
   EXPECT_NE(bench_.content("o/advice.csv").find(" times the fastest,skipped,"), std::string::npos)
       << bench_.content("o/advice.csv");
