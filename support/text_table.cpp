@@ -16,7 +16,8 @@ std::string show_seconds(std::optional<double> seconds) {
 
 std::string show_bytes(std::optional<std::int64_t> bytes) {
   if (!bytes) return "-";
-  return fmt::format("{:.1f} MiB", static_cast<double>(*bytes) / (1024 * 1024));
+  const double mib = static_cast<double>(*bytes) / (1024 * 1024);
+  return mib < 1024 ? fmt::format("{:.1f} MiB", mib) : fmt::format("{:.2f} GiB", mib / 1024);
 }
 
 std::string show_error(std::optional<double> error) {

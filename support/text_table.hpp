@@ -8,7 +8,7 @@
 
 namespace airybench {
 
-// "1.24 ms", "3.4 MiB", "2.3e-12"; "-" for a missing value.
+// "1.24 ms", "3.4 MiB", "1.50 GiB", "2.3e-12"; "-" for a missing value.
 std::string show_seconds(std::optional<double> seconds);
 std::string show_bytes(std::optional<std::int64_t> bytes);
 std::string show_error(std::optional<double> error);

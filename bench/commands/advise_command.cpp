@@ -39,10 +39,14 @@ Exit status  0  a measured row meets the error
 
 Examples
   bench advise --mesh=Mesh0 --error=0.5%
-  bench advise --mesh=part.msh --scene=load.json --error=1% --out=results/part
+  bench advise --mesh=part.geo --scene=load.json --error=1% --out=results/part
 )";
 
 constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,BLIND:SCHUR:REFINED,3STEPD";
+constexpr const char* what_p2_lacks =
+    "P2 gives displacements. Its stresses are not in equilibrium, within triangles and across "
+    "their\n"
+    "edges; those of the other methods are.\n\n";
 constexpr const char* uniform_candidate = "HYBRID";
 
 Options parse_advise(int argc, const char* const* argv, double& budget_s) {
@@ -89,7 +93,7 @@ struct Advice {
 
 // The command reads the level's mesh file or, if is_adapted, adapts the given mesh again.
 std::string command_of(const Options& options, const Record& r, bool is_adapted) {
-  std::string text = "bench --mesh=";
+  std::string text = called_as() + " --mesh=";
   if (is_adapted || r.adapt_level == 0) {
     text += shell_word(options.meshes);
     for (const std::string& setting : options.model_settings) text += " " + shell_word(setting);
@@ -142,8 +146,21 @@ std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine,
   return Advice{forecast, "forecast", ""};
 }
 
-// Removes the longest cases until earlier records say that the rest fits into the budget; keeps the
-// shortest case and cases without records. Returns a row for each removed case.
+// Why a method is not worth a measurement next to the fastest one; empty: it is.
+std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
+                         const Options& options) {
+  constexpr double hopeless = 30;
+  if (expected.timeout == LimitMark::above)
+    return fmt::format("forecast: over --timeout={:g}", options.timeout_s);
+  if (expected.memory_limit == LimitMark::above) return "forecast: over --memory-limit";
+  if (!expected.time_s || !fastest.time_s) return "";
+  const double ratio = expected.time_s->value / fastest.time_s->value;
+  return ratio > hopeless ? fmt::format("forecast: {:.0f} times the fastest", ratio) : "";
+}
+
+// Removes hopeless cases, then the longest ones until earlier records say that the rest fits into
+// the budget; keeps the shortest case and cases without records. Returns a row for each removed
+// case.
 std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
@@ -157,11 +174,14 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   double spent_s = 0;
   for (const std::size_t k : order) {
     spent_s += expected[k].run_s.value_or(0);
-    stays[k] = spent_s <= budget_s || k == order.front();
+    std::string why = why_hopeless(expected[k], expected[order.front()], options);
+    if (why.empty() && spent_s > budget_s) why = "forecast: over --budget";
+    stays[k] = why.empty() || k == order.front();
     if (stays[k]) continue;
-    Record& row = rows.emplace_back(Advice{planned[k], "forecast: over --budget", ""}).record;
+    spent_s -= expected[k].run_s.value_or(0);
+    Record& row = rows.emplace_back(Advice{planned[k], why, ""}).record;
     row.adapt_time_s.reset();
-    row.time_s = expected[k].time_s->value;
+    if (expected[k].time_s) row.time_s = expected[k].time_s->value;
     row.status = Status::skipped;
   }
   std::size_t k = 0;
@@ -240,6 +260,8 @@ int advise_command(int argc, const char* const* argv) {
       rows.push_back(*forecast);
   rows.insert(rows.end(), left_out.begin(), left_out.end());
   fmt::print("\n{}\n", table_of(rows));
+  if (std::ranges::any_of(rows, [](const Advice& row) { return row.record.method == "P2"; }))
+    fmt::print("{}", what_p2_lacks);
   write_file_atomically(options.out / "advice.csv", csv_of(rows));
   if (!met) {
     fmt::print("no measured method meets {}\n", text_of(options.adapt));

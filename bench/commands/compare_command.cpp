@@ -1,7 +1,9 @@
 #include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -30,7 +32,8 @@ Exit status  0  no regression
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Examples
-  for i in 1 2 3 4 5 6; do old/bench --out=a$i; new/bench --out=b$i; done
+  ./run compare HEAD~1 HEAD --mesh=Mesh3 --method=HYBRID   # builds and runs both, in turn
+  for i in 1 2 3 4 5 6; do old/bench/bench --out=a$i; build/release/bench/bench --out=b$i; done
   bench compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
   bench compare results/before results/after
 )";
@@ -56,6 +59,21 @@ Runs runs_in(const std::string& folders) {
   return runs;
 }
 
+// The first ones' names, and how many there are more.
+std::string cases_of(const Runs& runs) {
+  constexpr std::size_t most = 3;
+  std::vector<std::string> names;
+  for (const std::vector<Record>& run : runs)
+    for (const Record& record : run)
+      if (std::string name = name_of(record).text(); std::ranges::find(names, name) == names.end())
+        names.push_back(std::move(name));
+  if (names.empty()) return "no cases";
+  const std::size_t more = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - more);
+  return fmt::format("{}{}", fmt::join(names, ", "),
+                     more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
@@ -79,9 +97,11 @@ int compare_command(int argc, const char* const* argv) {
 
   CompareRules rules;
   rules.minimum_effect = minimum_effect_percent / 100;
-  const Comparison comparison = compare(runs_in(a), runs_in(b), rules);
+  const Runs before = runs_in(a), after = runs_in(b);
+  const Comparison comparison = compare(before, after, rules);
   if (comparison.cases.empty())
-    throw UsageError(fmt::format("{} and {}: no case is in both", a, b));
+    throw UsageError(fmt::format("{} and {}: no case is in both ({}; {})", a, b, cases_of(before),
+                                 cases_of(after)));
   const std::string title = fmt::format("A: {}, B: {}", a, b);
   if (out.extension() == ".md") write_file_atomically(out, title + "\n\n" + comparison.markdown());
   if (out.extension() == ".json")

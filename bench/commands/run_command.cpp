@@ -1,12 +1,14 @@
 #include "bench/commands/commands.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iostream>
 #include <iterator>
 #include <map>
 
+#include "bench/commands/check_command.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/commands/run_parts.hpp"
 #include "bench/external/external_method.hpp"
@@ -35,6 +37,8 @@ namespace {
 // The paper's figure shows SYMMLQ; its text says that 3STEPCG is alike.
 constexpr const char* figure_3_methods = "SYMMLQ:*,3STEPCG:*";
 
+constexpr const char* own_body_methods = "HYBRID,P2";
+
 std::vector<Method> other_programs(const Options& options) {
   std::vector<Method> methods;
   for (const std::filesystem::path& file : options.externals) {
@@ -62,7 +66,12 @@ void print_list(const std::vector<Method>& others) {
   fmt::print(
       "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
       "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
-      "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE\n");
+      "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE;\n"
+      "      EXTERNAL:<name> of the declarations of --external\n"
+      "contact solvers (--contact): {}\n"
+      "studies (--study):\n",
+      fmt::join(names_of(all_contact_solvers), ", "));
+  for (const Study& study : all_studies()) fmt::print("  {:<16}  {}\n", study.name, study.about);
 }
 
 void print_stages(const std::vector<Case>& plan) {
@@ -108,7 +117,8 @@ void print_warnings(const std::vector<std::string>& of_machine, const EarlyPasse
         early.count(), cases);
 }
 
-// The paper's methods cannot solve bodies with holes; HYBRID and P2 can.
+// The paper's methods are for its meshes: on another body they give the picture of HYBRID, later,
+// and cannot solve bodies with holes.
 std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Options& options) {
   std::vector<Method> others = other_programs(options);
   if (!options.problems.empty()) {
@@ -117,8 +127,11 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
   }
   if (!options.methods.empty()) return select_methods(options.methods, others);
   std::string names = default_methods(options.study);
-  const auto has_holes = [](const PosedScene& s) { return hole_count(s.body()->mesh) > 0; };
-  if (options.study.name.empty() && std::ranges::any_of(scenes, has_holes)) names += ",HYBRID,P2";
+  const auto is_own = [](const PosedScene& s) {
+    return !is_named_after_catalogue(mesh_name_of(s.problem));
+  };
+  if (options.study.name.empty() && std::ranges::any_of(scenes, is_own))
+    names = std::ranges::all_of(scenes, is_own) ? own_body_methods : names + "," + own_body_methods;
   if (!others.empty()) names += ",EXTERNAL:*";
   return select_methods(names, others);
 }
@@ -173,6 +186,8 @@ int run_command(int argc, const char* const* argv) {
                shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
+  if (!options.new_external.empty()) return new_external(options);
+  if (!options.check.empty()) return check_external(std::move(options));
   if (!only_plans) require_threads(options.threads);
   if (!only_plans) check_takes_records(options.out);  // before meshes are written there
   if (!options.adapt.empty())
@@ -190,6 +205,10 @@ int run_command(int argc, const char* const* argv) {
   if (only_plans) return all_ok;
   set_threads(options.threads);
   catch_interrupts();
+  if (const auto records = options.out / "records.jsonl";
+      !options.append && !options.resume && std::filesystem::exists(records))
+    std::cerr << fmt::format("note: {}: this run replaces its records (--append keeps them)\n",
+                             options.out.string());
   Context context = context_of_run(options);
   context["cases_planned"] = std::to_string(whole.size());
   context["plan_sha256"] = fingerprint(whole);

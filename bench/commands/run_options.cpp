@@ -45,6 +45,7 @@ Examples
   bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
   bench --mesh=Mesh0..Mesh7 --out=results/long --resume
   bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
+  bench --new-external=mine; bench --check=mine.json
   bench --mesh=part.geo --role=clamped=displacement --mesh-size=50%
   bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
@@ -104,7 +105,7 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
   app.add_option("--method", options.methods,
-                 "names or globs; default: the paper's, for bodies with holes also HYBRID and P2");
+                 "names or globs; default: the paper's, for your own bodies HYBRID and P2");
   add_files(app, "--external", options.externals,
             "declarations of other programs, files or globs: methods EXTERNAL:name "
             "(docs/external-solvers.md)");
@@ -169,7 +170,18 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
   app.option_defaults()->group("Instead of a run");
   app.add_option("--new-scene", options.new_scene,
                  "write MODEL.json for a model: a scene with its groups, and values to fill in");
-  app.add_flag("--list", options.list, "print meshes and methods");
+  app.add_option("--new-external", options.new_external,
+                 "write NAME.py and NAME.json: another program, which runs as it is, and its "
+                 "declaration");
+  app.add_option("--check", options.check,
+                 "a declaration: run its program on small cases that each find one mistake, and "
+                 "say which mistake wrong answers look like")
+      ->excludes(app.get_option("--study"))
+      ->excludes(app.get_option("--mesh"))
+      ->excludes(app.get_option("--scene"))
+      ->excludes(app.get_option("--problem"))
+      ->excludes(app.get_option("--adapt"));
+  app.add_flag("--list", options.list, "print meshes, methods, contact solvers and studies");
   app.add_flag("--dry-run", options.dry_run,
                "print the cases, what they will take (from earlier records) and what is left out");
   app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
@@ -338,7 +350,7 @@ Options parse_options(int argc, const char* const* argv) {
   for (const char* of_bodies : {"--mesh", "--scene", "--figure", "--study", "--adapt", "--fields"})
     if (!options.problems.empty() && given(of_bodies))
       throw UsageError(fmt::format("{}: not with --problem, which has no body", of_bodies));
-  read_study(texts.study, options);
+  read_study(options.check.empty() ? texts.study : "check", options);
   for (const auto& [name, value] : options.study.options) {
     try {
       if (given(name.c_str())) continue;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -50,23 +51,17 @@ void note_out_of_reach(const PosedScene& posed) {
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
   for (const fs::path& file : options.problems) {
-    const std::string name = file.stem().string();
-    const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == name; };
-    if (!is_name(name) || std::ranges::any_of(posed, same))
-      throw UsageError(
-          fmt::format("--problem: {} (allowed: file names that differ, in UTF-8 without "
-                      "control characters)",
-                      shortened(file.string())));
     auto problem = std::make_shared<const contact::Problem>(read_contact_problem(file));
+    const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == problem->name; };
+    if (!is_name(problem->name) || std::ranges::any_of(posed, same))
+      throw UsageError(
+          fmt::format("--problem: {} (allowed: problems whose names differ, in UTF-8 without "
+                      "control characters: of their case, or else of their file)",
+                      shortened(file.string())));
     posed.push_back({"fclib", "", recorded_path(file, options.out), sha256_of_file(file), "{}",
                      std::move(problem)});
   }
   return posed;
-}
-
-bool is_named_after_catalogue(const std::string& mesh) {  // also "Mesh0+adapt3"
-  const std::string body = mesh.substr(0, mesh.find('+'));
-  return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
 bool is_newer(const fs::path& file, const fs::path& than) {
@@ -129,6 +124,17 @@ PosedScene one_posed_scene(const Options& options) {
   return std::move(posed.front());
 }
 
+bool is_named_after_catalogue(const std::string& mesh) {
+  const std::string body = mesh.substr(0, mesh.find('+'));
+  return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
+}
+
+std::string called_as() {
+  const char* const by_script = std::getenv("AIRYBENCH_CALLED_AS");
+  return by_script != nullptr && *by_script != '\0' ? by_script
+                                                    : shell_word(program_invocation_name);
+}
+
 RunLimits limits_of(const Options& options) {
   return {least_repetitions(options), options.timeout_s, options.long_case_s,
           options.memory_limit_bytes, options.study.once};
@@ -147,7 +153,10 @@ std::string shell_word(const std::string& word) {
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");
-  if (then != nullptr && *then != '\0' &&
+  bool any_body = false;  // figures are of bodies
+  for (std::size_t k = 0; k < result.names.size() && !any_body; ++k)
+    any_body = result.record(k).n_phi.has_value();
+  if (then != nullptr && *then != '\0' && any_body &&
       std::system(fmt::format("{} {}", then, shell_word(out.string())).c_str()) != 0)
     std::cerr << fmt::format("note: AIRYBENCH_THEN: {}: failed\n", then);
   fmt::print("{}", picture_line(result, out, has_fields));

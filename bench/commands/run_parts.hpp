@@ -18,6 +18,11 @@ PosedScene one_posed_scene(const Options& options);  // throws UsageError unless
 
 RunLimits limits_of(const Options& options);
 
+// Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
+bool is_named_after_catalogue(const std::string& mesh);
+
+// How to call this program from the user's shell, as "./run bench".
+std::string called_as();
 std::string shell_word(const std::string& word);  // quoted if necessary
 
 // Runs the shell command $AIRYBENCH_THEN with the results folder as its last argument; notes a

@@ -45,13 +45,6 @@ JsonKey command_key(const char* name, std::vector<std::string>& command) {
           }};
 }
 
-// Excludes globs, lists and parts of paths, so that a user can select the name.
-bool is_plain(const std::string& name) {
-  return std::ranges::all_of(name, [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
-  });
-}
-
 const std::string* unknown_placeholder(const std::vector<std::string>& command) {
   for (const std::string& word : command)
     for (std::size_t open = word.find('{'); open != word.npos; open = word.find('{', open + 1)) {
@@ -80,6 +73,12 @@ std::string version_of(const std::filesystem::path& file, const std::filesystem:
 
 }  // namespace
 
+bool is_plain_program_name(const std::string& name) {
+  return std::ranges::all_of(name, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '-' || c == '_' || c == '.';
+  });
+}
+
 Declaration read_declaration(const std::filesystem::path& file) {
   const Json json = json_of_file(file.string(), file_text(file));
   Declaration declaration;
@@ -88,7 +87,7 @@ Declaration read_declaration(const std::filesystem::path& file) {
   std::vector<std::string> version;
   const auto read_name = [&](const JsonValue& value) {
     read_text(value, declaration.name);
-    if (!is_plain(declaration.name)) value.fail("letters, digits, '-', '_' and '.'");
+    if (!is_plain_program_name(declaration.name)) value.fail("letters, digits, '-', '_' and '.'");
   };
   const auto read_format = [&](const JsonValue& value) {
     std::vector<std::string_view> formats = problem_formats();

@@ -46,6 +46,9 @@ struct Declaration {
   double first_tolerance = 0;
 };
 
+// Excludes globs, lists and parts of paths, so that a user can select the name.
+bool is_plain_program_name(const std::string& name);
+
 // Also runs the version command. Throws FileError, one line: file, key, value, what is allowed.
 Declaration read_declaration(const std::filesystem::path& file);
 

@@ -90,17 +90,23 @@ class ProgramSolve {
           declaration.name + " " + how_it_ended(end, limit_s, printed_lines(program.output)));
     run_.log = read_log(output_);
     answer_ = read_answer(output_);
-    if (!has_answer(answer_.status))
-      throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);
-    if (!(answer_.time_s > 0 && answer_.time_s <= end.wall_s))
+    const bool has_time = answer_.time_s > 0 && answer_.time_s <= end.wall_s;
+    if (!has_answer(answer_.status) && !(gave_up() && has_time)) fail_as_it_says();
+    if (!has_time)
       throw FileError(
           fmt::format("answer.json: time_s: {} (allowed: above 0, up to the {:.3g} s "
                       "that the program ran)",
                       answer_.time_s, end.wall_s));
   }
 
+  // Where iterations end without convergence, as far as they came; it may have left nothing.
   Eigen::MatrixXd array(const std::string& name, Eigen::Index rows, Eigen::Index columns) const {
-    return read_array(output_, name, rows, columns);
+    try {
+      return read_array(output_, name, rows, columns);
+    } catch (const FileError&) {
+      if (gave_up()) fail_as_it_says();
+      throw;
+    }
   }
   Eigen::VectorXd contact_forces(Eigen::Index rows) const {
     return rows > 0 ? Eigen::VectorXd(array("F_C.mtx", rows, 1)) : Eigen::VectorXd();
@@ -123,6 +129,7 @@ class ProgramSolve {
   void note(const RunControl& control, Solution& solution) const {
     solution.status = answer_.status;
     solution.message = answer_.status == Status::ok ? "" : answer_.message;
+    if (!has_answer(answer_.status) && solution.message.empty()) solution.message = "no message";
     solution.parameters = answer_.parameters;
     solution.error_estimate.reset();
     if (answer_.error_estimate) judge_by_own_estimate(*answer_.error_estimate, control, solution);
@@ -142,6 +149,10 @@ class ProgramSolve {
       throw NoAnswer(Status::machine_fault, why.what());
     }
   }
+  [[noreturn]] void fail_as_it_says() const {
+    throw NoAnswer(answer_.status, answer_.message.empty() ? "no message" : answer_.message);
+  }
+  bool gave_up() const { return answer_.status == Status::not_converged; }
   static Status status_of_end(const ChildEnd& end) {
     return end.start_error != 0 ? Status::machine_fault
            : end.timed_out      ? Status::timeout
@@ -236,7 +247,7 @@ Solution solve_contact_law(const Caller& caller,
         caller, [&] { return contact_files(problem, body, format); }, given);
     ContactResult result;
     result.F_C = forces_of(*program, problem.points, format);
-    result.converged = true;  // as the program claims
+    result.converged = has_answer(program->answer().status);  // as the program claims
     result.iterations = program->answer().contact_iterations.value_or(0);
     program->end_handing_over();
     return result;
@@ -244,7 +255,8 @@ Solution solve_contact_law(const Caller& caller,
   Solution solution = solve(control);
   if (!program) return solution;
   const std::optional<std::int64_t> linear = solution.linear_iterations;
-  if (has_answer(solution.status)) program->note(given, solution);
+  if (has_answer(solution.status) || !has_answer(program->answer().status))
+    program->note(given, solution);
   solution.linear_iterations = linear;
   if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
     *contact_s -= solution.program->not_solve_s;

@@ -69,6 +69,8 @@ struct Options {
   bool mean_fields = false;         // … and their mean with the stresses of displacements
   bool histories = false;           // keep iteration histories in records.jsonl
   bool list = false, dry_run = false, explain = false;
+  std::filesystem::path check;                     // a declaration: check the program for mistakes
+  std::filesystem::path new_external;              // only write a program and its declaration
   std::filesystem::path new_scene;                 // a model: only write a scene for it
   std::string filter;                              // --benchmark_filter=, selects cases
   std::map<std::string, std::string> own_context;  // --benchmark_context=, added to records

@@ -4,6 +4,7 @@
 
 #include "bench/records/case_name.hpp"
 #include "bench/records/json_value.hpp"
+#include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
 #include "support/data_folder.hpp"
 #include "support/file_text.hpp"
@@ -67,10 +68,13 @@ Study study_of(const std::filesystem::path& file) {
   Study study;
   study.name = file.stem().string();
   const Json json = json_of_file(file.string(), file_text(file));
-  const auto read_options = [&study](const JsonValue& options) {
+  const auto read_options = [&](const JsonValue& options) {
     options.each("an object: option to value",
                  [&](const std::string& name, const JsonValue& value) {
-                   read(value, study.options.emplace_back(name, "").second);
+                   std::string& text = study.options.emplace_back(name, "").second;
+                   read(value, text);
+                   if (name == "--mesh" && is_mesh_file(text))  // next to the study
+                     text = (file.parent_path() / text).string();
                  });
   };
   JsonValue(file.string(), "", json)

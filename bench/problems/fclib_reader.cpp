@@ -59,6 +59,22 @@ class FclibFile {
         fail(name, fmt::format("[{}] is {}", i, values(i)), "finite numbers");
     return values;
   }
+  // Empty if there is none, or it is of variable length.
+  std::string text(const std::string& name) const {
+    if (!has(name)) return {};
+    const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    if (opened < 0) return {};
+    const Handle set(opened, H5Dclose), type(H5Dget_type(set), H5Tclose);
+    const Handle space(H5Dget_space(set), H5Sclose);
+    constexpr std::size_t most_bytes = 1000;
+    const std::size_t size = H5Tget_size(type);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0 || size > most_bytes ||
+        H5Sget_simple_extent_npoints(space) != 1)
+      return {};
+    std::string value(size, '\0');
+    if (H5Dread(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, value.data()) < 0) return {};
+    return value.c_str();
+  }
 
  private:
   void read(const std::string& name, H5T_class_t kind, const char* what, hid_t type, int count,
@@ -154,6 +170,14 @@ void check_law(const FclibFile& file, const contact::Problem& problem) {
       file.fail("/fclib_local/vectors/mu", fmt::format("[{}] is {}", k, mu[k]), "at least 0");
 }
 
+// Ours are all called problem.hdf5: they are named after their case, "Mesh0-default".
+std::string name_of(const FclibFile& file, const std::filesystem::path& path) {
+  std::string title;
+  if (file.has("/airybench")) title = file.text("/fclib_local/info/title");
+  std::ranges::replace(title, '/', '-');
+  return title.empty() ? path.stem().string() : title;
+}
+
 }  // namespace
 
 contact::Problem read_fclib(const std::filesystem::path& path) {
@@ -166,7 +190,7 @@ contact::Problem read_fclib(const std::filesystem::path& path) {
   file.whole(local + "/spacedim", 2, 2);
   for (const char* name : {"/V", "/R", "/vectors/s"})
     if (file.has(local + name)) file.fail(local + name, "equality constraints", "none");
-  contact::Problem problem{.name = path.stem().string()};
+  contact::Problem problem{.name = name_of(file, path)};
   problem.D = read_matrix(file, local + "/W/");
   const int m = static_cast<int>(problem.D.rows());
   problem.G = file.numbers(local + "/vectors/q", m);

@@ -12,6 +12,7 @@
 #include "bench/records/json.hpp"
 #include "bench/run/adaptive_loop.hpp"
 #include "bench/run/isolated_scene.hpp"
+#include "bench/run/sign_of_life.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
@@ -120,6 +121,7 @@ void print(const Json& said, const std::string& name) {
       "adapt {}: level {}, n_phi {}, total error {}, smallest angle {:.1f}°, {}\n", name,
       said["number"].get<int>(), said["unknowns"].get<int>(), error, said["angle"].get<double>(),
       show_seconds(said["time_s"].get<double>()));
+  was_heard();
 }
 
 }  // namespace
@@ -162,6 +164,10 @@ AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
     const std::optional<std::string> answer = process->ask("next", [&](double suspended_s) {
       throw_if_interrupted();
       left_s += suspended_s;
+      sign_of_life([&] {
+        return fmt::format("... adapt {}: level {}, for {}", name, levels.size(),
+                           show_duration(seconds_since(asked)));
+      });
       return seconds_since(asked) > left_s;
     });
     if (process->was_suspended() && restarts++ < most_restarts) {

@@ -15,6 +15,7 @@
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
+#include "bench/run/sign_of_life.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
@@ -233,11 +234,22 @@ bool IsolatedScene::is_silent() const {
   return board_.activity() == Activity::none && board_.silent_s() > most_silent_s;
 }
 
+std::string IsolatedScene::sign_of(const std::string& verb, std::size_t k, double since_s) const {
+  static const std::map<std::string, std::string> doing = {{"prepare", "assembly and reference"},
+                                                           {"examine", "solve and check"},
+                                                           {"time", "timed run"},
+                                                           {"end", "its end"}};
+  return fmt::format("... {}: {}, for {}", cases_[k]->name().text(), doing.at(verb),
+                     show_duration(since_s));
+}
+
 std::optional<std::string> IsolatedScene::ask(const std::string& verb, std::size_t k) {
   if (process_ == nullptr) return {};
   board_.beat();
-  return process_->ask(fmt::format("{} {}", verb, k), [this](double suspended_s) {
+  const auto start = std::chrono::steady_clock::now();
+  return process_->ask(fmt::format("{} {}", verb, k), [&](double suspended_s) {
     board_.skip(suspended_s);
+    sign_of_life([&] { return sign_of(verb, k, seconds_since(start)); });
     return is_interrupted() || is_overdue(board_, options_) || is_silent();
   });
 }

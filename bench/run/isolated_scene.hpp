@@ -42,6 +42,7 @@ class IsolatedScene {
   void prepare(std::size_t k);
   void end_process();
   bool is_silent() const;
+  std::string sign_of(const std::string& verb, std::size_t k, double since_s) const;
   // Empty if there is no process or it has ended; kills one that is overdue or silent.
   std::optional<std::string> ask(const std::string& verb, std::size_t k);
 

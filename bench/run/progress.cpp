@@ -32,7 +32,7 @@ struct Column {
   const char* header;
   const char* field;  // shown if any record has it; nullptr: always shown
   std::string (*text)(const Record&);
-  bool of_total_error = false;
+  bool of_total_error = false, of_contact_study = false;
 };
 
 std::string whole(const std::optional<std::int64_t>& number) {
@@ -44,13 +44,15 @@ std::optional<double> unchecked_s(const Record& r) {
   return r.time_s ? std::optional(*r.time_s - r.stage_check_s.value_or(0)) : std::nullopt;
 }
 
-constexpr std::array<Column, 16> table_columns = {{
+constexpr std::array<Column, 17> table_columns = {{
     {"case", nullptr, [](const Record& r) { return name_of(r).text(); }},
     {"n_phi", "n_phi", [](const Record& r) { return whole(r.n_phi); }},
     {"n_c", "siconos_error", [](const Record& r) { return whole(r.n_c); }},
     {"time", nullptr, [](const Record& r) { return show_seconds(r.time_s); }},
     {"±", nullptr,
      [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},
+    {"contact law", "stage_contact_s",
+     [](const Record& r) { return show_seconds(r.stage_contact_s); }, false, true},
     {"unchecked", "stage_check_s", [](const Record& r) { return show_seconds(unchecked_s(r)); }},
     {"heap", nullptr, [](const Record& r) { return show_bytes(r.peak_heap_bytes); }},
     {"program", "program_s", [](const Record& r) { return show_seconds(r.program_s); }},
@@ -74,6 +76,7 @@ void ResultsTable::add(const Record& r) {
   const auto has = [&](const char* field) { return !field_named(field).value(r).is_null(); };
   for (const Column& column : table_columns)
     if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
+  shows_contact_law_ = shows_contact_law_ || r.study == "contact";
   shows_total_ = shows_total_ || has("adapt_level") || r.in_displacements;
   rows_.emplace_back();
   for (const Column& column : table_columns) rows_.back().push_back(column.text(r));
@@ -91,7 +94,8 @@ std::string ResultsTable::text() const {
   for (std::size_t c = 0; c < table_columns.size(); ++c) {
     const Column& column = table_columns[c];
     if ((column.field != nullptr && !fields_.contains(column.field)) ||
-        (column.of_total_error && !shows_total_))
+        (column.of_total_error && !shows_total_) ||
+        (column.of_contact_study && !shows_contact_law_))
       continue;
     shown.front().emplace_back(column.header);
     for (std::size_t r = 0; r < rows_.size(); ++r) shown[r + 1].push_back(rows_[r][c]);
@@ -100,6 +104,18 @@ std::string ResultsTable::text() const {
 }
 
 namespace {
+
+// The largest, by its name: it decides on the status.
+std::string error_of(const Record& r) {
+  const std::pair<const char*, std::optional<double>> all[] = {
+      {"stress error", r.error_stress},
+      {"force error", r.error_force},
+      {"equilibrium", r.equilibrium_residual},
+      {"natural map", r.natural_map_residual}};
+  const auto worst = std::ranges::max_element(
+      all, {}, [](const auto& error) { return error.second.value_or(-1); });
+  return worst->second ? fmt::format("{} {}", worst->first, show_error(worst->second)) : "error -";
+}
 
 double cost(std::int64_t n_phi) {
   return std::pow(static_cast<double>(std::max<std::int64_t>(n_phi, 1)), 1.7);
@@ -114,10 +130,9 @@ Progress::Progress(std::vector<std::int64_t> n_phi_of_cases) : cases_(n_phi_of_c
 std::string Progress::line(const Record& r) {
   done_ += cost(r.n_phi.value_or(0));
   const double elapsed = seconds_since(start_);
-  return fmt::format("[{}/{}] {}: {}, {}, {}, error {}  (elapsed {}, about {} left)\n", ++ended_,
-                     cases_, name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
-                     show_bytes(r.peak_heap_bytes), show_error(r.error_force),
-                     show_duration(elapsed),
+  return fmt::format("[{}/{}] {}: {}, {}, {}, {}  (elapsed {}, about {} left)\n", ++ended_, cases_,
+                     name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
+                     show_bytes(r.peak_heap_bytes), error_of(r), show_duration(elapsed),
                      show_duration(elapsed * std::max(0.0, total_ - done_) / done_));
 }
 

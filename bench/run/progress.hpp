@@ -19,6 +19,7 @@ class ResultsTable {
   std::vector<std::vector<std::string>> rows_;  // with all columns
   std::set<std::string> fields_;                // that some record has
   bool shows_total_ = false;  // the total error: only where methods do not all share their mesh's
+  bool shows_contact_law_ = false;  // its time: where contact solvers are compared
   std::string imprecise_, noisy_, reasons_;
   std::set<std::string> said_;  // reasons that all methods on a mesh share
 };

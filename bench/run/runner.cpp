@@ -19,6 +19,7 @@
 #include "bench/records/summary.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
+#include "bench/run/sign_of_life.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 #include "support/shortened.hpp"
@@ -191,6 +192,7 @@ class SceneRunner {
       c.record->wall_s = c.wall_s;
       *c.record = append(*planned_[k], std::move(*c.record));
       std::cerr << progress_.line(*c.record) << std::flush;
+      was_heard();
       times_.runs_s += c.record->runs_s.value_or(0);
       times_.judging_s += c.wall_s - c.record->runs_s.value_or(0);
       c.record.reset();  // it is on disk

@@ -29,7 +29,7 @@ PlainLooks = dict[str, tuple[str, object]]  # method -> marker, dashes
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     for suffix, own, scale in by_stop(rows):
-        shown = compared(sized([row for row in own if not row.in_displacements]), ROOM)
+        shown = compared(sized(own), ROOM)
         for name, quantity in (("figure4", TIME), ("figure5", HEAP)):
             yield Drawing(name + suffix, shown, draw, partial(table_of, quantity=quantity),
                           vector=True, options=dict(run=own, quantity=quantity, scale=scale))
@@ -73,7 +73,7 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
     cases = ((f"{name} on {row.mesh}", row) for name, line in lines.items() for row in line)
     texts = [quantity.caption(rows, run) + " n^p: power law fitted over a method's "
              "completed cases, three or more. Points that would cover each other stand side by "
-             "side.", *notes_of(cases, quantity)]
+             "side.", *left_out(rows, run), *notes_of(cases, quantity)]
     footer = Footer(rows, quantity, texts, scale)
     shared = sharing_axes(rows)
     top = TOP + names_pt(rows) / 72
@@ -88,6 +88,20 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
                    scale)
     footer.draw(figure)
     return figure
+
+
+def left_out(rows: list[Row], run: list[Row]) -> list[str]:
+    """Methods of the run that have no line here: variants and preconditioners beyond the room."""
+    shown = {row.general_name for row in rows}
+    methods = grouped((row for row in run if row.general_name not in shown), lambda row: row.family)
+    names = ", ".join(words_for(family, list(dict.fromkeys(row.method for row in own)))
+                      for family, own in methods.items())
+    return [f"Without a line here, for lack of room: {names}."] if names else []
+
+
+def words_for(family: str, methods: list[str]) -> str:
+    few = 3
+    return ", ".join(methods) if len(methods) <= few else f"{len(methods)} of {family}"
 
 
 def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quantity: Quantity,

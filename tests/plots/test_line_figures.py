@@ -9,6 +9,7 @@ from figure import growth as growth_figure
 from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
 from figure import scaling as scaling_figure
+from records import CONTACT_SOLVERS
 
 
 def levels(mesh: str, count: int) -> list[dict]:
@@ -38,6 +39,31 @@ class AdaptiveTest(unittest.TestCase):
         turned = [case | {"study": "error", "knob": "contact sweeps", "knob_value": 1,
                           "error_discretisation": 0.01} for case in levels("Mesh0", 3)]
         self.assertEqual([], list(adaptive_figure.drawings(made_up.read(turned))))
+
+
+class ContactTest(unittest.TestCase):
+    def rows(self, programs: tuple[str, ...]) -> list:
+        study = dict(study="contact", stage_contact_s=1e-3, contact_iterations=5)
+        ours = [made_up.case(mesh, "HYBRID", contact_solver=solver, **study)
+                for mesh in ("Mesh0", "Mesh1") for solver in CONTACT_SOLVERS]
+        theirs = [made_up.case(mesh, name, program="x 1", **(study | {"stage_contact_s": 2e-3}))
+                  for mesh in ("Mesh0", "Mesh1") for name in programs]
+        return made_up.read(ours + theirs)
+
+    def test_other_programs_are_drawn_and_named_next_to_our_solvers(self) -> None:
+        drawing = drawn.plan(self.rows(("EXTERNAL:mine", "EXTERNAL:yours")), "contact")
+        self.assertEqual(len(drawing.rows), 12)
+        figure = drawing.figure()
+        self.assertIn("Other programs: EXTERNAL:mine, EXTERNAL:yours;", drawn.words_of(figure))
+        points = [tuple(point) for line in figure.axes[0].lines for point in line.get_xydata()]
+        self.assertIn((40, 2e-3), points)
+        solvers = [row["contact_solver"] for row in drawn.table_of(drawing)]
+        self.assertEqual(solvers.count("EXTERNAL:mine"), 2)
+
+    def test_without_other_programs_nothing_is_said_of_them(self) -> None:
+        words = drawn.words_of(drawn.plan(self.rows(()), "contact").figure())
+        self.assertIn("Four solvers of the condensed contact problem", words)
+        self.assertNotIn("Other programs", words)
 
 
 def refined(method: str, power: float, levels: range, **cells: object) -> list[dict[str, object]]:

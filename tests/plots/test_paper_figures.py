@@ -46,6 +46,23 @@ def preconditioners(mesh: str = "Mesh3") -> list[dict[str, object]]:
             for k, name in enumerate(names)]
 
 
+class EveryMethodTest(unittest.TestCase):
+    def words(self, *methods: str) -> str:
+        rows = read([case(mesh, method) for mesh in SIZES for method in methods])
+        return drawn.words_of(drawn.plan(rows, "figure4").figure())
+
+    def test_displacement_methods_have_a_line(self) -> None:
+        words = self.words("HYBRID", "P2")
+        self.assertIn("P2", words)
+        self.assertNotIn("Without a line", words)
+
+    def test_methods_without_room_are_named(self) -> None:
+        words = self.words(*made_up.COMPARED, *(f"SYMMLQ:FLIC{k}" for k in range(1, 6)),
+                           "3STEPCG:SKY")
+        self.assertIn("Without a line here, for lack of room: 5 of SYMMLQ, 3STEPCG:SKY.",
+                      words.replace("\n", " "))
+
+
 class PaperFiguresTest(drawn.FiguresTest):
     def write(self, rows: list[dict[str, object]]) -> None:
         made_up.write(self.csv, rows)

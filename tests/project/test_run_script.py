@@ -1,5 +1,6 @@
 """The decisions of ./run.  /usr/bin/python3 -m unittest FILE"""
 import re
+import shutil
 import subprocess
 import tempfile
 import unittest
@@ -73,6 +74,40 @@ esac"""
         ran = self.call("need", "git", "cmake", "g++", stubs=stubs, AIRYBENCH_INSTALL="no")
         self.assertEqual((ran.returncode, ran.stdout, ran.stderr),
                          (2, "", "run: missing packages: cmake g++ (apt-get install them)\n"))
+
+    def compare(self, folder: Path, *arguments: str) -> subprocess.CompletedProcess:
+        """./run of a project whose programs tell their arguments."""
+        project = folder / "project"
+        bench = project / "build/release/bench/bench"
+        bench.parent.mkdir(parents=True)
+        shutil.copy(RUN, project)
+        programs = {bench: 'echo "bench $*"', folder / "cmake": ":",
+                    folder / "dpkg-query": "printf 'installed %s\\n' \"$@\"",
+                    **{folder / name: f'echo "{name} $*" >> {folder}/log' for name in ("one", "two")}}
+        for program, text in programs.items():
+            program.write_text(f"#!/bin/sh\n{text}\n", encoding="utf-8")
+            program.chmod(0o755)
+        return subprocess.run([project / "run", "compare", *arguments], cwd=folder, text=True,
+                              capture_output=True, check=False,
+                              env={"PATH": f"{folder}:/usr/bin:/bin", "AIRYBENCH_INSTALL": "no"})
+
+    def test_two_programs_run_in_turn_and_are_compared(self) -> None:
+        with tempfile.TemporaryDirectory() as name:
+            folder = Path(name)
+            ran = self.compare(folder, "./one", "./two", "--runs=2", "--mesh=Mesh0", "--out=o")
+            self.assertEqual(ran.returncode, 0, ran.stderr)
+            self.assertEqual((folder / "log").read_text().splitlines(),
+                             [f"{program} --mesh=Mesh0 --out=o/{run}" for program, run in
+                              (("one", "a1"), ("two", "b1"), ("one", "a2"), ("two", "b2"))])
+            self.assertEqual(ran.stdout.splitlines()[-1], "bench compare o/a1,o/a2 o/b1,o/b2")
+
+    def test_what_is_neither_a_program_nor_a_revision_is_refused(self) -> None:
+        for arguments, said in ((("./one", "nowhere"), "nowhere (allowed: a git revision, or a program)"),
+                                (("./one",), "./one (allowed: two revisions or programs")):
+            with tempfile.TemporaryDirectory() as name:
+                ran = self.compare(Path(name), *arguments)
+                self.assertEqual((ran.returncode, ran.stdout), (2, ""))
+                self.assertIn(f"run: compare: {said}", ran.stderr)
 
 
 if __name__ == "__main__":

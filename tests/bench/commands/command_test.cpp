@@ -272,6 +272,38 @@ TEST(Command, WhatComesThenGetsTheFolderAndHasNoSayInTheExitCode) {
   EXPECT_FALSE(fs::exists(bench.path("never")));
 }
 
+TEST(Command, YourOwnBodyIsSolvedByTwoMethods) {
+  const BenchCommand bench;
+  fs::copy_file(testing::source_folder() / "bench/scenes/check/block.msh", bench.path("part.msh"));
+  ASSERT_EQ(bench.run("--mesh=part.msh --repetitions=1 --out=o").code, 0);
+  std::vector<std::string> methods;
+  for (const Json& record : bench.records()) methods.push_back(record["method"]);
+  EXPECT_EQ(methods, (std::vector<std::string>{"HYBRID", "P2"}));
+}
+
+TEST(Command, ARunSaysThatItReplacesTheRecordsOfItsFolder) {
+  const BenchCommand bench;
+  const std::string run = "--mesh=Mesh0 --method=HYBRID --repetitions=1 --out=o ";
+  const char* said = "note: o: this run replaces its records (--append keeps them)\n";
+  EXPECT_EQ(bench.run(run).err.find(said), std::string::npos);
+  EXPECT_NE(bench.run(run).err.find(said), std::string::npos);
+  for (const char* kept : {"--append", "--resume"})
+    EXPECT_EQ(bench.run(run + kept).err.find(said), std::string::npos) << kept;
+}
+
+TEST(Command, TheListIsComplete) {
+  const std::string list = BenchCommand().run("--list").out;
+  for (const char* part : {"Mesh7", "HYBRID:CG", "EXTERNAL:<name>",
+                           "newton, gauss-seidel, anderson", "\n  stability ", "\n  check "})
+    EXPECT_NE(list.find(part), std::string::npos) << part;
+}
+
+TEST(Command, ProgressNamesTheLargestError) {
+  const CommandResult result = BenchCommand().run(
+      "--mesh=Mesh0 --method=ALM:r=20,rho=20 --stop=paper --repetitions=1 --out=o");
+  EXPECT_NE(result.err.find(", force error "), std::string::npos) << result.err;
+}
+
 TEST(Command, ALongCaseIsMeasuredOnce) {
   const BenchCommand bench;
   ASSERT_EQ(bench.run("--mesh=Mesh0 --method=3STEPD --repetitions=5,within=0.001 --out=o").code, 0);

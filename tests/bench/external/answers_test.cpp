@@ -94,6 +94,26 @@ TEST_F(Answers, OfTheAnswersFile) {
            says(R"({"status": "not_converged", "time_s": 1, "message": "no\nluck"})"), "no?luck"}});
 }
 
+// Like the last iterate of our own methods: the status stays, the errors are measured.
+TEST_F(Answers, WhereItGaveUpIsJudged) {
+  const std::string gave_up = R"({"status": "not_converged", "time_s": 1e-6, "message": "slow"})";
+  write("lies/F_C.mtx", testing::market(testing::right_answer().F_C * (1 + 1e-3)));
+  expect("not_converged", {{"airy", airy, says(gave_up), "slow"},
+                           {"condensed", condensed, says(gave_up), "slow"},
+                           {"body", body, says(gave_up), "slow"},
+                           {"off", condensed, says(gave_up) + "; cp lies/F_C.mtx $2", "slow"},
+                           {"short", airy, says(gave_up) + "; rm $2/x.mtx", "slow"},
+                           {"nothing", condensed, says(gave_up) + "; rm $2/*.mtx", "slow"}});
+  for (const Json& record : bench_.records()) {
+    const std::string name = record["method"].get<std::string>().substr(9);
+    SCOPED_TRACE(name);
+    EXPECT_EQ(record["claimed_status"], "not_converged");
+    EXPECT_EQ(record["equilibrium_residual"].is_null(), name == "short" || name == "nothing");
+    if (name == "airy" || name == "condensed") EXPECT_LT(record["error_force"], 1e-9);
+    if (name == "off") EXPECT_NEAR(record["error_force"].get<double>(), 1e-3, 1e-6);
+  }
+}
+
 // The bounds are those of the record's fields.
 TEST_F(Answers, NumbersOutOfBoundsAreOfTheirCaseAlone) {
   const std::string texts[] = {"2305843009213693952",

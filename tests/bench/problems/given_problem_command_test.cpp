@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/bench_command.hpp"
+#include "tests/support/environment_variable.hpp"
 
 namespace airybench::given_problem_command_test {
 namespace {
@@ -39,6 +40,19 @@ TEST_F(GivenProblemCommand, AllContactSolversAgree) {
   }
 }
 
+TEST_F(GivenProblemCommand, TwoExportsRunTogetherUnderTheNamesOfTheirCases) {
+  ASSERT_EQ(bench_.run("export-problem --mesh=Mesh1 --format=fclib --out=other").code, 0);
+  const testing::EnvironmentVariable then("AIRYBENCH_THEN", "touch drawn; false");
+  const auto ran = bench_.run(
+      "--problem=fclib/problem.hdf5,other/problem.hdf5 --contact=newton --repetitions=1 --out=o");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.err.find("AIRYBENCH_THEN"), std::string::npos) << ran.err;  // no body, no figure
+  EXPECT_FALSE(std::filesystem::exists(bench_.path("drawn")));
+  std::vector<std::string> names;
+  for (const Json& record : bench_.records()) names.push_back(record["mesh"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"Mesh0-default", "Mesh1-default"}));
+}
+
 TEST_F(GivenProblemCommand, MethodsOfBodiesAreSkipped) {
   ASSERT_EQ(run("--method=HYBRID,CONDENSED --contact=newton").code, 0);
   const std::vector<Json> records = bench_.records();
@@ -57,7 +71,7 @@ TEST_F(GivenProblemCommand, PlansAreShown) {
   EXPECT_EQ(dry.code, 0);
   EXPECT_NE(dry.out.find("the run: about 0 "), std::string::npos) << dry.out;
   const auto explained = run("--explain");
-  EXPECT_NE(explained.out.find("[1/4] problem/fclib/CONDENSED  n_c 40\n"), std::string::npos)
+  EXPECT_NE(explained.out.find("[1/4] Mesh0-default/fclib/CONDENSED  n_c 40\n"), std::string::npos)
       << explained.out;
 }
 

@@ -77,7 +77,8 @@ TEST_F(TrackingCommand, CompareRefusesWhatItCannotUse) {
   expect_refused("compare a a --minimum-effect=-1", "--minimum-effect");
   fs::create_directories(bench_.path("empty"));
   testing::write_text(bench_.path("empty/records.jsonl"), "");
-  expect_refused("compare a empty", "no case is in both");
+  expect_refused("compare a empty", "no case is in both (");
+  EXPECT_NE(bench_.content("err.txt").find("; no cases)"), std::string::npos);
 }
 
 // What the page has a label for.

@@ -1,0 +1,57 @@
+#include "bench/commands/check_command.hpp"
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "bench/check/check.hpp"
+#include "bench/commands/run_parts.hpp"
+#include "bench/external/external_method.hpp"
+#include "bench/external/new_external.hpp"
+#include "bench/measure/environment.hpp"
+#include "bench/run/threads_at_hand.hpp"
+#include "support/errors.hpp"
+#include "support/text_table.hpp"
+#include "support/this_process.hpp"
+
+namespace airybench {
+
+int check_external(Options options) {
+  require_standard_output();
+  options.repetitions = 1;
+  const Method program =
+      external_method(read_declaration(options.check), options.memory_limit_bytes);
+  const std::vector<PosedScene> scenes = posed_scenes(options);
+  set_threads(options.threads);
+  catch_interrupts();
+  const std::size_t all = scenes.size() + 1;
+  std::size_t number = 0;
+  const CheckReport report = check_program(program, scenes, options, [&](const CheckedCase& seen) {
+    std::cerr << fmt::format("[{}/{}] {}: {}\n", ++number, all, seen.name, seen.verdict)
+              << std::flush;
+  });
+  std::vector<std::vector<std::string>> rows = {{"case", "made for", "verdict", "looks like"}};
+  std::size_t passed = 0;
+  for (const CheckedCase& seen : report.cases) {
+    rows.push_back({seen.name, seen.made_for, seen.verdict, seen.passed ? "-" : seen.looks_like});
+    if (seen.passed) ++passed;
+  }
+  fmt::print("\n{}\n{}: {} of {} cases passed\n", aligned_table(rows, rows.front().size()),
+             program.name, passed, all);
+  if (passed == all) return all_ok;
+  if (!report.conclusion.empty()) fmt::print("all its answers look like: {}\n", report.conclusion);
+  return some_case_failed;
+}
+
+int new_external(const Options& options) {
+  const auto files = write_new_external(options.new_external);
+  const std::string declaration = shell_word(files.back().string());
+  fmt::print(
+      "{} and {} written: a program that is right as it is. Change its contact_forces(), then:\n"
+      "  bench --check={}\n"
+      "  bench --mesh=Mesh0 --method='HYBRID,EXTERNAL:*' --external={}\n",
+      files.front().string(), files.back().string(), declaration, declaration);
+  return all_ok;
+}
+
+}  // namespace airybench

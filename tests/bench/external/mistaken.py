@@ -1,0 +1,60 @@
+"""A contact program with a mistake:  mistaken.py MISTAKE INPUT OUTPUT  (RIGHT: none)
+
+Projected Gauss-Seidel on the condensed problem, in the format npz.
+"""
+import json
+import sys
+from pathlib import Path
+from time import perf_counter
+
+import numpy as np
+
+mistake, folder, output = sys.argv[1:]
+
+
+def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False):
+    """F with r = D F + b; None: no convergence."""
+    components, F = len(b) // len(mu), np.zeros(len(b))
+    for _ in range(50000):
+        before = F.copy()
+        for p, friction in enumerate(mu):
+            n = components * p
+            F[n] -= (D[n] @ F + b[n]) / D[n, n]
+            if opens:
+                F[n] = min(F[n], 0)
+            if components == 2:
+                most = friction if box else friction * abs(F[n])
+                F[n + 1] = np.clip(F[n + 1] - (D[n + 1] @ F + b[n + 1]) / D[n + 1, n + 1], -most, most)
+        change = np.linalg.norm(F - before)
+        if change <= (tolerance if absolute else tolerance * np.linalg.norm(F)):
+            return F
+    return None
+
+
+def answer(D, G, gap, mu):
+    components = len(G) // len(mu)
+    if mistake == "always_two_components" and components == 1:
+        return np.zeros(2 * len(mu))
+    G = -G if mistake == "sign_of_G" else G
+    gap = -gap if mistake == "sign_of_gap" else gap / 1000 if mistake == "units" else gap
+    b = -G - gap
+    if mistake == "friction_factor":
+        mu = 2 * mu
+    F = sweeps(D, b, mu, 1e-7 if mistake == "absolute_tolerance" else 1e-12,
+               mistake == "absolute_tolerance", mistake != "tension", mistake == "box")
+    if F is None:
+        return np.zeros(len(b)) if mistake == "always_ok" else None
+    if mistake == "sign_of_tangent" and components == 2:
+        F[1::2] *= -1
+    if mistake == "order" and components == 2:
+        F = np.concatenate([F[::2], F[1::2]])
+    return F
+
+
+problem = np.load(Path(folder, "problem.npz"))
+start = perf_counter()
+found = answer(*(problem[name] for name in ("D", "G", "gap", "mu")))
+report = {"status": "not_converged" if found is None else "ok", "time_s": perf_counter() - start}
+if found is not None:
+    np.save(Path(output, "F_C.npy"), found.reshape(-1, 1))
+Path(output, "answer.json").write_text(json.dumps(report))

@@ -1,0 +1,132 @@
+"""bench --check and --new-external from outside: ten mistakes, each planted in a program, found and
+named; a right program passes.
+
+    AIRYBENCH_BENCH=PATH /usr/bin/python3 -m unittest FILE
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+BENCH = os.environ["AIRYBENCH_BENCH"]
+MISTAKEN = Path(__file__).resolve().parent / "mistaken.py"
+# Mistake -> the case that is made for it, and what is said there.
+MISTAKES = {
+    "sign_of_G": ("01_sign_of_G", "the sign of G"),
+    "sign_of_gap": ("02_sign_of_gap", "the sign of the gap"),
+    "sign_of_tangent": ("03_sign_of_tangent", "the sign of the tangential forces"),
+    "units": ("04_units", "units: the gap 1000 times too small (m, not mm)"),
+    "order": ("05_order_of_components",
+              "the order of the forces: all normal ones, then all tangential ones"),
+    "box": ("06_friction_cone", "friction: a box, |F_t| <= mu without F_n"),
+    "friction_factor": ("06_friction_cone", "friction: twice mu"),
+    "tension": ("07_opening", "points do not open: F_n > 0"),
+    "always_two_components": ("08_no_friction", "F_C has one row per point, the normal force"),
+    "always_ok": ("09_no_solution", "an answer where there is none"),
+    "absolute_tolerance": ("10_tiny_loads", "an absolute tolerance"),
+}
+
+
+class Check(unittest.TestCase):
+    def setUp(self) -> None:
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def bench(self, *arguments: str) -> subprocess.CompletedProcess:
+        return subprocess.run([BENCH, *arguments], capture_output=True, text=True, check=False,
+                              cwd=self.folder, env=os.environ | {"AIRYBENCH_THEN": ""})
+
+    def declare(self, mistake: str) -> None:
+        (self.folder / "mine.json").write_text(json.dumps({
+            "name": "mine", "reads": "condensed", "format": "npz", "returns": "contact_forces",
+            "command": [sys.executable, str(MISTAKEN), mistake, "{input}", "{output}"]}))
+
+    def check(self, mistake: str) -> tuple[int, dict[str, str], str]:
+        """Exit code, case -> its line, and the whole output."""
+        self.declare(mistake)
+        ran = self.bench("--check=mine.json")
+        if "this build is without" in ran.stderr:
+            self.skipTest(ran.stderr)
+        lines = {line.split()[0]: line for line in ran.stdout.splitlines() if line[:1].isdigit()}
+        self.assertEqual(len(lines), 10, ran.stdout + ran.stderr)
+        return ran.returncode, lines, ran.stdout
+
+    def test_a_right_program_passes(self) -> None:
+        code, lines, out = self.check("RIGHT")
+        self.assertEqual(code, 0, out)
+        for line in lines.values():
+            self.assertRegex(line, r"ok +-$")
+        self.assertIn("EXTERNAL:mine: 10 of 10 cases passed", out)
+
+    def test_each_mistake_is_found_and_named(self) -> None:
+        for mistake, (case, name) in MISTAKES.items():
+            with self.subTest(mistake):
+                code, lines, out = self.check(mistake)
+                self.assertEqual(code, 1, out)
+                self.assertIn(name, lines[case], out)
+                self.assertNotRegex(lines[case], r" ok +-$")
+
+    def test_mistakes_of_the_equations_are_the_conclusion_too(self) -> None:
+        for mistake in ("sign_of_G", "sign_of_gap", "units", "order", "box", "tension"):
+            with self.subTest(mistake):
+                _, _, out = self.check(mistake)
+                self.assertIn(f"all its answers look like: {MISTAKES[mistake][1]}\n", out)
+
+    def test_a_new_program_runs_and_passes(self) -> None:
+        made = self.bench("--new-external=mine")
+        if "this build is without" in made.stderr:
+            self.skipTest(made.stderr)
+        self.assertEqual(made.returncode, 0, made.stderr)
+        checked = self.bench("--check=mine.json")
+        self.assertEqual(checked.returncode, 0, checked.stdout + checked.stderr)
+        ran = self.bench("--mesh=Mesh0", "--external=mine.json", "--method=EXTERNAL:*",
+                         "--repetitions=1", "--out=o")
+        self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+
+    def test_a_new_program_overwrites_nothing(self) -> None:
+        for there in ("mine.py", "mine.json"):
+            (self.folder / there).write_text("kept")
+            ran = self.bench("--new-external=mine")
+            self.assertEqual(ran.returncode, 2, ran.stdout)
+            self.assertEqual(ran.stderr, f"bench: {there}: is there already (allowed: a name that "
+                                         "is free)\n")
+            self.assertEqual([file.name for file in self.folder.iterdir()], [there])
+            (self.folder / there).unlink()
+        for name in ("a b", "a,b", "x/"):
+            ran = self.bench(f"--new-external={name}")
+            self.assertEqual(ran.returncode, 2, ran.stdout)
+            self.assertIn("allowed: letters, digits, '-', '_' and '.'", ran.stderr)
+        ran = self.bench("--new-external=none/mine")
+        self.assertEqual(ran.returncode, 2)
+        self.assertEqual(ran.stderr.count("\n"), 1)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_the_study_runs_our_method_and_the_program(self) -> None:
+        self.declare("sign_of_G")
+        ran = self.bench("--study=check", "--external=mine.json", "--method=HYBRID,EXTERNAL:*",
+                         "--out=o")
+        self.assertEqual(ran.returncode, 1)
+        lines = (self.folder / "o/records.jsonl").read_text(encoding="utf-8").splitlines()
+        records = [json.loads(line) for line in lines]
+        ours = [r["status"] for r in records if r["method"] == "HYBRID"]
+        self.assertEqual(ours, ["ok"] * 9)
+        theirs = {r["scene"]: r["status"] for r in records if r["method"] != "HYBRID"}
+        self.assertEqual(theirs["01_sign_of_G"], "inaccurate")
+
+    def test_wrong_use_is_refused(self) -> None:
+        self.declare("RIGHT")
+        for arguments, said in {("--check=none.json",): "none.json: cannot be opened",
+                                ("--check=mine.json", "--mesh=Mesh0"): "--mesh excludes --check",
+                                }.items():
+            ran = self.bench(*arguments)
+            self.assertEqual(ran.returncode, 2, ran.stdout)
+            self.assertIn(said, ran.stderr)
+            self.assertEqual(ran.stderr.count("\n"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
