@@ -43,7 +43,9 @@ Scene loaded_scene() {
 }
 
 TEST(DegreeSystem, OfDegreeOneIsHybrid) {
-  Scene frictionless, rolling;
+  Scene frictionless, rolling, inclined;
+  inclined.crown_radius_mm.reset();
+  inclined.wall = FlatWall{{10.004, 0}, {-1, 0.002}};
   frictionless.friction = 0;
   rolling.boundary["displacement"].support = BoundaryValues::Support::normal;
   const Mesh tooth = small_tooth(6, 5),
@@ -51,7 +53,8 @@ TEST(DegreeSystem, OfDegreeOneIsHybrid) {
   for (const auto& [scene, mesh] : {std::pair(Scene{}, tooth),
                                     {frictionless, tooth},
                                     {loaded_scene(), tooth},
-                                    {rolling, guided}}) {
+                                    {rolling, guided},
+                                    {inclined, tooth}}) {
     const DualSystem system = assemble(testing::posed(scene, mesh), Blocks::contact_points);
     const Solution hybrid = run(select_methods("HYBRID").front(), system, {});
     ASSERT_EQ(hybrid.status, Status::ok) << hybrid.message;
@@ -135,6 +138,11 @@ TEST(DegreeSystem, RefusesWhatItHasNot) {
   steps.equal_steps = 3;
   EXPECT_EQ(complaint(*testing::posed(steps), 2),
             "stresses of degree 2: load steps (allowed: one step)");
+  Scene socket;
+  socket.crown_radius_mm.reset();
+  socket.wall = CircularWall{{-390, 0}, 400.01, CircularWall::Bodies::inside};
+  EXPECT_EQ(complaint(*testing::posed(socket), 3),
+            "stresses of degree 3: a wall whose normal turns along an edge (allowed: flat walls)");
   EXPECT_EQ(complaint(*testing::posed({}), 5), "stresses of degree 5 (allowed: 1 to 4)");
   EXPECT_EQ(complaint(*testing::posed({}), 0), "stresses of degree 0 (allowed: 1 to 4)");
 }
