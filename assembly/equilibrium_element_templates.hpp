@@ -1,0 +1,373 @@
+// Definitions of equilibrium_element.hpp, to instantiate them for further scalars.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "assembly/equilibrium_element.hpp"
+#include "assembly/hct_templates.hpp"
+
+namespace airybench {
+namespace equilibrium_formulas {
+
+using hct_formulas::next;
+
+// φ of one mode: the Bernstein coefficients of the three thirds by ring_place().
+template <typename Scalar>
+using AiryModes = std::vector<std::array<std::vector<Scalar>, 3>>;
+
+// Adds the coefficients on the spokes to those in rings.
+template <typename Scalar>
+void complete_spokes(std::array<std::vector<Scalar>, 3>& phi, int d) {
+  for (int c = 0; c < d; ++c)
+    for (int i = 0; i < 3; ++i) {
+      const int before = next(next(i)), a = d - 1 - c;
+      const Scalar mean = (phi[i][ring_place(d, 0, c)] + phi[i][ring_place(d, 1, c)] +
+                           phi[before][ring_place(d, a, c)]) /
+                          Scalar(3);
+      phi[i][ring_place(d, 0, c + 1)] = mean;
+      phi[before][ring_place(d, a, c + 1)] = mean;
+    }
+}
+
+template <typename Scalar>
+AiryModes<Scalar> airy_modes(int d) {
+  AiryModes<Scalar> modes;
+  const auto add_ring = [&](int c) {
+    for (int t = 0; t < 3; ++t)
+      for (int b = 1; b < d - c; ++b) {
+        auto& phi = modes.emplace_back();
+        phi.fill(std::vector<Scalar>(ring_place(d, 0, d) + 1, Scalar(0)));
+        phi[t][ring_place(d, b, c)] = 1;
+        complete_spokes(phi, d);
+      }
+  };
+  for (int c = 2; c < d; ++c) add_ring(c);
+  add_ring(1);
+  add_ring(0);
+  return modes;
+}
+
+// ∫ B_α B_β over a triangle of area a = a Π binom(α_p + β_p, α_p) / (binom(2k, k) binom(2k+2, 2)).
+template <typename Scalar>
+Eigen::MatrixX<Scalar> bernstein_mass(int k, Scalar area) {
+  Eigen::MatrixX<Scalar> m(ring_place(k, 0, k) + 1, ring_place(k, 0, k) + 1);
+  const double scale = binomial(2 * k, k) * binomial(2 * k + 2, 2);
+  const auto for_all = [&](auto visit) {
+    for (int c = 0; c <= k; ++c)
+      for (int b = 0; b <= k - c; ++b) visit(ring_place(k, b, c), k - b - c, b, c);
+  };
+  for_all([&](int i, int a1, int b1, int c1) {
+    for_all([&](int j, int a2, int b2, int c2) {
+      m(i, j) = area *
+                Scalar(binomial(a1 + a2, a1) * binomial(b1 + b2, b1) * binomial(c1 + c2, c1)) /
+                Scalar(scale);
+    });
+  });
+  return m;
+}
+
+// W with S = WᵀW.
+template <typename Scalar>
+Eigen::MatrixX<Scalar> cholesky_root(const Eigen::MatrixX<Scalar>& S) {
+  using std::sqrt;
+  Eigen::MatrixX<Scalar> W = Eigen::MatrixX<Scalar>::Zero(S.rows(), S.cols());
+  for (int j = 0; j < S.cols(); ++j)
+    for (int i = 0; i <= j; ++i) {
+      Scalar sum = S(i, j);
+      for (int m = 0; m < i; ++m) sum -= W(m, i) * W(m, j);
+      W(i, j) = i < j ? Scalar(sum / W(i, i)) : Scalar(sqrt(sum));
+    }
+  return W;
+}
+
+template <typename Scalar>
+hct_formulas::Corners<Scalar> reference_triangle() {
+  hct_formulas::Corners<Scalar> v;
+  v << 0, 1, 0, 0, 0, 1;
+  return v;
+}
+
+// n L of edge t.
+template <typename Scalar>
+Eigen::Vector2<Scalar> long_normal(const hct_formulas::Corners<Scalar>& v, int t) {
+  const Eigen::Vector2<Scalar> edge = v.col(next(t)) - v.col(t);
+  return {edge.y(), -edge.x()};
+}
+
+template <typename Scalar>
+Eigen::Vector2<Scalar> traction_of(const Eigen::Vector3<Scalar>& stress,
+                                   const Eigen::Vector2<Scalar>& normal) {
+  return {stress(0) * normal.x() + stress(2) * normal.y(),
+          stress(2) * normal.x() + stress(1) * normal.y()};
+}
+
+// (xx, yy, xy) of B τ Bᵀ / det B.
+template <typename Scalar>
+Eigen::Matrix3<Scalar> stress_map(const Eigen::Matrix2<Scalar>& B, const Scalar& determinant) {
+  const Scalar a = B(0, 0), b = B(0, 1), c = B(1, 0), d = B(1, 1), two = 2;
+  Eigen::Matrix3<Scalar> map;
+  map << a * a, b * b, two * a * b, c * c, d * d, two * c * d, a * c, b * d, a * d + b * c;
+  return map / determinant;
+}
+
+// Components of the six flexibility matrices.
+constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+
+}  // namespace equilibrium_formulas
+
+template <typename Scalar>
+ReferenceElement<Scalar>::ReferenceElement(int k) {
+  using namespace equilibrium_formulas;
+  const int d = k + 2, third = ring_place(k, 0, k) + 1;
+  const hct_formulas::Corners<Scalar> v = reference_triangle<Scalar>();
+  const Eigen::Vector2<Scalar> centroid = hct_formulas::mean(v);
+  const AiryModes<Scalar> airy = airy_modes<Scalar>(d);
+  const int modes = static_cast<int>(airy.size()), outer = 6 * k + 3;
+  for (Matrix& component : stress) component.resize(3 * third, modes);
+  for (int t = 0; t < 3; ++t) {
+    const hct_formulas::Corners<Scalar> g =
+        hct_formulas::barycentric_gradients<Scalar>(v.col(t), v.col(next(t)), centroid);
+    for (int mode = 0; mode < modes; ++mode)
+      for (int c = 0; c <= k; ++c)
+        for (int b = 0; b <= k - c; ++b) {
+          Eigen::Matrix2<Scalar> second = Eigen::Matrix2<Scalar>::Zero();  // ∇∇φ
+          for (int p = 0; p < 3; ++p)
+            for (int q = 0; q < 3; ++q) {
+              const int place = ring_place(d, b + (p == 1) + (q == 1), c + (p == 2) + (q == 2));
+              second += Scalar(d * (d - 1)) * airy[mode][t][place] *
+                        g.col(p).lazyProduct(g.col(q).transpose());
+            }
+          const int row = third * t + ring_place(k, b, c);
+          stress[0](row, mode) = second(1, 1);
+          stress[1](row, mode) = second(0, 0);
+          stress[2](row, mode) = -second(0, 1);
+        }
+  }
+
+  mass_root = cholesky_root<Scalar>(bernstein_mass(k, Scalar(1) / Scalar(6)));
+  for (int component = 0; component < 3; ++component) {
+    weighted[component].resize(3 * third, modes);
+    for (int t = 0; t < 3; ++t)
+      weighted[component].middleRows(third * t, third) =
+          mass_root.lazyProduct(stress[component].middleRows(third * t, third));
+  }
+  for (int m = 0; m < 6; ++m) {
+    const auto [a, b] = pairs[m];
+    const Matrix product = weighted[a].transpose().lazyProduct(weighted[b]);
+    flexibility[m] = a == b ? product : Matrix(product + product.transpose());
+  }
+
+  forces.resize(outer, 6 * (k + 1));
+  for (int t = 0; t < 3; ++t) {
+    const Eigen::Vector2<Scalar> normal = long_normal(v, t) / Scalar(k + 1);
+    for (int j = 0; j <= k; ++j) {
+      const int row = third * t + j, column = 2 * ((k + 1) * t + j);
+      for (int mode = 0; mode < outer; ++mode) {
+        const int of_mode = modes - outer + mode;
+        const Eigen::Vector3<Scalar> tau(stress[0](row, of_mode), stress[1](row, of_mode),
+                                         stress[2](row, of_mode));
+        forces.row(mode).template segment<2>(column) = traction_of(tau, normal).transpose();
+      }
+    }
+  }
+}
+
+template <typename Scalar, int k>
+const ReferenceElement<Scalar>& EquilibriumElement<Scalar, k>::reference() {
+  static const ReferenceElement<Scalar> element(k);
+  return element;
+}
+
+template <typename Scalar, int k>
+EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scalar>& vertices,
+                                                  const Eigen::Matrix3<Data<Scalar>>& compliance,
+                                                  Factor factor)
+    : compliance_(compliance.template cast<Scalar>()) {
+  const hct_formulas::Corners<Scalar> v = hct_formulas::at_origin<Scalar>(vertices);
+  B_ << v.col(1), v.col(2);
+  determinant_ = B_(0, 0) * B_(1, 1) - B_(0, 1) * B_(1, 0);
+  to_stress_ = equilibrium_formulas::stress_map(B_, determinant_);
+  const Eigen::Matrix3<Scalar> strain = compliance_.lazyProduct(to_stress_) * determinant_;
+  const Eigen::Matrix3<Scalar> c = to_stress_.transpose().lazyProduct(strain);  // in τ̂
+  if (factor == Factor::by_condition) factor = suitable_factor(c.trace());
+  if (factor == Factor::of_root)
+    factorise_root();
+  else
+    factorise_product(c);
+}
+
+// tr³ ≥ det cond for the three eigenvalues of the compliance in τ̂, and the map from τ̂ has the
+// determinant 1. 50 on a right triangle with ν = 0.3, 700 with ν = 0.49; more than the limit loses
+// more than 1e-12.
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Factor EquilibriumElement<Scalar, k>::suitable_factor(
+    const Scalar& trace) const {
+  const SmallCholesky<Scalar, 3> of_compliance(compliance_);
+  const Scalar pivots = of_compliance.L().diagonal().prod();
+  const Scalar determinant = pivots * pivots * determinant_ * determinant_ * determinant_;
+  return trace * trace * trace < Scalar(2000) * determinant ? Factor::of_product : Factor::of_root;
+}
+
+template <typename Scalar, int k>
+void EquilibriumElement<Scalar, k>::factorise_root() {
+  using std::sqrt;
+  const SmallCholesky<Scalar, 3> of_compliance(compliance_);
+  const Eigen::Matrix3<Scalar> R =
+      of_compliance.L().transpose().lazyProduct(to_stress_) * sqrt(determinant_);
+  constexpr int rows = Degree::coefficients;
+  Eigen::Matrix<Scalar, 3 * rows, Degree::modes> M;
+  const auto& weighted = reference().weighted;
+  for (int mode = 0; mode < Degree::modes; ++mode)
+    for (int a = 0; a < 3; ++a)
+      for (int i = 0; i < rows; ++i)
+        M(a * rows + i, mode) = R(a, 0) * weighted[0](i, mode) + R(a, 1) * weighted[1](i, mode) +
+                                R(a, 2) * weighted[2](i, mode);
+  flexibility_ = SmallCholesky<Scalar, Degree::modes>::of_root(M);
+  independence_ = flexibility_.independence();
+}
+
+template <typename Scalar, int k>
+void EquilibriumElement<Scalar, k>::factorise_product(const Eigen::Matrix3<Scalar>& c) {
+  using std::min;
+  using std::sqrt;
+  Eigen::Matrix<Scalar, Degree::modes, Degree::modes> S;
+  const auto& M = reference().flexibility;
+  for (int j = 0; j < Degree::modes; ++j)
+    for (int i = j; i < Degree::modes; ++i)  // its lower triangle is read
+      S(i, j) = c(0, 0) * M[0](i, j) + c(1, 1) * M[1](i, j) + c(2, 2) * M[2](i, j) +
+                c(0, 1) * M[3](i, j) + c(0, 2) * M[4](i, j) + c(1, 2) * M[5](i, j);
+  flexibility_ = SmallCholesky<Scalar, Degree::modes>(S);
+  independence_ = 1;
+  for (int j = 0; j < Degree::modes; ++j)  // in this order min() keeps a NaN
+    independence_ = min(Scalar(flexibility_.L()(j, j) / sqrt(S(j, j))), independence_);
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Root EquilibriumElement<Scalar, k>::root() const {
+  Root R;  // Tᵀ = T̂ᵀ (I ⊗ Bᵀ). The inner modes' rows are zero and stay so under L⁻¹.
+  const auto& forces = reference().forces;
+  for (int j = 0; j < Degree::size; j += 2)
+    for (int i = 0; i < Degree::outer; ++i)
+      for (int x = 0; x < 2; ++x)
+        R(i, j + x) = forces(i, j) * B_(x, 0) + forces(i, j + 1) * B_(x, 1);
+  const auto& L = flexibility_.L();
+  constexpr int first = Degree::inner;
+  for (int i = 0; i < Degree::outer; ++i) {
+    for (int j = 0; j < i; ++j) R.row(i) -= L(first + i, first + j) * R.row(j);
+    R.row(i) /= L(first + i, first + i);
+  }
+  return R;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stiffness EquilibriumElement<Scalar, k>::stiffness() const {
+  const Root R = root();
+  Stiffness K = Stiffness::Zero();
+  for (int i = 0; i < Degree::outer; ++i)
+    for (int j = 0; j < Degree::size; ++j) K.col(j) += R(i, j) * R.row(i).transpose();
+  return K;
+}
+
+namespace equilibrium_formulas {
+
+// W times the coefficients of each third and component: their scalar products are integrals.
+template <typename Scalar, int coefficients>
+Eigen::Matrix<Scalar, 3, coefficients> in_orthonormal(
+    const Eigen::MatrixX<Scalar>& W, const Eigen::Matrix<Scalar, 3, coefficients>& stress) {
+  constexpr int n = coefficients / 3;
+  Eigen::Matrix<Scalar, 3, coefficients> result = Eigen::Matrix<Scalar, 3, coefficients>::Zero();
+  for (int t = 0; t < 3; ++t)
+    for (int i = 0; i < n; ++i)
+      for (int j = i; j < n; ++j) result.col(n * t + i) += W(i, j) * stress.col(n * t + j);
+  return result;
+}
+
+}  // namespace equilibrium_formulas
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::modes_load(
+    const Stress& particular) const {
+  if (particular.isZero(0)) return Modes::Zero();
+  const Eigen::Matrix3<Scalar> dual = to_stress_.transpose().lazyProduct(compliance_);
+  const Stress strain = determinant_ * dual.lazyProduct(equilibrium_formulas::in_orthonormal(
+                                           reference().mass_root, particular));
+  Modes load = Modes::Zero();
+  for (int component = 0; component < 3; ++component)
+    for (int mode = 0; mode < Degree::modes; ++mode)
+      for (int i = 0; i < Degree::coefficients; ++i)
+        load(mode) += reference().weighted[component](i, mode) * strain(component, i);
+  return load;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::load(
+    const Stress& particular) const {
+  Modes y = modes_load(particular);
+  flexibility_.solve_lower(y);
+  OnEdges f = edge_forces(particular);
+  const Root R = root();
+  for (int i = 0; i < Degree::outer; ++i) f -= y(Degree::inner + i) * R.row(i).transpose();
+  return f;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
+    const OnEdges& displacement, const Stress& particular) const {
+  Modes modes = -modes_load(particular);
+  for (int j = 0; j < Degree::size; j += 2) {
+    const Eigen::Vector2<Scalar> u =
+        B_.transpose().lazyProduct(displacement.template segment<2>(j));
+    for (int i = 0; i < Degree::outer; ++i)
+      modes(Degree::inner + i) +=
+          reference().forces(i, j) * u(0) + reference().forces(i, j + 1) * u(1);
+  }
+  flexibility_.solve(modes);
+  Stress tau = Stress::Zero();
+  for (int component = 0; component < 3; ++component)
+    for (int mode = 0; mode < Degree::modes; ++mode)
+      for (int i = 0; i < Degree::coefficients; ++i)
+        tau(component, i) += reference().stress[component](i, mode) * modes(mode);
+  return particular + to_stress_.lazyProduct(tau);
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::edge_forces(
+    const Stress& stress) const {
+  using namespace equilibrium_formulas;
+  hct_formulas::Corners<Scalar> v;
+  v << Eigen::Vector2<Scalar>::Zero(), B_;
+  OnEdges forces;
+  for (int t = 0; t < 3; ++t) {
+    const Eigen::Vector2<Scalar> normal = long_normal(v, t) / Scalar(k + 1);
+    for (int j = 0; j <= k; ++j)
+      forces.template segment<2>(2 * ((k + 1) * t + j)) =
+          traction_of<Scalar>(stress.col(Degree::third * t + j), normal);
+  }
+  return forces;
+}
+
+template <typename Scalar, int k>
+Scalar EquilibriumElement<Scalar, k>::energy(const Stress& sigma, const Stress& tau) const {
+  using equilibrium_formulas::in_orthonormal;
+  const Stress strain = compliance_.lazyProduct(in_orthonormal(reference().mass_root, sigma));
+  return determinant_ * strain.cwiseProduct(in_orthonormal(reference().mass_root, tau)).sum();
+}
+
+template <int k, typename Scalar>
+typename EquilibriumElement<Scalar, k>::Stress linear_stress(
+    const Eigen::Matrix3<Scalar>& at_vertices) {
+  // A linear function's Bernstein coefficients are its values at the domain points.
+  const Eigen::Vector3<Scalar> at_centroid = at_vertices.rowwise().sum() / Scalar(3);
+  typename EquilibriumElement<Scalar, k>::Stress stress;
+  for (int t = 0; t < 3; ++t)
+    for (int c = 0; c <= k; ++c)
+      for (int b = 0; b <= k - c; ++b)
+        stress.col(StressDegree<k>::third * t + ring_place(k, b, c)) =
+            (Scalar(k - b - c) * at_vertices.col(t) +
+             Scalar(b) * at_vertices.col(equilibrium_formulas::next(t)) + Scalar(c) * at_centroid) /
+            Scalar(k);
+  return stress;
+}
+
+}  // namespace airybench
