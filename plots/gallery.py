@@ -57,7 +57,7 @@ SHADES = 24  # few, for a small file
 DECADES = 5  # of the scale of a map at most
 TENTH = 0.1
 HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
-LEVEL = re.compile(r"(?P<mesh>.+)%2Badapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
+LEVEL = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
 SHOWN, LEVEL_LEFT, GAP, LEVEL_HIGHEST = 3, 0.5, 0.12, 4.2  # of levels, inches
 TITLE, WORDS, BARS = 0.55, 0.34, 0.75
 
@@ -129,7 +129,7 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     text_at(figure, 0.1, 0.32, f"{len(share)} triangles; a tenth of them "
             f"has {100 * share_of_worst(share):.0f} % of the squared error.")
     draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "share of the squared error in a triangle, 1")
+             "share of the squared error in a triangle")
     return figure
 
 
@@ -182,7 +182,7 @@ def draw_levels(levels: list[Level]) -> Figure:
     draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
              "largest shear stress in the plane, MPa; brightest: or more")
     draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "a triangle's part of the squared error over their mean, 1")
+             "a triangle's part of the squared error over their mean")
     return figure
 
 

@@ -148,7 +148,7 @@ class GalleryTest(FolderTest):
         self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", out)
 
     def test_three_levels_of_an_adaptive_loop_are_side_by_side(self) -> None:
-        names = [f"Mesh0%2Badapt{level}--default--HYBRID" for level in (0, 2, 10, 11)]
+        names = [f"Mesh0~adapt{level}--default--HYBRID" for level in (0, 2, 10, 11)]
         for name in names:
             write_solution(self.fields, name)
             write_shares(self.fields, name, [0.25, 0.75])
@@ -162,7 +162,7 @@ class GalleryTest(FolderTest):
         self.assert_png(self.figures / "adapted_meshes.png", 913)
         lines = (self.figures / "adapted_meshes.csv").read_text().splitlines()
         self.assertEqual([line.split(",")[:3] for line in lines],
-                         [["mesh", "n_phi", "triangles"], *([f"Mesh0%2Badapt{k}", "", "2"]
+                         [["mesh", "n_phi", "triangles"], *([f"Mesh0~adapt{k}", "", "2"]
                                                             for k in (0, 10, 11))])
 
     def test_pictures_of_what_is_no_longer_there_are_removed(self) -> None:
