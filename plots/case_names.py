@@ -20,9 +20,9 @@ def case_name(case: Mapping) -> str:
 
 
 def words_of_file(stem: str) -> str:
-    return ", ".join(unquote(part.replace("+", ":")) for part in stem.split("--"))
+    return ", ".join(unquote(part.replace("+", ":").replace("~", "+")) for part in stem.split("--"))
 
 
 def file_of(name: str) -> str:
-    name = re.sub("[%+]|(?<![^-/])-|-(?![^-/])", lambda found: f"%{ord(found[0]):02X}", name)
-    return name.replace("/", "--").replace(":", "+")
+    name = re.sub(r"[%~]|^\+|(?<![^-/])-|-(?![^-/])", lambda found: f"%{ord(found[0]):02X}", name)
+    return name.replace("/", "--").replace("+", "~").replace(":", "+")

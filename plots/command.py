@@ -13,6 +13,7 @@ from pathlib import Path
 from records import RecordsError
 
 PARTS = ".airybench.part"  # a folder of files that are not whole yet
+MADE = ".airybench.made"  # the files of a folder that programs made, a line each: PROGRAM/FILE
 
 
 def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
@@ -57,6 +58,45 @@ def replace_all(folder: Path, writers: dict[str, Callable[[Path], object]]) -> N
                 raise OSError(error.errno, error.strerror or str(error), str(folder / name))
         for name, place in places.items():
             os.replace(parts_in[place.parent] / name, place)
+
+
+class Made:
+    """What a program makes in a folder, listed in MADE before it is there. The files of its earlier
+    runs that it does not make now are removed at the end; files that it never made stay."""
+
+    def __init__(self, folder: Path, program: str) -> None:
+        self.folder, self.program = folder, program
+        self.now: set[str] = set()
+
+    def listed(self) -> list[tuple[str, str]]:
+        """Program and file. Lines that no program wrote are passed over."""
+        with suppress(OSError, UnicodeDecodeError):
+            lines = (self.folder / MADE).read_text(encoding="utf-8").splitlines()
+            return [(program, name) for program, _, name in (line.partition("/") for line in lines)
+                    if name and "/" not in name and name not in (".", "..")]
+        return []
+
+    def earlier(self) -> set[str]:
+        return {name for program, name in self.listed() if program == self.program}
+
+    def replace(self, writers: dict[str, Callable[[Path], object]]) -> None:
+        self.now |= set(writers)
+        self.list_as(self.now | self.earlier(), writers)
+
+    def remove_others(self) -> list[str]:
+        """The names that are gone."""
+        gone = sorted(name for name in self.earlier() - self.now if (self.folder / name).is_file())
+        for name in gone:
+            (self.folder / name).unlink(missing_ok=True)
+        if self.earlier() != self.now:
+            self.list_as(self.now, {})
+        return gone
+
+    def list_as(self, names: set[str], writers: dict[str, Callable[[Path], object]]) -> None:
+        others = [line for line in self.listed() if line[0] != self.program]
+        lines = sorted(others + [(self.program, name) for name in names])
+        text = "".join(f"{program}/{name}\n" for program, name in lines)
+        replace_all(self.folder, {MADE: text_writer(text)} | writers)
 
 
 @contextmanager

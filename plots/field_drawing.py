@@ -29,8 +29,16 @@ ROLE = {
     "force": dict(color="black", linewidth=0.8, linestyle="-"),
     "contact": dict(color="#D00060", linewidth=2.0, linestyle=(0, (2, 1))),
 }
+LINES = {"rollers": ROLE["force"]} | ROLE
 FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
 NEARLY = 1.25
+FINEST_PT, CLEAR_PT = 3, 20  # size of triangles whose lines begin to show, and show fully
+ROLLER = dict(marker="o", markersize=3.2, markerfacecolor="white", markeredgecolor="black",
+              markeredgewidth=0.7, linestyle="none")
+OUTLINE = dict(color="0.15", linewidth=0.7, linestyle=(0, (4, 2)))
+WALL = dict(color="0.45", linewidth=1.0, linestyle="-")
+MOVED, FAR = 0.05, 0.1  # of a body's size: largest displacement drawn; wall that is drawn
+ARROW_PT, SPACING_PT, WEAKEST = 20, 13, 0.02  # of the largest load; of its arrows; of it
 SMALLEST_MARKER_PT = 3.5  # smaller markers of open, stick and slip look alike
 TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
 
@@ -104,24 +112,102 @@ def draw_stress(axes: Axes, s: Fields, chosen: np.ndarray, scales: Scales) -> No
     triangles = s.placed(s.triangles[chosen])
     corners = axes.transData.transform(triangles.reshape(-1, 2)).reshape(-1, 3, 2)
     size_pt = np.hypot(*(corners - corners[:, [1, 2, 0]]).T).mean(0) * 72 / axes.figure.dpi
-    axes.add_collection(PolyCollection(triangles, facecolor="none", alpha=0.4,
-                                       edgecolor="black", rasterized=True,
-                                       linewidths=np.clip(0.04 * size_pt, 0.05, 0.3)))
+    # The same part of every triangle, whatever its size; too fine to see, no lines.
+    lines = np.zeros((len(triangles), 4))
+    lines[:, 3] = 0.4 * np.clip((size_pt - FINEST_PT) / (CLEAR_PT - FINEST_PT), 0, 1)
+    axes.add_collection(PolyCollection(triangles, facecolor="none", edgecolor=lines, rasterized=True,
+                                       linewidths=np.clip(0.03 * size_pt, 0.05, 0.3)))
 
 
 def draw_boundary(axes: Axes, s: Fields) -> None:
-    for role, style in ROLE.items():
+    for role, style in LINES.items():
         edges = s.placed(s.boundary[s.role == role])
         for chain in chains(edges):
             points = np.vstack([edges[chain, 0], edges[chain[-1:], 1]])
             line, = axes.plot(*points.T, **style, zorder=3, solid_capstyle="butt")
             if role == "displacement":
                 line.set_path_effects([TICKED])
+            if role == "rollers":
+                axes.plot(*s.placed(edges[chain].mean(1)).T, **ROLLER, zorder=3)
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
     draw_stress(axes, s, np.full(len(s.corners), True), scales)
     draw_boundary(axes, s)
+
+
+def enlargement(s: Fields) -> float | None:
+    """Of displacements: 1, 2 or 5 times a power of ten. None: there are none to see."""
+    if s.moved is None or s.of_face:
+        return None
+    largest = np.hypot(*s.moved.reshape(-1, 2).T).max()
+    if not largest > 0:
+        return None
+    most = MOVED * size_of(s) / largest
+    power = 10.0 ** np.floor(np.log10(most))
+    return float(power * max(factor for factor in (1, 2, 5) if factor * power <= most))
+
+
+def size_of(s: Fields) -> float:
+    return float(np.ptp(s.boundary.reshape(-1, 2), axis=0).max())
+
+
+def draw_displaced(axes: Axes, s: Fields) -> None:
+    """The outline where enlarged displacements take it, and the wall behind the gap, enlarged as much."""
+    times = enlargement(s)
+    if times is None:
+        return
+    moved = s.boundary + times * s.moved
+    for chain in chains(s.boundary):
+        axes.plot(*np.vstack([moved[chain, 0], moved[chain[-1:], 1]]).T, **OUTLINE, zorder=4)
+    if s.away is None or not np.isfinite(s.away).all():
+        return
+    thirds = np.array([[2, 1], [1, 2]]) / 3  # gaps are means around these points of an edge
+    wall = np.einsum("kc,ecx->ekx", thirds, moved[s.role == "contact"]) + times * s.away
+    near = times * np.hypot(*np.moveaxis(s.away, -1, 0)) < FAR * size_of(s)
+    for face in s.faces():
+        points, drawn = wall[face].reshape(-1, 2), near[face].ravel()
+        for is_drawn, run in groupby(range(len(drawn)), drawn.__getitem__):
+            own = list(run)
+            if is_drawn and len(own) > 1:
+                axes.plot(*points[own].T, **WALL, zorder=3.5, path_effects=[TICKED])
+
+
+def largest_load(s: Fields) -> float:
+    """MPa."""
+    return 0.0 if s.load is None else float(np.hypot(*s.load.reshape(-1, 2).T).max(initial=0))
+
+
+def draw_loads(axes: Axes, s: Fields) -> None:
+    """Arrows of the given tractions, about as far apart everywhere: what pushes ends on the edge, what
+    pulls begins there."""
+    largest = largest_load(s)
+    if not largest > 0:
+        return
+    loaded = np.hypot(*np.moveaxis(s.load, -1, 0)).max(1) > WEAKEST * largest
+    scale = np.abs(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0]))[0] * 72 / axes.figure.dpi
+    edges, loads = s.boundary[loaded], s.load[loaded]
+    for chain in chains(edges):
+        lengths = scale * np.hypot(*(edges[chain, 1] - edges[chain, 0]).T)
+        ends = np.cumsum(lengths)
+        count = max(1, int(ends[-1] / SPACING_PT))
+        for at in (np.arange(count) + 0.5) * ends[-1] / count:
+            k = int(np.searchsorted(ends, at))
+            part = 1 - (ends[k] - at) / lengths[k]
+            start, end = edges[chain[k]]
+            traction = (1 - part) * loads[chain[k], 0] + part * loads[chain[k], 1]
+            if np.hypot(*traction) < WEAKEST * largest:
+                continue
+            outward = np.array([end[1] - start[1], start[0] - end[0]])
+            tip, tail = (0, 0), -ARROW_PT * traction / largest
+            if traction @ outward > 0:
+                tip, tail = -tail, tip
+            point = axes.transData.transform((1 - part) * start + part * end)
+            point = point * 72 / axes.figure.dpi
+            axes.annotate("", point + tip, xytext=point + tail, xycoords="figure points",
+                          textcoords="figure points", annotation_clip=False,
+                          arrowprops=dict(arrowstyle="-|>", mutation_scale=5, linewidth=0.6,
+                                          shrinkA=0, shrinkB=0, color="black"))
 
 
 def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:

@@ -31,7 +31,7 @@ AddAxes = Callable[..., Axes]  # left, top, width, height; limits
 def view_of(s: Fields) -> Bbox:
     """Limits of a body's axes, mm."""
     low, high = s.boundary.min(axis=(0, 1)), s.boundary.max(axis=(0, 1))
-    margin = MARGIN * (high - low)[1]
+    margin = MARGIN * (high - low)[1] + (drawing.MOVED * drawing.size_of(s) if s.moved is not None else 0)
     return Bbox([low - margin, high + margin])
 
 
@@ -125,7 +125,7 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
     view, layout = view_of(s), layout_of(s, width)
     body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.intervalx,
                     ylim=view.intervaly)
-    label_body(body)
+    label_body(body, x="; ".join(["x in mm", *drawn_over(s)]))
     body.tick_params(axis="x", pad=1)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
@@ -133,9 +133,17 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                 f"{plain(s.mesh)}: {len(s.corners)} triangles{n_phi}", va="bottom", fontsize=9,
                 ha="left" if is_tall(s) else "center")
     drawing.draw_body(body, s, scales)
+    drawing.draw_displaced(body, s)
+    drawing.draw_loads(body, s)
     faces = faces_of(s)
     for k, (face, place) in enumerate(zip(faces, layout.faces)):
         draw_face(body, s, face, add_axes, place, scales, letter_of(k) if len(faces) > 1 else "")
+
+
+def drawn_over(s: Fields) -> list[str]:
+    times, load = drawing.enlargement(s), drawing.largest_load(s)
+    return ([f"displacements, gaps × {times:g}"] if times else []) + (
+        [f"loads to {load:.3g} MPa"] if load > 0 else [])
 
 
 def letter_of(k: int) -> str:
@@ -179,20 +187,29 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                        textcoords="offset points", va="top", bbox=box)
 
 
-def draw_legend(figure: Figure, scales: drawing.Scales) -> None:
-    handles = [Line2D([], [], **style, label=role if role == "contact" else f"{role} prescribed")
-               for role, style in drawing.ROLE.items()]
-    handles[0].set_path_effects([drawing.TICKED])
-    handles += [Line2D([], [], linestyle="none", label=state, **drawing.marker(state))
-                for state in drawing.STATE]
-    handles += [Patch(color=drawing.STATE["stick"]["fill"], label="pressure, sticking"),
-                Patch(color=drawing.STATE["slip"]["fill"], label="pressure, slipping"),
-                Line2D([], [], **drawing.FRICTION, label="|friction|")]
-    figure.legend(handles=handles, loc="lower left", ncol=3, frameon=False,
-                  bbox_to_anchor=(0.04, 0))
+def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields]) -> None:
+    """Of what is drawn of the solutions."""
+    roles = {role for s in solutions for role in s.role}
+    displaced = any(drawing.enlargement(s) for s in solutions)
+    ticked, edge = {"path_effects": [drawing.TICKED]}, drawing.ROLE["force"]
+    lines = (("held", "displacement" in roles, drawing.ROLE["displacement"] | ticked),
+             ("on rollers", "rollers" in roles, edge | drawing.ROLLER | {"linestyle": "-"}),
+             ("free or loaded", "force" in roles, edge),
+             ("contact", "contact" in roles, drawing.ROLE["contact"]),
+             ("outline, displaced", displaced, drawing.OUTLINE),
+             ("wall, behind the gap", displaced and "contact" in roles, drawing.WALL | ticked))
+    handles = [Line2D([], [], **style, label=label) for label, drawn, style in lines if drawn]
+    if "contact" in roles:
+        handles += [Line2D([], [], linestyle="none", label=state, **drawing.marker(state))
+                    for state in drawing.STATE]
+        handles += [Patch(color=drawing.STATE["stick"]["fill"], label="pressure, sticking"),
+                    Patch(color=drawing.STATE["slip"]["fill"], label="pressure, slipping"),
+                    Line2D([], [], **drawing.FRICTION, label="|friction|")]
+    figure.legend(handles=handles, loc="lower left", ncol=math.ceil(len(handles) / 3), frameon=False,
+                  columnspacing=1.2, borderaxespad=0.2, bbox_to_anchor=(0, 0))
     height = figure.get_size_inches()[1]
     bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
-                          cax=figure.add_axes([0.62, 0.36 / height, 0.35, 0.12 / height]))
+                          cax=figure.add_axes([0.7, 0.36 / height, 0.27, 0.12 / height]))
     bar.set_label(r"$\tau_{max}$ in MPa; brightest: or more", labelpad=1)
 
 

@@ -14,8 +14,11 @@ from records import RecordsError, cells_of, lines_file, read_run
 
 STRESS = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa"
 CONTACT = "x_mm,y_mm,normal_x,normal_y,edge_length_mm,F_n_N,F_t_N,gap_mm,slip_mm,state"
-MAY_BE_EMPTY = ("gap_mm", "slip_mm")  # not known
-BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,role"
+MAY_BE_EMPTY = ("gap_mm", "slip_mm", "normal_resultant_N", "tangential_resultant_N", "n_open",
+                "n_stick", "n_slip", "held_x_mm", "held_y_mm", "loaded_x_mm", "loaded_y_mm")
+DISPLACEMENT = "triangle,node,x_mm,y_mm,ux_mm,uy_mm"
+BOUNDARY = "x0_mm,y0_mm,x1_mm,y1_mm,rolls,t0_x_MPa,t0_y_MPa,t1_x_MPa,t1_y_MPa,role"
+WITHOUT_LOADS = "x0_mm,y0_mm,x1_mm,y1_mm,role"  # of an earlier bench
 ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
@@ -31,13 +34,16 @@ class Fields:
     corners: np.ndarray   # (T, 3, 3, 2) mm: third, corner; corners of third k: v_k, v_k+1, centroid
     stress: np.ndarray    # (T, 3, 3, 3) MPa: third, corner; sxx, syy, sxy; linear on a third
     boundary: np.ndarray  # (B, 2, 2) mm: start, end
-    role: np.ndarray      # (B,) of ROLES
+    role: np.ndarray      # (B,) of ROLES, or "rollers"
     edges: np.ndarray     # (P/2, 2, 2) mm: contact edges; contact point 2e is the start of edge e
     traction: np.ndarray  # (P/2, 2, 2) MPa: start, end; normal (pressure < 0), tangential
     state: np.ndarray     # (P/2, 2) of STATES
     mesh: str
     n_phi: int | None     # from the record; None: there is none
     of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
+    load: np.ndarray | None = None   # (B, 2, 2) MPa: given traction at start, end; None: unknown
+    moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
+    away: np.ndarray | None = None   # (P/2, 2, 2) mm: from the contact points to the wall
 
     @property
     def triangles(self) -> np.ndarray:
@@ -140,7 +146,7 @@ class Unrolled:
         lines = np.ptp(boundary[..., 1], axis=1) < widest
         return replace(s, corners=corners[kept], stress=stress[kept], boundary=boundary[lines],
                        role=role[lines], traction=s.traction[face], state=s.state[face], of_face=True,
-                       edges=np.stack([np.zeros_like(self.along), self.along], -1))
+                       load=None, moved=None, away=None, edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
 def unrolled(edges: np.ndarray) -> Unrolled:
@@ -157,10 +163,11 @@ def unrolled(edges: np.ndarray) -> Unrolled:
 
 
 def read_table(path: Path, header: str,
-               words: tuple[str, ...] = ()) -> tuple[np.ndarray, np.ndarray]:
+               words: tuple[str, ...] = (), other: str = "") -> tuple[np.ndarray, np.ndarray]:
     """(numbers (rows, columns), words (rows,)); with `words` the last column is one of them.
-    Numbers that are not known are NaN."""
-    lines, columns = cells_of(path), header.split(",")
+    Numbers that are not known are NaN. other: a header that is allowed, too."""
+    lines = cells_of(path)
+    columns = (other if other and lines and lines[0] == other.split(",") else header).split(",")
     if not lines or lines[0] != columns:
         raise RecordsError(f"{path}:1: expected the header {header}")
     cells = np.array(lines[1:], dtype=object).reshape(-1, len(columns))
@@ -223,12 +230,15 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
         raise RecordsError(f"{path['stress']}: {len(rows)} rows; expected nine per triangle, "
                           "thirds 1 to 3 with corners 1 to 3, triangles from 1")
     corners = rows[:, 3:5].reshape(n, 3, 3, 2)
-    boundary, role = read_table(path["boundary"], BOUNDARY, ROLES)
-    boundary = boundary.reshape(-1, 2, 2)
+    outline, role = read_table(path["boundary"], BOUNDARY, ROLES, WITHOUT_LOADS)
+    boundary, load = outline[:, :4].reshape(-1, 2, 2), None
+    if outline.shape[1] > 4:
+        load = outline[:, 5:].reshape(-1, 2, 2)
+        role = np.where(outline[:, 4] == 1, "rollers", role)
 
-    inside, outline = area(corners[:, :, 0], corners[:, :, 1]), area(*boundary.swapaxes(0, 1))
-    if not np.isclose(inside, outline, rtol=1e-9):
-        raise RecordsError(f"{path['boundary']}: encloses {outline:.9g} mm^2; expected the "
+    inside, enclosed = area(corners[:, :, 0], corners[:, :, 1]), area(*boundary.swapaxes(0, 1))
+    if not np.isclose(inside, enclosed, rtol=1e-9):
+        raise RecordsError(f"{path['boundary']}: encloses {enclosed:.9g} mm^2; expected the "
                           f"{inside:.9g} mm^2 of the triangles in {path['stress'].name}")
     points, state = read_table(path["contact"], CONTACT, STATES)
     contact = boundary[role == "contact"]
@@ -239,4 +249,19 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
     half_length = np.hypot(*(contact[:, 1] - contact[:, 0]).T)[:, None, None] / 2
     return Fields(name, corners, rows[:, 5:].reshape(n, 3, 3, 3), boundary, role, contact,
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
-                  state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"])
+                  state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
+                  moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
+                  away=(points[:, 2:4] * points[:, 7:8]).reshape(-1, 2, 2))
+
+
+def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:
+    """(B, 2, 2) mm: displacement of the edges' ends; None without the file."""
+    if not path.is_file():
+        return None
+    rows, _ = read_table(path, DISPLACEMENT)
+    at = {(x, y): u for _, _, x, y, *u in rows[rows[:, 1] <= 3].tolist()}
+    ends = [at.get(tuple(end)) for end in boundary.reshape(-1, 2).tolist()]
+    if None in ends:
+        raise RecordsError(f"{path}: no displacement at {boundary.reshape(-1, 2)[ends.index(None)]}, "
+                           "an end of an edge of the boundary")
+    return np.array(ends).reshape(-1, 2, 2)

@@ -10,6 +10,9 @@ budget.csv and budget.md, the least error within a time, with an error study. me
 the records were measured, in words for a paper. --only draws these of the figures and tables, by
 name or glob, and says nothing of the others.
 
+Figures of an earlier run that these records do not give are removed, unless --only is given; the
+folder's list .airybench.made names what the programs made there.
+
 Where there is room for one scene it is `default`, if that is there. A line on stdout says of each
 figure what was written, or why not; a last one which cases are in none. Exit 2: wrong input,
 or a folder that cannot be written; one line says which, and the files that were there stay.
@@ -65,7 +68,7 @@ def selected(only: str | None, names: list[str]) -> list[str]:
 
 
 def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
-    report, drawn = [], []
+    report, drawn, made = [], [], command.Made(out, "figures")
     writers: dict[str, Callable[[Path], object]] = {}
     drawings, documents = drawings_of(rows), documents_of(rows)
     names = selected(only, [*(drawing.name for drawing in drawings), *list(documents)[:-1]])
@@ -74,8 +77,9 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
             continue
         result = drawing.figure()
         if isinstance(result, str):
-            old = [drawing.name + suffix for suffix in drawing.suffixes
-                   if (out / (drawing.name + suffix)).exists()]
+            old = [name for suffix in drawing.suffixes
+                   if (out / (name := drawing.name + suffix)).exists()
+                   and (only is not None or name not in made.earlier())]
             stays = f"; an earlier {old[0]} stays" if old else ""
             report.append(f"{drawing.name}: left out: {result}{stays}")
             continue
@@ -90,7 +94,9 @@ def draw_all(rows: list[Row], out: Path, only: str | None = None) -> None:
         if name in names or name == "measured":
             writers |= {name + suffix: command.text_writer(text) for suffix, text in texts.items()}
     out.mkdir(parents=True, exist_ok=True)
-    command.replace_all(out, writers)
+    made.replace(writers)
+    if only is None and (gone := made.remove_others()):
+        report.append(f"removed, of other records: {', '.join(gone)}")
     undrawn = listed(rows, drawn) if only is None else ""
     print(*report, *([f"in no figure: {undrawn}"] if undrawn else []), sep="\n")
 

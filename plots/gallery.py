@@ -6,13 +6,15 @@
 gallery.png and .svg: Mesh0, Mesh1, Mesh3 and a rack, if RESULTS_DIR/fields has them; else, and
 with --each, fields_NAME.png for every solution. error_map_NAME.png for every one that has an
 element map of its discretisation error (NAME.error.csv); adapted_meshes.png where three levels of
-an adaptive loop have one. NAME.csv next to each picture has its numbers. Exit 2: wrong input,
+an adaptive loop have one; load_path_NAME.png for every path of load steps (NAME.steps.csv), with
+--animate also load_path_NAME.gif, a frame per step with the body in files, at most 60. NAME.csv next to each picture has its numbers. Exit 2: wrong input,
 or a folder that cannot be written; one line says which, and its files stay as they were.
 """
 import argparse
 import math
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
@@ -32,11 +34,14 @@ from field_drawing import COLORMAP, areas, draw_body, draw_boundary, scales_of
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
                          layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
+from load_path import read_path, table_of
+from load_path_drawing import draw_frame, draw_path, frames_of, write_gif
 from words import csv_of, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
-         "xtick.labelsize": 7, "ytick.labelsize": 7}
+         "xtick.labelsize": 7, "ytick.labelsize": 7, "grid.color": "0.88", "grid.linewidth": 0.4,
+         "axes.axisbelow": True}
 DPI = 160
 WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
 BODY = 5.0  # highest body in its own picture
@@ -52,7 +57,7 @@ SHADES = 24  # few, for a small file
 DECADES = 5  # of the scale of a map at most
 TENTH = 0.1
 HIGHEST, LEFT, RIGHT, TOP, BOTTOM, NARROWEST = 5.0, 0.55, 0.15, 0.62, 0.92, 5.5  # of a map, inches
-LEVEL = re.compile(r"(?P<mesh>.+)%2Badapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
+LEVEL = re.compile(r"(?P<mesh>.+)~adapt(?P<level>\d+)(?P<case>--.*)")  # of a case's files
 SHOWN, LEVEL_LEFT, GAP, LEVEL_HIGHEST = 3, 0.5, 0.12, 4.2  # of levels, inches
 TITLE, WORDS, BARS = 0.55, 0.34, 0.75
 
@@ -75,7 +80,7 @@ def compose(rows: list[list[Fields]]) -> Figure:
         for k, s in enumerate(row):
             draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width, scales)
         top -= height
-    draw_legend(figure, scales)
+    draw_legend(figure, scales, [s for row in rows for s in row])
     return figure
 
 
@@ -124,7 +129,7 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     text_at(figure, 0.1, 0.32, f"{len(share)} triangles; a tenth of them "
             f"has {100 * share_of_worst(share):.0f} % of the squared error.")
     draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "share of the squared error in a triangle, 1")
+             "share of the squared error in a triangle")
     return figure
 
 
@@ -177,7 +182,7 @@ def draw_levels(levels: list[Level]) -> Figure:
     draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
              "largest shear stress in the plane, MPa; brightest: or more")
     draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "a triangle's part of the squared error over their mean, 1")
+             "a triangle's part of the squared error over their mean")
     return figure
 
 
@@ -196,14 +201,14 @@ def write(figure: Figure, path: Path) -> None:
         write_small_png(figure, DPI, path)
 
 
-def save(out: Path, name: str, table: str, **writers: Callable[[Path], object]) -> None:
+def save(made: command.Made, name: str, table: str, **writers: Callable[[Path], object]) -> None:
     files = {f"{name}.{suffix}": write for suffix, write in writers.items()}
-    command.replace_all(out, files | {f"{name}.csv": command.text_writer(table)})
-    print(*(out / file for file in files), sep="\n")
+    made.replace(files | {f"{name}.csv": command.text_writer(table)})
+    print(*(made.folder / file for file in files), sep="\n")
 
 
-def save_composed(out: Path, name: str, rows: list[list[Fields]], *suffixes: str) -> None:
-    save(out, name, contact_points([s for row in rows for s in row]),
+def save_composed(made: command.Made, name: str, rows: list[list[Fields]], *suffixes: str) -> None:
+    save(made, name, contact_points([s for row in rows for s in row]),
          **dict.fromkeys(suffixes, partial(write, compose(rows))))
 
 
@@ -219,6 +224,7 @@ def choose(names: list[str]) -> list[str] | None:
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     command.results_and_out(parser)
     parser.add_argument("--each", action="store_true", help="also a picture per solution")
+    parser.add_argument("--animate", action="store_true", help="also a .gif per path of load steps")
 
 
 def draw(args: argparse.Namespace) -> None:
@@ -226,30 +232,63 @@ def draw(args: argparse.Namespace) -> None:
     matplotlib.rcdefaults()
     matplotlib.rcParams.update(STYLE)
     names, records = names_in(args.results), recorded(args.results)
+    if others := [name for name in names if records and name not in records]:
+        print(f"left out, fields of no recorded case: {', '.join(others)}")
+        names = [name for name in names if name in records]
     chosen = choose(names)
     wanted = names if args.each or not chosen else chosen
     solutions = {name: read_fields(args.results, name, records) for name in wanted}
     mapped = {name: solutions.get(name) or read_fields(args.results, name, records)
-              for name in names_in(args.results, "error")}
+              for name in names_in(args.results, "error") if name in names}
     maps = {name: (s, read_error_share(args.results, s)) for name, s in mapped.items()}
     out.mkdir(parents=True, exist_ok=True)
+    made = command.Made(out, "gallery")
     if chosen:
         *teeth, rack = (solutions[name] for name in chosen)
-        save_composed(out, "gallery", [teeth, [rack]], "png", "svg")
+        save_composed(made, "gallery", [teeth, [rack]], "png", "svg")
     if args.each or not chosen:
         for name, s in solutions.items():
-            save_composed(out, f"fields_{name}", [[s]], "png")
+            save_composed(made, f"fields_{name}", [[s]], "png")
     levels = levels_in(list(maps))
     if levels and all(maps[name][1].any() for name in levels):
         shown = [(*maps[name], records.get(name, {}).get("error_total")) for name in levels]
-        save(out, "adapted_meshes", levels_table(shown),
+        save(made, "adapted_meshes", levels_table(shown),
              png=partial(write_small_png, draw_levels(shown), LEVELS_DPI))
     for name, (s, share) in maps.items():
         if not share.any():
             print(f"error_map_{name}: left out: the solution has no discretisation error")
             continue
-        save(out, f"error_map_{name}", map_table(s, share),
+        save(made, f"error_map_{name}", map_table(s, share),
              png=partial(write_small_png, draw_map(s, share), MAP_DPI, colours=200))
+    draw_paths(args, made, [name for name in names_in(args.results, "steps") if name in names], records)
+    if gone := made.remove_others():
+        print(f"removed, of other fields: {', '.join(gone)}")
+
+
+def is_newer(file: Path, than: Path) -> bool:
+    return file.is_file() and file.stat().st_mtime >= than.stat().st_mtime
+
+
+def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
+               records: dict[str, dict]) -> None:
+    for name in names:
+        path = read_path(args.results, name)
+        if isinstance(path, str):
+            print(f"load_path_{name}: left out: {path}")
+            continue
+        writers = {"png": partial(write_small_png, draw_path(path), DPI, colours=200)}
+        moving = made.folder / f"load_path_{name}.gif"
+        if not args.animate and moving.name in made.earlier() and is_newer(
+                moving, args.results / "fields" / f"{name}.steps.csv"):
+            made.now.add(moving.name)  # of these fields: it stays
+        if args.animate and path.has_body.any():
+            of_steps = {k: replace(read_fields(args.results, f"{name}.steps/{k + 1:04}", {}),
+                                   name=name, mesh=records.get(name, {}).get("mesh") or
+                                   name.partition("--")[0]) for k in frames_of(path)}
+            scales = scales_of(list(of_steps.values()))
+            writers["gif"] = partial(write_gif, (draw_frame(path, k, s, scales)
+                                                 for k, s in of_steps.items()))
+        save(made, f"load_path_{name}", table_of(path), **writers)
 
 
 def main() -> None:

@@ -3,15 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <map>
-#include <numeric>
-#include <string_view>
-#include <type_traits>
 
 #include "assembly/control_points.hpp"
 #include "assembly/edge_forces.hpp"
+#include "bench/measure/vtu.hpp"
+#include "bench/verify/displacement_recovery.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "support/atomic_file.hpp"
 
@@ -85,12 +82,22 @@ std::string contact_csv(const ContactPicture& picture) {
   return text;
 }
 
-std::string boundary_csv(const Mesh& mesh) {
-  std::string text = "x0_mm,y0_mm,x1_mm,y1_mm,role\n";
-  for (const BoundaryEdge& edge : mesh.boundary) {
-    const auto &a = mesh.vertices[edge.vertices[0]], &b = mesh.vertices[edge.vertices[1]];
-    text += fmt::format("{},{},{},{},{}\n", a.x(), a.y(), b.x(), b.y(),
-                        boundary_role_names[static_cast<std::size_t>(edge.role)]);
+std::string boundary_csv(const Problem& problem) {
+  std::string text = "x0_mm,y0_mm,x1_mm,y1_mm,rolls,t0_x_MPa,t0_y_MPa,t1_x_MPa,t1_y_MPa,role\n";
+  for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
+    const BoundaryEdge& edge = problem.mesh.boundary[row];
+    const auto &a = problem.mesh.vertices[edge.vertices[0]],
+               &b = problem.mesh.vertices[edge.vertices[1]];
+    text += fmt::format("{},{},{},{},", a.x(), a.y(), b.x(), b.y());
+    const std::vector<bool>& rollers = problem.loads.rollers;
+    text += edge.role == BoundaryRole::displacement && !rollers.empty() && rollers[row] ? "1" : "0";
+    for (const Eigen::Vector2d& x : {a, b}) {
+      Eigen::Vector2d t(0, 0);
+      if (edge.role == BoundaryRole::force && problem.loads.traction_MPa)
+        t = problem.loads.traction_MPa(x, edge_frame(a, b).normal, static_cast<int>(row));
+      text += fmt::format(",{},{}", t.x(), t.y());
+    }
+    text += fmt::format(",{}\n", boundary_role_names[static_cast<std::size_t>(edge.role)]);
   }
   return text;
 }
@@ -108,100 +115,6 @@ std::string error_csv(const ConstitutiveError& error) {
   std::string text = "triangle,error_share\n";
   for (std::size_t t = 0; t < shares.size(); ++t) text += fmt::format("{},{}\n", t + 1, shares[t]);
   return text;
-}
-
-// VTK's unstructured grids as XML, for ParaView. Arrays are base64 of their memory, so that every
-// number is exact.
-
-enum class VtuCell : std::uint8_t { line = 3, triangle = 5 };  // VTK's own numbers
-
-// Cells share no points, so that values at points may jump between cells.
-struct VtuGrid {
-  VtuCell cell = VtuCell::triangle;
-  std::vector<Eigen::Vector2d> points;  // mm; two per line, three per triangle, cell by cell
-  std::string of_points, of_cells;      // arrays
-};
-
-std::string base64(std::string_view bytes) {
-  constexpr std::string_view digits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t k = 0; k < bytes.size(); k += 3) {
-    const std::string_view three = bytes.substr(k, 3);
-    std::uint32_t bits = 0;
-    for (std::size_t i = 0; i < 3; ++i)
-      bits = bits << 8 | (i < three.size() ? static_cast<unsigned char>(three[i]) : 0U);
-    for (std::size_t i = 0; i < 4; ++i)
-      text += i <= three.size() ? digits[bits >> (18 - 6 * i) & 63] : '=';
-  }
-  return text;
-}
-
-template <typename Number>
-std::string type_name() {
-  const char* kind = std::is_floating_point_v<Number> ? "Float"
-                     : std::is_signed_v<Number>       ? "Int"
-                                                      : "UInt";
-  return fmt::format("{}{}", kind, 8 * sizeof(Number));
-}
-
-template <typename Number>
-std::string data_array(const std::string& attributes, const std::vector<Number>& values) {
-  const std::uint64_t size = values.size() * sizeof(Number);
-  std::string bytes(sizeof size + size, '\0');
-  std::memcpy(bytes.data(), &size, sizeof size);
-  if (size > 0) std::memcpy(bytes.data() + sizeof size, values.data(), size);
-  return fmt::format("<DataArray type=\"{}\" {} format=\"binary\">{}</DataArray>\n",
-                     type_name<Number>(), attributes, base64(bytes));
-}
-
-// values: component by component.
-template <typename Number>
-std::string vtu_array(const std::string& name, const std::vector<Number>& values,
-                      const std::vector<std::string>& components = {}) {
-  std::string attributes = fmt::format("Name=\"{}\"", name);
-  if (!components.empty())
-    attributes += fmt::format(" NumberOfComponents=\"{}\"", components.size());
-  for (std::size_t k = 0; k < components.size(); ++k)
-    attributes += fmt::format(" ComponentName{}=\"{}\"", k, components[k]);
-  return data_array(attributes, values);
-}
-
-std::vector<double> with_z(const std::vector<Eigen::Vector2d>& vectors) {
-  std::vector<double> xyz;
-  for (const Eigen::Vector2d& vector : vectors) xyz.insert(xyz.end(), {vector.x(), vector.y(), 0});
-  return xyz;
-}
-
-std::string vtu_vectors(const std::string& name, const std::vector<Eigen::Vector2d>& vectors) {
-  return vtu_array(name, with_z(vectors), {"x", "y", "z"});
-}
-
-std::string cells_text(VtuCell cell, std::size_t points, std::size_t corners) {
-  std::vector<std::int64_t> connectivity(points), offsets;
-  std::iota(connectivity.begin(), connectivity.end(), 0);
-  for (std::size_t end = corners; end <= points; end += corners)
-    offsets.push_back(static_cast<std::int64_t>(end));
-  const std::vector<std::uint8_t> types(offsets.size(), static_cast<std::uint8_t>(cell));
-  return "<Cells>\n" + data_array("Name=\"connectivity\"", connectivity) +
-         data_array("Name=\"offsets\"", offsets) + data_array("Name=\"types\"", types) +
-         "</Cells>\n";
-}
-
-std::string vtu_text(const VtuGrid& grid) {
-  const std::size_t points = grid.points.size(), corners = grid.cell == VtuCell::line ? 2 : 3;
-  constexpr bool is_little = std::endian::native == std::endian::little;
-  return fmt::format(
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"{}\" "
-      "header_type=\"UInt64\">\n"
-      "<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n"
-      "<PointData>\n{}</PointData>\n<CellData>\n{}</CellData>\n"
-      "<Points>\n{}</Points>\n{}</Piece>\n</UnstructuredGrid>\n</VTKFile>\n",
-      is_little ? "LittleEndian" : "BigEndian", points, points / corners, grid.of_points,
-      grid.of_cells, data_array("NumberOfComponents=\"3\"", with_z(grid.points)),
-      cells_text(grid.cell, points, corners));
 }
 
 template <typename Number>
@@ -347,25 +260,47 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   return picture;
 }
 
+bool has_own_displacement(const Solution& solution) {
+  return solution.displacement.cols() > 0 || solution.edge_moments.cols() > 0;
+}
+
+SolvedFields own_fields(const DualSystem& system, const Solution& solution) {
+  SolvedFields fields{system, solution, {}, nullptr, {}};
+  if (solution.displacement.cols() > 0)
+    fields.w = solution.displacement;
+  else if (solution.edge_moments.cols() > 0)
+    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+  if (fields.w && !fields.w->allFinite()) fields.w.reset();
+  return fields;
+}
+
 void write_fields(const std::filesystem::path& folder, const std::string& name,
-                  const SolvedFields& fields) {
-  const auto& [system, solution, w, error, mean] = fields;
-  const Problem& problem = *system.problem;
-  const ContactPicture contact = contact_picture(system, solution, w);
-  std::optional<DisplacementField> u;
-  if (w) u = with_rigid_motion(problem, *w);
+                  const SolvedFields& fields, FieldParts parts) {
+  const Problem& problem = *fields.system.problem;
+  const StressField& stress = fields.solution.stress;
+  const ContactPicture contact = contact_picture(fields.system, fields.solution, fields.w);
   make_folder(folder);
   const auto write = [&](const char* part, const std::string& text) {
     write_file_atomically(folder / (name + part), text);
   };
-  write(".stress.csv", stress_csv(problem, solution.stress));
+  const auto write_if = [&](bool is_known, const char* part, const auto& text) {
+    std::error_code none;
+    if (is_known)
+      write(part, text());
+    else
+      std::filesystem::remove(folder / (name + part), none);
+  };
   write(".contact.csv", contact_csv(contact));
-  write(".boundary.csv", boundary_csv(problem.mesh));
-  if (u) write(".displacement.csv", displacement_csv(problem, *u));
-  if (error != nullptr) write(".error.csv", error_csv(*error));
-  if (mean) write(".mean.csv", stress_csv(problem, *mean));
-  write(".vtu", vtu_of_body(problem, solution.stress, u, error));
   write(".contact.vtu", vtu_of_contact(contact));
+  if (parts == FieldParts::contact) return;
+  std::optional<DisplacementField> u;
+  if (fields.w) u = with_rigid_motion(problem, *fields.w);
+  write(".stress.csv", stress_csv(problem, stress));
+  write(".boundary.csv", boundary_csv(problem));
+  write_if(u.has_value(), ".displacement.csv", [&] { return displacement_csv(problem, *u); });
+  write_if(fields.error != nullptr, ".error.csv", [&] { return error_csv(*fields.error); });
+  write_if(fields.mean.has_value(), ".mean.csv", [&] { return stress_csv(problem, *fields.mean); });
+  write(".vtu", vtu_of_body(problem, stress, u, fields.error));
 }
 
 }  // namespace airybench

@@ -6,7 +6,9 @@
 //                     corners, then the middles of edges 12, 23, 31; quadratic, continuous
 //   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
 //                     slip_mm, state (open, stick, slip); a row per contact point (ContactPicture)
-//   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, role
+//   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the given tractions of Γ_F at
+//   both
+//                     ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements
@@ -55,8 +57,14 @@ struct SolvedFields {
   std::optional<StressField> mean;
 };
 
-// Writes folder/NAME.*; throws FileError.
+bool has_own_displacement(const Solution& solution);  // or the moments that it is recovered from
+// Without error and mean; w if the solution has its own, and finite.
+SolvedFields own_fields(const DualSystem& system, const Solution& solution);
+
+enum class FieldParts { all, contact };  // contact: the files of the contact points
+
+// Writes folder/NAME.* and removes those of an earlier run that are unknown now; throws FileError.
 void write_fields(const std::filesystem::path& folder, const std::string& name,
-                  const SolvedFields& fields);
+                  const SolvedFields& fields, FieldParts parts = FieldParts::all);
 
 }  // namespace airybench

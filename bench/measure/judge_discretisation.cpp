@@ -163,14 +163,9 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
-  SolvedFields fields{system, solution, {}, nullptr, {}};
-  if (solution.displacement.cols() > 0)
-    fields.w = solution.displacement;
-  else if (solution.edge_moments.cols() > 0)
-    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
-  else if (known != nullptr)
+  SolvedFields fields = own_fields(system, solution);
+  if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
     fields.w = known->u;
-  if (fields.w && !fields.w->allFinite()) fields.w.reset();
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
     if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);

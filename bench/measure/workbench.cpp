@@ -9,6 +9,7 @@
 #include <new>
 
 #include "bench/measure/heap_probe.hpp"
+#include "bench/measure/step_fields.hpp"
 #include "support/seconds_since.hpp"
 
 namespace airybench {
@@ -73,9 +74,8 @@ Workbench::Examination Workbench::examine(const Method& method,
   if (judge_.is_answered(solution)) {
     verify_run(assembled, run);
     judge_.judge(method, run.judged, solution, record);
-    if (!fields.empty() && problem_)
-      judge_.write_fields_of(method, *assembled.system, solution, record, fields);
   }
+  if (!fields.empty() && problem_) write_fields(method, choice, assembled, run, record, fields);
   // The detail run of a path judges between its steps, which takes memory.
   const bool once =
       record.load_steps == 1 && (run.time_s > options_.long_case_s || options_.study.once);
@@ -186,11 +186,8 @@ Workbench::Run Workbench::tighten(const Method& method, const AssembledBlocks& a
   }
 }
 
-Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
-                                Activity what) {
+RunControl Workbench::control_of(const Choice& choice, Activity what) const {
   const bool in_detail = what == Activity::detail_run;
-  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
-  const ActivityScope scope(board_, what);
   RunControl control;
   control.deadline = Deadline::after(run_limit_s(what, options_));
   control.histories = in_detail;
@@ -201,6 +198,15 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
   control.condition = in_detail && options_.study.condition;
   control.tolerance = choice.tolerance;
   control.contact.acceptable = std::max(control.contact.tolerance, options_.target_error / 1000);
+  return control;
+}
+
+Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blocks,
+                                Activity what) {
+  const bool in_detail = what == Activity::detail_run;
+  if (problem_ && blocks.system->problem != problem_) set_load_case(*blocks.system, problem_);
+  const ActivityScope scope(board_, what);
+  const RunControl control = control_of(choice, what);
   const bool rss_is_reset = rss::reset_peak();
   const std::int64_t of_blocks = blocks.blocks_heap_bytes.value_or(0);
   const MemoryWatch watch(of_blocks);
@@ -249,6 +255,32 @@ Workbench::Run Workbench::solve(const Choice& choice, const AssembledBlocks& blo
 
 void Workbench::verify_run(const AssembledBlocks& blocks, Run& run) {
   if (run.judged.empty()) run.judged.push_back(judge_.judged(blocks, run.solution));
+}
+
+void Workbench::write_fields(const Method& method, const Choice& choice,
+                             const AssembledBlocks& blocks, const Run& run, Record& record,
+                             const std::filesystem::path& file) {
+  remove_step_fields(file.parent_path(), file.filename());
+  if (record.load_steps == 1) {
+    if (judge_.is_answered(run.solution))
+      judge_.write_fields_of(method, *blocks.system, run.solution, record, file);
+    return;
+  }
+  if (run.judged.empty() || run.solution.status == Status::timeout) return;
+  set_load_case(*blocks.system, problem_);
+  StepFields files(file.parent_path(), file.filename(), *problem_);
+  const ActivityScope scope(board_, Activity::discretisation);
+  double watched_s = 0;
+  solve_path(
+      choice.solve, *blocks.system, control_of(choice, Activity::detail_run),
+      [&](int step, const DualSystem& posed, const Solution& answer) {
+        const auto k = static_cast<std::size_t>(step);
+        if (answer.stress.empty() || k >= run.judged.size()) return;
+        record.steps[k]["fields"] = files.write(step, own_fields(posed, answer), run.judged[k]);
+        if (step + 1 == record.load_steps)
+          judge_.write_fields_of(method, posed, answer, record, file);
+      },
+      watched_s);
 }
 
 void Workbench::note_run(const Run& run, const Choice& choice, Record& record) const {

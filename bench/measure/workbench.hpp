@@ -40,6 +40,7 @@ class Workbench {
     std::vector<JudgedStep> judged;  // if asked for; of a path every step that it reached
   };
   const AssembledBlocks& blocks(Blocks which);
+  RunControl control_of(const Choice& choice, Activity what) const;
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
   // Returns the run that meets the target, or the last; sets choice.tolerance to match.
@@ -47,6 +48,9 @@ class Workbench {
               Record& record);
   void note_attempt(const Choice& choice, const AssembledBlocks& blocks, Run& run, Record& record);
   void verify_run(const AssembledBlocks& blocks, Run& run);  // unless it is done
+  // Those of load steps by one more run, which is not measured.
+  void write_fields(const Method& method, const Choice& choice, const AssembledBlocks& blocks,
+                    const Run& run, Record& record, const std::filesystem::path& file);
   void note_run(const Run& run, const Choice& choice, Record& record) const;
   static void note_memory(const Run& run, Record& record);
   static TimedRun timed(const Run& run);

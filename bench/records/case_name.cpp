@@ -48,7 +48,9 @@ std::string CaseName::file() const {
       name += "--";
     else if (c == ':')
       name += '+';
-    else if (c == '%' || c == '+' ||
+    else if (c == '+' && i > 0)
+      name += '~';
+    else if (c == '%' || c == '+' || c == '~' ||
              (c == '-' && (i == 0 || is_dash(i - 1) || i + 1 == whole.size() || is_dash(i + 1))))
       name += fmt::format("%{:02X}", c);
     else

@@ -28,7 +28,7 @@ struct CaseName {
 
   std::string text() const;
   std::string suffix() const;  // after the method: "/study=error/tolerance=0.01"
-  // One-to-one, for file names: "--" for '/', '+' for ':', and escapes such as "%2B".
+  // One-to-one, for file names: "--" for '/', '+' for ':', '~' for '+', and escapes such as "%25".
   std::string file() const;
 };
 

@@ -52,14 +52,14 @@ def draw(rows: list[Row]) -> Figure:
     every = [row for own in bodies.values() for row in own]
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
     width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
-    panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$, 1", [row.n_phi for row in every]),
+    panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$", [row.n_phi for row in every]),
               (TOP + HEIGHT + BETWEEN, draw_times, "time, s", times))
     for k, (body, own) in enumerate(bodies.items()):
         for top, draw_panel, xlabel, x in panels:
             axes = panel_at(figure, LEFT + k * (width + GAP), top, width, HEIGHT)
             log_log(axes, xlim=log_limits(x, 1.3), xlabel=xlabel,
                     ylim=log_limits([row.error_total for row in every], 1.4),
-                    ylabel="" if k else "total error, 1", title=plain(body) if top == TOP else "")
+                    ylabel="" if k else "total error", title=plain(body) if top == TOP else "")
             axes.tick_params(labelleft=k == 0)
             draw_panel(axes, own)
     return figure

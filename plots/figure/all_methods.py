@@ -15,7 +15,7 @@ from words import CASE, csv_of, no_point, plain, threads, width_of
 
 TOP, BETWEEN, LOWEST, BOTTOM = 1.15, 0.12, 2.5, 0.5  # inches; LOWEST: a panel
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
-          "error_force": "error of the contact forces, 1"}
+          "error_force": "error of the contact forces"}
 POWER = 0.6  # inches, for an exponent
 
 
@@ -74,7 +74,7 @@ def draw(rows: list[Row]) -> Figure | str:
             if j == 0:
                 mark_meshes(axes, {row.mesh: row.n_phi for row in own}, 55, 7.5)
             axes.tick_params(labelbottom=j == len(PANELS) - 1)
-        axes.set_xlabel(r"degrees of freedom $n_\varphi$, 1", fontsize=MATH)
+        axes.set_xlabel(r"degrees of freedom $n_\varphi$", fontsize=MATH)
     return figure
 
 

@@ -52,7 +52,7 @@ def seconds(row: Row) -> float | None:
     return row.stage_contact_s if row.completed else None
 
 
-QUANTITIES = ((seconds, "time of the contact law, s"), (iterations, "iterations, 1"))
+QUANTITIES = ((seconds, "time of the contact law, s"), (iterations, "iterations"))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -85,7 +85,7 @@ def draw(rows: list[Row]) -> Figure | str:
         panels = side_by_side(figure, ["" if k else scene for scene in scenes], LEFT,
                               TOP + KEY * (key_lines - 1) + k * (HEIGHT + GAP), HEIGHT, GAP)
         for axes, own in zip(panels, scenes.values()):
-            log_log(axes, xlim=xlim, ylim=ylim, xlabel="contact forces $n_C$, 1" if k else "")
+            log_log(axes, xlim=xlim, ylim=ylim, xlabel="contact forces $n_C$" if k else "")
             axes.tick_params(labelbottom=k == 1)
             draw_solvers(axes, own, of, looks)
         panels[0].set_ylabel(words)

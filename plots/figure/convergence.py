@@ -19,7 +19,7 @@ TITLE = 0.3  # over the bounds
 SIDE_BY_SIDE = 2  # bodies with bounds
 MARKS = (("#0072B2", "o"), ("#D55E00", "s"), ("#00805C", "^"), ("#8A3FA0", "D"), ("#C98500", "v"),
          ("#56B4E9", "P"), ("#777777", "X"))  # of the bodies, in turn
-H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h, 1"
+H = r"$n_\varphi^{-1/2}$, proportional to the mesh size h"
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -110,7 +110,7 @@ def draw_errors(axes: Axes, bodies: dict[str, list[Row]],
                 marks: dict[str, tuple[str, str]]) -> None:
     h, errors = line_of([point for points in bodies.values() for point in points])
     log_log(axes, xlim=log_limits(h, 1.25), ylim=log_limits(errors, 1.4), xlabel=H,
-            ylabel="relative discretisation error of the stresses, 1")
+            ylabel="relative discretisation error of the stresses")
     labels = Labels(axes)
     for points in bodies.values():
         labels.avoid(*line_of(points))
@@ -142,7 +142,7 @@ def draw_bounds(axes: Axes, body: str, points: list[Row], colour: str) -> None:
     axes.plot(h, lower, color=colour, marker="^", linestyle=(0, (4, 1.5)), label="lower bound")
     axes.margins(y=0.12)
     axes.legend(frameon=False, loc="best")
-    axes.set(xlabel=r"$n_\varphi^{-1/2}$, 1", ylabel="energy, N mm",
+    axes.set(xlabel=r"$n_\varphi^{-1/2}$", ylabel="energy, N mm",
              title=f"bounds of the energy, {plain(body)}")
     axes.ticklabel_format(axis="y", useOffset=False)
     axes.spines[["top", "right"]].set_visible(False)

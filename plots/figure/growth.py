@@ -36,9 +36,9 @@ class Panel:
 
 PANELS = (Panel("time_s", "time of one solve, s", lambda row: row.time_s),
           Panel("memory_bytes", "memory, GiB", memory_of, unit=2**30),
-          Panel("linear_iterations", "iterations of linear solves, 1",
+          Panel("linear_iterations", "iterations of linear solves",
                 lambda row: row.linear_iterations, grows=False),
-          Panel("error", "error of the stresses, 1", error_of, grows=False))
+          Panel("error", "error of the stresses", error_of, grows=False))
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
@@ -95,7 +95,7 @@ def draw_panel(axes: Axes, panel: Panel, lines: dict[str, list[Row]]) -> None:
     known = {method: own for method, line in lines.items()
              if (own := [row for row in line if panel.of(row)])}
     log_log(axes, xlim=(min(sizes) / 1.3, 1.5 * max(sizes)), ylabel=panel.axis,
-            xlabel=r"degrees of freedom $n_\varphi$, 1",
+            xlabel=r"degrees of freedom $n_\varphi$",
             ylim=log_limits(panel.of(row) / panel.unit for line in known.values() for row in line))
     labels = Labels(axes)
     for method, line in known.items():

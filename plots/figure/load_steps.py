@@ -42,7 +42,7 @@ def draw(rows: list[Row]) -> Figure | str:
     panels = side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)
     for axes, own in zip(panels, meshes.values()):
         log_log(axes, xlim=log_limits([row.load_steps for row in timed], 1.4),
-                ylim=log_limits([row.time_s for row in timed], 1.6), xlabel="load steps, 1",
+                ylim=log_limits([row.time_s for row in timed], 1.6), xlabel="load steps",
                 ylabel="time, s" if axes is panels[0] else "")
         labels = Labels(axes)
         for method, line in by_method(own, "load_steps").items():

@@ -74,7 +74,7 @@ def draw(rows: list[Row]) -> Figure:
         loop = loop_of(own)
         times = [row.time_s for row in own] + [time for time, _ in loop]
         log_log(axes, xlim=log_limits(times, 1.5), ylim=errors, xlabel="time of one solve, s",
-                ylabel="total error of the stresses, 1" if axes is panels[0] else "")
+                ylabel="total error of the stresses" if axes is panels[0] else "")
         labels = Labels(axes)
         for curve in curves[body]:
             look = curve.rows[0].look

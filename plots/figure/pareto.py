@@ -128,7 +128,7 @@ def draw(rows: list[Row]) -> Figure | str:
                     xlim=log_limits([value_of(row, column) for row in own], 1.6))
             axes.grid(False)
             draw_panel(axes, own, column, kinds)
-        panels[0].set_ylabel("total relative error of the stresses, 1")
+        panels[0].set_ylabel("total relative error of the stresses")
         draw_table(figure, above + TOP + HEIGHT + BOTTOM, tables[body])
         above += heights[body]
     return figure

@@ -136,13 +136,13 @@ def profiles_of(cases: Cases) -> list[Profile]:
     times = cases.costs(lambda row: row.time_s)
     repeated = any(len(row.samples_s or ()) > 1 for row in cases.rows.values())
     again = cases.resampled() if repeated else times[None]
-    found = [Profile("performance", "time_s", "time over that of the fastest method, 1",
+    found = [Profile("performance", "time_s", "time over that of the fastest method",
                      ratios(times), ratios(again)),
              Profile("data", "time_s", "time of one solve, s", times, again)]
     heaps = cases.costs(lambda row: row.peak_heap_bytes or np.nan)
     if not np.isnan(heaps).any():
         found.insert(1, Profile("performance", "peak_heap_bytes",
-                                "peak heap over that of the smallest, 1", ratios(heaps),
+                                "peak heap over that of the smallest", ratios(heaps),
                                 ratios(heaps)[None]))
     return found
 
@@ -208,7 +208,7 @@ def draw_panel(axes: Axes, profile: Profile, cases: Cases) -> None:
     low = 1 if profile.kind == "performance" else every[0] / 1.5
     high = max(1.2 * every[-1], 2 * low)
     axes.set(xscale="log", xlim=(low, high), ylim=(0, 1.04), xlabel=profile.axis,
-             ylabel="share of cases solved, 1")
+             ylabel="share of cases solved")
     log_axis(axes.xaxis)
     looks = {method: cases.rows[cases.cases[0], method].look for method in cases.methods}
     families = grouped(cases.methods, lambda method: looks[method].colour)

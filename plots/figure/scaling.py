@@ -124,12 +124,12 @@ def draw(rows: list[Row]) -> Figure | str:
         return ("no method is solved, and timed more than once, on one thread and on more: one "
                 "sample gives no efficiency")
     meshes = list(by_mesh([point.row for point in points if point.row.threads > 1]))[-MESHES:]
-    panels = [(f"{mesh}: speed-up, 1", [point for point in points if point.row.mesh == mesh],
+    panels = [(f"{mesh}: speed-up", [point for point in points if point.row.mesh == mesh],
                lambda point: point.speed_up, float) for mesh in meshes]
     weak = [point for point in points if point.weak_from]
     grown = [point for point in weak if point.row.threads > 1]
     if grown:
-        panels.append(("growing meshes: efficiency, 1",
+        panels.append(("growing meshes: efficiency",
                        [point for point in weak if point.row.body == grown[0].row.body],
                        lambda point: point.weak_efficiency, lambda threads: 1.0))
     figure = sheet(TOP + HEIGHT + BOTTOM, "Scaling over threads",
@@ -168,7 +168,7 @@ def draw_panel(axes: Axes, points: list[Point], value: Callable[[Point], float |
     threads = sorted({point.row.threads for point in points})
     values = [value(point) for point in points] + [ideal(count) for count in threads]
     ends = [point.speed_up_high for point in points if point.speed_up_high and strong]
-    axes.set(xscale="log", xlim=(0.85, 1.6 * threads[-1]), xlabel="threads, 1",
+    axes.set(xscale="log", xlim=(0.85, 1.6 * threads[-1]), xlabel="threads",
              ylim=(0, 1.1 * max([*values, *ends])))
     axes.set_xticks(threads, [str(count) for count in threads])
     axes.xaxis.set_minor_locator(NullLocator())

@@ -64,10 +64,10 @@ def draw(rows: list[Row]) -> Figure | str:
     left = panel_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))
-    left.set_ylabel("relative error of the contact forces, 1")
+    left.set_ylabel("relative error of the contact forces")
     right = panel_at(figure, LEFT + PANEL + GAP, TOP, PANEL, HEIGHT)
     draw_panel(right, curves, "uzawa_iterations", [])
-    right.set_ylabel("Uzawa iterations, 1")
+    right.set_ylabel("Uzawa iterations")
     return figure
 
 
@@ -77,7 +77,7 @@ def draw_panel(axes: Axes, curves: dict[str, list[Row]], column: str,
     known = {words: [(parameters_of(row)[0], getattr(row, column), row.mesh) for row in curve
                      if getattr(row, column)] for words, curve in curves.items()}
     points = [point for curve in known.values() for point in curve]
-    log_log(axes, xlabel="penalty r, relative to the stiffness, 1",
+    log_log(axes, xlabel="penalty r, relative to the stiffness",
             xlim=log_limits([r for r, *_ in points], 1.5),
             ylim=log_limits([*(y for _, y, _ in points), *included], 1.8))
     labels = Labels(axes)

@@ -102,7 +102,7 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
             xlim=log_limits([value_of(row, column) for row in rows], 1.7))
     axes.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)), zorder=2)
     first = column == "time_s"
-    axes.set_ylabel("relative error of the contact forces, 1" if first else "")
+    axes.set_ylabel("relative error of the contact forces" if first else "")
     axes.tick_params(labelleft=first)
     labels = Labels(axes)
     labels.avoid(axes.get_xlim(), [target] * 2)

@@ -2,9 +2,11 @@
 // tells. A chart is drawn from {key, series, nights, marks}; series: name, status, values, and low
 // and high where there is an interval, a list over the nights each.
 
-const BOX = {width: 340, height: 158, left: 58, right: 330, top: 14, bottom: 134};
+const BOX = {width: 340, height: 172, left: 58, right: 330, top: 14, bottom: 134};
+const DATES = 148, REVISIONS = 165;  // of their words' feet
 const FEW = 60;  // nights; with more of them points and ticks run into each other
-const REVISION_WIDTH = 52;
+const REVISION_WIDTH = 52, DATE_WIDTH = 66;
+const FAR_FROM_ZERO = 0.5;  // the least value over the greatest
 // A triangle up, down, or a diamond: the kind of a change without its colour.
 const FLAGS = {
   worse: "M-5 4L0 -5L5 4Z",
@@ -14,22 +16,26 @@ const FLAGS = {
 
 const fits = (key, value) => value !== null && (!isError(key) || value > 0);
 
-// Values to heights. Errors are on a logarithmic axis; other axes span a tenth of the values at
-// least, so that noise does not look like a change.
+// Values to heights. Errors are on a logarithmic axis; other axes begin at zero or, where all values
+// are far from it, above a break; they span a tenth of the values at least, so that noise does not
+// look like a change.
 function verticalAxis(key, values) {
   const logarithmic = isError(key), scale = logarithmic ? Math.log10 : (value) => value;
   const drawable = values.filter((value) => fits(key, value)).map(scale);
   if (!drawable.length) return null;
   let [low, top] = [Math.min(...drawable), Math.max(...drawable)];
+  let broken = false;
   if (logarithmic) {
     [low, top] = [Math.floor(low - 0.05), Math.ceil(top + 0.05)];
   } else {
     const span = Math.max(top - low, 0.1 * Math.abs(top), Number.MIN_VALUE) || 1;
-    const floor = low >= 0 ? 0 : -Infinity, middle = (low + top) / 2;
-    [low, top] = [Math.max(floor, middle - 0.62 * span), middle + 0.62 * span];
+    const middle = (low + top) / 2;
+    broken = low > FAR_FROM_ZERO * top;
+    if (broken) [low, top] = [middle - 0.7 * span, middle + 0.62 * span];
+    else [low, top] = [Math.min(0, low), top + 0.12 * span];
   }
   const y = (value) => BOX.bottom - (BOX.bottom - BOX.top) * (scale(value) - low) / (top - low);
-  return {y, ticks: logarithmic ? decades(low, top) : roundTicks(low, top, unitOf(key))};
+  return {y, broken, ticks: logarithmic ? decades(low, top) : roundTicks(low, top, unitOf(key))};
 }
 
 function decades(low, top) {
@@ -62,7 +68,7 @@ const vertical = (at, top, bottom, attributes) =>
 function revisionLabels(nights, marks, x) {
   const last = nights.length - 1;
   const label = (night, anchor, kind) => drawn(
-      "text", {x: x(night), y: BOX.height - 7, "text-anchor": anchor, class: kind},
+      "text", {x: x(night), y: REVISIONS, "text-anchor": anchor, class: kind},
       shortRevision(nights[night].revision));
   if (last === 0) return [label(0, "middle")];
   const labels = [label(0, "start")];
@@ -76,6 +82,25 @@ function revisionLabels(nights, marks, x) {
   return [...labels, label(last, "end")];
 }
 
+// Dates: the first, the last, and one between them, where they have room; of one day also the times.
+function dateLabels(nights, x) {
+  const last = nights.length - 1, middle = Math.round(last / 2);
+  const isOneDay = last > 0 && day(nights[0].date) === day(nights[last].date);
+  const words = ({date}) => isOneDay ? date.slice(11, 16) : day(date);
+  const label = (night, anchor) => drawn(
+      "text", {x: x(night), y: DATES, "text-anchor": anchor, class: "date"},
+      night === 0 && isOneDay ? `${day(nights[0].date)} ${words(nights[0])}` : words(nights[night]));
+  if (last === 0) return [label(0, "middle")];
+  const room = x(middle) - x(0) > 1.5 * DATE_WIDTH && x(last) - x(middle) > 1.5 * DATE_WIDTH;
+  return [label(0, "start"), ...(room ? [label(middle, "middle")] : []), label(last, "end")];
+}
+
+// Two strokes across the axis, below which it does not go on to zero.
+const breakOf = () => drawn("path", {
+  class: "break",
+  d: `M${BOX.left - 5} ${BOX.bottom - 3}l10 -5m-10 9l10 -5`
+});
+
 function gridAndTicks(key, axis, x, nights) {
   const lines = (axis ? axis.ticks : []).flatMap((tick) => {
     const y = axis.y(tick);
@@ -84,6 +109,8 @@ function gridAndTicks(key, axis, x, nights) {
       drawn("text", {x: BOX.left - 6, y: y + 3.5, "text-anchor": "end"}, showShort(key, tick))
     ];
   });
+  lines.push(vertical(BOX.left, BOX.top, BOX.bottom, {class: "axis"}));
+  if (axis && axis.broken) lines.push(breakOf());
   const isNew = (night, k) => k === 0 || night.revision !== nights[k - 1].revision;
   if (nights.length <= FEW)
     nights.forEach((night, k) => {
@@ -153,7 +180,8 @@ function panel(title, where, key, series, nights, marks) {
   const svg = drawn(
       "svg",
       {viewBox: `0 0 ${BOX.width} ${BOX.height}`, role: "img", tabindex: 0, "aria-label": label},
-      ...gridAndTicks(key, axis, x, nights), ...revisionLabels(nights, marks, x),
+      ...gridAndTicks(key, axis, x, nights), ...dateLabels(nights, x),
+      ...revisionLabels(nights, marks, x),
       ...(axis ? curves(key, axis, x, series) : []), ...failuresAndMarks(x, series.status, marks));
   followPointer(svg, nights.length, x, (k) => tipText(key, series, nights, marks, k),
                 (k) => axis && fits(key, values[k]) ?

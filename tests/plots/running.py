@@ -33,6 +33,11 @@ def run_command(program: ModuleType, *arguments: object) -> tuple[int, str, str]
     return done.returncode, done.stdout, done.stderr
 
 
+def names_in(folder: Path) -> set[str]:
+    """Of the files, without the list of what programs made."""
+    return {path.name for path in folder.iterdir()} - {".airybench.made"}
+
+
 class FolderTest(unittest.TestCase):
     """With a results folder that is there for one test, and a program that reads it."""
 

@@ -10,7 +10,7 @@ import made_up  # finds plots
 
 import drawing as sheets
 import figures
-from command import PARTS, replace_all
+from command import MADE, PARTS, Made, replace_all
 from records import RecordsError
 from running import FolderTest, run
 
@@ -79,3 +79,65 @@ class FilesTest(FolderTest):
         replace_all(self.results, {"page": Path.touch})
         self.assertTrue(page.is_symlink())
         self.assertEqual({path.name for path in self.figures.iterdir()}, {self.old.name, "page"})
+
+
+class MadeTest(FolderTest):
+    def setUp(self) -> None:
+        super().setUp()
+        self.figures.mkdir()
+
+    def make(self, program: str, *names: str) -> list[str]:
+        made = Made(self.figures, program)
+        made.replace({name: Path.touch for name in names})
+        return made.remove_others()
+
+    def there(self) -> set[str]:
+        return {path.name for path in self.figures.iterdir()} - {MADE}
+
+    def test_what_a_program_no_longer_makes_is_removed_and_nothing_else(self) -> None:
+        for stranger in ("notes.txt", "b.png"):
+            (self.figures / stranger).touch()
+        self.make("one", "a.png", "a.csv")
+        self.make("other", "c.png")
+        self.assertEqual(["a.csv"], self.make("one", "a.png", "d.png"))
+        self.assertEqual({"notes.txt", "b.png", "a.png", "d.png", "c.png"}, self.there())
+        self.make("one")
+        self.assertEqual({"notes.txt", "b.png", "c.png"}, self.there())
+
+    def test_a_run_that_ends_early_leaves_a_list_with_all_that_it_made(self) -> None:
+        self.make("one", "a.png")
+        Made(self.figures, "one").replace({"b.png": Path.touch})  # and no more
+        self.assertEqual(["a.png", "b.png"], self.make("one", "c.png"))
+
+    def test_a_list_that_is_damaged_removes_nothing_beyond_the_folder(self) -> None:
+        self.lines.touch()
+        for text in (b"one/../records.jsonl\none/..\none/.\none/\n/a\na\n", b"\xff\xfe", b""):
+            (self.figures / MADE).write_bytes(text)
+            self.make("one", "a.png")
+            self.assertTrue(self.lines.exists())
+            self.assertEqual({"a.png"}, self.there())
+        (self.figures / MADE).unlink()
+        (self.figures / MADE).mkdir()
+        with self.assertRaisesRegex(RecordsError, "is no regular file"):
+            self.make("one", "b.png")
+        self.assertEqual({"a.png"}, self.there())
+
+    def test_figures_of_other_records_go(self) -> None:
+        def draw(*meshes: str, only: str = "") -> str:
+            made_up.write(self.csv, [made_up.case(mesh, "3STEPD") for mesh in meshes])
+            with mock.patch.multiple(sheets, write=lambda figure, path: path.touch(),
+                                     write_small_png=lambda figure, dpi, path, **_: path.touch()):
+                status, out, err = run(figures, self.results, *[f"--only={only}"] * bool(only))
+            self.assertEqual((status, err), (0, ""))
+            return out
+        draw("Mesh0", "Mesh1")
+        self.assertIn("figure5.svg", self.there())
+        self.assertNotIn("removed", draw("Mesh0", "Mesh1"))
+        (self.figures / "mine.svg").touch()
+        draw("part", only="figure5")  # of all that there is one
+        self.assertIn("table1.md", self.there())
+        out = draw("part")
+        self.assertIn("removed, of other records: all_methods.csv, all_methods.png, table1.md\n", out)
+        self.assertNotIn("stays", out)
+        self.assertEqual({f"figure{k}.{kind}" for k in (4, 5) for kind in ("svg", "png", "csv")}
+                         | {"measured.md", "mine.svg"}, self.there())

@@ -6,6 +6,9 @@ from itertools import combinations
 
 import matplotlib
 import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
 
 import drawn
 import running  # finds plots
@@ -207,6 +210,85 @@ class ScalesTest(unittest.TestCase):
         axes = gallery.compose([[s]]).axes[2]
         self.assertLess(max(axes.get_ylim()), 30)
         self.assertEqual([text.get_text() for text in axes.texts], ["up to 3460 MPa"])
+
+
+class MeshLinesTest(unittest.TestCase):
+    def brightness(self, count: int) -> float:
+        """Of a square of so many triangles along a side, under one stress, over that of its colour."""
+        at = np.linspace(0, 10, count + 1)
+        a, b, c, d = (np.stack(np.meshgrid(x, y), -1).reshape(-1, 2) for x, y in
+                      ((at[:-1], at[:-1]), (at[1:], at[:-1]), (at[1:], at[1:]), (at[:-1], at[1:])))
+        triangles = np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+        thirds = np.stack([np.stack([triangles[:, k], triangles[:, (k + 1) % 3],
+                                     triangles.mean(1)], 1) for k in range(3)], 1)
+        stress = np.zeros((len(triangles), 3, 3, 3))
+        stress[..., 2] = 1
+        nothing = np.zeros((0, 2, 2))
+        s = Fields("square", thirds, stress, nothing, np.array([]), nothing, nothing,
+                   np.zeros((0, 2)), "square", None)
+        figure = Figure(figsize=(3, 3))
+        axes = figure.add_axes([0, 0, 1, 1], xlim=(0, 10), ylim=(0, 10))
+        field_drawing.draw_stress(axes, s, np.full(len(triangles), True),
+                                  field_drawing.Scales(Normalize(0, 1), 1))
+        canvas = FigureCanvasAgg(figure)
+        canvas.draw()
+        inner = np.asarray(canvas.buffer_rgba())[20:-20, 20:-20, :3] / 255
+        return float(inner.mean() / np.mean(matplotlib.colormaps[field_drawing.COLORMAP](1.0)[:3]))
+
+    def test_lines_of_a_dense_mesh_do_not_darken_its_stress(self) -> None:
+        for count in (5, 10, 20, 40, 80):
+            self.assertGreater(self.brightness(count), 0.94, count)
+        self.assertLess(self.brightness(5), 0.995)  # there are lines
+
+
+class DisplacedTest(unittest.TestCase):
+    def setUp(self) -> None:
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(gallery.STYLE)
+        s = bar(10, 8, 1)
+        load = np.zeros_like(s.boundary)
+        load[0, :, 1] = -3  # below: pulls; above it would push
+        load[-2, :, 1] = -1.5
+        self.s = replace(s, moved=np.full_like(s.boundary, 0.004), load=load,
+                         away=np.tile([[[0.001, 0.0]]], (len(s.edges), 2, 1)))
+
+    def test_displacements_are_enlarged_by_a_round_number(self) -> None:
+        self.assertIsNone(field_drawing.enlargement(bar(10, 8, 1)))
+        for moved, times in ((0.004, 50), (0.001, 200), (0.0001, 2000), (1, 0.2)):
+            s = replace(self.s, moved=np.full_like(self.s.boundary, moved))
+            self.assertAlmostEqual(field_drawing.enlargement(s), times, 9)
+        self.assertIsNone(field_drawing.enlargement(replace(s, moved=0 * s.moved)))
+
+    def test_outline_wall_and_loads_are_drawn_and_named(self) -> None:
+        figure = gallery.compose([[self.s]])
+        body = figure.axes[0]
+        self.assertEqual(body.get_xlabel(), "x in mm; displacements, gaps × 50; loads to 3 MPa")
+        outline, = (line for line in body.lines if line.get_linestyle() == "--"
+                    and line.get_color() == field_drawing.OUTLINE["color"])
+        np.testing.assert_allclose(outline.get_xydata()[0], self.s.boundary[0, 0] + 0.2)
+        wall, = (line for line in body.lines if line.get_color() == field_drawing.WALL["color"])
+        np.testing.assert_allclose(wall.get_xdata(), 11 + 50 * (0.004 + 0.001))
+        arrows = [text for text in body.texts if text.arrow_patch]
+        self.assertGreater(len(arrows), 5)
+        pulls = [text for text in arrows if text.xy[1] < 0.5 * figure.get_size_inches()[1] * 72]
+        lengths = {round(float(np.hypot(*np.subtract(text.xyann, text.xy)))) for text in arrows}
+        self.assertEqual(lengths, {field_drawing.ARROW_PT, field_drawing.ARROW_PT // 2})
+        for text in arrows:
+            self.assertLess(text.xy[1], text.xyann[1])  # all downwards
+        self.assertTrue(pulls)
+        words = drawn.words_of(figure)
+        for word in ("outline, displaced", "wall, behind the gap", "held", "stick"):
+            self.assertIn(word, words)
+
+    def test_the_legend_names_only_what_is_drawn(self) -> None:
+        s = bar(10, 8, 1)
+        free = replace(s, role=np.where(s.role == "contact", "rollers", s.role), edges=s.edges[:0],
+                       traction=s.traction[:0], state=s.state[:0])
+        words = drawn.words_of(gallery.compose([[free]]))
+        self.assertIn("on rollers", words)
+        for word in ("contact", "stick", "open", "displaced", "wall", "friction"):
+            self.assertNotIn(word, words.partition("Scene and method")[2])
+        self.assertNotIn("rollers", drawn.words_of(gallery.compose([[s]])))
 
 
 class TablesTest(unittest.TestCase):

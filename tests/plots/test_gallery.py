@@ -10,7 +10,7 @@ from unittest import mock
 
 import numpy as np
 
-from running import FolderTest, run, run_command
+from running import FolderTest, names_in, run, run_command
 
 import field_drawing
 import fields
@@ -45,7 +45,8 @@ def write_solution(folder: Path, name: str, contact: bool = True,
             x, y = sum(v) / 3 if corner == 2 else v[(third + corner) % 3]
             rows.append(",".join(map(str, (t + 1, third + 1, corner + 1, x, y, *stress_at(x, y)))))
     roles = ["force", "contact" if contact else "force", "force", "displacement"]
-    edges = [(*corners[k], *corners[(k + 1) % 4], role) for k, role in enumerate(roles)]
+    edges = [(*corners[k], *corners[(k + 1) % 4], 0, *(0, -3) * 2, role) if role == "force" else
+             (*corners[k], *corners[(k + 1) % 4], 0, *[0] * 4, role) for k, role in enumerate(roles)]
     (x, y), (_, end) = corners[1:3]
     points = [f"{x},{y},1,0,{end - y},-30,-6,0,0.01,slip",
               f"{x},{end},1,0,{end - y},0,0,0.02,,open"] if contact else []
@@ -102,7 +103,7 @@ class GalleryTest(FolderTest):
     def test_the_four_meshes_make_one_picture(self) -> None:
         self.assertEqual((self.command[0], self.command[2]), (0, ""))
         figures = self.four / "figures"
-        self.assertEqual({p.name for p in figures.iterdir()}, {"gallery.png", "gallery.svg", "gallery.csv"})
+        self.assertEqual(names_in(figures), {"gallery.png", "gallery.svg", "gallery.csv"})
         self.assert_png(figures / "gallery.png", 1328)
         svg = (figures / "gallery.svg").read_text()
         self.assertTrue(svg.startswith("<?xml"))
@@ -110,14 +111,14 @@ class GalleryTest(FolderTest):
 
     def test_each_and_out(self) -> None:
         self.assertEqual(self.each[0], 0)
-        self.assertEqual({p.name for p in self.out.iterdir()},
+        self.assertEqual(names_in(self.out),
                          {"gallery.svg", *(f"{name}.{kind}" for kind in ("png", "csv") for name in
                                            ("gallery", *(f"fields_{name}" for name in NAMES)))})
 
     def test_without_the_four_meshes_each_solution_has_its_picture(self) -> None:
         write_solution(self.fields, NAMES[1], contact=False, corners=LOW)
         self.assertEqual(run(gallery, self.results)[0], 0)
-        self.assertEqual({p.name for p in self.figures.iterdir()},
+        self.assertEqual(names_in(self.figures),
                          {f"fields_{NAMES[1]}.{kind}" for kind in ("png", "csv")})
         self.assert_png(self.figures / f"fields_{NAMES[1]}.png", 1328)
 
@@ -147,7 +148,7 @@ class GalleryTest(FolderTest):
         self.assertIn(f"error_map_{NAMES[1]}: left out: the solution has no", out)
 
     def test_three_levels_of_an_adaptive_loop_are_side_by_side(self) -> None:
-        names = [f"Mesh0%2Badapt{level}--default--HYBRID" for level in (0, 2, 10, 11)]
+        names = [f"Mesh0~adapt{level}--default--HYBRID" for level in (0, 2, 10, 11)]
         for name in names:
             write_solution(self.fields, name)
             write_shares(self.fields, name, [0.25, 0.75])
@@ -161,8 +162,37 @@ class GalleryTest(FolderTest):
         self.assert_png(self.figures / "adapted_meshes.png", 913)
         lines = (self.figures / "adapted_meshes.csv").read_text().splitlines()
         self.assertEqual([line.split(",")[:3] for line in lines],
-                         [["mesh", "n_phi", "triangles"], *([f"Mesh0%2Badapt{k}", "", "2"]
+                         [["mesh", "n_phi", "triangles"], *([f"Mesh0~adapt{k}", "", "2"]
                                                             for k in (0, 10, 11))])
+
+    def test_pictures_of_what_is_no_longer_there_are_removed(self) -> None:
+        write_solution(self.fields, NAMES[0], contact=False)
+        write_shares(self.fields, NAMES[0], [0.25, 0.75])
+        with SMALL:
+            run(gallery, self.results)
+            self.assertEqual({f"{what}_{NAMES[0]}.{kind}" for what in ("fields", "error_map")
+                              for kind in ("png", "csv")}, names_in(self.figures))
+            (self.figures / "mine.png").touch()
+            write_solution(self.fields, NAMES[1], contact=False)
+            (self.results / "results.csv").write_text(
+                "mesh,scene,method,n_phi\nMesh1,default,3STEPD,761\n")
+            status, out, _ = run(gallery, self.results)
+        self.assertEqual(status, 0)
+        self.assertIn(f"left out, fields of no recorded case: {NAMES[0]}\n", out)
+        self.assertIn(f"removed, of other fields: error_map_{NAMES[0]}.csv, error_map", out)
+        self.assertEqual({"mine.png", f"fields_{NAMES[1]}.png", f"fields_{NAMES[1]}.csv"},
+                         names_in(self.figures))
+
+    def test_boundaries_of_an_earlier_bench_are_read(self) -> None:
+        write_solution(self.fields, NAMES[0])
+        path = self.fields / f"{NAMES[0]}.boundary.csv"
+        new = fields.read_fields(self.results, NAMES[0], {})
+        rows = [line.split(",") for line in path.read_text().splitlines()]
+        path.write_text("".join(",".join(row[:4] + row[-1:]) + "\n" for row in rows))
+        old = fields.read_fields(self.results, NAMES[0], {})
+        self.assertIsNone(old.load)
+        np.testing.assert_array_equal(new.load[0], [[0, -3], [0, -3]])
+        np.testing.assert_array_equal(old.boundary, new.boundary)
 
     def test_element_map_that_cannot_be(self) -> None:
         write_solution(self.fields, NAMES[1])

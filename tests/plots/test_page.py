@@ -104,6 +104,20 @@ class PageTest(unittest.TestCase):
         self.assertEqual(len(lost.all("circle", class_="point")), made_up.NIGHTS - 1)
         self.assertEqual(lost.one("span", class_="now").words, "–")
 
+    def test_an_axis_begins_at_zero_or_has_a_break_and_its_ends_are_dated(self) -> None:
+        panels = self.panels(self.shown())
+        found = set()
+        for name, panel in panels.items():
+            words = [text.words for text in panel.all("text")]
+            breaks = len(panel.all("path", class_="break"))
+            found.add(breaks)
+            self.assertEqual(breaks, 0 if "0 µs" in words else 1, (name, words))
+            for night in (0, made_up.NIGHTS - 1):
+                self.assertIn(made_up.date_of(night)[:10], words)
+        self.assertIn(1, found)
+        for panel in self.panels(self.shown("#quantity=error_stress")).values():  # logarithmic
+            self.assertEqual(panel.all("path", class_="break"), [])
+
     def test_the_quantity_is_chosen_by_the_address(self) -> None:
         document = self.shown("#quantity=peak_heap_bytes")
         panels = self.panels(document)

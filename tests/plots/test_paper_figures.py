@@ -18,7 +18,7 @@ from catalogue import SIZES
 from figure import preconditioner as preconditioner_figure
 from figure import size as size_figure
 from made_up import case, read
-from running import PROJECT, run
+from running import PROJECT, names_in, run
 from selection import exponent
 
 UNFINISHED = dict(time_s="", peak_heap_bytes="", error_force="")
@@ -75,7 +75,7 @@ class PaperFiguresTest(drawn.FiguresTest):
         self.assertEqual((status, err), (0, ""))
         names = {f"figure{k}{twin}.{kind}" for k in (3, 4, 5) for twin in ("", "_paper_stop")
                  for kind in ("svg", "png", "csv")} | {"table1.md", "measured.md"}
-        self.assertEqual({path.name for path in self.figures.iterdir()}, names)
+        self.assertEqual(names_in(self.figures), names)
         self.assertEqual(out.count("\n"), 11)
         self.assertEqual(out.count("that all of them have; needs 2 and 3"), 2)
         self.assertIn("all_methods: left out: no method has two sizes\n", out)
@@ -201,7 +201,7 @@ class PaperFiguresTest(drawn.FiguresTest):
             status, out, err = run(figures, self.results, "--only=figure4,t*,figure3")
         self.assertEqual((status, err), (0, ""))
         names = {f"figure4.{kind}" for kind in ("svg", "png", "csv")}
-        self.assertEqual({path.name for path in self.figures.iterdir()},
+        self.assertEqual(names_in(self.figures),
                          names | {"table1.md", "measured.md", "figure5.csv"})
         self.assertEqual((self.figures / "figure5.csv").read_text(), "earlier")
         self.assertEqual([Path(line.split(":")[0].split(",")[0]).stem for line in out.splitlines()],
@@ -242,4 +242,4 @@ class RunTest(unittest.TestCase):
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
         self.assertIn(f"{folder} has neither records nor fields/", done.stderr)
         self.assertEqual((wrong.returncode, wrong.stdout, wrong.stderr.count("\n")), (2, "", 1))
-        self.assertIn("another' (valid: a results folder, --only=GLOB,...)", wrong.stderr)
+        self.assertIn("another' (valid: a results folder, --only=GLOB,..., --animate)", wrong.stderr)

@@ -262,4 +262,4 @@ class CaseNamesTest(unittest.TestCase):
     def test_files(self) -> None:
         self.assertEqual(file_of(SWEPT), "Mesh0--default--SYMMLQ+SSOR0.7,schur=sparse--study=error--"
                                          "contact_sweeps=1e-12--stop=paper")
-        self.assertEqual(file_of("-a-/b+--c%/d-e"), "%2Da%2D--b%2B%2D%2Dc%25--d-e")
+        self.assertEqual(file_of("-a-/b+--c%/d-e"), "%2Da%2D--b~%2D%2Dc%25--d-e")

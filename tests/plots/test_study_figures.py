@@ -25,7 +25,7 @@ from figure import stop as stop_figure
 from figure import work_precision as work_precision_figure
 from made_up import read
 from records import Row
-from running import run
+from running import names_in, run
 from selection import front
 from words import percent
 
@@ -66,7 +66,7 @@ class StudyFiguresTest(drawn.FiguresTest):
         names = {"work_precision_Mesh0", "work_precision_Mesh1", "stop_and_error", "pareto",
                  "convergence", "stability_Mesh0", "all_methods", "profiles",
                  "profiles_stability"}
-        self.assertEqual({path.stem for path in folder.iterdir()},
+        self.assertEqual({Path(name).stem for name in names_in(folder)},
                          names | {"figure4", "figure5", "table1", "measured", "budget"})
         self.assertEqual(out.count("\n"), len(names) + 6)  # figure3 is left out
         for path in (folder / f"{name}.png" for name in names):

@@ -54,12 +54,12 @@ TEST(CaseName, HasTheContactSolverWhereItIsNotImplied) {
 
 TEST(CaseName, OfEachCaseAnotherFile) {
   EXPECT_EQ((CaseName{"-a-", "b+--c%", "d-e", "", "", {}, Stop::target, {}}.file()),
-            "%2Da%2D--b%2B%2D%2Dc%25--d-e");  // as in tests/plots/test_case_names.py
+            "%2Da%2D--b~%2D%2Dc%25--d-e");  // as in tests/plots/test_case_names.py
   std::set<std::string> files;
   std::size_t names = 0;
-  const std::vector<std::string> parts = {"M",    "-",   "--",  "M-",  "-M",   "M-x",
-                                          "M--x", "x",   "x-M", "+",   ":",    "%",
-                                          "%2D",  "%2B", "a:b", "a+b", "a--b", "a%2Db"};
+  const std::vector<std::string> parts = {"M",    "-",     "--", "M-",  "-M",  "M-x", "M--x", "x",
+                                          "x-M",  "+",     ":",  "%",   "%2D", "%2B", "a:b",  "a+b",
+                                          "a--b", "a%2Db", "~",  "a~b", "%7E", "+~"};
   for (const std::string& mesh : parts)
     for (const std::string& scene : parts)
       for (const std::string& method : parts) {

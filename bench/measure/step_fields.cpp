@@ -1,0 +1,127 @@
+#include "bench/measure/step_fields.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "support/atomic_file.hpp"
+
+namespace airybench {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr auto series_ends = {".pvd", ".contact.pvd", ".steps.csv"};
+
+bool is_loaded(const Loads& loads, const Mesh& mesh, int row) {
+  const auto [start, end] = mesh.boundary[row].vertices;
+  const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
+  const Eigen::Vector2d normal = edge_frame(a, b).normal;
+  return loads.traction_MPa && !(loads.traction_MPa(a, normal, row).isZero(0) &&
+                                 loads.traction_MPa(b, normal, row).isZero(0));
+}
+
+// "x,y", or "," if unknown. Bernstein polynomials have the same mean.
+std::string mean_on(const std::vector<int>& rows, const Problem& problem,
+                    const std::optional<DisplacementField>& w) {
+  if (!w || rows.empty()) return ",";
+  const DisplacementField u = with_rigid_motion(problem, *w);
+  Eigen::Vector2d sum(0, 0);
+  double length_mm = 0;
+  for (const int row : rows) {
+    const std::array<int, 3> nodes = boundary_nodes(problem, row);
+    const double length =
+        (problem.mesh.vertices[nodes[2]] - problem.mesh.vertices[nodes[0]]).norm();
+    length_mm += length;
+    for (const int node : nodes) sum += length / 3 * u.col(node);
+  }
+  return fmt::format("{},{}", sum.x() / length_mm, sum.y() / length_mm);
+}
+
+std::string xml_escaped(const std::string& text) {
+  std::string escaped;
+  for (const char c : text)
+    if (std::string_view("&<>\"'").find(c) == std::string_view::npos)
+      escaped += c;
+    else
+      escaped += fmt::format("&#{};", static_cast<int>(c));
+  return escaped;
+}
+
+std::string pvd_text(const std::string& data_sets) {
+  return "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n<Collection>\n" +
+         data_sets + "</Collection>\n</VTKFile>\n";
+}
+
+template <typename Value>
+std::string or_empty(const std::optional<Value>& value) {
+  return value ? fmt::format("{}", *value) : std::string();
+}
+
+}  // namespace
+
+bool keeps_body(int step, int count) {
+  if (count <= most_step_bodies) return true;
+  return (step + 1) * most_step_bodies / count != step * most_step_bodies / count;
+}
+
+void remove_step_fields(const fs::path& folder, const std::string& name) {
+  std::error_code error;  // what cannot be removed cannot be replaced: that is said then
+  for (const char* end : series_ends) fs::remove(folder / (name + end), error);
+  const fs::path steps = folder / (name + ".steps");
+  std::vector<fs::path> found;
+  for (fs::directory_iterator at(steps, error), none; !error && at != none; at.increment(error)) {
+    const std::string file = at->path().filename().string();
+    const std::size_t digits = std::min(file.find_first_not_of("0123456789"), file.size());
+    if (digits >= 4 && digits < file.size() && file[digits] == '.') found.push_back(at->path());
+  }
+  for (const fs::path& file : found) fs::remove(file, error);
+  fs::remove(steps, error);  // if it is empty
+}
+
+StepFields::StepFields(fs::path folder, std::string name, const Problem& first)
+    : folder_(std::move(folder)),
+      name_(std::move(name)),
+      count_(count_of_steps(first)),
+      table_(
+          "step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
+          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,fields\n") {
+  remove_step_fields(folder_, name_);
+  const Mesh& mesh = first.mesh;
+  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+    const BoundaryRole role = mesh.boundary[row].role;
+    if (role == BoundaryRole::displacement) held_.push_back(row);
+    if (role == BoundaryRole::force &&
+        (is_loaded(first.loads, mesh, row) ||
+         std::ranges::any_of(first.later_steps,
+                             [&](const Loads& step) { return is_loaded(step, mesh, row); })))
+      loaded_.push_back(row);
+  }
+}
+
+std::string StepFields::write(int step, const SolvedFields& fields, const JudgedStep& judged) {
+  const bool has_body = keeps_body(step, count_);
+  const std::string number = fmt::format("{:04}", step + 1), word = has_body ? "body" : "contact";
+  write_fields(folder_ / (name_ + ".steps"), number, fields,
+               has_body ? FieldParts::all : FieldParts::contact);
+  const auto data_set = [&](const char* end) {
+    return fmt::format("<DataSet timestep=\"{}\" part=\"0\" file=\"{}.steps/{}{}\"/>\n", step + 1,
+                       xml_escaped(name_), number, end);
+  };
+  if (has_body) series_ += data_set(".vtu");
+  contact_series_ += data_set(".contact.vtu");
+  const Problem& problem = *fields.system.problem;
+  const Verification& v = judged.seen();
+  table_ +=
+      fmt::format("{},{},{},{},{},{},{},{},{},{}\n", step + 1, or_empty(v.normal_resultant_N),
+                  or_empty(v.tangential_resultant_N), judged.dissipation_Nmm, or_empty(v.n_open),
+                  or_empty(v.n_stick), or_empty(v.n_slip), mean_on(held_, problem, fields.w),
+                  mean_on(loaded_, problem, fields.w), word);
+  write_file_atomically(folder_ / (name_ + ".pvd"), pvd_text(series_));
+  write_file_atomically(folder_ / (name_ + ".contact.pvd"), pvd_text(contact_series_));
+  write_file_atomically(folder_ / (name_ + ".steps.csv"), table_);
+  return word;
+}
+
+}  // namespace airybench

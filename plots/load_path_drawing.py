@@ -1,0 +1,199 @@
+"""Draws a path of load steps: the contact face over the steps, and the force over the displacement."""
+import math
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.colors import ListedColormap, Normalize, TwoSlopeNorm, to_rgb
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from PIL import Image
+
+from drawing import PAGE_WIDTH, axes_at, panel_at, sheet, text_at
+from field_drawing import COLORMAP, STATE, Scales
+from field_panel import draw_legend, draw_panel, layout_of
+from fields import STATES, Fields
+from load_path import LoadPath
+from words import plain
+
+LEFT, TOP, GAP, HEIGHT, BAR, BOTTOM = 0.6, 0.38, 0.34, 2.9, 0.55, 0.5  # inches, of the maps
+LOOP_TOP, LOOP_HEIGHT, LOOP_WIDTH = 0.1, 2.5, 3.2
+OPEN = "#E4E4E4"  # a point without pressure
+CYCLE, PATH = "#F5B183", "black"
+MOST_FRAMES, MOST_BYTES, FRAME_MS = 60, 2_000_000, 250
+FRAME_WIDTH, FRAME_TOP, FRAME_FOOT = 8.3, 0.4, 0.62
+FRAME_DPI, LEAST_SCALE = 80, 0.6
+COLOURS = 112
+FIXED = ("white", "black", *(STATE[state][key] for state in ("stick", "slip")
+                              for key in ("color", "fill")),
+         *colormaps[COLORMAP].resampled(32).colors)
+
+
+def draw_path(path: LoadPath) -> Figure:
+    """Maps of state, pressure and friction, places to the right and steps upwards; the loop below."""
+    top = TOP + HEIGHT + BOTTOM + BAR
+    words = [f"Contact face{which(path)} over the load steps: where its points are open, stick or slip, "
+             "pressure, and friction (on the body, positive to the right). Below: the force that the "
+             f"body exerts along the wall over {whose(path)}, with numbers of steps; and what friction "
+             "dissipates, Σ\u00a0−F_t\u00a0Δr_t. Forces and energies are per mm of thickness."]
+    if path.cycle is not None:
+        words += [f"In step {path.step[-1]} the displacement is that of step {path.step[path.cycle]} "
+                  f"again. In between friction dissipates {path.dissipated_in_cycle():.3g} N mm/mm; the "
+                  f"shaded area, with straight lines between the steps, is {path.area():.3g} N mm/mm. "
+                  "The two agree for small steps if all else returns, too."]
+    figure = sheet(top + LOOP_TOP + LOOP_HEIGHT + BOTTOM, title_of(path), *words)
+    width = (PAGE_WIDTH - LEFT - 0.15 - 2 * GAP) / 3
+    pressure, friction = path.traction[..., 0], path.traction[..., 1]
+    largest = np.abs(friction).max() or 1
+    maps = ((np.select([path.state == name for name in STATES], range(3)),
+             ListedColormap([OPEN, STATE["stick"]["color"], STATE["slip"]["color"]]),
+             Normalize(-0.5, 2.5), ""),
+            (pressure, COLORMAP, Normalize(0, pressure.max() or 1), "pressure, MPa"),
+            (friction, "PuOr", TwoSlopeNorm(0, -largest, largest), "friction, MPa"))
+    for k, (values, colours, norm, label) in enumerate(maps):
+        axes = axes_at(figure, LEFT + k * (width + GAP), TOP, width, HEIGHT)
+        drawn = axes.pcolormesh(*corners_of(path), values, cmap=colours, norm=norm, rasterized=True)
+        axes.set_xlabel(path.axis.replace(" from its dot", ""), labelpad=1)
+        axes.set_ylabel("" if k else "load step")
+        axes.tick_params(labelleft=k == 0, length=2)
+        axes.yaxis.get_major_locator().set_params(integer=True)
+        place = (LEFT + k * (width + GAP) + 0.1, TOP + HEIGHT + BOTTOM)
+        if label:
+            bar = figure.colorbar(drawn, orientation="horizontal",
+                                  cax=axes_at(figure, *place, width - 0.2, 0.1))
+            bar.set_label(label, labelpad=1)
+            bar.ax.tick_params(pad=1, length=2)
+        else:
+            figure.legend(handles=[Patch(color=colour, label=state) for state, colour in
+                                   zip(STATES, colours.colors)], ncol=3, loc="upper left",
+                          frameon=False, handlelength=1, columnspacing=1, borderpad=0,
+                          bbox_to_anchor=(place[0] / PAGE_WIDTH,
+                                          1 - place[1] / figure.get_size_inches()[1]))
+    draw_loop(panel_at(figure, LEFT, top + LOOP_TOP, LOOP_WIDTH, LOOP_HEIGHT), path)
+    draw_dissipation(panel_at(figure, LEFT + LOOP_WIDTH + 0.85, top + LOOP_TOP,
+                              PAGE_WIDTH - LEFT - LOOP_WIDTH - 1.5, LOOP_HEIGHT), path)
+    return figure
+
+
+def title_of(path: LoadPath) -> str:
+    mesh, scene, method = (path.name.split("--") + ["", ""])[:3]
+    return f"{mesh}, {scene}, {method.replace('+', ':')}: {len(path.step)} load steps"
+
+
+def which(path: LoadPath) -> str:
+    return f" {path.face + 1} of {path.faces}, which is pressed most," if path.faces > 1 else ""
+
+
+def whose(path: LoadPath) -> str:
+    return {"held": "the mean displacement of the held boundary along it",
+            "loaded": "the mean displacement of the loaded boundary along it",
+            "": "the steps (displacements are unknown)"}[path.moved_what]
+
+
+def corners_of(path: LoadPath) -> tuple[np.ndarray, np.ndarray]:
+    """Limits of the points along the face, and of the steps."""
+    return np.r_[path.along[:, 0], path.along[-1, 1]], np.r_[path.step - 0.5, path.step[-1] + 0.5]
+
+
+def draw_loop(axes: Axes, path: LoadPath, until: int | None = None) -> None:
+    """until: the step, from 0, that a dot marks; the others lie in grey."""
+    x = path.step if path.moved is None else 1e3 * path.moved
+    if path.cycle is not None:
+        axes.fill(x[path.cycle:], path.push[path.cycle:], color=CYCLE, alpha=0.6, linewidth=0)
+    axes.plot(x, path.push, color=PATH if until is None else "0.6", linewidth=1.1, marker="o",
+              markersize=2.2)
+    if until is not None:
+        axes.plot(x[:until + 1], path.push[:until + 1], color=PATH, linewidth=1.3)
+        axes.plot(x[until], path.push[until], color=STATE["slip"]["color"], marker="o", markersize=7)
+    axes.axhline(0, color="0.5", linewidth=0.5)
+    axes.set_xlabel("load step" if path.moved is None else
+                    f"displacement of the {path.moved_what} boundary, µm", labelpad=1)
+    axes.set_ylabel("force on the wall, N/mm", labelpad=2)
+    axes.margins(0.08)
+    if until is None:
+        ends = {} if path.cycle is None else {len(path.step) - 1: f"{path.step[path.cycle]}, "}
+        for k in {0, len(path.step) - 1, int(path.push.argmax()), int(path.push.argmin())}:
+            if path.cycle is not None and k == path.cycle:
+                continue  # where the path ends
+            axes.annotate(f"{ends.get(k, '')}{path.step[k]}", (x[k], path.push[k]), xytext=(4, 3),
+                          textcoords="offset points", weight="bold")
+
+
+def draw_dissipation(axes: Axes, path: LoadPath) -> None:
+    axes.bar(path.step, path.dissipated, width=0.8, color=CYCLE, label="in the step")
+    total = axes.twinx()
+    total.plot(path.step, np.cumsum(path.dissipated), color=PATH, linewidth=1.1)
+    total.set_ylim(0, 1.08 * max(path.dissipated.sum(), 1e-300))
+    axes.set_ylim(0, 1.08 * max(path.dissipated.max(), 1e-300))
+    axes.set_xlabel("load step", labelpad=1)
+    axes.set_ylabel("dissipated in a step (bars), N mm/mm", labelpad=2)
+    total.set_ylabel("from the beginning (line), N mm/mm", labelpad=2)
+    total.spines["top"].set_visible(False)
+    axes.xaxis.get_major_locator().set_params(integer=True)
+
+
+def frames_of(path: LoadPath) -> list[int]:
+    """Steps, from 0, with a body in files: all, or so many, evenly spread, and the last."""
+    there = np.flatnonzero(path.has_body)
+    count = min(len(there), MOST_FRAMES)
+    return sorted(set(there[np.linspace(0, len(there) - 1, count).round().astype(int)].tolist()))
+
+
+def draw_frame(path: LoadPath, step: int, s: Fields, scales: Scales) -> Figure:
+    """One step: body and contact faces, and next to them where on the loop it is."""
+    loop = 2.9
+    layout = layout_of(s, FRAME_WIDTH - loop)
+    figure = Figure(figsize=(FRAME_WIDTH, FRAME_TOP + layout.height + FRAME_FOOT))
+    text_at(figure, 0.1, 0.08, plain(f"{title_of(path)}, step {path.step[step]}"), fontsize=11,
+            weight="bold")
+    top = figure.get_size_inches()[1] - FRAME_TOP
+    draw_panel(figure, s, 0, top, FRAME_WIDTH - loop, scales)
+    draw_loop(panel_at(figure, FRAME_WIDTH - loop + 0.6, FRAME_TOP + 0.3, loop - 0.75, 2.2), path, step)
+    text_at(figure, FRAME_WIDTH - loop + 0.6, FRAME_TOP + 3.05,
+            f"dissipated so far\n{path.dissipated[:step + 1].sum():.3g} N mm/mm")
+    draw_legend(figure, scales, [s])
+    return figure
+
+
+def write_gif(figures: Iterable[Figure], path: Path, most_bytes: int = MOST_BYTES) -> None:
+    """An animation that goes on and on, shrunk until it has at most so many bytes; where it would be
+    too small to read, of every second frame, and so on."""
+    frames = [image_of(figure, FRAME_DPI) for figure in figures]
+    scale, every = 1.0, 1
+    while True:
+        shown = [shrunk(frame, scale) for frame in frames[::-every][::-1]]
+        palette = palette_of(shown[-1])
+        first, *others = [frame.quantize(palette=palette, dither=Image.Dither.NONE)
+                          for frame in shown]
+        first.save(path, format="GIF", save_all=True, append_images=others, loop=0, optimize=True,
+                   duration=[FRAME_MS] * len(others) + [4 * FRAME_MS])
+        size = path.stat().st_size
+        if size <= most_bytes or not others:
+            return
+        scale *= 0.95 * math.sqrt(most_bytes / size)
+        if scale < LEAST_SCALE:
+            scale, every = LEAST_SCALE, 2 * every
+
+
+def shrunk(image: Image.Image, scale: float) -> Image.Image:
+    size = round(scale * image.width), round(scale * image.height)
+    return image if scale == 1 else image.resize(size, Image.Resampling.LANCZOS)
+
+
+def palette_of(image: Image.Image) -> Image.Image:
+    """The states' and the scale's colours, which may be few pixels, and those that stand for the rest."""
+    fixed = [round(255 * part) for colour in FIXED for part in to_rgb(colour)]
+    others = image.quantize(COLOURS - len(FIXED)).getpalette()[:3 * (COLOURS - len(FIXED))]
+    palette = Image.new("P", (1, 1))
+    palette.putpalette(fixed + others)
+    return palette
+
+
+def image_of(figure: Figure, dpi: int) -> Image.Image:
+    figure.set_dpi(dpi)
+    canvas = FigureCanvasAgg(figure)
+    canvas.draw()
+    return Image.fromarray(np.asarray(canvas.buffer_rgba())[..., :3])

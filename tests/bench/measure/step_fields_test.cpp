@@ -1,0 +1,187 @@
+// The fields of load steps: every step in files that belong together, none of an earlier path.
+#include "bench/measure/step_fields.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+
+#include "bench/measure/workbench.hpp"
+#include "support/errors.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace airybench::step_fields_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::lines_of;
+using testing::text_of;
+
+// Pressed, sheared, and back.
+std::shared_ptr<const Problem> path_of(int steps) {
+  Scene scene;
+  scene.displacement_mm = {0.02, 0};
+  scene.later_steps.resize(steps - 1);
+  for (int k = 0; k + 1 < steps; ++k)
+    scene.later_steps[k].displacement_mm = Eigen::Vector2d(0.02, k % 2 == 0 ? 0.006 : 0);
+  return testing::posed(scene);
+}
+
+Record examined(int steps, const fs::path& file, const char* method = "HYBRID") {
+  Options options;
+  options.repetitions = 1;
+  options.fields = true;
+  Workbench bench(path_of(steps), options);
+  return bench.examine(select_methods(method).front(), file).record;
+}
+
+std::vector<std::string> cells_of(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream text(line + ",");
+  for (std::string cell; std::getline(text, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+// Of the columns of a table, one as numbers.
+std::vector<double> column(const fs::path& file, const std::string& name) {
+  std::vector<std::string> lines = lines_of(text_of(file));
+  const std::vector<std::string> names = cells_of(lines.at(0));
+  const auto at =
+      static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  std::vector<double> values;
+  for (std::size_t k = 1; k < lines.size(); ++k)
+    values.push_back(std::stod(cells_of(lines[k]).at(at)));
+  return values;
+}
+
+// The files of a series, which must be there.
+std::vector<std::string> series(const fs::path& file) {
+  const std::string text = text_of(file), key = "file=\"";
+  std::vector<std::string> files;
+  for (std::size_t at = text.find(key); at != std::string::npos; at = text.find(key, at + 1)) {
+    const std::size_t begin = at + key.size();
+    files.push_back(text.substr(begin, text.find('"', begin) - begin));
+    EXPECT_TRUE(fs::is_regular_file(file.parent_path() / files.back())) << files.back();
+  }
+  return files;
+}
+
+TEST(StepFields, EveryStepIsInFilesThatAgreeWithTheRecord) {
+  const testing::TemporaryFolder folder;
+  for (const char* method : {"HYBRID", "P2", "3STEPD"}) {
+    const Record record = examined(3, folder / method, method);
+    ASSERT_EQ(record.status, Status::ok) << record.status_reason;
+    const std::string name = method;
+    const fs::path steps = folder / (name + ".steps");
+    for (int k = 0; k < 3; ++k) {
+      const std::string number = fmt::format("000{}", k + 1);
+      EXPECT_EQ(record.steps[k].at("fields"), "body");
+      for (const char* part : {".stress.csv", ".boundary.csv", ".vtu", ".contact.vtu"})
+        EXPECT_TRUE(fs::is_regular_file(steps / (number + part))) << number << part;
+      EXPECT_EQ(fs::exists(steps / (number + ".displacement.csv")), name != "3STEPD");
+      if (name == "P2") continue;  // its tractions are those of its stresses
+      const std::vector<double> F_t = column(steps / (number + ".contact.csv"), "F_t_N");
+      EXPECT_NEAR(std::accumulate(F_t.begin(), F_t.end(), 0.0),
+                  record.steps[k].at("tangential_resultant_N").get<double>(), 1e-6);
+    }
+    for (const char* part : {".stress.csv", ".contact.csv"})  // the last one has the case's name
+      EXPECT_EQ(text_of(folder / (name + part)), text_of(steps / (std::string("0003") + part)));
+    EXPECT_NE(text_of(steps / "0001.stress.csv"), text_of(steps / "0002.stress.csv"));
+    EXPECT_EQ(series(folder / (name + ".pvd")),
+              (std::vector<std::string>{name + ".steps/0001.vtu", name + ".steps/0002.vtu",
+                                        name + ".steps/0003.vtu"}));
+    EXPECT_EQ(series(folder / (name + ".contact.pvd")).size(), 3u);
+
+    const fs::path table = folder / (name + ".steps.csv");
+    EXPECT_EQ(column(table, "step"), (std::vector<double>{1, 2, 3}));
+    for (const char* key : {"normal_resultant_N", "tangential_resultant_N", "dissipation_Nmm",
+                            "n_open", "n_stick", "n_slip"})
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_EQ(column(table, key)[k], record.steps[k].at(key).get<double>()) << key;
+    if (name == "3STEPD") continue;  // an Airy method knows no displacement
+    const std::vector<double> held = column(table, "held_y_mm");
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(held[k], k == 1 ? 0.006 : 0, 1e-12);
+  }
+}
+
+TEST(StepFields, AnotherPathOrASingleLoadLeavesNothingOfTheEarlierOne) {
+  const testing::TemporaryFolder folder;
+  examined(4, folder / "a");
+  testing::write_text(folder.path() / "a.steps" / "notes.txt", "mine");
+  testing::write_text(folder / "a.error.csv.txt", "mine, too");
+  examined(2, folder / "a");
+  EXPECT_TRUE(fs::exists(folder.path() / "a.steps" / "0002.vtu"));
+  EXPECT_FALSE(fs::exists(folder.path() / "a.steps" / "0003.vtu"));
+  EXPECT_EQ(series(folder / "a.pvd").size(), 2u);
+  examined(1, folder / "a");
+  for (const char* gone : {"a.pvd", "a.contact.pvd", "a.steps.csv", "a.steps/0001.vtu"})
+    EXPECT_FALSE(fs::exists(folder / gone)) << gone;
+  EXPECT_TRUE(fs::exists(folder / "a.vtu"));
+  EXPECT_EQ(text_of(folder.path() / "a.steps" / "notes.txt"), "mine");
+  EXPECT_EQ(text_of(folder / "a.error.csv.txt"), "mine, too");
+}
+
+TEST(StepFields, OfALongPathAHundredStepsHaveTheWholeBody) {
+  for (const int count : {1, 7, 100, 101, 250, 1000}) {
+    int kept = 0, apart = 0, farthest = 0;
+    for (int step = 0; step < count; ++step) {
+      ++apart;
+      if (!keeps_body(step, count)) continue;
+      ++kept;
+      farthest = std::max(farthest, apart);
+      apart = 0;
+    }
+    EXPECT_EQ(kept, std::min(count, most_step_bodies)) << count;
+    EXPECT_TRUE(keeps_body(count - 1, count)) << count;
+    EXPECT_LE(farthest, (count + most_step_bodies - 1) / most_step_bodies) << count;
+  }
+}
+
+struct Solved {
+  DualSystem system;
+  Solution solution;
+
+  explicit Solved(int steps) : system(assemble(path_of(steps))) {
+    solution = run(select_methods("HYBRID").front(), system, {});
+  }
+  std::string write(StepFields& files, int step) const {
+    return files.write(step, own_fields(system, solution),
+                       {Status::ok, verify(system, solution, nullptr)});
+  }
+};
+
+TEST(StepFields, StepsWithoutTheBodyHaveTheirContactPoints) {
+  const testing::TemporaryFolder folder;
+  const Solved solved(150);
+  StepFields files(folder.path(), "a&b", *solved.system.problem);
+  EXPECT_EQ(solved.write(files, 0), "contact");
+  EXPECT_EQ(solved.write(files, 1), "body");
+  const fs::path steps = folder / "a&b.steps";
+  EXPECT_TRUE(fs::exists(steps / "0001.contact.csv"));
+  EXPECT_FALSE(fs::exists(steps / "0001.stress.csv"));
+  EXPECT_FALSE(fs::exists(steps / "0001.vtu"));
+  const std::string body = text_of(folder / "a&b.pvd"),
+                    contact = text_of(folder / "a&b.contact.pvd");
+  EXPECT_NE(body.find("<DataSet timestep=\"2\" part=\"0\" file=\"a&#38;b.steps/0002.vtu\"/>"),
+            std::string::npos)
+      << body;
+  EXPECT_EQ(body.find("0001.vtu"), std::string::npos);
+  EXPECT_NE(contact.find("a&#38;b.steps/0001.contact.vtu"), std::string::npos) << contact;
+}
+
+TEST(StepFields, AStepThatCannotBeWrittenLeavesTheStepsBeforeIt) {
+  const testing::TemporaryFolder folder;
+  const Solved solved(3);
+  StepFields files(folder.path(), "a", *solved.system.problem);
+  solved.write(files, 0);
+  fs::create_directories(folder / "a.steps/0002.stress.csv");  // in the way
+  EXPECT_THROW(solved.write(files, 1), FileError);
+  EXPECT_EQ(series(folder / "a.pvd"), std::vector<std::string>{"a.steps/0001.vtu"});
+  EXPECT_EQ(column(folder / "a.steps.csv", "step"), std::vector<double>{1});
+}
+
+}  // namespace
+}  // namespace airybench::step_fields_test

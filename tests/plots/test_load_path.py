@@ -1,0 +1,152 @@
+"""A path of load steps: what is read of it, its picture and its animation.
+/usr/bin/python3 -m unittest FILE"""
+import csv
+import os
+from pathlib import Path
+from unittest import mock
+
+import matplotlib
+import numpy as np
+from PIL import Image
+
+import drawn
+from running import FolderTest, run
+from test_gallery import LOW, write_solution
+
+import fields
+import gallery
+import load_path
+import load_path_drawing
+from records import RecordsError
+
+NAME = "Mesh0--default--3STEPD"
+# Height and friction of a rectangle: 2 um wide, 12 N high, walked once from its first corner.
+MOVED_UM, FORCE_N, DISSIPATED = (0, 0, 2, 2, 0, 0), (0, -6, -6, 6, 6, -6), (0, 0, 0.012, 0, 0.012, 0)
+
+
+def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
+    """A face on x = 2 that is pushed up and down: its tangent is y; contact points get F_t / 2 each."""
+    folder = results / "fields"
+    steps = folder / f"{NAME}.steps"
+    steps.mkdir(parents=True)
+    write_solution(folder, NAME, corners=LOW)
+    rows = [load_path.STEPS]
+    for k, (moved, force, lost) in enumerate(zip(MOVED_UM, FORCE_N, DISSIPATED), 1):
+        body = bodies[k - 1]
+        write_solution(steps, f"{k:04}", corners=LOW)
+        state = "stick" if k % 2 else "slip"
+        points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,{state}" for y in (0, 2)]
+        (steps / f"{k:04}.contact.csv").write_text("\n".join([fields.CONTACT, *points]) + "\n")
+        rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,{'body' if body else 'contact'}")
+    (folder / f"{NAME}.steps.csv").write_text("\n".join(rows) + "\n")
+
+
+class LoadPathTest(FolderTest):
+    program = gallery
+
+    def setUp(self) -> None:
+        super().setUp()
+        write_path(self.results)
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(gallery.STYLE)
+
+    def test_forces_displacements_and_the_loop(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        np.testing.assert_allclose(path.push, np.negative(FORCE_N))  # on the wall
+        np.testing.assert_allclose(path.normal, 60)
+        np.testing.assert_allclose(path.moved, np.array(MOVED_UM) / 1000)
+        self.assertEqual((path.moved_what, path.faces, path.axis), ("held", 1, "y in mm"))
+        np.testing.assert_allclose(path.traction[1], [[30, -3], [30, -3]])  # F = (L/2) t, L = 2
+        self.assertEqual(path.state[:2].tolist(), [["stick"] * 2, ["slip"] * 2])
+        # The rectangle of 2 um and 12 N is walked clockwise from step 2 to its end.
+        self.assertEqual(path.cycle, 1)
+        self.assertAlmostEqual(path.area(), 0.024)
+        self.assertAlmostEqual(path.dissipated_in_cycle(), 0.024)
+
+    def test_a_path_that_does_not_return_has_no_loop(self) -> None:
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        table.write_text("\n".join(table.read_text().splitlines()[:5]) + "\n")
+        path = load_path.read_path(self.results, NAME)
+        self.assertIsNone(path.cycle)
+        words = drawn.words_of(load_path_drawing.draw_path(path))
+        self.assertNotIn("shaded", words)
+
+    def test_the_picture_and_its_table(self) -> None:
+        status, out, err = run(gallery, self.results)
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn(f"load_path_{NAME}.png", out)
+        self.assertNotIn(".gif", out)
+        with (self.figures / f"load_path_{NAME}.csv").open() as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual([line["step"] for line in lines], list("123456"))
+        self.assertEqual([(line["stick_mm"], line["slip_mm"]) for line in lines[:2]],
+                         [("2.0", "0.0"), ("0.0", "2.0")])
+        self.assertEqual(float(lines[3]["push_N"]), -6)
+        figure = load_path_drawing.draw_path(load_path.read_path(self.results, NAME))
+        words = drawn.words_of(figure)
+        for part in ("6 load steps", "is that of step 2 again", "dissipates 0.024 N", "is 0.024 N"):
+            self.assertIn(part, words)
+        painted, renderer = drawn.paint(figure)
+        drawn.assert_readable(self, figure, painted, renderer)
+
+    def test_the_animation_has_a_frame_per_step_with_a_body_and_a_size_that_is_bounded(self) -> None:
+        status, out, err = run(gallery, self.results, "--animate")
+        self.assertEqual((status, err), (0, ""))
+        moving = self.figures / f"load_path_{NAME}.gif"
+        self.assertIn(str(moving), out)
+        with Image.open(moving) as image:
+            self.assertEqual((image.n_frames, image.info["loop"]), (6, 0))
+            width = image.width
+        size = moving.stat().st_size
+        self.assertLess(size, load_path_drawing.MOST_BYTES)
+        with mock.patch.object(load_path_drawing, "FRAME_MS", 100):
+            path = load_path.read_path(self.results, NAME)
+            steps = [fields.read_fields(self.results, f"{NAME}.steps/{k:04}", {}) for k in range(1, 7)]
+            scales = gallery.scales_of(steps)
+            small = self.results / "small.gif"
+            load_path_drawing.write_gif((load_path_drawing.draw_frame(path, k, s, scales)
+                                         for k, s in enumerate(steps)), small, size // 3)
+        self.assertLessEqual(small.stat().st_size, size // 3)
+        with Image.open(small) as image:
+            self.assertLess(image.width, width)
+
+    def test_an_animation_stays_as_long_as_its_fields(self) -> None:
+        with mock.patch.object(gallery, "write_gif", lambda frames, path: path.touch()):
+            run(gallery, self.results, "--animate")
+        moving = self.figures / f"load_path_{NAME}.gif"
+        run(gallery, self.results)
+        self.assertTrue(moving.exists())
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        later = moving.stat().st_mtime + 5
+        os.utime(table, (later, later))
+        out = run(gallery, self.results)[1]
+        self.assertIn(f"removed, of other fields: {moving.name}", out)
+        self.assertFalse(moving.exists())
+
+    def test_frames_are_of_steps_with_a_body_the_last_one_included(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        self.assertEqual(load_path_drawing.frames_of(path), list(range(6)))
+        many = mock.Mock(has_body=np.arange(1000) % 10 == 9)
+        frames = load_path_drawing.frames_of(many)
+        self.assertEqual((len(frames), frames[0], frames[-1]), (60, 9, 999))
+        self.assertTrue(all(k % 10 == 9 for k in frames))
+
+    def test_tables_that_cannot_be(self) -> None:
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        whole = table.read_text()
+        for change, *words in ((lambda text: text.replace("\n3,", "\n4,", 1), "steps 1, 2, 3"),
+                               (lambda text: text.replace(",body", ",bodies", 1), ":2: fields is"),
+                               (lambda text: text.replace(",0.012,", ",,", 1), "dissipation_Nmm is ''"),
+                               (lambda text: text.replace("step,", "steps,", 1), ":1: expected the header step,")):
+            table.write_text(change(whole))
+            with self.assertRaises(RecordsError) as raised:
+                load_path.read_path(self.results, NAME)
+            for word in words:
+                self.assertIn(word, str(raised.exception))
+        table.write_text(whole)
+        points = self.results / "fields" / f"{NAME}.steps" / "0002.contact.csv"
+        points.write_text(points.read_text().replace("0.125,0,", "0.125,0.5,"))
+        with self.assertRaisesRegex(RecordsError, "0002.contact.csv: other contact points"):
+            load_path.read_path(self.results, NAME)
+        points.unlink()
+        self.assertEqual(run(gallery, self.results)[0], 2)
