@@ -32,7 +32,6 @@ FILES = {"airy_function": {"x.mtx", "F_C.mtx"}, "contact_forces": {"r.mtx"}, "di
          "edge_displacements": {"edge_displacements_mm.npy", "F_C.mtx", "log.txt"}}
 # Pivots that end elsewhere on one processor or another, and say "ok" then; the residual tells.
 SUCCESS_IS_NO_PROOF = {"siconos-lemke"}
-IN_SPACE_ONLY = {"siconos-admm", "siconos-nsn_ac"}
 STAGES = {"order", "precondition", "factor", "condense", "contact", "recover", "check"}
 
 
@@ -45,8 +44,6 @@ class PeerTest(ExportingTest):
         _, reason = peers.version(self.declaration.parent, self.peer["version"])
         if reason or not program.exists():
             self.skipTest(f"{self.peer['name']}: {reason or program} (./run peers)")
-        if self.peer["name"] in IN_SPACE_ONLY:
-            self.skipTest("the scenes are plane")
         super().setUp()
 
     def answer(self, definition: dict) -> tuple[Path, dict]:
