@@ -1,10 +1,10 @@
 // The contact law at points, and the problem of this law alone: no mesh, no body.
 //
 //   r = D F − G − ḡ;   F_n ≤ 0, r_n ≤ 0, F_n r_n = 0;
-//                      |F_t| ≤ −μ F_n, F_t r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n
+//                      |F_t| ≤ −μ F_n, F_t ∥ r_t, F_t · r_t ≤ 0, r_t ≠ 0 only if |F_t| = −μ F_n
 //
 // F are forces on the body, N; r its displacements less the gap, mm; n points outward. Rows: per
-// point normal, then tangential.
+// point normal, then tangential: none, one, or, in files of problems in space, two.
 #pragma once
 
 #include <Eigen/Core>
@@ -15,7 +15,7 @@ namespace airybench {
 
 struct ContactPoints {
   int count = 0;                 // for a body two per contact edge: start, end
-  int components = 2;            // per point: normal and tangential; normal only if μ = 0
+  int components = 2;            // per point: 1 (normal, μ = 0), 2 (plane) or 3 (space)
   std::vector<double> friction;  // μ per point; empty with one component
   Eigen::VectorXd gap;           // ḡ, mm, in the order of F_C: per point normal and, where the
                                  // body is moved along the wall, tangential; empty: zero
@@ -30,7 +30,9 @@ namespace contact {
 
 // A condensed body, the paper's eq. (5), ū_C = D F_C − G, or a file's problem in the file's units.
 struct Problem {
-  Eigen::MatrixXd D = {};  // n_c × n_c, mm/N, symmetric positive definite compliance
+  // n_c × n_c, mm/N, compliance: symmetric positive definite for a body; from a file perhaps
+  // semidefinite, and nearly symmetric.
+  Eigen::MatrixXd D = {};
   Eigen::VectorXd G = {};  // n_c, mm; −G: displacements without contact forces
   ContactPoints points = {};
   std::string name = {};  // for a file its stem

@@ -230,8 +230,9 @@ Solution solve_hybridized_body(const Caller& caller, const DualSystem& system,
 Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& contact,
                           const std::string& format) {
   if (format != "fclib") return program.contact_forces(contact.size());
-  const Eigen::VectorXd F = -program.array("r.mtx", 2 * contact.count, 1);
-  if (contact.components == 2) return F;
+  const Eigen::VectorXd F =
+      -program.array("r.mtx", std::max(2, contact.components) * contact.count, 1);
+  if (contact.components > 1) return F;
   return F(Eigen::seqN(0, contact.count, 2));
 }
 

@@ -2,16 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "bench/problems/hdf5_handle.hpp"
+#include "solvers/base/solution.hpp"
+#include "solvers/condensation/global_problem.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
 namespace {
 
-constexpr int most_rows = 20000;  // a dense W of 3.2 GB
+constexpr int most_rows = 20000;        // of a dense W, 3.2 GB
+constexpr int most_unknowns = 1000000;  // of M
 
 class FclibFile {
  public:
@@ -51,6 +56,10 @@ class FclibFile {
                          : fmt::format("a whole number from {} to {}", least, most));
     return value;
   }
+  // Of the values there: `filled` or `room`.
+  int count(const std::string& name, int filled, int room) const {
+    return has(name) && values_of(name) == filled ? filled : room;
+  }
   Eigen::VectorXd numbers(const std::string& name, int count) const {
     Eigen::VectorXd values(count);
     read(name, H5T_FLOAT, "numbers", H5T_NATIVE_DOUBLE, count, values.data());
@@ -77,6 +86,12 @@ class FclibFile {
   }
 
  private:
+  hssize_t values_of(const std::string& name) const {
+    const hid_t opened = H5Dopen2(file_, name.c_str(), H5P_DEFAULT);
+    if (opened < 0) return -1;
+    const Handle set(opened, H5Dclose), space(H5Dget_space(set), H5Sclose);
+    return H5Sget_simple_extent_npoints(space);
+  }
   void read(const std::string& name, H5T_class_t kind, const char* what, hid_t type, int count,
             void* values) const {
     const std::string allowed = fmt::format("{} {}", count, what);
@@ -98,13 +113,6 @@ class FclibFile {
   hid_t file_ = -1;
 };
 
-struct Stored {
-  std::vector<int> p;  // starts of rows or columns; for triplets one index per entry
-  std::vector<int> i;
-  Eigen::VectorXd x;
-  enum class Form { rows, columns, triplets } form = Form::rows;
-};
-
 void check_indices(const FclibFile& file, const std::string& name, const std::vector<int>& indices,
                    int most) {
   for (std::size_t k = 0; k < indices.size(); ++k)
@@ -112,62 +120,114 @@ void check_indices(const FclibFile& file, const std::string& name, const std::ve
       file.fail(name, fmt::format("[{}] is {}", k, indices[k]), fmt::format("0 to {}", most));
 }
 
-Stored read_entries(const FclibFile& file, const std::string& place, int m) {
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+// In compressed rows (nz = −2), compressed columns (−1) or triplets, columns in p, rows in i, as in
+// CSparse. Entries that occur twice are added.
+SparseMatrix read_matrix(const FclibFile& file, const std::string& place, int rows, int columns) {
   constexpr int compressed_rows = -2;
-  using enum Stored::Form;
-  const int room = file.whole(place + "nzmax", 1, m * m);
+  const auto full = static_cast<std::int64_t>(rows) * columns;
+  const int room =
+      file.whole(place + "nzmax", 1,
+                 static_cast<int>(std::min<std::int64_t>(full, std::numeric_limits<int>::max())));
   const int nz = file.whole(place + "nz", compressed_rows, room);
-  Stored stored;
-  stored.form = nz >= 0 ? triplets : nz == compressed_rows ? rows : columns;
-  stored.p = file.wholes(place + "p", stored.form == triplets ? room : m + 1);
-  stored.i = file.wholes(place + "i", room);
-  stored.x = file.numbers(place + "x", room);
-  int entries = nz;
-  if (stored.form == triplets) {
-    stored.p.resize(static_cast<std::size_t>(entries));
-    check_indices(file, place + "p", stored.p, m - 1);
+  const int lines = nz == compressed_rows ? rows : columns;
+  std::vector<int> p =
+      file.wholes(place + "p", nz >= 0 ? file.count(place + "p", nz, room) : lines + 1);
+  std::vector<int> i = file.wholes(place + "i", nz >= 0 ? file.count(place + "i", nz, room) : room);
+  const Eigen::VectorXd x = file.numbers(place + "x", room);
+  if (nz >= 0) {
+    p.resize(static_cast<std::size_t>(nz));
+    check_indices(file, place + "p", p, columns - 1);
   } else {
-    if (stored.p.front() != 0 || !std::ranges::is_sorted(stored.p))
+    if (p.front() != 0 || !std::ranges::is_sorted(p))
       file.fail(place + "p", "does not rise from 0", fmt::format("0 to at most {}", room));
-    check_indices(file, place + "p", stored.p, room);
-    entries = stored.p.back();
+    check_indices(file, place + "p", p, room);
   }
-  stored.i.resize(static_cast<std::size_t>(entries));
-  check_indices(file, place + "i", stored.i, m - 1);
-  return stored;
+  i.resize(static_cast<std::size_t>(nz >= 0 ? nz : p.back()));
+  check_indices(file, place + "i", i, (nz == compressed_rows ? columns : rows) - 1);
+
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(i.size());
+  if (nz >= 0) {
+    for (std::size_t k = 0; k < i.size(); ++k) entries.emplace_back(i[k], p[k], x(k));
+  } else {
+    for (int line = 0; line < lines; ++line)
+      for (int k = p[line]; k < p[line + 1]; ++k)
+        if (nz == compressed_rows)
+          entries.emplace_back(line, i[k], x(k));
+        else
+          entries.emplace_back(i[k], line, x(k));
+  }
+  SparseMatrix matrix(rows, columns);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
 }
 
-Eigen::MatrixXd read_matrix(const FclibFile& file, const std::string& place) {
-  const int m = file.whole(place + "m", 2, most_rows);
-  if (m % 2 != 0) file.fail(place + "m", std::to_string(m), "an even number: two per contact");
-  file.whole(place + "n", m, m);
-  const Stored stored = read_entries(file, place, m);
-  Eigen::MatrixXd W = Eigen::MatrixXd::Zero(m, m);
-  using enum Stored::Form;
-  if (stored.form == triplets) {
-    for (std::size_t k = 0; k < stored.i.size(); ++k) W(stored.p[k], stored.i[k]) += stored.x(k);
-    return W;
-  }
-  for (int line = 0; line < m; ++line)
-    for (int k = stored.p[line]; k < stored.p[line + 1]; ++k)
-      (stored.form == rows ? W(line, stored.i[k]) : W(stored.i[k], line)) += stored.x(k);
-  return W;
-}
-
-void check_law(const FclibFile& file, const contact::Problem& problem) {
-  constexpr double rounding = 1e-5;  // some programs write few digits
-  const Eigen::VectorXd diagonal = problem.D.diagonal();
+void check_symmetric(const FclibFile& file, const std::string& place, const SparseMatrix& matrix) {
+  constexpr double most_off = 0.01;  // few digits, or other programs' inertia in another frame
+  const Eigen::VectorXd diagonal = matrix.diagonal();
   for (Eigen::Index i = 0; i < diagonal.size(); ++i)
     if (!(diagonal(i) > 0))
-      file.fail("/fclib_local/W", fmt::format("diagonal entry {} is {}", i, diagonal(i)), "> 0");
-  const double off = (problem.D - problem.D.transpose()).cwiseAbs().maxCoeff();
-  if (off > rounding * diagonal.maxCoeff())
-    file.fail("/fclib_local/W", fmt::format("differs from its transpose by {:.3g}", off),
-              "a symmetric matrix");
-  const std::vector<double>& mu = problem.points.friction;
-  for (std::size_t k = 0; k < mu.size(); ++k)
-    if (mu[k] < 0)
-      file.fail("/fclib_local/vectors/mu", fmt::format("[{}] is {}", k, mu[k]), "at least 0");
+      file.fail(place, fmt::format("diagonal entry {} is {}", i, diagonal(i)), "> 0");
+  const SparseMatrix difference = matrix - SparseMatrix(matrix.transpose());
+  const double off = difference.nonZeros() == 0 ? 0 : difference.coeffs().cwiseAbs().maxCoeff();
+  if (off > most_off * diagonal.maxCoeff())
+    file.fail(place, fmt::format("differs from its transpose by {:.3g}", off),
+              "1 % of the largest diagonal entry");
+}
+
+ContactPoints read_points(const FclibFile& file, const std::string& place, int dimension,
+                          int count) {
+  ContactPoints points;
+  points.count = count;
+  points.components = dimension;
+  const Eigen::VectorXd mu = file.numbers(place + "/vectors/mu", count);
+  points.friction.assign(mu.begin(), mu.end());
+  for (std::size_t k = 0; k < points.friction.size(); ++k)
+    if (mu(k) < 0)
+      file.fail(place + "/vectors/mu", fmt::format("[{}] is {}", k, mu(k)), "at least 0");
+  return points;
+}
+
+// Rows of W, columns of H: `dimension` per contact.
+int read_size(const FclibFile& file, const std::string& name, int dimension) {
+  const int size = file.whole(name, dimension, most_rows);
+  if (size % dimension != 0)
+    file.fail(name, std::to_string(size), fmt::format("a multiple of {} per contact", dimension));
+  return size;
+}
+
+contact::Problem read_local(const FclibFile& file, const std::string& place, int dimension) {
+  contact::Problem problem;
+  const int m = read_size(file, place + "/W/m", dimension);
+  file.whole(place + "/W/n", m, m);
+  const SparseMatrix W = read_matrix(file, place + "/W/", m, m);
+  check_symmetric(file, place + "/W", W);
+  problem.D = W;
+  problem.G = file.numbers(place + "/vectors/q", m);
+  problem.points = read_points(file, place, dimension, m / dimension);
+  return problem;
+}
+
+contact::Problem read_global(const FclibFile& file, const std::string& place, int dimension) {
+  const int n = file.whole(place + "/M/m", 1, most_unknowns);
+  file.whole(place + "/M/n", n, n);
+  const SparseMatrix M = read_matrix(file, place + "/M/", n, n);
+  check_symmetric(file, place + "/M", M);
+  file.whole(place + "/H/m", n, n);
+  const int m = read_size(file, place + "/H/n", dimension);
+  const SparseMatrix H = read_matrix(file, place + "/H/", n, m);
+  const Eigen::VectorXd f = file.numbers(place + "/vectors/f", n);
+  const Eigen::VectorXd w = file.numbers(place + "/vectors/w", m);
+  const ContactPoints points = read_points(file, place, dimension, m / dimension);
+  try {
+    contact::Problem problem = condense_global(M, H, f, w);
+    problem.points = points;
+    return problem;
+  } catch (const Breakdown&) {
+    file.fail(place + "/M", "is not positive definite to rounding", "a positive definite matrix");
+  }
 }
 
 // Ours are all called problem.hdf5: they are named after their case, "Mesh0-default".
@@ -182,22 +242,20 @@ std::string name_of(const FclibFile& file, const std::filesystem::path& path) {
 
 contact::Problem read_fclib(const std::filesystem::path& path) {
   const FclibFile file(path);
-  const std::string local = "/fclib_local";
-  if (!file.has(local))
-    file.fail(local,
-              file.has("/fclib_global") ? "is missing, there is /fclib_global" : "is missing",
-              "a condensed (local) problem");
-  file.whole(local + "/spacedim", 2, 2);
-  for (const char* name : {"/V", "/R", "/vectors/s"})
-    if (file.has(local + name)) file.fail(local + name, "equality constraints", "none");
-  contact::Problem problem{.name = name_of(file, path)};
-  problem.D = read_matrix(file, local + "/W/");
-  const int m = static_cast<int>(problem.D.rows());
-  problem.G = file.numbers(local + "/vectors/q", m);
-  const Eigen::VectorXd mu = file.numbers(local + "/vectors/mu", m / 2);
-  problem.points.count = m / 2;
-  problem.points.friction.assign(mu.begin(), mu.end());
-  check_law(file, problem);
+  const std::string local = "/fclib_local", global = "/fclib_global";
+  const bool is_local = file.has(local);
+  const std::string& place = is_local ? local : global;
+  if (!file.has(place)) file.fail(local, "is missing", "a group of this name, or /fclib_global");
+  const int dimension = file.whole(place + "/spacedim", 2, 3);
+  for (const char* name : {"/V", "/R", "/G", "/vectors/s", "/vectors/b"})
+    if (file.has(place + name)) file.fail(place + name, "equality constraints", "none");
+  contact::Problem problem =
+      is_local ? read_local(file, place, dimension) : read_global(file, place, dimension);
+  for (Eigen::Index i = 0; i < problem.D.rows(); ++i)
+    if (!(problem.D(i, i) > 0))
+      file.fail(place + "/H", fmt::format("column {} moves nothing", i),
+                "columns that are not zero");
+  problem.name = name_of(file, path);
   return problem;
 }
 

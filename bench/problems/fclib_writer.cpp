@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -82,13 +83,13 @@ void write_matrix(hid_t place, const Eigen::MatrixXd& W) {
 
 // Adds the tangential components: zero in a vector, the identity in a matrix.
 Eigen::VectorXd with_tangents(const ContactPoints& contact, const Eigen::VectorXd& vector) {
-  if (contact.components == 2) return vector;
+  if (contact.components > 1) return vector;
   Eigen::VectorXd both = Eigen::VectorXd::Zero(2 * contact.count);
   both(Eigen::seqN(0, contact.count, 2)) = vector;
   return both;
 }
 Eigen::MatrixXd with_tangents(const ContactPoints& contact, const Eigen::MatrixXd& matrix) {
-  if (contact.components == 2) return matrix;
+  if (contact.components > 1) return matrix;
   Eigen::MatrixXd both = Eigen::MatrixXd::Identity(2 * contact.count, 2 * contact.count);
   const auto normal = Eigen::seqN(0, contact.count, 2);
   both(normal, normal) = matrix;
@@ -99,7 +100,7 @@ void write_problem(hid_t file, const contact::Problem& problem, const Eigen::Vec
                    double s, const std::string& title) {
   const ContactPoints& points = problem.points;
   const Handle local = group(file, "fclib_local");
-  write(local, "spacedim", 2);
+  write(local, "spacedim", std::max(2, points.components));
   const Eigen::MatrixXd W = s * problem.D;
   write_matrix(local, with_tangents(points, W));
   const Eigen::VectorXd q = s * contact_offset(problem);

@@ -164,8 +164,8 @@ Json equations(const Exported& problem, bool fclib) {
   all.push_back("u_C = D F_C - G");
   all.push_back("r = u_C - gap");
   all.push_back("F_n <= 0, r_n <= 0, F_n r_n = 0");
-  if (problem.condensed->points.components == 2)
-    all.push_back("|F_t| <= -mu F_n, F_t r_t <= 0, r_t = 0 unless |F_t| = -mu F_n");
+  if (problem.condensed->points.components > 1)
+    all.push_back("|F_t| <= -mu F_n, F_t . r_t <= 0, r_t along F_t, 0 unless |F_t| = -mu F_n");
   if (fclib)
     for (const char* line : {"FCLIB: W = s D, q = s (G + gap), s = 1/mean diag D = scale_N_per_mm",
                              "FCLIB: r = -F_C, u = -s (u_C - gap), u = W r + q"})
@@ -187,8 +187,10 @@ Files write(const Exported& exported, const std::string& format, Json descriptio
     const ContactPoints& points = exported.condensed->points;
     description["contact_points"] = points.count;
     description["components"] = points.components;
-    description["order"] = points.components == 2 ? "per contact point normal, tangential"
-                                                  : "per contact point normal; no friction";
+    constexpr std::array orders = {"per contact point normal; no friction",
+                                   "per contact point normal, tangential",
+                                   "per contact point normal, two tangential"};
+    description["order"] = orders.at(static_cast<std::size_t>(points.components - 1));
   }
   description["arrays"] = descriptions(fclib ? exported.of_condensed : exported.arrays, places);
   files["problem.json"] = indented_json_text(description, 1) + "\n";

@@ -10,23 +10,29 @@
 namespace airybench {
 namespace {
 
-Eigen::Vector2d project_on_cone(const Eigen::Vector2d& r, double mu) {
-  const double normal = r.x(), tangential = std::abs(r.y());
+// On |r_t| ≤ μ r_n; normal first, one or two tangential components.
+Eigen::VectorXd project_on_cone(const Eigen::VectorXd& r, double mu) {
+  const auto tangent = r.tail(r.size() - 1);
+  const double normal = r(0), tangential = tangent.norm();
   if (tangential <= mu * normal) return r;
-  if (mu * tangential <= -normal) return {0, 0};
-  const double n = (normal + mu * tangential) / (1 + mu * mu);
-  return {n, std::copysign(mu * n, r.y())};
+  if (mu * tangential <= -normal) return Eigen::VectorXd::Zero(r.size());
+  Eigen::VectorXd projected(r.size());
+  projected(0) = (normal + mu * tangential) / (1 + mu * mu);
+  projected.tail(r.size() - 1) = mu * projected(0) / tangential * tangent;
+  return projected;
 }
 
 // Verification::siconos_error with r = −F, u = W r + q; offset is q, DF is D F.
 double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
                      const Eigen::VectorXd& F, const Eigen::VectorXd& DF) {
   const Eigen::VectorXd r = -F, u = offset - DF;
+  const int m = points.components;
   double squared = 0;
   for (int p = 0; p < points.count; ++p) {
     const double mu = points.friction_at(p);
-    const Eigen::Vector2d r_p = r.segment<2>(2 * p), u_p = u.segment<2>(2 * p);
-    const Eigen::Vector2d shifted = r_p - u_p - Eigen::Vector2d(mu * std::abs(u_p.y()), 0);
+    const auto r_p = r.segment(m * p, m), u_p = u.segment(m * p, m);
+    Eigen::VectorXd shifted = r_p - u_p;
+    shifted(0) -= mu * u_p.tail(m - 1).norm();
     squared += (r_p - project_on_cone(shifted, mu)).squaredNorm();
   }
   const double scale = std::max({r.norm(), u.norm(), offset.norm()});
@@ -34,11 +40,17 @@ double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
 }
 
 double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
+  const int m = contact.components;
   double coupling = 0;
-  for (int p = 0; p < contact.count; ++p)
+  for (int n = 0, p = 0; p < contact.count; ++p, n += m)
     coupling = std::max(coupling,
-                        contact.friction_at(p) * std::abs(D(2 * p, 2 * p + 1)) / D(2 * p, 2 * p));
+                        contact.friction_at(p) * D.col(n).segment(n + 1, m - 1).norm() / D(n, n));
   return coupling;
+}
+
+double tangential_force(const ContactPoints& contact, const Eigen::VectorXd& F, int point) {
+  const int m = contact.components;
+  return F.segment(m * point + 1, m - 1).norm();
 }
 
 }  // namespace
@@ -54,7 +66,7 @@ std::vector<ContactState> contact_states(const ContactPoints& contact, const Eig
     if (normal <= tolerance * largest)
       states[p] = ContactState::open;
     else if (m == 1 ||
-             std::abs(F_C(2 * p + 1)) >= (1 - tolerance) * contact.friction_at(p) * normal)
+             tangential_force(contact, F_C, p) >= (1 - tolerance) * contact.friction_at(p) * normal)
       states[p] = ContactState::slip;
     else
       states[p] = ContactState::stick;
@@ -75,7 +87,7 @@ void note_contact_forces(const ContactPoints& contact, const Eigen::VectorXd& F,
     return static_cast<int>(std::count(states.begin(), states.end(), state));
   };
   result.normal_resultant_N = normal;
-  result.tangential_resultant_N = tangential;
+  if (m < 3) result.tangential_resultant_N = tangential;  // in space tangents are arbitrary
   result.n_open = count(ContactState::open);
   result.n_stick = count(ContactState::stick);
   result.n_slip = count(ContactState::slip);
@@ -90,10 +102,10 @@ void note_contact_law(const ContactPoints& contact, const Eigen::VectorXd& F,
   double signorini = 0, coulomb = 0;
   for (int p = 0; p < contact.count; ++p) {
     signorini = std::max(signorini, std::abs(residual(m * p)));
-    if (m == 2) coulomb = std::max(coulomb, std::abs(residual(m * p + 1)));
+    coulomb = std::max(coulomb, tangential_force(contact, residual, p));
   }
   result.signorini_violation_N = signorini;
-  if (m == 2) result.coulomb_violation_N = coulomb;
+  if (m > 1) result.coulomb_violation_N = coulomb;
 }
 
 void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const Eigen::VectorXd& F,
@@ -101,7 +113,7 @@ void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const E
                   Verification& result) {
   note_contact_forces(points, F, result);
   note_contact_law(points, F, displacement, D.diagonal(), scale, result);
-  if (points.components == 2) result.friction_coupling = friction_coupling(points, D);
+  if (points.components > 1) result.friction_coupling = friction_coupling(points, D);
 }
 
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {
@@ -112,7 +124,7 @@ Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {
   result.equilibrium_residual.reset();
   note_contact(problem.points, problem.D, F, DF - problem.G, scale, result);
   result.strain_energy_Nmm = F.dot(DF) / 2;
-  if (problem.points.components == 2)
+  if (problem.points.components > 1)
     result.siconos_error = siconos_error(problem.points, offset, F, DF);
   return result;
 }

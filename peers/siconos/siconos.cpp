@@ -1,6 +1,8 @@
-// Solves a plane frictional contact problem in FCLIB's format with Siconos:
+// Solves a frictional contact problem in FCLIB's format with Siconos:
 //
 //   siconos nsgs|cpg|lemke INPUT OUTPUT TOLERANCE   |   siconos --version
+//
+// nsgs takes problems in the plane and in space, cpg and lemke in the plane.
 //
 //   u = W r + q,  r_n ≥ 0,  u_n ≥ 0,  r_n u_n = 0,  |r_t| ≤ μ r_n,  r_t against u_t when it slips
 //
@@ -49,12 +51,22 @@ int main(int count, char** words) {
   if (count == 2 && words[1] == std::string("--version"))
     return std::puts("Siconos " SICONOS_VERSION) < 0;
   if (count != 5) return 2;
-  const std::map<std::string, int> solvers = {{"nsgs", SICONOS_FRICTION_2D_NSGS},
-                                              {"cpg", SICONOS_FRICTION_2D_CPG},
-                                              {"lemke", SICONOS_FRICTION_2D_LEMKE}};
+  const std::map<std::string, int> in_plane = {{"nsgs", SICONOS_FRICTION_2D_NSGS},
+                                               {"cpg", SICONOS_FRICTION_2D_CPG},
+                                               {"lemke", SICONOS_FRICTION_2D_LEMKE}};
+  const std::map<std::string, int> in_space = {{"nsgs", SICONOS_FRICTION_3D_NSGS}};
   const std::string method = words[1], input = words[2], output = words[3];
 
   const hid_t file = H5Fopen((input + "/problem.hdf5").c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const int dimension = read<int>(file, "spacedim").front();
+  const auto& solvers = dimension == 2 ? in_plane : in_space;
+  if (!solvers.contains(method)) {
+    std::ofstream(output + "/answer.json")
+        << R"({"status": "breakdown", "message": "Siconos' )" << method
+        << R"( takes problems in the plane only"})"
+           "\n";
+    return 0;
+  }
   auto q = read<double>(file, "vectors/q"), mu = read<double>(file, "vectors/mu");
   const int size = static_cast<int>(q.size());
   auto values = dense(file, size);
@@ -62,13 +74,14 @@ int main(int count, char** words) {
   std::vector<double> r(size), u(size);
   NumericsMatrix* W = NM_create_from_data(NM_DENSE, size, size, values.data());
   FrictionContactProblem* problem =
-      frictionContactProblem_new_with_data(2, size / 2, W, q.data(), mu.data());
+      frictionContactProblem_new_with_data(dimension, size / dimension, W, q.data(), mu.data());
   SolverOptions* options = solver_options_create(solvers.at(method));
   options->dparam[SICONOS_DPARAM_TOL] = std::stod(words[4]);
   options->iparam[SICONOS_IPARAM_MAX_ITER] = 1'000'000;
 
   const auto start = std::chrono::steady_clock::now();
-  const int info = fc2d_driver(problem, r.data(), u.data(), options);
+  const int info = dimension == 2 ? fc2d_driver(problem, r.data(), u.data(), options)
+                                  : fc3d_driver(problem, r.data(), u.data(), options);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
 
   std::ofstream vector(output + "/r.mtx");

@@ -2,62 +2,131 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
-#include "solvers/contact/point_laws.hpp"
 #include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
 
+namespace {
+
+// An unknown z of the linear system, at one point: F changes by z · force; in return
+// relation · r + diagonal · z = −rest there.
+struct Freedom {
+  int first;  // row of the point
+  Eigen::Vector3d force, relation;
+  double diagonal = 0, rest = 0;
+};
+
+Freedom along(int first, int component) {
+  return {first, Eigen::Vector3d::Unit(component), Eigen::Vector3d::Unit(component)};
+}
+
+// Of a point that slips in space, where z = (F − ρ r)_t, e = z/|z|, q = −|z| / (μ F_n) ≥ 1: along e
+// F_t = −μ F_n e, and across it, f ⊥ e, Newton's method for F_t = (−μ F_n / |z|) z says
+//
+//   f · r_t + (q − 1) f · F_t / ρ = 0,  which is f · r_t = 0 at the onset of slip.
+void add_slip_in_space(int n, double mu, double rho, const Eigen::Vector3d& trial,
+                       Eigen::VectorXd& F, std::vector<Freedom>& freedoms) {
+  const Eigen::Vector2d e = trial.tail<2>().normalized(), f(-e.y(), e.x());
+  const double across = f.dot(F.segment<2>(n + 1));
+  Freedom normal = along(n, 0);
+  normal.force.tail<2>() = -mu * e;
+  freedoms.push_back(normal);
+  F.segment<2>(n + 1) = -mu * F(n) * e + across * f;
+  if (mu == 0) return;
+  const double q = std::max(1.0, -trial.tail<2>().norm() / (mu * std::min(trial(0), 0.0)));
+  const Eigen::Vector3d sideways(0, f.x(), f.y());
+  freedoms.push_back({n, sideways, sideways, (q - 1) / rho, (q - 1) / rho * across});
+}
+
+// What is free under the laws of the trial F − ρ r; F takes the forces that they prescribe.
+std::vector<Freedom> freedoms_of(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                                 const Eigen::VectorXd& trial, Eigen::VectorXd& F) {
+  const int m = contact.components;
+  std::vector<Freedom> freedoms;
+  freedoms.reserve(static_cast<std::size_t>(F.size()));
+  for (int p = 0; p < contact.count; ++p) {
+    const int n = m * p;
+    const double mu = contact.friction_at(p);
+    if (!(trial(n) < 0)) {
+      F.segment(n, m).setZero();
+    } else if (m == 1 || trial.segment(n + 1, m - 1).norm() <= -mu * trial(n)) {
+      for (int k = 0; k < m; ++k) freedoms.push_back(along(n, k));
+    } else if (m == 2) {
+      Freedom slip = along(n, 0);
+      slip.force(1) = trial(n + 1) > 0 ? -mu : mu;
+      F(n + 1) = slip.force(1) * F(n);
+      freedoms.push_back(slip);
+    } else {
+      const double rho = 1 / D_diagonal.segment<2>(n + 1).mean();
+      add_slip_in_space(n, mu, rho, trial.segment<3>(n), F, freedoms);
+    }
+  }
+  return freedoms;
+}
+
+}  // namespace
+
 Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r) {
   const int m = contact.components;
-  // F = Σ_k z_k (e_row + ratio_k e_{row+1}) over the closed components: a sticking point has two, a
-  // slipping one the normal one, which takes F_t = ratio F_n along. Row by row r = 0 is asked for.
-  std::vector<int> row;
-  std::vector<double> ratio;
-  row.reserve(static_cast<std::size_t>(F.size()));
-  ratio.reserve(static_cast<std::size_t>(F.size()));
-  const std::vector<PointLaw> laws = laws_of(contact, F - r.cwiseQuotient(D.diagonal()));
-  Eigen::VectorXd next = Eigen::VectorXd::Zero(F.size());  // F with the statuses' forces in it
-  for (int p = 0; p < contact.count; ++p) {
-    const int n = m * p, t = n + 1;
-    if (!laws[p].closed) continue;
-    row.push_back(n);
-    ratio.push_back(laws[p].ratio);
-    next(n) = F(n);
-    if (m == 1) continue;
-    if (laws[p].sticks) {
-      row.push_back(t);
-      ratio.push_back(0);
-      next(t) = F(t);
-    } else {
-      next(t) = laws[p].ratio * F(n);
-    }
+  const Eigen::VectorXd diagonal = D.diagonal();
+  Eigen::VectorXd next = F;
+  const std::vector<Freedom> freedoms =
+      freedoms_of(contact, diagonal, trial_forces(contact, diagonal, F, r), next);
+  const auto count = static_cast<Eigen::Index>(freedoms.size());
+  if (count == 0) return next;
+  const auto relation = [&](const Freedom& of, const Eigen::VectorXd& at) {
+    return of.relation.head(m).dot(at.segment(of.first, m));
+  };
+  Eigen::MatrixXd matrix(count, count);
+  Eigen::VectorXd column(F.size());
+  for (Eigen::Index k = 0; k < count; ++k) {
+    column.noalias() = D.middleCols(freedoms[k].first, m) * freedoms[k].force.head(m);
+    for (Eigen::Index i = 0; i < count; ++i) matrix(i, k) = relation(freedoms[i], column);
+    matrix(k, k) += freedoms[k].diagonal;
   }
-  const auto closed = static_cast<Eigen::Index>(row.size());
-  if (closed == 0) return next;
-  Eigen::MatrixXd matrix(closed, closed);
-  for (Eigen::Index k = 0; k < closed; ++k) {
-    const auto column = D.col(row[k]);
-    if (ratio[k] == 0) {
-      for (Eigen::Index i = 0; i < closed; ++i) matrix(i, k) = column(row[i]);
-    } else {
-      const auto along = D.col(row[k] + 1);
-      for (Eigen::Index i = 0; i < closed; ++i)
-        matrix(i, k) = column(row[i]) + ratio[k] * along(row[i]);
-    }
-  }
+  // In space D is often singular: several forces give the same displacements. The shift chooses
+  // among them and changes no solution.
+  constexpr double shift = 1e-10;
+  if (m == 3) matrix.diagonal().array() += shift * diagonal.mean();
   const Eigen::VectorXd violation = r + times(D, next - F);
-  const Eigen::VectorXd change = solve_by_lu(std::move(matrix), violation(row));
-  for (Eigen::Index k = 0; k < closed; ++k) {
-    next(row[k]) -= change(k);
-    if (ratio[k] != 0) next(row[k] + 1) -= ratio[k] * change(k);
-  }
+  Eigen::VectorXd rest(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    rest(k) = relation(freedoms[k], violation) + freedoms[k].rest;
+  const Eigen::VectorXd change = solve_by_lu(std::move(matrix), rest);
+  for (Eigen::Index k = 0; k < count; ++k)
+    next.segment(freedoms[k].first, m) -= change(k) * freedoms[k].force.head(m);
   return next;
 }
+
+namespace {
+
+// In space the slip's direction turns with the step, which may be too long: halved until the
+// natural map falls, or what is least of a few. In the plane only signs change; steps are whole.
+Eigen::VectorXd damped(const contact::Problem& problem, const Eigen::VectorXd& F,
+                       const Eigen::VectorXd& next, double natural_map_of_F) {
+  constexpr int most_halvings = 6;
+  if (problem.points.components != 3) return next;
+  Eigen::VectorXd best = next;
+  double least = std::numeric_limits<double>::infinity(), part = 1;
+  for (int halving = 0; halving <= most_halvings && least >= natural_map_of_F;
+       ++halving, part /= 2) {
+    const Eigen::VectorXd tried = F + part * (next - F);
+    const double natural_map = relative_natural_map(problem, tried);
+    if (natural_map < least) {
+      least = natural_map;
+      best = tried;
+    }
+  }
+  return best;
+}
+
+}  // namespace
 
 void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
                           const Deadline& deadline, ContactResult& result) {
@@ -78,7 +147,9 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
     // Below the tolerance for as long as it still falls: errors are a multiple of the map.
     const double best = result.natural_map_residual;
     if (best <= enough || (best <= options.tolerance && step > 0 && best > before / 2)) break;
-    F = active_set_step(problem.D, problem.points, F, relative_to_gap(problem.points, u));
+    F = damped(problem, F,
+               active_set_step(problem.D, problem.points, F, relative_to_gap(problem.points, u)),
+               relative);
     ++result.active_set_steps;
     deadline.check("the active sets of the contact law");
   }

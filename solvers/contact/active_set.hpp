@@ -8,6 +8,8 @@
 //   |(F − ρ r)_t| ≤ −μ (…)_n  stick   r_n = 0,  r_t = 0
 //   else, τ = ±1              slip    r_n = 0,  F_t = −τ μ F_n    τ the sign of (F − ρ r)_t
 //
+// In space τ is the direction of (F − ρ r)_t, and its turning is part of the linear system.
+//
 // With these held the law is a linear system for the change of F, whose right-hand side is r: as
 // accurate as r is. Where the statuses repeat themselves the step is the last one. There is no
 // proof that they do; what comes out counts by its natural map only. A step costs a dense LU of the

@@ -13,22 +13,31 @@ ContactResult solve_contact_by_admm(const contact::Problem& problem, const Conta
   const int m = problem.points.components;
   const Eigen::VectorXd offset = contact_offset(problem);
   Eigen::VectorXd weight = problem.D.diagonal();
-  if (m == 2)
-    for (int p = 0; p < problem.points.count; ++p)
-      weight.segment<2>(2 * p).setConstant(weight.segment<2>(2 * p).mean());
+  for (int p = 0; p < problem.points.count; ++p) {
+    auto of_point = weight.segment(m * p, m);
+    of_point.setConstant(of_point.mean());
+  }
 
+  const bool is_symmetric = problem.D == problem.D.transpose();
+  const Eigen::MatrixXd skew =
+      is_symmetric ? Eigen::MatrixXd() : Eigen::MatrixXd((problem.D - problem.D.transpose()) / 2);
   Eigen::MatrixXd L;
   const auto factorise = [&] {
     L = problem.D;
+    if (!is_symmetric) L -= skew;
     L.diagonal() += weight;
     L = cholesky(std::move(L), "ADMM: D with weights on its diagonal");
   };
   factorise();
+  Eigen::VectorXd F =
+      options.start.size() > 0 ? options.start : Eigen::VectorXd::Zero(problem.points.size());
   Eigen::VectorXd y = Eigen::VectorXd::Zero(problem.points.size());
   int iteration = 0, next_change = 1, pause = 1;
   return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& z) {
-    Eigen::VectorXd F = offset + weight.cwiseProduct(z - y);
-    solve_by_cholesky(L, F);
+    Eigen::VectorXd next = offset + weight.cwiseProduct(z - y);
+    if (!is_symmetric) next -= times(skew, F);
+    solve_by_cholesky(L, next);
+    F = std::move(next);
     const Eigen::VectorXd projected = project_on_coulomb(problem.points, F + y);
     const Eigen::VectorXd root = weight.cwiseSqrt();
     const double gap = root.cwiseProduct(F - projected).norm();

@@ -8,10 +8,20 @@
 
 namespace airybench {
 
-// One sweep from F, in place; returns the norm of the change. Nothing is allocated.
-// offset: contact_offset().
-double gauss_seidel_sweep(const contact::Problem& problem, const Eigen::VectorXd& offset,
-                          Eigen::VectorXd& F);
+class GaussSeidel {
+ public:
+  explicit GaussSeidel(const contact::Problem& problem);  // which must outlive this
+  // One sweep from F, in place; returns the norm of the change. Nothing is allocated.
+  double sweep(Eigen::VectorXd& F) const;
+
+ private:
+  template <int components>
+  double squared_change(Eigen::VectorXd& F) const;
+
+  const contact::Problem* problem_;
+  Eigen::VectorXd offset_;      // contact_offset()
+  Eigen::MatrixXd transposed_;  // of D; empty if D is symmetric
+};
 
 // Not converged after options.most_iterations, or when a force is not finite.
 ContactResult solve_contact_by_gauss_seidel(const contact::Problem& problem,

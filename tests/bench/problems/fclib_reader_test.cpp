@@ -42,8 +42,9 @@ Contents contents_of(const contact::Problem& problem, Storage storage) {
       if (problem.D(row, column) == 0) continue;
       const int times = storage == Storage::triplets && m == 4 ? 2 : 1;
       for (int k = 0; k < times; ++k) {
-        if (storage == Storage::triplets) p.push_back(row);
-        i.push_back(column);
+        const bool triplets = storage == Storage::triplets;
+        if (triplets) p.push_back(column);
+        i.push_back(triplets ? row : column);
         x.push_back(problem.D(row, column) / times);
       }
     }
@@ -139,6 +140,60 @@ TEST_F(FclibReader, OurOwnExportHasTheForcesOfTheBody) {
   }
 }
 
+// Three components, M by columns, H by triplets, whose rows are in i.
+Contents global_contents() {
+  const std::string M = "/fclib_global/M/", H = "/fclib_global/H/",
+                    vectors = "/fclib_global/vectors/";
+  return {{"/fclib_global/spacedim", whole({3})},
+          {M + "m", whole({4})},
+          {M + "n", whole({4})},
+          {M + "nz", whole({-1})},
+          {M + "nzmax", whole({6})},
+          {M + "p", whole({0, 2, 4, 5, 6})},
+          {M + "i", whole({0, 1, 0, 1, 2, 3})},
+          {M + "x", {{2, 1, 1, 3, 4, 5}}},
+          {H + "m", whole({4})},
+          {H + "n", whole({3})},
+          {H + "nz", whole({4})},
+          {H + "nzmax", whole({5})},
+          {H + "p", whole({0, 1, 2, 0})},
+          {H + "i", whole({0, 1, 2, 3})},
+          {H + "x", {{1, 2, 3, -1, 0}}},
+          {vectors + "f", {{-1, 0, 2, 1}}},
+          {vectors + "w", {{0.5, 0, 0.1}}},
+          {vectors + "mu", {{0.4}}}};
+}
+
+TEST_F(FclibReader, CondensesGlobalProblems) {
+  Eigen::Matrix4d M = Eigen::Vector4d(2, 3, 4, 5).asDiagonal();
+  M(0, 1) = M(1, 0) = 1;
+  Eigen::Matrix<double, 4, 3> H = Eigen::Matrix<double, 4, 3>::Zero();
+  H.diagonal() << 1, 2, 3;
+  H(3, 0) = -1;
+  const contact::Problem problem = read(global_contents());
+  EXPECT_EQ(problem.points.count, 1);
+  EXPECT_EQ(problem.points.components, 3);
+  EXPECT_LT((problem.D - H.transpose() * M.inverse() * H).norm(), 1e-14);
+  const Eigen::Vector3d q =
+      Eigen::Vector3d(0.5, 0, 0.1) + H.transpose() * M.inverse() * Eigen::Vector4d(-1, 0, 2, 1);
+  EXPECT_LT((problem.G - q).norm(), 1e-14);
+
+  const auto refused_with = [&](const std::string& name, const Values& values,
+                                const std::string& message) {
+    Contents contents = global_contents();
+    contents["/fclib_global/" + name] = values;
+    refused(contents, "/fclib_global/" + message);
+  };
+  refused_with("H/x", {{1, 2, 0, -1, 0}},
+               "H: column 2 moves nothing (allowed: columns that are not zero)");
+  refused_with("H/p", whole({0, 1, 3, 0}), "H/p: [2] is 3 (allowed: 0 to 2)");
+  refused_with("H/m", whole({5}), "H/m: 5 (allowed: 4)");
+  refused_with("H/n", whole({4}), "H/n: 4 (allowed: a multiple of 3 per contact)");
+  refused_with("M/x", {{2, 3, 3, 3, 4, 5}},
+               "M: is not positive definite to rounding (allowed: a positive definite matrix)");
+  refused_with("vectors/b", {{0}}, "vectors/b: equality constraints (allowed: none)");
+}
+
 TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   const auto with = [&](const std::string& name, const Values& values) {
     Contents contents = contents_of(small_problem(), Storage::rows);
@@ -151,13 +206,12 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
     change(problem);
     return contents_of(problem, storage);
   };
-  refused({}, "/fclib_local: is missing (allowed: a condensed (local) problem)");
-  refused(
-      {{"/fclib_global/spacedim", whole({2})}},
-      "/fclib_local: is missing, there is /fclib_global (allowed: a condensed (local) problem)");
-  refused(with("spacedim", whole({3})), "/fclib_local/spacedim: 3 (allowed: 2)");
-  refused(with("W/m", whole({3})),
-          "/fclib_local/W/m: 3 (allowed: an even number: two per contact)");
+  refused({}, "/fclib_local: is missing (allowed: a group of this name, or /fclib_global)");
+  refused(with("spacedim", whole({4})),
+          "/fclib_local/spacedim: 4 (allowed: a whole number from 2 to 3)");
+  refused(with("spacedim", whole({3})),
+          "/fclib_local/W/m: 4 (allowed: a multiple of 3 per contact)");
+  refused(with("W/m", whole({3})), "/fclib_local/W/m: 3 (allowed: a multiple of 2 per contact)");
   refused(with("W/m", whole({-4})),
           "/fclib_local/W/m: -4 (allowed: a whole number from 2 to 20000)");
   refused(with("W/m", {{4}}),
@@ -184,7 +238,8 @@ TEST_F(FclibReader, WrongFilesAreRefusedInOneLine) {
   refused(with("vectors/s", {{0}}), "/fclib_local/vectors/s: equality constraints (allowed: none)");
   refused(with("V/m", whole({0})), "/fclib_local/V: equality constraints (allowed: none)");
   refused(of([](contact::Problem& p) { p.D(0, 2) = 0.6; }),
-          "/fclib_local/W: differs from its transpose by 0.1 (allowed: a symmetric matrix)");
+          "/fclib_local/W: differs from its transpose by 0.1 (allowed: 1 % of the largest diagonal "
+          "entry)");
   refused(of([](contact::Problem& p) { p.D(3, 3) = 0; }, Storage::triplets),
           "/fclib_local/W: diagonal entry 3 is 0 (allowed: > 0)");
   for (const auto& [name, values] : contents_of(small_problem(), Storage::rows)) {
