@@ -17,13 +17,16 @@
 namespace airybench {
 namespace {
 
-// Text without a mark of its encoding and blanks at the ends of lines; other data as they are.
-std::string tidied(const std::string& text) {
+// Text without a mark of its encoding, blanks at the ends of lines and, where they mean nothing,
+// empty lines; other data as they are.
+std::string tidied(const std::string& text, bool has_empty_lines) {
   if (text.find('\0') != text.npos) return text;
   std::istringstream lines(text.substr(text.starts_with("\xef\xbb\xbf") ? 3 : 0));
   std::string out;
-  for (std::string line; std::getline(lines, line); out += '\n')
-    out.append(line, 0, line.find_last_not_of(" \t\r") + 1);
+  for (std::string line; std::getline(lines, line);) {
+    line.resize(line.find_last_not_of(" \t\r") + 1);
+    if (has_empty_lines || !line.empty()) out += line + '\n';
+  }
   return out;
 }
 
@@ -38,15 +41,14 @@ std::size_t begin_of_mesh(const std::string& text) {
 }
 
 // An element of MSH 2 in ASCII has any number of tags; Gmsh wants the physical group and the curve
-// or surface, and no empty lines. A name of MSH 2.0 has no dimension; Gmsh wants one, and 2.2.
+// or surface. A name of MSH 2.0 has no dimension; Gmsh wants one, and 2.2.
 std::string as_gmsh_wants(const std::string& text) {
   if (!text.starts_with("$MeshFormat\n2") || text.find("\n$Elements") == text.npos) return text;
   std::istringstream lines(text);
   std::string out, section;
   std::size_t names_at = 0;  // in the text written
   int names = 0;
-  for (std::string line; std::getline(lines, line);
-       out += line.find_first_not_of(" \t\r") == line.npos ? "" : line + "\n") {
+  for (std::string line; std::getline(lines, line); out += line + "\n") {
     if (line.starts_with("$")) section = line;
     std::istringstream fields(line);
     long number = 0, type = 0, tags = 0, group = 0;
@@ -138,16 +140,17 @@ GmshInput::GmshInput(const std::filesystem::path& model) : file_(model) {
       including += fmt::format("Include \"{}.opt\";\n", whole.string());
     give("including.geo", including);
   } else if (format == ModelFormat::abaqus) {
-    give(mesh_name, msh_of_abaqus(tidied(text)));
+    give(mesh_name, msh_of_abaqus(tidied(text, true)));
   } else if (format == ModelFormat::mesh || format == ModelFormat::outline) {
-    if (format == ModelFormat::outline && !is_binary) check_stl(text);
+    const bool is_outline = format == ModelFormat::outline;
+    const std::string tidy = tidied(text, !is_outline);
+    if (is_outline && !is_binary) check_stl(tidy);
     for (const char* of_text : {".unv", ".bdf", ".mesh"})
       if (is_binary && file_.extension() == of_text)
         throw InputError("it holds the byte 0 (allowed: text)");
-    if (const std::string tidy = tidied(text); tidy != text)
-      give(is_gzipped(model) ? model.stem() : model.filename(), tidy);
+    if (tidy != text) give(is_gzipped(model) ? model.stem() : model.filename(), tidy);
   } else {
-    const std::string tidy = tidied(text);
+    const std::string tidy = tidied(text, false);
     const std::size_t begin = begin_of_mesh(tidy);
     if (begin == tidy.npos)
       throw InputError(fmt::format("no {} (what can be read: {})",

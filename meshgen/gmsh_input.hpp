@@ -7,8 +7,9 @@
 
 namespace airybench {
 
-// The model's own file, or one in a temporary folder: what a *.gz holds, an Abaqus file as MSH, a
-// .geo whose last line does not end included by another. While it lives.
+// The model's own file, or one in a temporary folder: what a *.gz holds, an Abaqus file as MSH,
+// text without what Gmsh stumbles over, a .geo whose last line does not end included by another.
+// While it lives. What Gmsh would read wrongly without a word, as half an .stl, is refused.
 class GmshInput {
  public:
   // Throws InputError, without the file's name.

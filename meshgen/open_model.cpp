@@ -204,10 +204,11 @@ void refuse_if_not_built_for(const std::filesystem::path& file) {
   std::string built_with;
   gmsh::option::getString("General.BuildOptions", built_with);
   if (model_name(file) + ".med" == file.filename() && built_with.find(" Med") == built_with.npos)
-    throw InputError(fmt::format(
-        "Gmsh {} is built without MED here (allowed: the mesh in another format; a Gmsh with MED, as "
-        "that of gmsh.info, makes one: gmsh {} -save -o {}.msh)",
-        gmsh_version(), file.filename().string(), model_name(file)));
+    throw InputError(
+        fmt::format("Gmsh {} is built without MED here (allowed: the mesh in another format; a "
+                    "Gmsh with MED, as "
+                    "that of gmsh.info, makes one: gmsh {} -save -o {}.msh)",
+                    gmsh_version(), file.filename().string(), model_name(file)));
 }
 
 double scaling_factor(std::vector<std::string>& notes) {

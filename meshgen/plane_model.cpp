@@ -87,15 +87,22 @@ class ModelReader {
 
   void read_surface(int surface, int body) {
     const std::size_t before = model_.triangles.size();
+    std::set<std::array<std::size_t, 3>> seen;  // MSH 2 has an element once for each of its groups
+    const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
+      std::array<std::size_t, 3> corners = {a, b, c};
+      std::ranges::sort(corners);
+      const bool is_new = seen.insert(corners).second;
+      if (is_new) model_.triangles.push_back({{a, b, c}, body, surface});
+      return is_new;
+    };
     each_element(2, surface, [&](std::span<const std::size_t> n) {
       if (n.size() == 3) {
-        model_.triangles.push_back({{n[0], n[1], n[2]}, body, surface});
+        add(n[0], n[1], n[2]);
         return;
       }
-      ++quadrilaterals_;
       const std::size_t s = is_split_at_0(n) ? 0 : 1;
-      model_.triangles.push_back({{n[s], n[s + 1], n[s + 2]}, body, surface});
-      model_.triangles.push_back({{n[s], n[s + 2], n[(s + 3) % 4]}, body, surface});
+      add(n[s], n[s + 1], n[s + 2]);
+      quadrilaterals_ += add(n[s], n[s + 2], n[(s + 3) % 4]);
     });
     if (model_.triangles.size() == before) empty_surfaces_.push_back(surface);
   }

@@ -1,5 +1,6 @@
 // The models of tests/data/models, each of a kind that other programs or people make. Most of them
 // are a trapezium with the corners (0, 0), (10, 0), (8, 5), (2, 5).
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -231,6 +232,9 @@ TEST(ForeignModel, TextsAreReadWhateverWroteThem) {
       EXPECT_EQ(sizes_of(changed).n_phi, sizes.n_phi) << name;
       EXPECT_EQ(sizes_of(changed).displacement_edges, sizes.displacement_edges) << name;
     }
+    const bool is_tried = text.starts_with("solid") || std::string(name).ends_with(".msh");
+    const std::string spread = "\n" + lines_end_with("\n\n")(text);
+    EXPECT_EQ(sizes_of(is_tried ? spread : text).n_phi, sizes.n_phi) << name;
   }
 }
 
@@ -263,6 +267,25 @@ TEST(ForeignModel, DamagedTextIsToldAsSuch) {
   huge.replace(huge.find("{10, 0"), 6, "{1e30, 0");
   EXPECT_EQ(complaint("huge.geo", huge),
             "it has a coordinate 1e+30 (allowed: up to 1e+09 in size)");
+}
+
+// MSH 2 has an element once for each physical group.
+TEST(ForeignModel, AnElementInTwoGroupsIsOneTriangle) {
+  const testing::TemporaryFolder folder;
+  std::string text = testing::text_of(model("mesh2_0.msh"));
+  text.replace(text.find("$Elements\n8"), 11, "$Elements\n12");
+  for (int k = 5; k <= 8; ++k) {
+    const std::size_t at = text.find(fmt::format("\n{} 2 3 21 ", k)) + 1;
+    std::string again = text.substr(at, text.find('\n', at) - at + 1);
+    again.replace(again.find(" 21 "), 4, " 22 ").replace(0, 1, std::to_string(k + 4));
+    text.insert(text.find("$EndElements"), again);
+  }
+  const ConvertedModel converted = convert_model(testing::write_text(folder / "twice.msh", text),
+                                                 model_options_of({"rest=displacement"}, {}, ""));
+  EXPECT_EQ(converted.mesh.triangles.size(), 4u);
+  EXPECT_EQ(converted.mesh.body_names, (Texts{"plate"}));
+  EXPECT_EQ(converted.notes, (Texts{"physical surface 'body22' is no body: each of its surfaces is "
+                                    "in another one"}));
 }
 
 // A name that resembles a role is asked about, unless the role is given to it.
