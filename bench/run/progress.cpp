@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 
 #include "bench/records/robust.hpp"
 #include "support/seconds_since.hpp"
@@ -78,8 +79,10 @@ void ResultsTable::add(const Record& r) {
     if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
   shows_contact_law_ = shows_contact_law_ || r.study == "contact";
   shows_total_ = shows_total_ || has("adapt_level") || r.in_displacements;
-  rows_.emplace_back();
-  for (const Column& column : table_columns) rows_.back().push_back(column.text(r));
+  std::string row;
+  for (const Column& column : table_columns) row += column.text(r) + "\t";
+  row.shrink_to_fit();
+  rows_.push_back(std::move(row));
   if (r.precision && !r.precision_reached && r.time_s) imprecise_ += imprecise_line(r);
   if (r.noisy && r.noise_share && r.noise_attempts && r.retry_noisy) noisy_ += noisy_line(r);
   if (r.status != Status::ok)
@@ -90,15 +93,20 @@ void ResultsTable::add(const Record& r) {
 }
 
 std::string ResultsTable::text() const {
-  std::vector<std::vector<std::string>> shown(rows_.size() + 1);
-  for (std::size_t c = 0; c < table_columns.size(); ++c) {
-    const Column& column = table_columns[c];
-    if ((column.field != nullptr && !fields_.contains(column.field)) ||
-        (column.of_total_error && !shows_total_) ||
-        (column.of_contact_study && !shows_contact_law_))
-      continue;
-    shown.front().emplace_back(column.header);
-    for (std::size_t r = 0; r < rows_.size(); ++r) shown[r + 1].push_back(rows_[r][c]);
+  const auto is_shown = [&](const Column& column) {
+    return (column.field == nullptr || fields_.contains(column.field)) &&
+           (!column.of_total_error || shows_total_) &&
+           (!column.of_contact_study || shows_contact_law_);
+  };
+  std::vector<std::vector<std::string>> shown(1);
+  for (const Column& column : table_columns)
+    if (is_shown(column)) shown.front().emplace_back(column.header);
+  for (const std::string& row : rows_) {
+    std::istringstream cells(row);
+    std::string cell;
+    shown.emplace_back();
+    for (const Column& column : table_columns)
+      if (std::getline(cells, cell, '\t') && is_shown(column)) shown.back().push_back(cell);
   }
   return aligned_table(shown, 1) + imprecise_ + noisy_ + reasons_;
 }

@@ -301,7 +301,7 @@ TEST(Command, TheListIsComplete) {
 TEST(Command, ProgressNamesTheLargestError) {
   const CommandResult result = BenchCommand().run(
       "--mesh=Mesh0 --method=ALM:r=20,rho=20 --stop=paper --repetitions=1 --out=o");
-  EXPECT_NE(result.err.find(", force error "), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(", stress error "), std::string::npos) << result.err;
 }
 
 TEST(Command, ALongCaseIsMeasuredOnce) {
