@@ -11,6 +11,7 @@
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
 #include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
 
 namespace airybench::degree_system_test {
 namespace {
@@ -69,7 +70,7 @@ TEST(DegreeSystem, OfDegreeOneIsHybrid) {
 TEST(DegreeSystem, LinearStressesAreExactForEveryDegree) {
   constexpr double young = 210000, poisson = 0.3;
   const Mesh mesh =
-      testing::with_role(small_tooth(3, 3), BoundaryRole::contact, BoundaryRole::force);
+      testing::with_role(small_tooth(2, 2), BoundaryRole::contact, BoundaryRole::force);
   for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
     const Problem problem = make_problem(mesh, {compliance({young, poisson}, Plane::stress)},
                                          testing::loads_of(exact), 0);
@@ -117,7 +118,8 @@ TEST(DegreeSystem, TendsToTheReferenceValuesOfTheTooth) {
     Scene scene;
     scene.friction = expected.friction;
     const auto problem = testing::posed(scene, graded_tooth());
-    for (int k = 1; k <= highest_stress_degree; ++k) {
+    constexpr int highest = testing::sanitized ? 2 : highest_stress_degree;
+    for (int k = 1; k <= highest; ++k) {
       const DegreeAnswer answer = solved(*problem, k);
       EXPECT_LT((resultant(answer) - expected.resultant_N).norm(), k == 1 ? 0.3 : 0.03) << k;
       EXPECT_NEAR(answer.strain_energy_Nmm, expected.energy_Nmm, k == 1 ? 6e-3 : 1e-4) << k;
