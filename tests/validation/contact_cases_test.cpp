@@ -237,7 +237,7 @@ TEST(CattaneoMindlin, AStepwiseLoopDissipatesWhatTheClosedFormSays) {
       scene.later_steps.emplace_back();
       scene.later_steps.back().displacement_mm = Eigen::Vector2d(x, pressed_mm);
     }
-    double P = 0, Q_before = 0, largest = 0, dissipated = 0, area = 0;
+    double P = 0, Q_before = 0, highest = 0, lowest = 0, dissipated = 0, area = 0;
     solve_load_steps(
         select_methods("HYBRID").front(),
         testing::posed(scene, read_msh(testing::test_data("validation/half_plane.msh"))), {},
@@ -253,14 +253,15 @@ TEST(CattaneoMindlin, AStepwiseLoopDissipatesWhatTheClosedFormSays) {
             dissipated += dissipation_Nmm(system, answer);
             area += (Q + Q_before) / 2 * (moved[step - 1] - moved[step - 2]);
           }
-          largest = std::max(largest, Q);
+          highest = std::max(highest, Q);
+          lowest = std::min(lowest, Q);
           Q_before = Q;
         });
-    const double q = largest / (mu * P), E = 82.4286 / (1 - 0.4999 * 0.4999);
+    const double q = (highest - lowest) / 2 / (mu * P), E = 82.4286 / (1 - 0.4999 * 0.4999);
     EXPECT_NEAR(q, 0.75, 0.01);
     const double closed = mu * P * mu * P / (std::numbers::pi * E) *
                           (4 * (1 - q) * std::log(1 - q) + 2 * q * (2 - q));
-    EXPECT_NEAR(dissipated / closed, 1, 0.001) << n;
+    EXPECT_NEAR(dissipated / closed, 1, 0.003) << n;
     // ∮ Q dU by trapezoids knows only the steps' ends.
     EXPECT_LT(std::abs(area / closed - 1), area_off / 2) << n;
     area_off = std::abs(area / closed - 1);
