@@ -1,6 +1,6 @@
 // Contact problems in the FCLIB format, HDF5 (Acary, Brémond, Koziara & Pérignon, INRIA report
-// RT-0444, 2014), which Siconos and LMGC90 read and write. Components per contact point: normal, one
-// tangential in the plane, two in space:
+// RT-0444, 2014), which Siconos and LMGC90 read and write. Components per contact point: normal,
+// one tangential in the plane, two in space:
 //
 //   u = W r + q,   r_n ≥ 0, u_n ≥ 0, r_n u_n = 0;   |r_t| ≤ μ r_n, sliding opposed
 //
@@ -21,8 +21,8 @@
 //   /fclib_global  M, H; vectors/f, w, mu: condensed (solvers/condensation/global_problem.hpp)
 //
 // with matrices in compressed rows (nz = −2), compressed columns (−1) or triplets. W and M must be
-// symmetric to 1 % of the largest diagonal entry; what differs is kept. Only libhdf5 reads them: FCLIB's own library ends the
-// process on a bad file.
+// symmetric to 1 % of the largest diagonal entry; what differs is kept. Only libhdf5 reads them:
+// FCLIB's own library ends the process on a bad file.
 #pragma once
 
 #include <filesystem>

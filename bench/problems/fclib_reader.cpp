@@ -132,10 +132,12 @@ SparseMatrix read_matrix(const FclibFile& file, const std::string& place, int ro
                  static_cast<int>(std::min<std::int64_t>(full, std::numeric_limits<int>::max())));
   const int nz = file.whole(place + "nz", compressed_rows, room);
   const int lines = nz == compressed_rows ? rows : columns;
-  std::vector<int> p =
-      file.wholes(place + "p", nz >= 0 ? file.count(place + "p", nz, room) : lines + 1);
-  std::vector<int> i = file.wholes(place + "i", nz >= 0 ? file.count(place + "i", nz, room) : room);
-  const Eigen::VectorXd x = file.numbers(place + "x", room);
+  const auto room_of = [&](const char* name) {  // programs write nz or nzmax triplets
+    return nz >= 0 ? file.count(place + name, nz, room) : room;
+  };
+  std::vector<int> p = file.wholes(place + "p", nz >= 0 ? room_of("p") : lines + 1);
+  std::vector<int> i = file.wholes(place + "i", room_of("i"));
+  const Eigen::VectorXd x = file.numbers(place + "x", room_of("x"));
   if (nz >= 0) {
     p.resize(static_cast<std::size_t>(nz));
     check_indices(file, place + "p", p, columns - 1);

@@ -171,6 +171,9 @@ TEST_F(FclibReader, CondensesGlobalProblems) {
   H.diagonal() << 1, 2, 3;
   H(3, 0) = -1;
   const contact::Problem problem = read(global_contents());
+  Contents without_room = global_contents();
+  without_room["/fclib_global/H/x"] = {{1, 2, 3, -1}};
+  EXPECT_EQ(read(without_room).D, problem.D);
   EXPECT_EQ(problem.points.count, 1);
   EXPECT_EQ(problem.points.components, 3);
   EXPECT_LT((problem.D - H.transpose() * M.inverse() * H).norm(), 1e-14);
