@@ -14,15 +14,17 @@ namespace airybench {
 namespace {
 
 // An unknown z of the linear system, at one point: F changes by z · force; in return
-// relation · r + diagonal · z = −rest there.
+// r_component + diagonal · z = −rest there, or, across a slip, force · r in place of a component.
 struct Freedom {
   int first;  // row of the point
-  Eigen::Vector3d force, relation;
+  int component;
+  Eigen::Vector3d force;
   double diagonal = 0, rest = 0;
 };
+constexpr int across_slip = -1;
 
 Freedom along(int first, int component) {
-  return {first, Eigen::Vector3d::Unit(component), Eigen::Vector3d::Unit(component)};
+  return {first, component, Eigen::Vector3d::Unit(component)};
 }
 
 // Of a point that slips in space, where z = (F − ρ r)_t, e = z/|z|, q = −|z| / (μ F_n) ≥ 1: along e
@@ -39,8 +41,8 @@ void add_slip_in_space(int n, double mu, double rho, const Eigen::Vector3d& tria
   F.segment<2>(n + 1) = -mu * F(n) * e + across * f;
   if (mu == 0) return;
   const double q = std::max(1.0, -trial.tail<2>().norm() / (mu * std::min(trial(0), 0.0)));
-  const Eigen::Vector3d sideways(0, f.x(), f.y());
-  freedoms.push_back({n, sideways, sideways, (q - 1) / rho, (q - 1) / rho * across});
+  const double diagonal = (q - 1) / rho;
+  freedoms.push_back({n, across_slip, {0, f.x(), f.y()}, diagonal, diagonal * across});
 }
 
 // What is free under the laws of the trial F − ρ r; F takes the forces that they prescribe.
@@ -81,7 +83,8 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
   const auto count = static_cast<Eigen::Index>(freedoms.size());
   if (count == 0) return next;
   const auto relation = [&](const Freedom& of, const Eigen::VectorXd& at) {
-    return of.relation.head(m).dot(at.segment(of.first, m));
+    return of.component == across_slip ? of.force.head(m).dot(at.segment(of.first, m))
+                                       : at(of.first + of.component);
   };
   Eigen::MatrixXd matrix(count, count);
   Eigen::VectorXd column(F.size());
