@@ -21,7 +21,7 @@ class RedrawnTest(FolderTest):
     def test_committed_figures_are_what_their_records_give(self) -> None:
         for folder in (PROJECT / "results" / name for name in FOLDERS):
             shutil.copy(folder / "records.jsonl", self.results)
-            drawn = [path for path in (folder / "figures").iterdir() 
+            drawn = [path for path in (folder / "figures").iterdir()
                      if path.name not in ("drawn.txt", ".airybench.made")]
             names = {path.stem for path in drawn} - {"measured"}
             status, _, err = run(figures, self.results, f"--only={','.join(names)}")
