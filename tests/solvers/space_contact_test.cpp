@@ -2,6 +2,7 @@
 // bodies whose answer is known.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 #include <map>
 #include <random>
