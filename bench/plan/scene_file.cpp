@@ -65,7 +65,7 @@ SceneFile checked_scene(const Json& json, const std::string& place) {
   file.scene.source = place;
   file.definition = json_text(json);
   read(JsonValue(place, "", json), file);
-  if (json.contains("wall") && json.contains("crown_radius_mm"))
+  if (json.contains("wall") && !json.value("crown_radius_mm", Json()).is_null())
     throw FileError(place + ": wall and crown_radius_mm (allowed: one of them)");
   check_values(file.scene);
   return file;

@@ -234,6 +234,8 @@ TEST_F(SceneFile, ComplaintsOfWalls) {
   const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
   EXPECT_EQ(complaint("{" + wall + R"(, "crown_radius_mm": 3})"),
             "wall and crown_radius_mm (allowed: one of them)");
+  // What --new-scene writes, with a wall added.
+  EXPECT_NO_THROW(scene_of("{" + wall + R"(, "crown_radius_mm": null})", "scene"));
   EXPECT_EQ(complaint(R"({"boundary": {"force": {)" + wall + "}}}"),
             "boundary: force: wall (allowed: on a contact boundary)");
   EXPECT_EQ(complaint(R"({"boundary": {"contact": {"friction": -1}}})"),
