@@ -63,7 +63,7 @@ int main(int count, char** words) {
   if (!solvers.contains(method)) {
     std::ofstream(output + "/answer.json")
         << R"({"status": "breakdown", "message": "Siconos' )" << method
-        << R"( takes problems in the plane only"})"
+        << R"( takes problems in the plane only", "time_s": 0})"
            "\n";
     return 0;
   }
