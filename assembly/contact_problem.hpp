@@ -35,7 +35,8 @@ struct Problem {
   Eigen::MatrixXd D = {};
   Eigen::VectorXd G = {};  // n_c, mm; −G: displacements without contact forces
   ContactPoints points = {};
-  std::string name = {};  // for a file its stem
+  std::string name = {};     // for a file its stem
+  bool is_symmetric = true;  // D, exactly; of bodies it always is
 
   std::size_t bytes() const {  // of D and G
     return static_cast<std::size_t>(D.size() + G.size()) * sizeof(double);

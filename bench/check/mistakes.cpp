@@ -6,6 +6,8 @@
 #include <limits>
 #include <optional>
 
+#include "solvers/contact/condensed.hpp"
+
 namespace airybench {
 namespace {
 
@@ -26,7 +28,7 @@ VectorXd solved(const contact::Problem& problem, const Law& law = {}) {
   constexpr int most_sweeps = 20'000;
   constexpr double tolerance = 1e-9;
   const ContactPoints& points = problem.points;
-  const VectorXd offset = problem.G + points.gap;
+  const VectorXd offset = contact_offset(problem);
   VectorXd F = VectorXd::Zero(points.size());
   const auto without_r = [&](int row) {
     return F(row) - (problem.D.row(row).dot(F) - offset(row)) / problem.D(row, row);

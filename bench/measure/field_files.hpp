@@ -6,9 +6,8 @@
 //                     corners, then the middles of edges 12, 23, 31; quadratic, continuous
 //   NAME.contact.csv  x_mm, y_mm, normal_x, normal_y, edge_length_mm, F_n_N, F_t_N, gap_mm,
 //                     slip_mm, state (open, stick, slip); a row per contact point (ContactPicture)
-//   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the given tractions of Γ_F at
-//   both
-//                     ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
+//   NAME.boundary.csv x0_mm, y0_mm, x1_mm, y1_mm, rolls (0 or 1), the tractions given on Γ_F at
+//                     both ends t0_x_MPa, t0_y_MPa, t1_x_MPa, t1_y_MPa, and role
 //   NAME.error.csv    triangle, error_share: 0 to 1, of the squared constitutive relation error,
 //                     contact terms included; triangles in the order of NAME.stress.csv
 //   NAME.mean.csv     as NAME.stress.csv: mean of the stresses and those of the displacements

@@ -207,6 +207,7 @@ contact::Problem read_local(const FclibFile& file, const std::string& place, int
   const SparseMatrix W = read_matrix(file, place + "/W/", m, m);
   check_symmetric(file, place + "/W", W);
   problem.D = W;
+  problem.is_symmetric = problem.D == problem.D.transpose();
   problem.G = file.numbers(place + "/vectors/q", m);
   problem.points = read_points(file, place, dimension, m / dimension);
   return problem;
@@ -226,6 +227,10 @@ contact::Problem read_global(const FclibFile& file, const std::string& place, in
   try {
     contact::Problem problem = condense_global(M, H, f, w);
     problem.points = points;
+    for (int i = 0; i < m; ++i)
+      if (!(problem.D(i, i) > 0))
+        file.fail(place + "/H", fmt::format("column {} moves nothing", i),
+                  "columns that are not zero");
     return problem;
   } catch (const Breakdown&) {
     file.fail(place + "/M", "is not positive definite to rounding", "a positive definite matrix");
@@ -253,10 +258,6 @@ contact::Problem read_fclib(const std::filesystem::path& path) {
     if (file.has(place + name)) file.fail(place + name, "equality constraints", "none");
   contact::Problem problem =
       is_local ? read_local(file, place, dimension) : read_global(file, place, dimension);
-  for (Eigen::Index i = 0; i < problem.D.rows(); ++i)
-    if (!(problem.D(i, i) > 0))
-      file.fail(place + "/H", fmt::format("column {} moves nothing", i),
-                "columns that are not zero");
   problem.name = name_of(file, path);
   return problem;
 }

@@ -7,6 +7,7 @@
 #include "solvers/base/dense_products.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/point_laws.hpp"
 #include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
@@ -51,21 +52,21 @@ std::vector<Freedom> freedoms_of(const ContactPoints& contact, const Eigen::Vect
   const int m = contact.components;
   std::vector<Freedom> freedoms;
   freedoms.reserve(static_cast<std::size_t>(F.size()));
+  const std::vector<PointLaw> laws = laws_of(contact, trial);
   for (int p = 0; p < contact.count; ++p) {
     const int n = m * p;
-    const double mu = contact.friction_at(p);
-    if (!(trial(n) < 0)) {
+    if (!laws[p].closed) {
       F.segment(n, m).setZero();
-    } else if (m == 1 || trial.segment(n + 1, m - 1).norm() <= -mu * trial(n)) {
+    } else if (m == 1 || laws[p].sticks) {
       for (int k = 0; k < m; ++k) freedoms.push_back(along(n, k));
     } else if (m == 2) {
       Freedom slip = along(n, 0);
-      slip.force(1) = trial(n + 1) > 0 ? -mu : mu;
+      slip.force(1) = laws[p].ratio;
       F(n + 1) = slip.force(1) * F(n);
       freedoms.push_back(slip);
     } else {
       const double rho = 1 / D_diagonal.segment<2>(n + 1).mean();
-      add_slip_in_space(n, mu, rho, trial.segment<3>(n), F, freedoms);
+      add_slip_in_space(n, contact.friction_at(p), rho, trial.segment<3>(n), F, freedoms);
     }
   }
   return freedoms;

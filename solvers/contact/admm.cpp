@@ -18,13 +18,13 @@ ContactResult solve_contact_by_admm(const contact::Problem& problem, const Conta
     of_point.setConstant(of_point.mean());
   }
 
-  const bool is_symmetric = problem.D == problem.D.transpose();
-  const Eigen::MatrixXd skew =
-      is_symmetric ? Eigen::MatrixXd() : Eigen::MatrixXd((problem.D - problem.D.transpose()) / 2);
+  const Eigen::MatrixXd skew = problem.is_symmetric
+                                   ? Eigen::MatrixXd()
+                                   : Eigen::MatrixXd((problem.D - problem.D.transpose()) / 2);
   Eigen::MatrixXd L;
   const auto factorise = [&] {
     L = problem.D;
-    if (!is_symmetric) L -= skew;
+    if (!problem.is_symmetric) L -= skew;
     L.diagonal() += weight;
     L = cholesky(std::move(L), "ADMM: D with weights on its diagonal");
   };
@@ -35,7 +35,7 @@ ContactResult solve_contact_by_admm(const contact::Problem& problem, const Conta
   int iteration = 0, next_change = 1, pause = 1;
   return iterate_contact(problem, options, deadline, [&](Eigen::VectorXd& z) {
     Eigen::VectorXd next = offset + weight.cwiseProduct(z - y);
-    if (!is_symmetric) next -= times(skew, F);
+    if (!problem.is_symmetric) next -= times(skew, F);
     solve_by_cholesky(L, next);
     F = std::move(next);
     const Eigen::VectorXd projected = project_on_coulomb(problem.points, F + y);

@@ -10,7 +10,7 @@ namespace airybench {
 
 GaussSeidel::GaussSeidel(const contact::Problem& problem)
     : problem_(&problem), offset_(contact_offset(problem)) {
-  if (problem.D != problem.D.transpose()) transposed_ = problem.D.transpose();
+  if (!problem.is_symmetric) transposed_ = problem.D.transpose();
 }
 
 template <int components>

@@ -14,9 +14,9 @@ PointLaw law_at(const ContactPoints& contact, const Eigen::VectorXd& trial, int 
   PointLaw law;
   law.closed = trial(n) < 0;
   if (!law.closed || m == 1) return law;
-  const double mu = contact.friction_at(p), t = trial(n + 1);
-  law.sticks = std::abs(t) <= -mu * trial(n);
-  if (!law.sticks) law.ratio = t > 0 ? -mu : mu;
+  const double mu = contact.friction_at(p);
+  law.sticks = trial.segment(n + 1, m - 1).norm() <= -mu * trial(n);
+  if (!law.sticks && m == 2) law.ratio = trial(n + 1) > 0 ? -mu : mu;
   return law;
 }
 
@@ -70,7 +70,7 @@ LawChoice::Next LawChoice::after(const ContactPoints& contact, const Eigen::Vect
     since_halved_ = 0;
   }
   const std::vector<PointLaw> all =
-      laws_of(contact, F_C - relative_to_gap(contact, u_C).cwiseQuotient(compliance));
+      laws_of(contact, trial_forces(contact, compliance, F_C, relative_to_gap(contact, u_C)));
   if (all == laws || next.natural_map <= tolerance) return next;
   if (since_halved_ > patience) {
     share_ /= 2;

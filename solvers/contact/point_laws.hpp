@@ -13,7 +13,7 @@ namespace airybench {
 
 struct PointLaw {
   bool closed = false, sticks = false;
-  double ratio = 0;  // F_t / F_n of a slipping point
+  double ratio = 0;  // F_t / F_n of a point that slips in the plane
   bool operator==(const PointLaw&) const = default;
 };
 

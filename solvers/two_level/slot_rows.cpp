@@ -34,14 +34,16 @@ std::vector<PointLaw> SlotRows::first_laws(int& sweeps) {
   M_.hold(prescribed_);
   std::vector<PointLaw> laws(static_cast<std::size_t>(contact.count));
   const CoarseContact coarse = M_.coarse().contact_problem(contact, b_);
-  const auto& [D, G, points, unnamed] = coarse.problem;
+  const Eigen::MatrixXd& D = coarse.problem.D;
+  const ContactPoints& points = coarse.problem.points;
   if (points.count == 0) return laws;
   const ContactOptions rough = {.tolerance = 1e-6, .most_iterations = 1000};
   const ContactResult of_coarse = solve_contact_by_newton(coarse.problem, rough, deadline_);
   sweeps = of_coarse.iterations;
   const Eigen::VectorXd& F = of_coarse.F_C;
-  const Eigen::VectorXd r = relative_to_gap(points, Eigen::VectorXd(times(D, F) - G));
-  const std::vector<PointLaw> at_coarse = laws_of(points, F - r.cwiseQuotient(D.diagonal()));
+  const Eigen::VectorXd r =
+      relative_to_gap(points, Eigen::VectorXd(times(D, F) - coarse.problem.G));
+  const std::vector<PointLaw> at_coarse = laws_of(points, trial_forces(points, D.diagonal(), F, r));
   for (std::size_t p = 0; p < laws.size(); ++p)
     if (coarse.of_point[p] >= 0) laws[p] = at_coarse[coarse.of_point[p]];
   return laws;

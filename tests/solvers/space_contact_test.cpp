@@ -174,6 +174,23 @@ TEST(ContactInSpace, WhatConvergesMeetsTheLaw) {
   EXPECT_GE(solved[ContactSolver::admm], problems / 2);
 }
 
+// As some programs write it.
+TEST(ContactInSpace, TheSkewPartOfWCounts) {
+  contact::Problem problem = rigid_bodies(20, 25, 2).problem;
+  std::srand(7);
+  const Eigen::MatrixXd noise = Eigen::MatrixXd::Random(60, 60);
+  problem.D += 1e-3 * (noise - noise.transpose());
+  problem.is_symmetric = false;
+  for (const ContactSolver solver : all_contact_solvers) {
+    SCOPED_TRACE(name_of(solver));
+    ContactOptions options;
+    options.solver = solver;
+    const ContactResult result = solve_contact(problem, options);
+    EXPECT_TRUE(result.converged);
+    EXPECT_LT(worst_violation(problem, result.F_C), 1e-8);
+  }
+}
+
 TEST(GlobalProblem, IsCondensedToForcesAlone) {
   std::srand(5);
   const Eigen::MatrixXd root = Eigen::MatrixXd::Random(12, 12), H = Eigen::MatrixXd::Random(12, 6);
