@@ -14,7 +14,8 @@
 namespace airybench {
 
 struct ContactPoints {
-  int count = 0;                 // for a body two per contact edge: start, end
+  int count = 0;                 // for a body `per_edge` on each contact edge, from its start on
+  int per_edge = 2;
   int components = 2;            // per point: 1 (normal, μ = 0), 2 (plane) or 3 (space)
   std::vector<double> friction;  // μ per point; empty with one component
   Eigen::VectorXd gap;           // ḡ, mm, in the order of F_C: per point normal and, where the

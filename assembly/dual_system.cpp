@@ -67,26 +67,22 @@ Eigen::Vector2d particular_force(const Problem& problem, const EdgeFunctionals& 
 
 }  // namespace
 
-ContactPoints contact_points(const Problem& problem) {
+ContactPoints contact_points(const Problem& problem, int degree) {
   ContactPoints contact;
+  contact.per_edge = degree + 1;
   contact.components = problem.has_friction() ? 2 : 1;
   std::vector<double> gap;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-    const BoundaryEdge& edge = problem.mesh.boundary[row];
-    if (edge.role != BoundaryRole::contact) continue;
-    contact.boundary.insert(contact.boundary.end(), {row, row});
-    if (contact.components == 2)
-      contact.friction.resize(contact.boundary.size(), problem.friction_at(row));
-    if (!problem.has_gap()) continue;
-    const auto &a = problem.mesh.vertices[edge.vertices[0]],
-               &b = problem.mesh.vertices[edge.vertices[1]];
-    for (const int end : {0, 1}) {
-      const Eigen::Vector2d normal = problem.frame_of_moment(row, end).normal;
-      const auto offset = [&](const Eigen::Vector2d& x) {
-        return problem.offset_at(x, row).along(normal);
-      };
-      const auto [first, second] = edge_moments(offset(a), offset((a + b) / 2), offset(b));
-      const Eigen::Vector2d& moment = end == 0 ? first : second;
+    if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
+    for (int j = 0; j <= degree; ++j) {
+      contact.boundary.push_back(row);
+      if (contact.components == 2) contact.friction.push_back(problem.friction_at(row));
+      if (!problem.has_gap()) continue;
+      const Eigen::Vector2d normal = problem.frame_of_moment(row, j).normal;
+      const std::array<Eigen::Vector2d, 3> along = {
+          offset[0].along(normal), offset[1].along(normal), offset[2].along(normal)};
+      const Eigen::Vector2d moment = moment_of_quadratic(degree, j, along);
       gap.insert(gap.end(), moment.data(), moment.data() + contact.components);
     }
   }
@@ -179,19 +175,23 @@ std::size_t DualSystem::bytes() const {
          (dofs.of_vertex.size() + dofs.of_edge.size() + contact.boundary.size()) * sizeof(int);
 }
 
-std::string why_no_blocks(const Mesh& mesh, Blocks blocks) {
-  const int holes = hole_count(mesh);
+std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree) {
+  if (degree > 1 && problem.contact_turns())
+    return "stresses of degree " + std::to_string(degree) +
+           " need walls whose normal does not turn along an edge";
+  const int holes = hole_count(problem.mesh);
   if (blocks == Blocks::contact_points || holes == 0) return "";
   return "a body with " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +
          " needs a multi-valued Airy function";
 }
 
-DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks) {
-  if (const std::string why = why_no_blocks(problem->mesh, blocks); !why.empty())
+DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks, int degree) {
+  if (const std::string why = why_no_blocks(*problem, blocks, degree); !why.empty())
     throw std::invalid_argument(why);
   DualSystem system;
   system.problem = std::move(problem);
-  system.contact = contact_points(*system.problem);
+  system.degree = degree;
+  system.contact = contact_points(*system.problem, degree);
   if (blocks == Blocks::contact_points) return system;
   {
     const NodeGraph graph = airy_node_graph(*system.problem);
@@ -208,7 +208,7 @@ DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks) {
 
 void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem) {
   system.problem = std::move(problem);
-  system.contact = contact_points(*system.problem);
+  system.contact = contact_points(*system.problem, system.degree);
   for (Eigen::VectorXd* load : {&system.q, &system.F, &system.F0}) load->resize(0);
   if (system.n() == 0) return;  // contact points only
   build_constraints(system);

@@ -6,7 +6,7 @@
 //   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
 //
 // with the contact law (contact_problem.hpp) between F_C and r = ū_C − ḡ at every contact point,
-// two per edge, its ends. ū_C belongs to w; ḡ contains g0 and the rigid motion (problem.hpp).
+// two per edge, its ends (k + 1 for stresses of degree k). ū_C belongs to w; ḡ contains g0 and the rigid motion (problem.hpp).
 //
 // edge_forces.hpp defines forces and displacements on edges. The unknown here is x = φ/scale: S is
 // equilibrated to the diagonal 1; q, C_F and C_C are scaled alike. Rows are numbered by
@@ -31,11 +31,13 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
-// Two components if there is friction anywhere; ḡ from the moments of the offset.
-ContactPoints contact_points(const Problem& problem);
+// degree: of the stresses, k + 1 points per edge. Two components if there is friction anywhere; ḡ
+// from the moments of the offset.
+ContactPoints contact_points(const Problem& problem, int degree = 1);
 
 struct DualSystem {
   std::shared_ptr<const Problem> problem;
+  int degree = 1;  // of the stresses; above 1 there are contact points only
   DofNumbering dofs;
   Eigen::VectorXd scale;  // φ = scale ∘ x
   SparseColumns S;        // lower triangle
@@ -55,10 +57,12 @@ struct DualSystem {
 enum class Blocks { airy, contact_points };
 // Why a body lacks these blocks; empty: it has them. Around a hole whose forces have a resultant or
 // a moment φ changes by an affine function (Michell 1899): three unknowns per hole that are not
-// here. Without them a hole's rows of C are dependent.
-std::string why_no_blocks(const Mesh& mesh, Blocks blocks);
-// Throws std::invalid_argument with the reason of why_no_blocks().
-DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy);
+// here. Without them a hole's rows of C are dependent. Above degree 1 a contact edge has one normal.
+std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree = 1);
+// Throws std::invalid_argument with the reason of why_no_blocks(). degree: of the stresses; above 1
+// only with Blocks::contact_points.
+DualSystem assemble(std::shared_ptr<const Problem> problem, Blocks blocks = Blocks::airy,
+                    int degree = 1);
 // Another load case of the same body (same_body): rebuilds q, F, F0 and the contact points, keeps
 // S. Costs the boundary, and with a body force a pass over the triangles.
 void set_load_case(DualSystem& system, std::shared_ptr<const Problem> problem);

@@ -40,6 +40,7 @@
 #include <array>
 #include <type_traits>
 
+#include "assembly/bernstein.hpp"
 #include "assembly/hct.hpp"
 #include "assembly/small_cholesky.hpp"
 
@@ -56,23 +57,12 @@ template <int k>
 struct StressDegree {
   static constexpr int points = k + 1;                 // control values per edge
   static constexpr int size = 6 * points;              // of K: three edges, x and y
-  static constexpr int third = (k + 1) * (k + 2) / 2;  // Bernstein coefficients of P_k
+  static constexpr int third = bernstein_count(k);     // coefficients of P_k on a third
   static constexpr int coefficients = 3 * third;       // of one component
   static constexpr int inner = 3 * k * (k - 1) / 2;    // modes without edge forces
   static constexpr int outer = 6 * k + 3;              // the others
   static constexpr int modes = inner + outer;          // 9, 18, 30, 45
 };
-
-// Place of the Bernstein coefficient V_t^(d−b−c) V_(t+1)^b V4^c: by rings, each walked from V_t.
-// The d + 1 on the edge come first.
-constexpr int ring_place(int d, int b, int c) { return c * (d + 1) - c * (c - 1) / 2 + b; }
-
-// Exact as long as it fits: whole numbers.
-constexpr double binomial(int n, int m) {
-  double value = 1;
-  for (int i = 1; i <= m; ++i) value = value * (n - m + i) / i;
-  return value;
-}
 
 // The constant parts, on (0,0) (1,0) (0,1). Modes: the inner ones first. All matrices by columns.
 template <typename Scalar>

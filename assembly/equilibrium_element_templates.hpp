@@ -37,7 +37,7 @@ AiryModes<Scalar> airy_modes(int d) {
     for (int t = 0; t < 3; ++t)
       for (int b = 1; b < d - c; ++b) {
         auto& phi = modes.emplace_back();
-        phi.fill(std::vector<Scalar>(ring_place(d, 0, d) + 1, Scalar(0)));
+        phi.fill(std::vector<Scalar>(bernstein_count(d), Scalar(0)));
         phi[t][ring_place(d, b, c)] = 1;
         complete_spokes(phi, d);
       }
@@ -46,25 +46,6 @@ AiryModes<Scalar> airy_modes(int d) {
   add_ring(1);
   add_ring(0);
   return modes;
-}
-
-// ∫ B_α B_β over a triangle of area a = a Π binom(α_p + β_p, α_p) / (binom(2k, k) binom(2k+2, 2)).
-template <typename Scalar>
-Eigen::MatrixX<Scalar> bernstein_mass(int k, Scalar area) {
-  Eigen::MatrixX<Scalar> m(ring_place(k, 0, k) + 1, ring_place(k, 0, k) + 1);
-  const double scale = binomial(2 * k, k) * binomial(2 * k + 2, 2);
-  const auto for_all = [&](auto visit) {
-    for (int c = 0; c <= k; ++c)
-      for (int b = 0; b <= k - c; ++b) visit(ring_place(k, b, c), k - b - c, b, c);
-  };
-  for_all([&](int i, int a1, int b1, int c1) {
-    for_all([&](int j, int a2, int b2, int c2) {
-      m(i, j) = area *
-                Scalar(binomial(a1 + a2, a1) * binomial(b1 + b2, b1) * binomial(c1 + c2, c1)) /
-                Scalar(scale);
-    });
-  });
-  return m;
 }
 
 // W with S = WᵀW.
@@ -119,7 +100,7 @@ constexpr int pairs[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 template <typename Scalar>
 ReferenceElement<Scalar>::ReferenceElement(int k) {
   using namespace equilibrium_formulas;
-  const int d = k + 2, third = ring_place(k, 0, k) + 1;
+  const int d = k + 2, third = bernstein_count(k);
   const hct_formulas::Corners<Scalar> v = reference_triangle<Scalar>();
   const Eigen::Vector2<Scalar> centroid = hct_formulas::mean(v);
   const AiryModes<Scalar> airy = airy_modes<Scalar>(d);

@@ -121,12 +121,12 @@ struct Problem {
   // True if the law's normal changes along an edge. Stresses and displacements are then admissible
   // up to the square of that angle.
   bool contact_turns() const;
-  // The edge's own frame, on Γ_C the contact law's. end: moment of the start (0) or end (1); node:
-  // start, middle, end (0, 1, 2).
+  // The edge's own frame, on Γ_C the contact law's. moment: of the start (0), or of the end (1 and,
+  // for stresses of higher degree, whose walls do not turn, more); node: start, middle, end.
   template <typename Scalar = double>
-  EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int end) const {
+  EdgeFrameIn<Scalar> frame_of_moment(int boundary_row, int moment) const {
     return turned(own_frame<Scalar>(boundary_row), boundary_row,
-                  [&](const ContactNormals& n) { return n.at_moment[end]; });
+                  [&](const ContactNormals& n) { return n.at_moment[moment > 0 ? 1 : 0]; });
   }
   EdgeFrame frame_at_node(int boundary_row, int node) const {
     return turned(own_frame(boundary_row), boundary_row,

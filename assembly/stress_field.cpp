@@ -1,6 +1,9 @@
 #include "assembly/stress_field_templates.hpp"
 
 #include <cmath>
+#include <stdexcept>
+
+#include "assembly/equilibrium_element.hpp"
 
 namespace airybench {
 
@@ -24,20 +27,61 @@ StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorX
   return field;
 }
 
+namespace {
+
+template <int k>
+double product(const double* sigma, const double* tau, double area_mm2, const Eigen::Matrix3d& C) {
+  constexpr int n = bernstein_count(k);
+  using OfThird = Eigen::Matrix<double, 3, n>;
+  static const Eigen::Matrix<double, n, n> mass = bernstein_mass(k, 1.);
+  double sum = 0;
+  for (int t = 0; t < 3; ++t) {
+    const OfThird strain = C.lazyProduct(Eigen::Map<const OfThird>(sigma + 3 * n * t));
+    const OfThird weighted = Eigen::Map<const OfThird>(tau + 3 * n * t).lazyProduct(mass);
+    sum += strain.cwiseProduct(weighted).sum();
+  }
+  return area_mm2 / 3 * sum;
+}
+
+}  // namespace
+
+double stress_product(const Problem& problem, int triangle,
+                      const Eigen::Ref<const Eigen::Matrix3Xd>& sigma,
+                      const Eigen::Ref<const Eigen::Matrix3Xd>& tau) {
+  const double area = problem.area_mm2(triangle);
+  const Eigen::Matrix3d& C = problem.compliance_of(triangle);
+#define AIRYBENCH_CASE(k)         \
+  case 3 * bernstein_count(k):    \
+    return product<k>(sigma.data(), tau.data(), area, C);
+  switch (sigma.cols()) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
+#undef AIRYBENCH_CASE
+  throw std::logic_error("stresses of no degree that there is");
+}
+
 double stress_norm_squared(const Problem& problem, const StressField& stress) {
   double sum = 0;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    sum += stress[t]
-               .cwiseProduct(stress_dual(stress[t], problem.area_mm2(t), problem.compliance_of(t)))
-               .sum();
+    sum += stress_product(problem, t, stress[t], stress[t]);
   return sum;
 }
 
 double stress_distance(const Problem& problem, const StressField& stress,
                        const StressField& other) {
-  StressField difference(stress.size());
-  for (std::size_t t = 0; t < stress.size(); ++t) difference[t] = stress[t] - other[t];
+  StressField difference = stress;
+  difference.values() -= other.values();
   return std::sqrt(stress_norm_squared(problem, difference));
+}
+
+ForcesOnEdge element_edge_forces(const TriangleVertices& v,
+                                 const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k) {
+  int degree = 1;
+  while (3 * bernstein_count(degree) < stress.cols()) ++degree;
+  const EdgeFrame frame = edge_frame(v.col(k), v.col((k + 1) % 3));
+  ForcesOnEdge forces(2, degree + 1);
+  for (int j = 0; j <= degree; ++j)
+    forces.col(j) = frame.length_mm / (degree + 1) *
+                    traction(stress.col(bernstein_count(degree) * k + j), frame.normal);
+  return forces;
 }
 
 template ElementStressIn<double> particular_element_stress(const Problem&, int);

@@ -1,21 +1,50 @@
-// Stress fields that are linear on each third of each triangle, and their energies.
+// Stress fields that are polynomials of a degree k on each third of each triangle, and their
+// energies.
 //
 // Energies of φ are computed from stresses, not as ½φᵀSφ: φ is large where the stress is not, and
 // its affine part cancels (measured on a rack: 4e-8 relative lost for a constant stress). Templates
 // over the scalar are instantiated for double and long double.
 #pragma once
 
-#include <vector>
-
+#include "assembly/bernstein.hpp"
 #include "assembly/problem.hpp"
 
 namespace airybench {
 
-// Columns: the nine corners of the three thirds as in HctStress; rows: xx, yy, xy in MPa.
+// Linear on each third. Columns: the nine corners of the three thirds as in HctStress; rows: xx, yy,
+// xy in MPa.
 template <typename Scalar>
 using ElementStressIn = Eigen::Matrix<Scalar, 3, 9>;
 using ElementStress = ElementStressIn<double>;
-using StressField = std::vector<ElementStress>;  // per triangle
+
+// Per triangle the Bernstein coefficients of its thirds: the columns of EquilibriumElement::Stress.
+// For k = 1 these are the corner values, ElementStress.
+class StressField {
+ public:
+  StressField() = default;
+  explicit StressField(std::size_t triangles, int degree = 1)
+      : degree_(degree),
+        columns_(3 * bernstein_count(degree)),
+        values_(3, columns_ * static_cast<Eigen::Index>(triangles)) {}
+
+  int degree() const { return degree_; }
+  std::size_t size() const { return static_cast<std::size_t>(values_.cols() / columns_); }
+  bool empty() const { return values_.cols() == 0; }
+  auto operator[](std::size_t triangle) {
+    return values_.middleCols(static_cast<Eigen::Index>(triangle) * columns_, columns_);
+  }
+  auto operator[](std::size_t triangle) const {
+    return values_.middleCols(static_cast<Eigen::Index>(triangle) * columns_, columns_);
+  }
+  // Of all triangles, one after the other.
+  Eigen::Matrix3Xd& values() { return values_; }
+  const Eigen::Matrix3Xd& values() const { return values_; }
+
+ private:
+  int degree_ = 1;
+  Eigen::Index columns_ = 9;
+  Eigen::Matrix3Xd values_;
+};
 
 // phi: as airy_function() returns it. Adds the particular stress of the body force.
 StressField stress_of_airy_function(const Problem& problem, const Eigen::VectorXd& phi);
@@ -34,10 +63,15 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
                                     const Eigen::Matrix3<Data<Scalar>>& compliance);
 
+// ∫ σ : C : τ over a triangle, 1 mm thick, N mm: of one degree, as StressField has them.
+double stress_product(const Problem& problem, int triangle,
+                      const Eigen::Ref<const Eigen::Matrix3Xd>& sigma,
+                      const Eigen::Ref<const Eigen::Matrix3Xd>& tau);
+
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm: twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
 
-// √∫(σ−τ):C:(σ−τ) in √(N mm).
+// √∫(σ−τ):C:(σ−τ) in √(N mm), of fields of one degree.
 double stress_distance(const Problem& problem, const StressField& stress, const StressField& other);
 
 // Generalised forces (edge_forces.hpp) on edge k for the outward normal, N. Columns: start and end
@@ -45,5 +79,10 @@ double stress_distance(const Problem& problem, const StressField& stress, const 
 template <typename Scalar>
 Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVerticesFor<Scalar>& v,
                                            const Eigen::Matrix<Scalar, 3, 9>& stress, int k);
+// The same for a triangle of a StressField of any degree; columns: the control values' forces F_j
+// (equilibrium_element.hpp).
+using ForcesOnEdge = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 8>;
+ForcesOnEdge element_edge_forces(const TriangleVertices& v,
+                                 const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k);
 
 }  // namespace airybench

@@ -57,8 +57,7 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
     // A zero stress from the program does not prove that the body has none.
     result.verification.unstressed =
         reference(step) != nullptr &&
-        std::ranges::all_of(reference(step)->stress,
-                            [](const ElementStress& s) { return s.isZero(0); });
+        reference(step)->stress.values().isZero(0);
   }
   return result;
 }

@@ -16,9 +16,8 @@ namespace {
 
 std::int64_t bytes_of_answer(const Solution& solution) {
   const auto doubles = solution.F_C.size() + solution.phi.size() + solution.displacement.size() +
-                       solution.edge_moments.size();
-  return static_cast<std::int64_t>(static_cast<std::size_t>(doubles) * sizeof(double) +
-                                   solution.stress.size() * sizeof(ElementStress));
+                       solution.edge_moments.size() + solution.stress.values().size();
+  return static_cast<std::int64_t>(static_cast<std::size_t>(doubles) * sizeof(double));
 }
 
 int open_counter() {

@@ -229,7 +229,7 @@ void check_problem_format(const std::string& format) {
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
   const Problem& problem = *posed.body();
   const bool fclib = format == "fclib";
-  const std::string why_no_airy = why_no_blocks(problem.mesh, Blocks::airy);
+  const std::string why_no_airy = why_no_blocks(problem, Blocks::airy);
   const bool contact = std::ranges::any_of(problem.mesh.boundary, [](const BoundaryEdge& edge) {
     return edge.role == BoundaryRole::contact;
   });

@@ -68,10 +68,7 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
   double work = -work_of_loads(problem, *v);
   for (std::size_t t = 0; t < mean.size(); ++t) {
     const int triangle = static_cast<int>(t);
-    work += mean[t]
-                .cwiseProduct(stress_dual(strained[t], problem.area_mm2(triangle),
-                                          problem.compliance_of(triangle)))
-                .sum();
+    work += stress_product(problem, triangle, mean[t], strained[t]);
   }
   const double half = error * std::sqrt(stress_norm_squared(problem, strained));
   return Bracket{work - half, work + half};

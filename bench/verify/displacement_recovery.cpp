@@ -68,7 +68,7 @@ Shape shape_of(const TriangleVertices& v) {
 
 // Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
 void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
-                      const Eigen::Matrix4Xd& edge_moments, LocalCoefficients& w) {
+                      const Eigen::MatrixXd& edge_moments, LocalCoefficients& w) {
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();
   double turned = 0, spread = 0;
   for (int k = 0; k < 3; ++k) {
@@ -97,7 +97,7 @@ void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
 
 LocalCoefficients local_displacement(const Problem& problem, int triangle, const Shape& shape,
                                      const ElementStress& stress,
-                                     const Eigen::Matrix4Xd& edge_moments) {
+                                     const Eigen::MatrixXd& edge_moments) {
   const IntegratedStrain u(problem.compliance_of(triangle) * linear_stress(stress), shape.gradient);
   LocalCoefficients w;
   for (int k = 0; k < 3; ++k) {
@@ -261,7 +261,7 @@ class Constraints {
 
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
-                                         const Eigen::Matrix4Xd& edge_moments) {
+                                         const Eigen::MatrixXd& edge_moments) {
   constexpr double damping = 0.6;  // of the Jacobi step
   const Problem& problem = *system.problem;
   const int nodes = displacement_nodes(problem);

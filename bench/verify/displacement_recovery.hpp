@@ -33,7 +33,7 @@ namespace airybench {
 // Coefficients of w. stress, F_C and edge_moments belong to one Solution.
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
-                                         const Eigen::Matrix4Xd& edge_moments);
+                                         const Eigen::MatrixXd& edge_moments);
 
 // Makes w admissible: applies the treatment of Γ_D and Γ_C above.
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,

@@ -138,7 +138,7 @@ double work_of_prescribed(const DualSystem& system, const StressField& stress,
 
 namespace {
 
-Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
+Eigen::MatrixXd in_frames(const Problem& problem, Eigen::MatrixXd moments) {
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (!problem.condition(row).in_frame) continue;
     const auto [a, b] = problem.mesh.boundary[row].vertices;
@@ -156,9 +156,9 @@ Eigen::Matrix4Xd in_frames(const Problem& problem, Eigen::Matrix4Xd moments) {
 
 }  // namespace
 
-MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments) {
+MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge_moments) {
   const Problem& problem = *system.problem;
-  const Eigen::Matrix4Xd moments = in_frames(problem, edge_moments);
+  const Eigen::MatrixXd moments = in_frames(problem, edge_moments);
   HybridizedSystem hybrid;
   hybrid.n_c = system.contact.size();
   const int inner = number_unknowns(problem, system.contact, hybrid.unknown);

@@ -69,7 +69,7 @@ struct MomentsCheck {
   StressField stress;                    // of the edge displacements, u0 on Γ_D; MPa
   Eigen::VectorXd contact_displacement;  // ū_C, mm; rows as in F_C
 };
-MomentsCheck check_moments(const DualSystem& system, const Eigen::Matrix4Xd& edge_moments);
+MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge_moments);
 
 // ∫_{Γ_D} u0·σn + ∫_{Γ_C} g0 σ_n = W − Π*, N mm; F_C at the contact points.
 double work_of_prescribed(const DualSystem& system, const StressField& stress,

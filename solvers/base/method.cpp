@@ -25,7 +25,7 @@ const char* flaw(const Solution& solution, const DualSystem& system) {
   if (solution.stress.size() != problem.mesh.triangles.size()) return "stresses are missing";
   bool finite =
       solution.F_C.allFinite() && solution.phi.allFinite() && solution.displacement.allFinite();
-  for (const ElementStress& stress : solution.stress) finite = finite && stress.allFinite();
+  finite = finite && solution.stress.values().allFinite();
   return finite ? nullptr : "the result is not finite";
 }
 

@@ -44,6 +44,7 @@ struct Method {
   std::string summary = {};         // one line
   bool in_paper = false;            // named there; these are run by default
   Blocks blocks = Blocks::airy;     // what it needs assembled
+  int degree = 1;                   // of its stresses on each third of a triangle
   // It solves another discrete problem, in displacements: its stresses do not balance and are not
   // those of the reference, so it is judged by the discretisation error alone.
   bool in_displacements = false;

@@ -61,9 +61,9 @@ struct Solution {
   // Displacement methods only: Bernstein coefficients of w, without the problem's rigid motion, mm;
   // columns: every vertex, then every edge.
   Eigen::Matrix2Xd displacement;
-  // Hybridized methods only: the moments ū (edge_forces.hpp) of w on every edge; rows: x, y at its
-  // low vertex, x, y at its high one; mm.
-  Eigen::Matrix4Xd edge_moments;
+  // Hybridized methods only: the moments ū_j (equilibrium_element.hpp) of w on every edge; rows: x
+  // and y of each, from the low vertex on; mm.
+  Eigen::MatrixXd edge_moments;
   StageTimes times;
   // Counted by the method as entries × size: what it holds between stages, and the vectors of its
   // iteration. Without the blocks.

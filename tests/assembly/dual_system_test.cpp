@@ -196,10 +196,10 @@ TEST(DualSystem, HasNoAiryFunctionOnABodyWithAHole) {
   Scene scene;
   scene.crown_radius_mm.reset();
   const auto problem = posed(scene, testing::small_plate(1));
-  EXPECT_EQ(why_no_blocks(problem->mesh, Blocks::airy),
+  EXPECT_EQ(why_no_blocks(*problem, Blocks::airy),
             "a body with 1 hole needs a multi-valued Airy function");
   EXPECT_THROW(assemble(problem), std::invalid_argument);
-  EXPECT_EQ(why_no_blocks(problem->mesh, Blocks::contact_points), "");
+  EXPECT_EQ(why_no_blocks(*problem, Blocks::contact_points), "");
   EXPECT_EQ(assemble(problem, Blocks::contact_points).contact.count,
             2 * mesh_sizes(problem->mesh).contact_edges);
 }
