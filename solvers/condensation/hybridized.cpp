@@ -8,7 +8,7 @@ namespace airybench {
 HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem& system,
                                   const Eigen::VectorXd& u) {
   HybridizedAnswer answer;
-  answer.stress.resize(problem.mesh.triangles.size());
+  answer.stress = StressField(problem.mesh.triangles.size());
   UnbalancedForces& unbalanced = answer.unbalanced;
   {
     const OwnerScope scope(MemoryOwner::check);
