@@ -3,6 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <type_traits>
 
 namespace airybench {
 
@@ -39,13 +42,47 @@ Eigen::MatrixX<Scalar> bernstein_mass(int d, Scalar area) {
   return m;
 }
 
+// (k + 1)/L ∫ B_j of degree k times B_i of degree p, over an edge: the moment j of a displacement,
+// and the force on a coefficient, from those of the traction's control values.
+constexpr double edge_moment(int k, int j, int p, int i) {
+  return (k + 1.) / (k + p + 1) * binomial(k, j) * binomial(p, i) / binomial(k + p, i + j);
+}
+
+// Bernstein coefficients of degree p of the polynomial of degree q < p with the coefficients c:
+// c_i = Σ_j binom(q, j) binom(p − q, i − j) / binom(p, i) c_j.
+template <int p, typename Value, std::size_t size>
+std::array<Value, p + 1> elevated(const std::array<Value, size>& c) {
+  constexpr int q = static_cast<int>(size) - 1;
+  if constexpr (p == q) {
+    return c;
+  } else {
+    std::array<Value, p + 1> higher;
+    for (int i = 0; i <= p; ++i) {
+      higher[i] = 0 * c[0];
+      for (int j = std::max(0, i - p + q); j <= std::min(i, q); ++j)
+        higher[i] += binomial(q, j) * binomial(p - q, i - j) / binomial(p, i) * c[j];
+    }
+    return higher;
+  }
+}
+
+// The moments (q + 1)/L ∫ B_j … ds with B_j of degree q < p, from those of degree p.
+template <int q, std::size_t size>
+std::array<double, q + 1> lower_moments(const std::array<double, size>& moments) {
+  constexpr int p = static_cast<int>(size) - 1;
+  std::array<double, q + 1> lower{};
+  for (int j = 0; j <= q; ++j)
+    for (int i = j; i <= j + p - q; ++i)
+      lower[j] += (q + 1.) / (p + 1) * binomial(q, j) * binomial(p - q, i - j) / binomial(p, i) *
+                  moments[i];
+  return lower;
+}
+
 // Moment (k + 1)/L ∫ B_j q ds over an edge, B_j of degree k, q with these Bernstein coefficients of
 // degree 2.
 template <typename Coefficients>
 auto moment_of_quadratic(int k, int j, const Coefficients& q) {
-  const auto weight = [&](int i) {
-    return (k + 1.) / (k + 3.) * binomial(k, j) * binomial(2, i) / binomial(k + 2, i + j);
-  };
+  const auto weight = [&](int i) { return edge_moment(k, j, 2, i); };
   using Value = std::decay_t<decltype(q[0])>;
   return Value(weight(0) * q[0] + weight(1) * q[1] + weight(2) * q[2]);
 }

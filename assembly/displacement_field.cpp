@@ -9,16 +9,20 @@
 namespace airybench {
 namespace {
 
-using LocalCoefficients = Eigen::Matrix<double, 2, 6>;
+// Nodes after the vertices: those of edges, those of triangles.
+int first_on_edge(const Problem& problem, int p, int edge) {
+  return static_cast<int>(problem.mesh.vertices.size()) + (p - 1) * edge;
+}
+int first_inside(const Problem& problem, int p, int triangle) {
+  return first_on_edge(problem, p, problem.edges.count()) + (p - 1) * (p - 2) / 2 * triangle;
+}
 
-// Without the mean: a translation has no strain, and less cancels.
-LocalCoefficients local_coefficients(const Problem& problem, const DisplacementField& u,
-                                     int triangle) {
-  const std::array<int, 6> nodes = triangle_nodes(problem, triangle);
-  LocalCoefficients local;
-  for (int m = 0; m < 6; ++m) local.col(m) = u.col(nodes[m]);
-  local.colwise() -= local.rowwise().mean().eval();
-  return local;
+// Writes the p − 1 nodes of an edge, from its vertex `start` on.
+template <typename Nodes>
+void put_edge_nodes(const Problem& problem, int p, int edge, int start, Nodes nodes) {
+  const int first = first_on_edge(problem, p, edge);
+  const bool from_low = problem.edges.vertices[edge][0] == start;
+  for (int i = 0; i < p - 1; ++i) nodes[i] = first + (from_low ? i : p - 2 - i);
 }
 
 // Holds n·u = d. Two rollers that are not parallel hold their common vertex fully.
@@ -40,21 +44,52 @@ void hold_along(const Eigen::Vector2d& n, double d, int node, PrescribedDisplace
 
 }  // namespace
 
-int displacement_nodes(const Problem& problem) {
-  return static_cast<int>(problem.mesh.vertices.size()) + problem.edges.count();
+int displacement_nodes(const Problem& problem, int degree) {
+  return first_inside(problem, degree, static_cast<int>(problem.mesh.triangles.size()));
 }
 
-std::array<int, 6> triangle_nodes(const Problem& problem, int triangle) {
-  const int vertices = static_cast<int>(problem.mesh.vertices.size());
-  const auto& [a, b, c] = problem.mesh.triangles[triangle];
-  const auto& [ab, bc, ca] = problem.edges.of_triangle[triangle];
-  return {a, b, c, vertices + ab, vertices + bc, vertices + ca};
+int displacement_degree(const Problem& problem, const DisplacementField& u) {
+  for (int p = 2; p <= highest_stress_degree + 1; ++p)
+    if (displacement_nodes(problem, p) == u.cols()) return p;
+  throw std::invalid_argument("a displacement field of " + std::to_string(u.cols()) +
+                              " coefficients (allowed: " +
+                              std::to_string(displacement_nodes(problem)) +
+                              " for quadratic ones on this mesh, more for higher degrees)");
 }
 
-std::array<int, 3> boundary_nodes(const Problem& problem, int row) {
-  const int vertices = static_cast<int>(problem.mesh.vertices.size());
-  const auto [a, b] = problem.mesh.boundary[row].vertices;
-  return {a, vertices + problem.edges.of_boundary[row], b};
+template <int p>
+std::array<int, DisplacementTriangle<p>::nodes> triangle_nodes(const Problem& problem,
+                                                               int triangle) {
+  std::array<int, DisplacementTriangle<p>::nodes> nodes;
+  for (int k = 0; k < 3; ++k) {
+    nodes[k] = problem.mesh.triangles[triangle][k];
+    put_edge_nodes(problem, p, problem.edges.of_triangle[triangle][k], nodes[k],
+                   nodes.begin() + 3 + k * (p - 1));
+  }
+  for (int i = 0; i < DisplacementTriangle<p>::inner; ++i)
+    nodes[DisplacementTriangle<p>::outer + i] = first_inside(problem, p, triangle) + i;
+  return nodes;
+}
+
+template <int p>
+std::array<int, p + 1> boundary_nodes(const Problem& problem, int row) {
+  const auto [start, end] = problem.mesh.boundary[row].vertices;
+  std::array<int, p + 1> nodes;
+  nodes.front() = start;
+  put_edge_nodes(problem, p, problem.edges.of_boundary[row], start, nodes.begin() + 1);
+  nodes.back() = end;
+  return nodes;
+}
+
+template <int p>
+typename DisplacementTriangle<p>::Displacement of_triangle(const Problem& problem,
+                                                           const DisplacementField& u,
+                                                           int triangle) {
+  const auto nodes = triangle_nodes<p>(problem, triangle);
+  typename DisplacementTriangle<p>::Displacement local;
+  for (std::size_t m = 0; m < nodes.size(); ++m)
+    local.col(static_cast<Eigen::Index>(m)) = u.col(nodes[m]);
+  return local;
 }
 
 QuadraticStrain quadratic_strain(const TriangleVertices& v) {
@@ -90,33 +125,50 @@ Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance) {
   return elasticity;
 }
 
+std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
+  std::vector<Eigen::Matrix3d> elasticity;
+  for (const Eigen::Matrix3d& compliance : problem.compliance)
+    elasticity.push_back(elasticity_of(compliance));
+  return elasticity;
+}
+
+// ρ is linear, so a coefficient is its value at the coefficient's place.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
+  const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;
   const auto vertices = static_cast<Eigen::Index>(x.size());
   for (Eigen::Index v = 0; v < vertices; ++v) w.col(v) += problem.motion.at(x[v]);
-  // ρ is linear, so an edge's coefficient is its value at the middle.
   for (int e = 0; e < problem.edges.count(); ++e) {
     const auto [a, b] = problem.edges.vertices[e];
-    w.col(vertices + e) += problem.motion.at((x[a] + x[b]) / 2);
+    for (int i = 1; i < p; ++i)
+      w.col(first_on_edge(problem, p, e) + i - 1) +=
+          problem.motion.at(((p - i) * x[a] + i * x[b]) / p);
+  }
+  for (int t = 0; p > 2 && t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+    const TriangleVertices v = problem.vertices_of(t);
+    int node = first_inside(problem, p, t);
+    for (int c = 1; c < p - 1; ++c)
+      for (int b = 1; b < p - c; ++b)
+        w.col(node++) += problem.motion.at(v * Eigen::Vector3d(p - b - c, b, c) / p);
   }
   return w;
 }
 
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u) {
-  std::vector<Eigen::Matrix3d> elasticity;
-  for (const Eigen::Matrix3d& compliance : problem.compliance)
-    elasticity.push_back(elasticity_of(compliance));
-  StressField field(problem.mesh.triangles.size());
-  for (int t = 0; t < static_cast<int>(field.size()); ++t) {
-    const LocalCoefficients local = local_coefficients(problem, u, t);
-    Eigen::Matrix3d strain;  // columns: corners
-    strain.reshaped() = quadratic_strain(problem.vertices_of(t)).lazyProduct(local.reshaped());
-    const Eigen::Matrix3d corners = elasticity[problem.mesh.triangle_body[t]] * strain;
-    for (int k = 0; k < 3; ++k)
-      field[t].middleCols<3>(3 * k) << corners.col(k), corners.col((k + 1) % 3),
-          corners.rowwise().mean();
-  }
-  return field;
+  return with_degree(displacement_degree(problem, u) - 1, [&](auto degree) {
+    using Triangle = DisplacementTriangle<degree + 1>;
+    const auto& constants = Triangle::constants();
+    const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+    StressField field(problem.mesh.triangles.size(), degree);
+    for (int t = 0; t < static_cast<int>(field.size()); ++t) {
+      const typename Triangle::Strain stress =
+          elasticity[problem.mesh.triangle_body[t]] *
+          Triangle::strain(TriangleShape(problem.vertices_of(t)).gradients,
+                           of_triangle<degree + 1>(problem, u, t));
+      field[t] = stress.lazyProduct(constants.on_thirds);
+    }
+    return field;
+  });
 }
 
 NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
@@ -137,67 +189,81 @@ NodalForces nodal_forces(const Problem& problem, const StressField& stress) {
   return forces;
 }
 
-Eigen::Matrix2Xd nodal_loads(const Problem& problem) {
-  const Mesh& mesh = problem.mesh;
-  const Loads& loads = problem.loads;
-  Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem));
-  if (loads.has_body_force())
-    for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
-      for (const int node : triangle_nodes(problem, t))
-        force.col(node) += problem.area_mm2(t) / 6 * loads.body_force_N_per_mm3;
-  if (!loads.traction_MPa) return force;
-  for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
-    if (mesh.boundary[row].role != BoundaryRole::force) continue;
-    const auto [start, middle, end] = boundary_nodes(problem, row);
-    const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-    const EdgeFrame frame = edge_frame(a, b);
-    const Eigen::Vector2d at_a = frame.length_mm / 12 * loads.traction_MPa(a, frame.normal, row),
-                          at_b = frame.length_mm / 12 * loads.traction_MPa(b, frame.normal, row);
-    force.col(start) += 3 * at_a + at_b;
-    force.col(middle) += 2 * at_a + 2 * at_b;
-    force.col(end) += at_a + 3 * at_b;
-  }
-  return force;
+Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
+  return with_degree(degree - 1, [&](auto k) {
+    constexpr int p = k + 1;
+    const Mesh& mesh = problem.mesh;
+    const Loads& loads = problem.loads;
+    Eigen::Matrix2Xd force = Eigen::Matrix2Xd::Zero(2, displacement_nodes(problem, p));
+    if (loads.has_body_force())
+      for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+        for (const int node : triangle_nodes<p>(problem, t))
+          force.col(node) += problem.area_mm2(t) / DisplacementTriangle<p>::nodes *
+                             loads.body_force_N_per_mm3;
+    if (!loads.traction_MPa) return force;
+    for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
+      if (mesh.boundary[row].role != BoundaryRole::force) continue;
+      const auto [start, end] = mesh.boundary[row].vertices;
+      const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
+      const EdgeFrame frame = edge_frame(a, b);
+      const Eigen::Vector2d
+          at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
+          at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
+      const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+      for (int i = 0; i <= p; ++i)
+        force.col(nodes[i]) += edge_moment(1, 0, p, i) * at_a + edge_moment(1, 1, p, i) * at_b;
+    }
+    return force;
+  });
 }
 
-PrescribedDisplacement prescribed_displacement(const Problem& problem) {
-  const int nodes = displacement_nodes(problem);
-  PrescribedDisplacement prescribed{std::vector<bool>(static_cast<std::size_t>(nodes), false),
-                                    {},
-                                    DisplacementField::Zero(2, nodes)};
-  const auto coefficients = [&](const std::array<int, 3>& on_edge, int row) {
+PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree) {
+  return with_degree(degree - 1, [&](auto stress_degree) {
+    constexpr int p = stress_degree + 1;
+    const int count = displacement_nodes(problem, p);
+    PrescribedDisplacement prescribed{std::vector<bool>(static_cast<std::size_t>(count), false),
+                                      {},
+                                      DisplacementField::Zero(2, count)};
     const auto& u0 = problem.loads.displacement_mm;
-    std::array<Eigen::Vector2d, 3> zero;
-    zero.fill(Eigen::Vector2d::Zero());
-    if (!u0) return zero;
-    const auto &a = problem.mesh.vertices[on_edge[0]], &b = problem.mesh.vertices[on_edge[2]];
-    return edge_coefficients(u0(a, row), u0((a + b) / 2, row), u0(b, row));
-  };
-  for (const bool rollers : {true, false})  // full supports last: they win
-    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
-      if (problem.mesh.boundary[row].role != BoundaryRole::displacement ||
-          problem.is_roller(row) != rollers)
-        continue;
-      const std::array<int, 3> on_edge = boundary_nodes(problem, row);
-      const std::array<Eigen::Vector2d, 3> u = coefficients(on_edge, row);
-      const EdgeFrame frame =
-          edge_frame(problem.mesh.vertices[on_edge[0]], problem.mesh.vertices[on_edge[2]]);
-      for (int k = 0; k < 3; ++k) {
-        if (rollers) {
-          hold_along(frame.normal, frame.normal.dot(u[k]), on_edge[k], prescribed);
-        } else {
-          prescribed.at[on_edge[k]] = true;
-          prescribed.normal.erase(on_edge[k]);
-          prescribed.u.col(on_edge[k]) = u[k];
+    for (const bool rollers : {true, false})  // full supports last: they win
+      for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+        if (problem.mesh.boundary[row].role != BoundaryRole::displacement ||
+            problem.is_roller(row) != rollers)
+          continue;
+        const auto [start, end] = problem.mesh.boundary[row].vertices;
+        const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+        std::array<Eigen::Vector2d, 3> quadratic;
+        quadratic.fill(Eigen::Vector2d::Zero());
+        if (u0) quadratic = edge_coefficients(u0(a, row), u0((a + b) / 2, row), u0(b, row));
+        const std::array<Eigen::Vector2d, p + 1> u = elevated<p>(quadratic);
+        const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+        const EdgeFrame frame = edge_frame(a, b);
+        for (int i = 0; i <= p; ++i) {
+          if (rollers) {
+            hold_along(frame.normal, frame.normal.dot(u[i]), nodes[i], prescribed);
+          } else {
+            prescribed.at[nodes[i]] = true;
+            prescribed.normal.erase(nodes[i]);
+            prescribed.u.col(nodes[i]) = u[i];
+          }
         }
       }
-    }
-  return prescribed;
+    return prescribed;
+  });
 }
 
 double work_of_loads(const Problem& problem, const DisplacementField& u) {
   if (!problem.loads.has_body_force() && !problem.loads.traction_MPa) return 0;
-  return nodal_loads(problem).cwiseProduct(u).sum();
+  return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
+
+#define AIRYBENCH_INSTANTIATE(k)                                                                \
+  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>(       \
+      const Problem&, int);                                                                     \
+  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);               \
+  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(                    \
+      const Problem&, const DisplacementField&, int);
+AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)
+#undef AIRYBENCH_INSTANTIATE
 
 }  // namespace airybench

@@ -1,31 +1,62 @@
-// Continuous displacement fields that are quadratic on each triangle, in Bernstein form, with their
-// stresses and energies.
+// Continuous displacement fields of degree p on each triangle, in Bernstein form, with their
+// stresses and energies. For stresses of degree k, p = k + 1. For p = 2:
 //
 //   u = Σ_i U_i λ_i² + Σ_{i<j} U_ij 2 λ_i λ_j      one coefficient per vertex, one per edge; mm
 //
 // Values on an edge or a triangle lie in the convex hull of its coefficients, so a bound on all of
 // them holds at every point. U_ij is not the value at the edge's middle, (U_i + 2 U_ij + U_j)/4.
 //
-// The gradient is linear, with corner values ∇u(V_k) = 2 Σ_j U_kj ∇λ_jᵀ (U_kk = U_k); so are strain
-// and stress.
+// The gradient has the degree p − 1, and so have strain and stress. For p = 2 its values at corners
+// are ∇u(V_k) = 2 Σ_j U_kj ∇λ_jᵀ (U_kk = U_k).
 #pragma once
 
 #include <Eigen/Core>
 #include <array>
 #include <map>
 
+#include "assembly/displacement_triangle.hpp"
 #include "assembly/stress_field.hpp"
 
 namespace airybench {
 
-// Coefficients in mm; rows: x, y; columns ("nodes"): every vertex, then every edge.
+// Coefficients in mm; rows: x, y; columns ("nodes"): every vertex, then p − 1 per edge from its low
+// vertex on, then (p − 1)(p − 2)/2 per triangle.
 using DisplacementField = Eigen::Matrix2Xd;
-int displacement_nodes(const Problem& problem);
+int displacement_nodes(const Problem& problem, int degree = 2);
+// p, from the number of columns; std::invalid_argument: no field of this mesh.
+int displacement_degree(const Problem& problem, const DisplacementField& u);
 
-// Vertices V1 V2 V3, then edges V1V2, V2V3, V3V1.
-std::array<int, 6> triangle_nodes(const Problem& problem, int triangle);
+// Vertices V1 V2 V3, then edges V1V2, V2V3, V3V1 as walked, then inner ones (displacement_place()).
+template <int p = 2>
+std::array<int, DisplacementTriangle<p>::nodes> triangle_nodes(const Problem& problem,
+                                                               int triangle);
 // In walking order of Mesh::boundary: start, edge, end.
-std::array<int, 3> boundary_nodes(const Problem& problem, int row);
+template <int p = 2>
+std::array<int, p + 1> boundary_nodes(const Problem& problem, int row);
+
+// On an edge of Γ_C, as Bernstein coefficients of degree p: its offset, and their frames.
+template <int p>
+std::array<ContactOffset, p + 1> offset_coefficients(const Problem& problem, int row) {
+  const std::array<ContactOffset, 3> quadratic = problem.offset_coefficients(row);
+  const auto higher = [&](auto part) {
+    return elevated<p>(std::array{quadratic[0].*part, quadratic[1].*part, quadratic[2].*part});
+  };
+  const auto gap = higher(&ContactOffset::gap_mm), slid = higher(&ContactOffset::slid_mm);
+  const auto motion = higher(&ContactOffset::motion_mm);
+  std::array<ContactOffset, p + 1> offsets;
+  for (int i = 0; i <= p; ++i) offsets[i] = {gap[i], slid[i], motion[i]};
+  return offsets;
+}
+// Above p = 2 normals do not turn along an edge.
+template <int p>
+EdgeFrame frame_of_coefficient(const Problem& problem, int row, int i) {
+  return problem.frame_at_node(row, p == 2 ? i : 0);
+}
+
+template <int p>
+typename DisplacementTriangle<p>::Displacement of_triangle(const Problem& problem,
+                                                           const DisplacementField& u,
+                                                           int triangle);
 
 // Bernstein coefficients of the quadratic through three samples along an edge.
 template <typename Value>
@@ -43,14 +74,16 @@ using QuadraticStiffness = Eigen::Matrix<double, 12, 12>;
 QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
                                        const Eigen::Matrix3d& elasticity);
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);  // its inverse
+std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names
 
 // u = w + ρ: adds the rigid motion back.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
 
-// A ε(u), MPa.
+// A ε(u), MPa, of degree p − 1.
 StressField stress_of_displacement(const Problem& problem, const DisplacementField& u);
 
-// Per node ∫ σ:ε(u_i), N, of stresses linear on each triangle; a triangle's largest contribution.
+// Per node of quadratic displacements ∫ σ:ε(u_i), N, of stresses linear on each triangle; a
+// triangle's largest contribution.
 struct NodalForces {
   Eigen::Matrix2Xd sum;
   double largest = 0;
@@ -58,7 +91,7 @@ struct NodalForces {
 NodalForces nodal_forces(const Problem& problem, const StressField& stress);
 
 // ∫ b B_i + ∫_{Γ_F} f B_i, N: the work partners of the coefficients.
-Eigen::Matrix2Xd nodal_loads(const Problem& problem);
+Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree = 2);
 
 // Nodes that Γ_D prescribes, with their coefficients (zero elsewhere). Exact if u0 is quadratic on
 // every edge. Two rollers that are not parallel hold their common vertex fully.
@@ -67,7 +100,7 @@ struct PrescribedDisplacement {
   std::map<int, Eigen::Vector2d> normal;  // nodes that one roller holds: its normal
   DisplacementField u;
 };
-PrescribedDisplacement prescribed_displacement(const Problem& problem);
+PrescribedDisplacement prescribed_displacement(const Problem& problem, int degree = 2);
 
 // ∫ b·u + ∫_{Γ_F} f·u, N mm.
 double work_of_loads(const Problem& problem, const DisplacementField& u);

@@ -1,6 +1,7 @@
 #include "assembly/wall_gap.hpp"
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <limits>
 
@@ -187,30 +188,37 @@ std::vector<GapPiece> gap_pieces(const FacingEdge& edge) {
 bool WallDetail::is_nothing(double rounding_mm) const {
   const auto is_small = [&](double value) { return std::abs(value) <= rounding_mm; };
   return std::ranges::all_of(lowered_mm, is_small) && std::ranges::all_of(moments_mm, is_small) &&
-         unmet[0] + unmet[1] == 0;
+         std::ranges::all_of(unmet, [](double part) { return part == 0; });
 }
 
 WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<double, 3>& q) {
+  constexpr int n = highest_stress_degree;
+  using Points = boost::math::quadrature::gauss<double, n / 2 + 2>;  // exact for degree n + 2
   const std::array<double, 3> of_edge = edge_coefficients(q[0], q[1], q[2]);
   WallDetail detail;
   double rise = -std::numeric_limits<double>::infinity();
   for (const GapPiece& piece : pieces) {
-    const double middle = (piece.start + piece.end) / 2, half = (piece.end - piece.start) / 2;
+    const double start = piece.start, length = piece.end - piece.start;
+    const auto add = [&](auto value, WallDetail::Moments& moments) {
+      for (int j = 0; j <= n; ++j)
+        moments[j] += (n + 1) * length * Points::integrate([&](double u) {
+                        const double s = start + u * length;
+                        return binomial(n, j) * std::pow(s, j) * std::pow(1 - s, n - j) * value(u);
+                      }, 0., 1.);
+    };
     if (!piece.is_met) {
-      detail.unmet[0] += 4 * half * (1 - middle);  // N_a is 1 − s
-      detail.unmet[1] += 4 * half * middle;
+      add([](double) { return 1.; }, detail.unmet);
       continue;
     }
     std::array<double, 3> above = restricted(of_edge, piece.start, piece.end);  // q − g0
     for (std::size_t k = 0; k < 3; ++k) above[k] -= piece.gap_mm[k];
     rise = std::max(rise, largest_of(above) + piece.off_mm);
-    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {  // exact for cubics
-      const double u = (1 + xi) / 2, s = middle + half * xi;
-      const double below = piece.off_mm - ((1 - u) * (1 - u) * above[0] +
-                                           2 * u * (1 - u) * above[1] + u * u * above[2]);
-      detail.moments_mm[0] += 2 * half * (1 - s) * below;
-      detail.moments_mm[1] += 2 * half * s * below;
-    }
+    add(
+        [&](double u) {
+          return piece.off_mm - ((1 - u) * (1 - u) * above[0] + 2 * u * (1 - u) * above[1] +
+                                 u * u * above[2]);
+        },
+        detail.moments_mm);
   }
   detail.lowered_mm = lowered(pieces, of_edge, std::max(0.0, rise));
   return detail;

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "assembly/equilibrium_element.hpp"
 #include "assembly/wall.hpp"
 
 namespace airybench {
@@ -42,8 +43,10 @@ struct WallDetail {
   // coefficients): the highest in the mean of q − max (q − g0), the least g0, and the convex one
   // from g0 at one end to g0 at the other.
   std::array<double, 3> lowered_mm{0, 0, 0};
-  std::array<double, 2> moments_mm{0, 0};  // (2/L) ∫ N_k (g0 − q) ds where a wall is met, or above
-  std::array<double, 2> unmet{0, 0};       // (2/L) ∫ N_k ds where none is met
+  // (n + 1)/L ∫ B_j … ds, B_j of the highest degree n of stresses; of lower degrees: lower_moments().
+  using Moments = std::array<double, highest_stress_degree + 1>;
+  Moments moments_mm{};  // of g0 − q where a wall is met, or above
+  Moments unmet{};       // of 1 where none is met
 
   bool is_nothing(double rounding_mm) const;
 };

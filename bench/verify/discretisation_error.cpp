@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <stdexcept>
 
 #include "assembly/edge_forces.hpp"
 #include "assembly/rough_compliance.hpp"
@@ -12,51 +14,53 @@
 namespace airybench {
 namespace {
 
-using EdgeValues = std::array<double, 3>;  // Bernstein coefficients along an edge
+template <int degree>
+using EdgeValues = std::array<double, degree + 1>;  // Bernstein coefficients along an edge
 
-double value_at(const EdgeValues& c, double s) {
-  return (1 - s) * (1 - s) * c[0] + 2 * s * (1 - s) * c[1] + s * s * c[2];
-}
+// ∫ (μ|σ_n||u_t| + σ_t u_t) ds over an edge; forces are L/(k + 1) times the control values of σ.
+// Halves the edge down to the zeros of u_t. A rest of this length has the square of it as error.
+template <int k>
+class FrictionGap {
+ public:
+  FrictionGap(double mu, const EdgeValues<k>& normal, const EdgeValues<k>& tangential)
+      : mu_(mu), normal_(normal), tangential_(tangential) {}
 
-// 0, the sign changes in (0, 1), and 1.
-std::vector<double> sign_changes(const EdgeValues& c) {
-  // Stable roots of a s² + 2 h s + c_0: q = −(h + sgn(h) √(h² − a c_0)), roots q/a, c_0/q.
-  const double a = c[0] - 2 * c[1] + c[2], h = c[1] - c[0];
-  std::vector<double> places = {0};
-  const double discriminant = h * h - a * c[0];
-  if (discriminant > 0) {
-    const double q = -(h + std::copysign(std::sqrt(discriminant), h));
-    double first = q / a, second = c[0] / q;
-    if (!(first < second)) std::swap(first, second);  // if a = 0, first is infinite
-    for (const double root : {first, second})
-      if (root > places.back() && root < 1) places.push_back(root);
-  }
-  places.push_back(1);
-  return places;
-}
-
-// ∫ (μ|σ_n||u_t| + σ_t u_t) ds over an edge; forces are (L/2) σ at its ends. Between sign changes
-// of u_t the integrand is cubic, so two Gauss points are exact.
-double friction_gap(double mu, const Eigen::Vector2d& normal, const Eigen::Vector2d& tangential,
-                    const EdgeValues& u_t) {
-  double sum = 0;
-  const std::vector<double> places = sign_changes(u_t);
-  for (std::size_t i = 1; i < places.size(); ++i) {
-    const double middle = (places[i - 1] + places[i]) / 2, half = (places[i] - places[i - 1]) / 2;
-    for (const double xi : {-1 / std::sqrt(3.0), 1 / std::sqrt(3.0)}) {
-      // |u| (t sgn(u) − μ n): computing the bracket at the ends first gives exactly zero for slip.
-      const double s = middle + half * xi, u = value_at(u_t, s);
-      const Eigen::Vector2d left = std::copysign(1, u) * tangential - mu * normal;
-      sum += 2 * half * std::abs(u) * ((1 - s) * left(0) + s * left(1));  // 2/L · L/2 · (…) · 2
+  double integral(const EdgeValues<k + 1>& u_t, double start = 0, double length = 1) const {
+    constexpr double shortest = 1e-9;
+    const auto [least, largest] = std::minmax_element(u_t.begin(), u_t.end());
+    if (length < shortest || !(*least < 0 && *largest > 0)) return part(u_t, start, length);
+    EdgeValues<k + 1> left = u_t, right = u_t;  // by de Casteljau's steps
+    for (int step = 1; step <= k + 1; ++step) {
+      for (int i = 0; i <= k + 1 - step; ++i) right[i] = (right[i] + right[i + 1]) / 2;
+      left[step] = right[0];
     }
+    return integral(left, start, length / 2) + integral(right, start + length / 2, length / 2);
   }
-  return sum;
-}
 
-// ∫ σ_n (g0 − q) ds with the quadratic gap q of an edge.
-double work_of_detail(const WallDetail& detail, const Eigen::Vector2d& normal) {
-  return normal(0) * detail.moments_mm[0] + normal(1) * detail.moments_mm[1];
-}
+ private:
+  // |u| (t sgn(u) − μ n): computing the bracket at the control points first gives exactly zero for
+  // slip.
+  double part(const EdgeValues<k + 1>& u_t, double start, double length) const {
+    using Points = boost::math::quadrature::gauss<double, k + 1>;  // exact for degree 2k + 1
+    const auto at = [&](double u) {
+      const double value = value_at(u_t, u);
+      EdgeValues<k> bracket;
+      for (int j = 0; j <= k; ++j)
+        bracket[j] = std::copysign(1, value) * tangential_[j] - mu_ * normal_[j];
+      return std::abs(value) * value_at(bracket, start + u * length);
+    };
+    return (k + 1) * length * Points::integrate(at, 0., 1.);
+  }
+  template <std::size_t size>
+  static double value_at(std::array<double, size> c, double s) {
+    for (std::size_t step = 1; step < size; ++step)
+      for (std::size_t i = 0; i + step < size; ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
+    return c[0];
+  }
+
+  double mu_;
+  const EdgeValues<k>&normal_, &tangential_;
+};
 
 struct ContactTerms {
   double normal, tangential;
@@ -64,32 +68,45 @@ struct ContactTerms {
   double highest_gap, highest_force;  // largest u_n − g0 and F_n; admissible: ≤ 0
 };
 
+// point: the first of an edge.
+template <int k>
 ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::VectorXd& F_C,
                            const DisplacementField& u) {
+  constexpr int p = k + 1;
   const Problem& problem = *system.problem;
   const int row = system.contact.boundary[point], m = system.contact.components;
-  const std::array<int, 3> nodes = boundary_nodes(problem, row);
-  const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
+  const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+  const std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
   const WallDetail detail = problem.wall_detail_at(row);
-  EdgeValues r, u_t;
-  for (int k = 0; k < 3; ++k) {
-    const EdgeFrame frame = problem.frame_at_node(row, k);
-    r[k] = frame.normal.dot(u.col(nodes[k])) - offset[k].along(frame.normal).x();
-    u_t[k] = frame.tangent.dot(u.col(nodes[k]) + offset[k].motion_mm) - offset[k].slid_mm;
+  EdgeValues<p> r, u_t;
+  for (int i = 0; i <= p; ++i) {
+    const EdgeFrame frame = frame_of_coefficient<p>(problem, row, i);
+    r[i] = frame.normal.dot(u.col(nodes[i])) - offset[i].along(frame.normal).x();
+    u_t[i] = frame.tangent.dot(u.col(nodes[i]) + offset[i].motion_mm) - offset[i].slid_mm;
   }
-  const Eigen::Vector2d normal(F_C(m * point), F_C(m * (point + 1)));
+  EdgeValues<k> normal, tangential{};
+  for (int j = 0; j <= k; ++j) {
+    normal[j] = F_C(m * (point + j));
+    if (m == 2) tangential[j] = F_C(2 * (point + j) + 1);
+  }
   ContactTerms terms{};
-  // ∫ σ_n r ds = Σ_k F_n^k r̄^k with r̄ = (2/L) ∫ N_k r ds.
-  terms.normal =
-      2 * (normal(0) * (r[0] / 2 + r[1] / 3 + r[2] / 6) +
-           normal(1) * (r[0] / 6 + r[1] / 3 + r[2] / 2) - work_of_detail(detail, normal));
+  // ∫ σ_n (u_n − g0) ds by moments, of r less what the wall has more than its quadratic.
+  const EdgeValues<k> more = lower_moments<k>(detail.moments_mm),
+                      unmet = lower_moments<k>(detail.unmet);
+  for (int j = 0; j <= k; ++j) {
+    double moment = -more[j];
+    for (int i = 0; i <= p; ++i) moment += edge_moment(k, j, p, i) * r[i];
+    terms.normal += 2 * normal[j] * moment;
+    terms.beyond_wall_N += normal[j] * unmet[j];
+  }
   if (m == 2)
-    terms.tangential = 2 * friction_gap(system.contact.friction_at(point), normal,
-                                        {F_C(2 * point + 1), F_C(2 * point + 3)}, u_t);
-  terms.beyond_wall_N = normal(0) * detail.unmet[0] + normal(1) * detail.unmet[1];
-  for (int k = 0; k < 3; ++k) r[k] += detail.lowered_mm[k];
-  terms.highest_gap = std::max({r[0], r[1], r[2]});
-  terms.highest_force = normal.maxCoeff();
+    terms.tangential =
+        2 *
+        FrictionGap<k>(system.contact.friction_at(point), normal, tangential).integral(u_t);
+  const EdgeValues<p> lowered = elevated<p>(detail.lowered_mm);
+  for (int i = 0; i <= p; ++i) r[i] += lowered[i];
+  terms.highest_gap = *std::max_element(r.begin(), r.end());
+  terms.highest_force = *std::max_element(normal.begin(), normal.end());
   return terms;
 }
 
@@ -113,16 +130,21 @@ struct Fields {
 };
 
 // The allowance covers rounding and the remaining violation of the inequalities.
+template <int k>
 void note_bounds(const DualSystem& system, const Fields& fields, double highest_gap,
                  ConstitutiveError& error) {
   constexpr double rounding = 1e-12;
   const auto& [stress, F_C, u, energy, energy_of_u] = fields;
   const int m = system.contact.components;
   double lower = work_of_prescribed(system, stress, F_C) - energy, pressing = 0, pulling = 0;  // N
+  const auto more_gap = [&](int point) {
+    const WallDetail detail = system.problem->wall_detail_at(system.contact.boundary[point]);
+    return lower_moments<k>(detail.moments_mm)[point % (k + 1)];
+  };
   for (int p = 0; p < system.contact.count; ++p) {
     const double F_n = F_C(m * p);
     (F_n < 0 ? pressing : pulling) += std::abs(F_n);
-    lower += F_n * system.problem->wall_detail_at(system.contact.boundary[p]).moments_mm[p % 2];
+    lower += F_n * more_gap(p);
   }
   const double upper = energy_of_u - work_of_loads(*system.problem, u);
   const double allowance = pressing * std::max(0.0, highest_gap) +
@@ -139,31 +161,53 @@ void note_bounds(const DualSystem& system, const Fields& fields, double highest_
   error.guaranteed = strict && error.flaw.empty();
 }
 
-}  // namespace
+// ½ ∫ σ:C:σ over a triangle, of coefficients by thirds or of the whole.
+template <int k, int columns>
+double strain_energy(const Eigen::Matrix<double, 3, columns>& stress, double area_mm2,
+                     const Eigen::Matrix3d& compliance,
+                     const typename DisplacementTriangle<k + 1>::Constants& constants) {
+  constexpr int n = DisplacementTriangle<k + 1>::strains, parts = columns / n;
+  Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
+  for (int part = 0; part < parts; ++part) {
+    const Eigen::Matrix<double, 3, n> of_part = stress.template middleCols<n>(n * part);
+    products +=
+        of_part.lazyProduct(constants.mass.lazyProduct(of_part.transpose()).eval());
+  }
+  return area_mm2 / (2 * parts) * products.cwiseProduct(compliance).sum();
+}
 
-ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
-                                     const Eigen::VectorXd& F_C, const DisplacementField& u) {
+template <int k>
+ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
+                           const Eigen::VectorXd& F_C, const DisplacementField& u) {
+  using Triangle = DisplacementTriangle<k + 1>;
   const Problem& problem = *system.problem;
+  const auto& constants = Triangle::constants();
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
   ConstitutiveError error;
-  const StressField other = stress_of_displacement(problem, u);
   Fields fields{stress, F_C, u, 0, 0};
   error.of_triangle_Nmm.resize(stress.size());
   std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const auto energy = [&](const ElementStress& s) {
-      return s.cwiseProduct(stress_dual(s, problem.area_mm2(t), problem.compliance_of(t))).sum() /
-             2;
+    const TriangleShape shape(problem.vertices_of(t));
+    const typename Triangle::Strain other =
+        elasticity[problem.mesh.triangle_body[t]].lazyProduct(
+            Triangle::strain(shape.gradients, of_triangle<k + 1>(problem, u, t)));
+    using ByThirds = Eigen::Matrix<double, 3, 3 * Triangle::strains>;
+    const ByThirds own = stress[t];
+    const ByThirds difference = own - other.lazyProduct(constants.on_thirds);
+    const auto energy = [&](const auto& s) {
+      return strain_energy<k>(s, shape.area_mm2, problem.compliance_of(t), constants);
     };
-    error.of_triangle_Nmm[t] = 2 * energy(stress[t] - other[t]);
-    fields.energy += energy(stress[t]);
-    fields.energy_of_u += energy(other[t]);
+    error.of_triangle_Nmm[t] = 2 * energy(difference);
+    fields.energy += energy(own);
+    fields.energy_of_u += energy(other);
     error.body_Nmm += error.of_triangle_Nmm[t];
     for (const int edge : problem.edges.of_triangle[t]) triangle_of_edge[edge] = t;
   }
   double highest_gap = 0, highest_force = 0;
   const Eigen::VectorXd compliance = rough_compliance(problem, system.contact);
-  for (int point = 0; point < system.contact.count; point += 2) {  // two per edge
-    const ContactTerms terms = contact_terms(system, point, F_C, u);
+  for (int point = 0; point < system.contact.count; point += k + 1) {
+    const ContactTerms terms = contact_terms<k>(system, point, F_C, u);
     const double beyond_wall =
         compliance(system.contact.components * point) * terms.beyond_wall_N * terms.beyond_wall_N;
     error.normal_contact_Nmm += terms.normal;
@@ -175,7 +219,7 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
     highest_force = std::max(highest_force, terms.highest_force);
   }
   judge_admissibility(F_C, u, highest_gap, highest_force, error);
-  note_bounds(system, fields, highest_gap, error);
+  note_bounds<k>(system, fields, highest_gap, error);
   const auto relative = [&](double squared) {
     return relative_error(std::sqrt(std::max(0.0, squared)), std::sqrt(2 * fields.energy),
                           load_scale(problem).energy_norm);
@@ -185,10 +229,23 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
   return error;
 }
 
+}  // namespace
+
+ConstitutiveError constitutive_error(const DualSystem& system, const StressField& stress,
+                                     const Eigen::VectorXd& F_C, const DisplacementField& u) {
+  const int of_u = displacement_degree(*system.problem, u) - 1;
+  if (of_u != stress.degree())
+    throw std::invalid_argument(
+        fmt::format("a displacement of degree {} for stresses of degree {} (allowed: {})", of_u + 1,
+                    stress.degree(), stress.degree() + 1));
+  return with_degree(stress.degree(),
+                     [&](auto k) { return error_of<k>(system, stress, F_C, u); });
+}
+
 StressField mean_stress(const Problem& problem, const StressField& stress,
                         const DisplacementField& u) {
   StressField mean = stress_of_displacement(problem, u);
-  for (std::size_t t = 0; t < mean.size(); ++t) mean[t] = (mean[t] + stress[t]) / 2;
+  mean.values() = (mean.values() + stress.values()) / 2;
   return mean;
 }
 

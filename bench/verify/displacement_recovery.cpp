@@ -6,144 +6,124 @@
 #include <map>
 #include <vector>
 
-#include "assembly/edge_forces.hpp"
+#include "assembly/small_cholesky.hpp"
+#include "bench/verify/own_displacement.hpp"
 #include "bench/verify/vertex_stars.hpp"
 
 namespace airybench {
 namespace {
 
-using LocalCoefficients = VertexStars::OfTriangle;
-
-// L² projection of a stress that is linear on each third on linear fields; columns: corners.
-Eigen::Matrix3d linear_stress(const ElementStress& stress) {
-  // ∫ σ λ_i up to area/36, from moments with each third's linear functions; λ_i(centroid) = 1/3.
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  for (int t = 0; t < 3; ++t) {
-    const Eigen::Matrix3d corners = stress.middleCols<3>(3 * t);
-    const Eigen::Matrix3d own = corners.colwise() + corners.rowwise().sum();
-    moments.col(t) += own.col(0);
-    moments.col((t + 1) % 3) += own.col(1);
-    moments.colwise() += own.col(2) / 3;
-  }
-  const Eigen::Vector3d sum = moments.rowwise().sum();
-  return (moments.colwise() - sum / 4) / 3;
-}
-
-// A displacement with this linear strain (columns: corners) in polar form: u(p, p) is its value at
-// p, u(p, q) the Bernstein coefficient of the edge pq. Points are relative to the centroid.
-class IntegratedStrain {
- public:
-  IntegratedStrain(const Eigen::Matrix3d& strain, const Eigen::Matrix<double, 2, 3>& gradients)
-      : mean_(strain.rowwise().mean()), slope_(strain * gradients.transpose()) {}
-
-  Eigen::Vector2d operator()(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const {
-    const Eigen::Vector2d middle = (p + q) / 2;
-    const double xx = p.x() * q.x(), yy = p.y() * q.y(), xy = (p.x() * q.y() + p.y() * q.x()) / 2;
-    return {mean_(0) * middle.x() + mean_(2) / 2 * middle.y() + slope_(0, 0) / 2 * xx +
-                slope_(0, 1) * xy + (slope_(2, 1) - slope_(1, 0)) / 2 * yy,
-            mean_(1) * middle.y() + mean_(2) / 2 * middle.x() + slope_(1, 1) / 2 * yy +
-                slope_(1, 0) * xy + (slope_(2, 0) - slope_(0, 1)) / 2 * xx};
-  }
-
- private:
-  Eigen::Vector3d mean_;
-  Eigen::Matrix<double, 3, 2> slope_;  // rows xx, yy, 2xy; columns ∂x, ∂y
-};
-
-struct Shape {
-  Eigen::Matrix<double, 2, 3> corner, gradient;
-};
-
-Shape shape_of(const TriangleVertices& v) {
-  Shape shape;
-  const Eigen::Vector2d centroid = v.rowwise().mean();
-  shape.corner = v.colwise() - centroid;
-  const double twice_area = cross_area(v.col(0), v.col(1), v.col(2));
-  for (int j = 0; j < 3; ++j) {
-    const Eigen::Vector2d opposite = v.col((j + 2) % 3) - v.col((j + 1) % 3);
-    shape.gradient.col(j) << -opposite.y() / twice_area, opposite.x() / twice_area;
-  }
-  return shape;
-}
+template <int k>
+using Triangle = DisplacementTriangle<k + 1>;
+template <int k>
+using LocalCoefficients = typename Triangle<k>::Displacement;
 
 // Adds to w the rigid motion that fits its edge moments to the given ones (least squares).
-void set_rigid_motion(const Problem& problem, int triangle, const Shape& shape,
-                      const Eigen::MatrixXd& edge_moments, LocalCoefficients& w) {
+template <int k>
+void set_rigid_motion(const Problem& problem, int triangle, const Eigen::MatrixXd& edge_moments,
+                      LocalCoefficients<k>& w) {
+  constexpr int p = k + 1;
+  constexpr auto weight = [] {
+    std::array<std::array<double, p + 1>, p> moment{};
+    for (int j = 0; j < p; ++j)
+      for (int i = 0; i <= p; ++i) moment[j][i] = edge_moment(k, j, p, i);
+    return moment;
+  }();
+  const TriangleVertices v = problem.vertices_of(triangle);
+  const Eigen::Matrix<double, 2, 3> corner = v.colwise() - v.rowwise().mean();
+  const auto& corners = problem.mesh.triangles[triangle];
   Eigen::Vector2d translation = Eigen::Vector2d::Zero();
   double turned = 0, spread = 0;
-  for (int k = 0; k < 3; ++k) {
-    const int next = (k + 1) % 3;
-    const auto& corners = problem.mesh.triangles[triangle];
-    const auto moments = edge_moments.col(problem.edges.of_triangle[triangle][k]);
-    for (const bool at_start : {true, false}) {
-      const int here = at_start ? k : next, there = at_start ? next : k;
-      const bool low = corners[here] < corners[there];
-      const Eigen::Vector2d missing =
-          moments.segment<2>(low ? 0 : 2) - (w.col(here) / 2 + w.col(3 + k) / 3 + w.col(there) / 6);
-      const Eigen::Vector2d arm = (2 * shape.corner.col(here) + shape.corner.col(there)) / 3;
-      translation += missing / 6;
+  for (int e = 0; e < 3; ++e) {
+    const int next = (e + 1) % 3;
+    const bool from_low = corners[e] < corners[next];
+    const auto given = edge_moments.col(problem.edges.of_triangle[triangle][e]);
+    for (int j = 0; j <= k; ++j) {
+      Eigen::Vector2d missing = given.segment<2>(2 * (from_low ? j : k - j));
+      for (int i = 0; i <= p; ++i) missing -= weight[j][i] * w.col(Triangle<k>::on_edge(e, i));
+      const Eigen::Vector2d arm =
+          ((k + 1 - j) * corner.col(e) + (j + 1) * corner.col(next)) / (k + 2);
+      translation += missing / (3 * (k + 1));
       turned += arm.x() * missing.y() - arm.y() * missing.x();
       spread += arm.squaredNorm();
     }
   }
   const double rotation = turned / spread;
-  for (int m = 0; m < 6; ++m) {
-    const Eigen::Vector2d x =
-        m < 3 ? Eigen::Vector2d(shape.corner.col(m))
-              : Eigen::Vector2d((shape.corner.col(m - 3) + shape.corner.col((m - 2) % 3)) / 2);
+  for (int m = 0; m < Triangle<k>::nodes; ++m) {
+    const auto& [a, b, c] = Triangle<k>::exponents[m];
+    const Eigen::Vector2d x = (a * corner.col(0) + b * corner.col(1) + c * corner.col(2)) / p;
     w.col(m) += translation + rotation * Eigen::Vector2d(-x.y(), x.x());
   }
 }
 
-LocalCoefficients local_displacement(const Problem& problem, int triangle, const Shape& shape,
-                                     const ElementStress& stress,
-                                     const Eigen::MatrixXd& edge_moments) {
-  const IntegratedStrain u(problem.compliance_of(triangle) * linear_stress(stress), shape.gradient);
-  LocalCoefficients w;
-  for (int k = 0; k < 3; ++k) {
-    w.col(k) = u(shape.corner.col(k), shape.corner.col(k));
-    w.col(3 + k) = u(shape.corner.col(k), shape.corner.col((k + 1) % 3));
-  }
-  set_rigid_motion(problem, triangle, shape, edge_moments, w);
-  return w;
-}
-
 // Diagonal of the triangle's stiffness per node, the mean of x and y.
-Eigen::Matrix<double, 6, 1> stiffnesses(const Problem& problem, int triangle, const Shape& shape) {
-  const Eigen::Matrix3d& c = problem.compliance_of(triangle);
+template <int k>
+Eigen::Matrix<double, Triangle<k>::nodes, 1> stiffnesses(const TriangleShape& shape,
+                                                         const Eigen::Matrix3d& c) {
+  static const auto diagonals = [] {
+    Eigen::Matrix<double, Triangle<k>::nodes, 3> of_products;
+    for (int i = 0; i < 3; ++i)
+      of_products.col(i) = Triangle<k>::constants().stiffness[i].diagonal();
+    return of_products;
+  }();
   const double along = c(0, 0) / (c(0, 0) * c(0, 0) - c(0, 1) * c(0, 1)), shear = 1 / c(2, 2);
-  const double factor = 2. / 3 * problem.area_mm2(triangle) * (along + shear) / 2;
-  Eigen::Matrix<double, 6, 1> stiffness;
-  for (int k = 0; k < 3; ++k) {
-    const auto &g = shape.gradient.col(k), &h = shape.gradient.col((k + 1) % 3);
-    stiffness(k) = factor * g.squaredNorm();
-    stiffness(3 + k) = factor * (g.squaredNorm() + h.squaredNorm() + g.dot(h));
-  }
-  return stiffness;
+  const auto &g = shape.gradients.col(0), &h = shape.gradients.col(1);
+  return shape.area_mm2 * (along + shear) / 2 *
+         (g.squaredNorm() * diagonals.col(0) + h.squaredNorm() * diagonals.col(1) +
+          2 * g.dot(h) * diagonals.col(2));
 }
 
 // Half the gradient of ‖σ − Aε(w)‖², N: Σ K_e (w − w_e) with the displacements w_e in `own`.
-Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCoefficients>& own,
+template <int k>
+Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCoefficients<k>>& own,
                                const DisplacementField& w) {
-  std::vector<Eigen::Matrix3d> elasticity;
-  for (const Eigen::Matrix3d& compliance : problem.compliance)
-    elasticity.push_back(elasticity_of(compliance));
+  const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+  const auto& mass = Triangle<k>::constants().mass;
   Eigen::Matrix2Xd gradient = Eigen::Matrix2Xd::Zero(2, w.cols());
   for (int t = 0; t < static_cast<int>(own.size()); ++t) {
-    const std::array<int, 6> nodes = triangle_nodes(problem, t);
-    LocalCoefficients difference;
-    for (int m = 0; m < 6; ++m) difference.col(m) = w.col(nodes[m]) - own[t].col(m);
-    const QuadraticStrain strain = quadratic_strain(problem.vertices_of(t));
-    Eigen::Matrix3d corners;
-    corners.reshaped() = strain.lazyProduct(difference.reshaped());
-    const Eigen::Matrix3d dual = problem.area_mm2(t) / 12 *
-                                 elasticity[problem.mesh.triangle_body[t]] *
-                                 (corners.colwise() + corners.rowwise().sum());
-    LocalCoefficients force;
-    force.reshaped() = strain.transpose().lazyProduct(dual.reshaped());
-    for (int m = 0; m < 6; ++m) gradient.col(nodes[m]) += force.col(m);
+    const auto nodes = triangle_nodes<k + 1>(problem, t);
+    LocalCoefficients<k> difference;
+    for (int m = 0; m < Triangle<k>::nodes; ++m)
+      difference.col(m) = w.col(nodes[m]) - own[t].col(m);
+    const TriangleShape shape(problem.vertices_of(t));
+    const typename Triangle<k>::Strain dual =
+        (shape.area_mm2 * elasticity[problem.mesh.triangle_body[t]])
+            .lazyProduct(
+                Triangle<k>::strain(shape.gradients, difference).lazyProduct(mass).eval());
+    const LocalCoefficients<k> force = Triangle<k>::forces(shape.gradients, dual);
+    for (int m = 0; m < Triangle<k>::nodes; ++m) gradient.col(nodes[m]) += force.col(m);
   }
   return gradient;
+}
+
+// Sets the inner coefficients to those that minimise ‖σ − Aε(w)‖ for the others: K_ii d = −f_i.
+template <int k>
+void set_inner(const Problem& problem, const std::vector<LocalCoefficients<k>>& own,
+               DisplacementField& w) {
+  constexpr int inner = Triangle<k>::inner, outer = Triangle<k>::outer;
+  if constexpr (inner > 0) {
+    const std::vector<Eigen::Matrix3d> elasticity = elasticities(problem);
+    const auto& mass = Triangle<k>::constants().mass;
+    for (int t = 0; t < static_cast<int>(own.size()); ++t) {
+      const TriangleShape shape(problem.vertices_of(t));
+      const Eigen::Matrix3d& A = elasticity[problem.mesh.triangle_body[t]];
+      const auto nodes = triangle_nodes<k + 1>(problem, t);
+      LocalCoefficients<k> difference;
+      for (int m = 0; m < Triangle<k>::nodes; ++m)
+        difference.col(m) = w.col(nodes[m]) - own[t].col(m);
+      const typename Triangle<k>::Strain dual =
+          (shape.area_mm2 * A)
+              .lazyProduct(
+                  Triangle<k>::strain(shape.gradients, difference).lazyProduct(mass).eval());
+      Eigen::Matrix<double, 2 * inner, 1> step =
+          Triangle<k>::forces(shape.gradients, dual).template rightCols<inner>().reshaped();
+      const SmallCholesky<double, 2 * inner> factor(
+          Triangle<k>::template stiffness<outer, inner>(shape, A));
+      if (!(factor.last_pivot() > 0)) continue;
+      factor.solve(step);
+      for (int m = 0; m < inner; ++m) w.col(nodes[outer + m]) -= step.template segment<2>(2 * m);
+    }
+  }
 }
 
 struct Barrier {
@@ -158,31 +138,31 @@ struct ContactNode {
   double friction = std::numeric_limits<double>::infinity();  // smallest μ of its edges
 };
 
+template <int k>
 std::map<int, ContactNode> contact_nodes(const DualSystem& system, const Eigen::VectorXd& F_C) {
-  constexpr std::array<double, 3> of_start = {1. / 2, 1. / 3, 1. / 6};  // (2/L) ∫ N B over an edge
+  constexpr int p = k + 1;
   const Problem& problem = *system.problem;
   const int m = system.contact.components;
   std::map<int, ContactNode> contact;
-  for (int point = 0; point < system.contact.count; point += 2) {
+  for (int point = 0; point < system.contact.count; point += k + 1) {
     const int row = system.contact.boundary[point];
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const EdgeFrame at_start = problem.frame_of_moment(row, 0),
-                    at_end = problem.frame_of_moment(row, 1);
-    const auto force_at = [&](int end, const EdgeFrame& frame) -> Eigen::Vector2d {
-      const int p = m * (point + end);
-      return F_C(p) * frame.normal + (m == 2 ? F_C(p + 1) : 0) * frame.tangent;
-    };
-    const Eigen::Vector2d start = force_at(0, at_start), end = force_at(1, at_end);
-    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
-    const WallDetail detail = problem.wall_detail_at(row);
-    for (int k = 0; k < 3; ++k) {
-      ContactNode& node = contact[nodes[k]];
-      node.offset = offset[k];
-      const Eigen::Vector2d normal = problem.frame_at_node(row, k).normal;
+    const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
+    std::array<Eigen::Vector2d, k + 1> force;
+    for (int j = 0; j <= k; ++j) {
+      const EdgeFrame frame = problem.frame_of_moment(row, j);
+      const int at = m * (point + j);
+      force[j] = F_C(at) * frame.normal + (m == 2 ? F_C(at + 1) : 0) * frame.tangent;
+    }
+    const std::array<ContactOffset, p + 1> offset = offset_coefficients<p>(problem, row);
+    const std::array<double, p + 1> lowered = elevated<p>(problem.wall_detail_at(row).lowered_mm);
+    for (int i = 0; i <= p; ++i) {
+      ContactNode& node = contact[nodes[i]];
+      node.offset = offset[i];
+      const Eigen::Vector2d normal = frame_of_coefficient<p>(problem, row, i).normal;
       node.walls.push_back(
-          {normal, offset[k].gap_mm - detail.lowered_mm[k] - normal.dot(offset[k].motion_mm)});
+          {normal, offset[i].gap_mm - lowered[i] - normal.dot(offset[i].motion_mm)});
       node.friction = std::min(node.friction, system.contact.friction_at(point));
-      node.force += of_start[k] * start + of_start[2 - k] * end;
+      for (int j = 0; j <= k; ++j) node.force += edge_moment(k, j, p, i) * force[j];
     }
   }
   return contact;
@@ -217,10 +197,16 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   return behind(node.walls, w_n * n + w_t * t);
 }
 
+// Of the Jacobi step, at most 1.4/λmax.
+template <int k>
+constexpr double damping = 0.6;
+
 class Constraints {
  public:
-  Constraints(const DualSystem& system, const Eigen::VectorXd& F_C)
-      : given_(prescribed_displacement(*system.problem)), contact_(contact_nodes(system, F_C)) {}
+  template <int k>
+  Constraints(std::integral_constant<int, k>, const DualSystem& system, const Eigen::VectorXd& F_C)
+      : given_(prescribed_displacement(*system.problem, k + 1)),
+        contact_(contact_nodes<k>(system, F_C)) {}
 
   std::vector<bool> nodes() const {
     std::vector<bool> nodes = given_.at;
@@ -257,52 +243,69 @@ class Constraints {
   std::map<int, ContactNode> contact_;
 };
 
-}  // namespace
-
-DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
-                                         const Eigen::VectorXd& F_C,
-                                         const Eigen::MatrixXd& edge_moments) {
-  constexpr double damping = 0.6;  // of the Jacobi step
+template <int k>
+DisplacementField recovered(const DualSystem& system, const StressField& stress,
+                            const Eigen::VectorXd& F_C, const Eigen::MatrixXd& edge_moments) {
+  static const OwnDisplacement<k> own_displacement;
   const Problem& problem = *system.problem;
-  const int nodes = displacement_nodes(problem);
-  std::vector<LocalCoefficients> own(stress.size());
+  const int nodes = displacement_nodes(problem, k + 1);
+  std::vector<LocalCoefficients<k>> own(stress.size());
   DisplacementField w = DisplacementField::Zero(2, nodes);
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(nodes);
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
-    const Shape shape = shape_of(problem.vertices_of(t));
-    own[t] = local_displacement(problem, t, shape, stress[t], edge_moments);
-    const Eigen::Matrix<double, 6, 1> weight = stiffnesses(problem, t, shape);
-    const std::array<int, 6> node = triangle_nodes(problem, t);
-    for (int m = 0; m < 6; ++m) {
+    const TriangleShape shape(problem.vertices_of(t));
+    const Eigen::Matrix3d& compliance = problem.compliance_of(t);
+    own[t] = own_displacement(shape, compliance, stress[t]);
+    set_rigid_motion<k>(problem, t, edge_moments, own[t]);
+    const Eigen::Matrix<double, Triangle<k>::nodes, 1> weight = stiffnesses<k>(shape, compliance);
+    const auto node = triangle_nodes<k + 1>(problem, t);
+    for (int m = 0; m < Triangle<k>::nodes; ++m) {
       w.col(node[m]) += weight(m) * own[t].col(m);
       stiffness(node[m]) += weight(m);
     }
   }
   w.array().rowwise() /= stiffness.transpose().array();
-  const Constraints constraints(system, F_C);
+  const Constraints constraints(std::integral_constant<int, k>(), system, F_C);
   constraints.apply(stiffness, w);
 
-  stiffness /= damping;
-  w.array() -= half_gradient(problem, own, w).array().rowwise() / stiffness.transpose().array();
+  stiffness /= damping<k>;
+  w.array() -=
+      half_gradient<k>(problem, own, w).array().rowwise() / stiffness.transpose().array();
   constraints.apply(stiffness, w);
-  if (VertexStars::are_needed(problem)) {
-    VertexStars stars(problem, own, constraints.nodes());
+  if (need_vertex_stars(problem)) {
+    const std::vector<bool> held = constraints.nodes();
+    VertexStars<k> stars(problem, own, held);
     for (int sweep = 0; sweep < 2; ++sweep) stars.sweep(w);
   }
+  set_inner<k>(problem, own, w);
   return w;
+}
+
+}  // namespace
+
+DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
+                                         const Eigen::VectorXd& F_C,
+                                         const Eigen::MatrixXd& edge_moments) {
+  return with_degree(stress.degree(), [&](auto k) {
+    return recovered<k>(system, stress, F_C, edge_moments);
+  });
 }
 
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,
                                           DisplacementField w) {
   const Problem& problem = *system.problem;
-  Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
-  for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
-    const auto weight = stiffnesses(problem, t, shape_of(problem.vertices_of(t)));
-    const std::array<int, 6> node = triangle_nodes(problem, t);
-    for (int m = 0; m < 6; ++m) stiffness(node[m]) += weight(m);
-  }
-  Constraints(system, F_C).apply(stiffness, w);
-  return w;
+  return with_degree(displacement_degree(problem, w) - 1, [&](auto k) {
+    Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(w.cols());
+    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+      const auto weight =
+          stiffnesses<k>(TriangleShape(problem.vertices_of(t)), problem.compliance_of(t));
+      const auto node = triangle_nodes<k + 1>(problem, t);
+      for (std::size_t m = 0; m < node.size(); ++m)
+        stiffness(node[m]) += weight(static_cast<Eigen::Index>(m));
+    }
+    Constraints(k, system, F_C).apply(stiffness, w);
+    return w;
+  });
 }
 
 }  // namespace airybench

@@ -1,11 +1,9 @@
 // An admissible displacement from an equilibrium method's answer by local work. The constitutive
 // relation error (discretisation_error.hpp) then needs no second global solve.
 //
-// On each triangle w is the quadratic displacement whose stress is nearest to σ in the energy norm.
-// Strains of quadratic displacements are all linear fields and C is constant on a triangle, so
-//   ε(w) = C Π σ,   Π the L² projection on linear fields,
-// which is integrated in closed form. Its free rigid motion is fitted to the moments of the edge
-// displacements ū (least squares over the edges' ends).
+// For stresses of degree k, w has the degree k + 1. On each triangle it is the displacement whose
+// stress is nearest to σ in the energy norm (own_displacement.hpp). Its free rigid motion is fitted
+// to the moments of the edge displacements ū (least squares over all moments of its edges).
 //
 // The coefficients of a vertex or edge are averaged over its triangles with the diagonals k of
 // their stiffnesses as weights, and set to u0 on Γ_D. On Γ_C they take the proximal step of the

@@ -1,5 +1,5 @@
 // Block Gauss–Seidel over vertex stars on ‖σ − Aε(w)‖²: one vertex after another, the coefficients
-// of the vertex and its edges together.
+// of the vertex and its edges together. Those inside triangles are eliminated.
 //
 // For ν near ½ a single coefficient can hardly move without changing the volume of its triangles,
 // which costs up to 1/(1 − 2ν) times its share. A star's displacements include some that keep the
@@ -10,29 +10,34 @@
 #include <vector>
 
 #include "assembly/displacement_field.hpp"
-#include "solvers/base/element_matrices.hpp"
 
 namespace airybench {
 
+// True if a bulk modulus exceeds five shear moduli (ν > 0.4 in plane strain). Below, averages
+// alone come within 1.2 times the minimum.
+bool need_vertex_stars(const Problem& problem);
+
+template <int k>
 class VertexStars {
  public:
-  using OfTriangle = Eigen::Matrix<double, 2, 6>;  // in the order of triangle_nodes()
+  using Triangle = DisplacementTriangle<k + 1>;
+  using OfTriangle = typename Triangle::Displacement;
 
-  // own: per triangle, the displacement with stress Πσ, the linear field nearest to σ. held: fixed.
+  // own: per triangle, the displacement with the stress nearest to σ. held: fixed.
   VertexStars(const Problem& problem, const std::vector<OfTriangle>& own,
               const std::vector<bool>& held);
+  // Leaves inner coefficients as they are.
   void sweep(DisplacementField& w);
 
-  // True if a bulk modulus exceeds five shear moduli (ν > 0.4 in plane strain). Below, averages
-  // alone come within 1.2 times the minimum.
-  static bool are_needed(const Problem& problem);
-
  private:
+  static constexpr int outer = Triangle::outer;
+  using Stiffness = Eigen::Matrix<double, 2 * outer, 2 * outer>;
   void improve(int vertex, DisplacementField& w);
 
   const Problem& problem_;
   const std::vector<OfTriangle>& own_;
-  ElementMatrices K_;                  // unknowns: 2 node + component; −1: held
+  const std::vector<bool>& held_;
+  std::vector<Stiffness> K_;           // per triangle, of the outer nodes, without the inner ones
   std::vector<int> first_, triangle_;  // triangles of vertex v from triangle_[first_[v]]
   std::vector<int> free_, number_;     // nodes of a star; node → place there, or −1
   std::vector<double> matrix_;

@@ -8,6 +8,7 @@
 #include "assembly/control_points.hpp"
 #include "tests/support/dense_algebra.hpp"
 #include "tests/support/exact_fields.hpp"
+#include "tests/support/polynomial.hpp"
 #include "tests/support/small_meshes.hpp"
 
 namespace airybench::displacement_field_test {
@@ -16,27 +17,13 @@ namespace {
 using testing::small_tooth;
 constexpr double young = 2000, poisson = 0.3;
 
-// The coefficients of a quadratic field, by sampling every edge.
-DisplacementField interpolated(const Problem& problem,
-                               const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& u) {
-  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
-  DisplacementField field(2, displacement_nodes(problem));
-  for (Eigen::Index v = 0; v < vertices; ++v) field.col(v) = u(problem.mesh.vertices[v]);
-  for (int e = 0; e < problem.edges.count(); ++e) {
-    const auto [low, high] = problem.edges.vertices[e];
-    const auto &a = problem.mesh.vertices[low], &b = problem.mesh.vertices[high];
-    field.col(vertices + e) = edge_coefficients(u(a), u((a + b) / 2), u(b))[1];
-  }
-  return field;
-}
-
 TEST(DisplacementField, StressOfQuadraticFieldsIsExact) {
   for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
     const Problem problem =
         make_problem(small_tooth(5, 4), {compliance({young, poisson}, Plane::stress)},
                      testing::loads_of(exact), 0);
     const StressField stress =
-        stress_of_displacement(problem, interpolated(problem, exact.displacement));
+        stress_of_displacement(problem, testing::interpolated<2>(problem, exact.displacement));
     for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
       const TriangleVertices v = problem.vertices_of(t);
       for (int c = 0; c < 9; ++c) {
@@ -49,6 +36,118 @@ TEST(DisplacementField, StressOfQuadraticFieldsIsExact) {
   }
 }
 
+// Calls check(std::integral_constant<int, p>()) for every degree.
+template <typename Check>
+void for_all_degrees(Check check) {
+  for (int k = 1; k <= highest_stress_degree; ++k)
+    with_degree(k, [&](auto stress_degree) {
+      check(std::integral_constant<int, stress_degree + 1>());
+      return 0;
+    });
+}
+
+TEST(DisplacementField, ItsSizeTellsItsDegree) {
+  const Problem problem =
+      make_problem(small_tooth(2, 2), {compliance({young, poisson}, Plane::strain)}, {}, 0);
+  EXPECT_EQ(displacement_nodes(problem), 9 + 16);
+  EXPECT_EQ(displacement_nodes(problem, 4), 9 + 3 * 16 + 3 * 8);
+  for (int p = 2; p <= highest_stress_degree + 1; ++p) {
+    const DisplacementField u = DisplacementField::Zero(2, displacement_nodes(problem, p));
+    EXPECT_EQ(displacement_degree(problem, u), p);
+  }
+  EXPECT_THROW(displacement_degree(problem, DisplacementField::Zero(2, 26)), std::invalid_argument);
+}
+
+// Its stress, too, and the work of the loads on it, is that of the polynomial.
+TEST(DisplacementField, PolynomialsOfItsDegreeAreExact) {
+  Loads loads;
+  loads.body_force_N_per_mm3 = {3, -1};
+  loads.traction_MPa = [](const Eigen::Vector2d& x, const Eigen::Vector2d&, int) {
+    return Eigen::Vector2d(2 - x.x(), 1 + x.y());
+  };
+  const Problem problem =
+      make_problem(small_tooth(3, 2), {compliance({young, poisson}, Plane::strain)}, loads, 0);
+  for_all_degrees([&](auto degree) {
+    constexpr int p = degree, k = p - 1;
+    const testing::Polynomial exact(p, 10, 7 + p);
+    const DisplacementField u = testing::interpolated<p>(problem, exact);
+    const StressField stress = stress_of_displacement(problem, u);
+    ASSERT_EQ(stress.degree(), k);
+    for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
+      const TriangleVertices v = problem.vertices_of(t);
+      for (int third = 0; third < 3; ++third)
+        for (int corner = 0; corner < 3; ++corner) {  // coefficients at corners are values
+          const std::array<int, 3> places = {0, k, bernstein_count(k) - 1};
+          const Eigen::Vector2d x = corner == 2 ? Eigen::Vector2d(v.rowwise().mean())
+                                                : Eigen::Vector2d(v.col((third + corner) % 3));
+          const Eigen::Vector3d expected =
+              elasticity_of(problem.compliance_of(t)) * exact.strain(x);
+          EXPECT_LT((stress[t].col(bernstein_count(k) * third + places[corner]) - expected).norm(),
+                    1e-10 * (1 + expected.norm()))
+              << "degree " << p << ", triangle " << t << ", corner " << corner;
+        }
+    }
+    // Against the field of the highest degree, which is the same function.
+    constexpr int highest = highest_stress_degree + 1;
+    const DisplacementField same = testing::interpolated<highest>(problem, exact);
+    const double work = work_of_loads(problem, u);
+    EXPECT_NEAR(work, work_of_loads(problem, same), 1e-11 * (1 + std::abs(work))) << p;
+    const double energy = stress_norm_squared(problem, stress);
+    EXPECT_NEAR(energy, stress_norm_squared(problem, stress_of_displacement(problem, same)),
+                1e-11 * energy)
+        << p;
+  });
+}
+
+TEST(DisplacementField, OfEveryDegreeItTakesRigidMotionAndPrescribedValuesExactly) {
+  const auto u0 = [](const Eigen::Vector2d& x) {
+    return Eigen::Vector2d(0.1 + 0.02 * x.y() - 0.003 * x.y() * x.y(), 0.01 * x.y() * x.y());
+  };
+  Loads loads;
+  loads.displacement_mm = [&](const Eigen::Vector2d& x, int) { return u0(x); };
+  const Problem problem =
+      make_problem(small_tooth(3, 2), {compliance({young, poisson}, Plane::strain)}, loads, 0);
+  for_all_degrees([&](auto degree) {
+    constexpr int p = degree;
+    const DisplacementField expected = testing::interpolated<p>(problem, u0);
+    const PrescribedDisplacement given = prescribed_displacement(problem, p);
+    const DisplacementField u = with_rigid_motion(problem, given.u);
+    int held = 0;
+    for (Eigen::Index node = 0; node < u.cols(); ++node) {
+      if (!given.at[static_cast<std::size_t>(node)]) continue;
+      ++held;
+      EXPECT_LT((u.col(node) - expected.col(node)).norm(), 1e-13) << p << ", node " << node;
+    }
+    EXPECT_EQ(held, 2 * p + 1);  // two edges
+    const auto rigid = [&](const Eigen::Vector2d& x) { return problem.motion.at(x); };
+    const DisplacementField zero = DisplacementField::Zero(2, u.cols());
+    EXPECT_LT((with_rigid_motion(problem, zero) - testing::interpolated<p>(problem, rigid)).norm(),
+              1e-12)
+        << p;
+  });
+}
+
+TEST(DisplacementTriangle, ItsStiffnessIsTheEnergyWithTheRigidMotionsAsItsKernel) {
+  TriangleVertices v;
+  v << 0.3, 2, 1.1, -0.2, 0.4, 1.7;
+  const Eigen::Matrix3d A = compliance({young, poisson}, Plane::strain).inverse();
+  const TriangleShape shape(v);
+  for_all_degrees([&](auto degree) {
+    using Triangle = DisplacementTriangle<degree>;
+    const auto K = Triangle::stiffness(shape, A);
+    EXPECT_LT((K - K.transpose()).norm(), 1e-14 * K.norm());
+    const Eigen::VectorXd eigenvalues = testing::eigenvalues(K);
+    EXPECT_LT(eigenvalues.head(3).cwiseAbs().maxCoeff(), 1e-13 * K.norm());
+    EXPECT_GT(eigenvalues(3), 1e-6 * K.norm());
+    const typename Triangle::Displacement u = Triangle::Displacement::Random();
+    const typename Triangle::Strain strain = Triangle::strain(shape.gradients, u),
+                                    dual = shape.area_mm2 * A * strain * Triangle::constants().mass;
+    const typename Triangle::Displacement force = Triangle::forces(shape.gradients, dual);
+    EXPECT_LT((K * u.reshaped() - force.reshaped()).norm(), 1e-12 * force.norm());
+    EXPECT_NEAR(strain.cwiseProduct(dual).sum(), u.cwiseProduct(force).sum(), 1e-10 * force.norm());
+  });
+}
+
 TEST(DisplacementField, ClapeyronsTheorem) {
   // Where every displacement on the boundary is that of the solution: 2 U = ∫ b·u + ∫ t·u, and the
   // loads' part of it is what the potential takes off.
@@ -57,7 +156,7 @@ TEST(DisplacementField, ClapeyronsTheorem) {
     for (BoundaryEdge& edge : mesh.boundary) edge.role = BoundaryRole::force;
     const Problem problem = make_problem(mesh, {compliance({young, poisson}, Plane::stress)},
                                          testing::loads_of(exact), 0);
-    const DisplacementField u = interpolated(problem, exact.displacement);
+    const DisplacementField u = testing::interpolated<2>(problem, exact.displacement);
     const double strain_energy =
         stress_norm_squared(problem, stress_of_displacement(problem, u)) / 2;
     EXPECT_NEAR(strain_energy - work_of_loads(problem, u), -strain_energy, 1e-11 * strain_energy)
@@ -103,7 +202,7 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
       };
       work += s.norm() / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
     }
-    const double by_nodes = nodal_loads(problem).cwiseProduct(interpolated(problem, motion)).sum();
+    const double by_nodes = nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
     EXPECT_NEAR(by_nodes, work, 1e-10 * (1 + std::abs(work)));
   }
 }

@@ -12,6 +12,7 @@
 #include "mesh/refinement.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
+#include "tests/bench/verify/solved.hpp"
 #include "tests/support/dice.hpp"
 #include "tests/support/posed.hpp"
 #include "tests/support/sanitized.hpp"
@@ -100,6 +101,35 @@ TEST(RandomBounds, OfOneMeshHoldForAnother) {
   std::cout << fmt::format("{} scenes, {} answers judged, {} with guaranteed bounds\n", scenes,
                            judged, guaranteed);
   EXPECT_EQ(guaranteed, judged);
+}
+
+// Of every degree, on one mesh refined once.
+TEST(RandomBounds, OfOneDegreeHoldForAnother) {
+  constexpr int of_degrees = testing::sanitized ? 2 : 30;
+  int judged = 0;
+  for (int i = 0; i < of_degrees; ++i) {
+    Dice dice(static_cast<std::uint32_t>(5000 + i));
+    Mesh mesh = dice.below(2) == 0
+                    ? testing::small_block(2 + dice.below(2), 2 + dice.below(2), 0)
+                    : testing::small_tooth(2 + dice.below(2), 2 + dice.below(2));
+    Scene scene = random_scene(dice);
+    scene.equal_steps = 1;
+    Bounds bounds;
+    for (int level = 0; level < 2; ++level) {
+      if (level > 0) mesh = uniformly_refined(mesh);
+      for (int k = 1; k <= highest_stress_degree; ++k, ++judged) {
+        const ConstitutiveError error = testing::Solved(scene, mesh, k).error();
+        EXPECT_EQ(error.flaw, "") << "scene " << i << ", level " << level << ", degree " << k;
+        EXPECT_TRUE(error.guaranteed);
+        bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
+        bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
+        EXPECT_LE(bounds.below, bounds.above)
+            << "scene " << i << ", level " << level << ", degree " << k << ", nu "
+            << scene.material.poisson;
+      }
+    }
+  }
+  std::cout << fmt::format("{} scenes, {} answers judged\n", of_degrees, judged);
 }
 
 }  // namespace

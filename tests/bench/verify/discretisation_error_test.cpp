@@ -1,6 +1,8 @@
 // The constitutive relation error: an identity, signs, bounds, and that it sees what is spoiled.
 #include "bench/verify/discretisation_error.hpp"
 
+#include <numeric>
+
 #include "bench/verify/verifier.hpp"
 #include "tests/bench/verify/solved.hpp"
 #include "tests/support/exact_fields.hpp"
@@ -27,6 +29,95 @@ std::vector<Scene> scenes() {
   return all;
 }
 
+double value_at(std::vector<double> c, double s) {
+  for (std::size_t step = 1; step < c.size(); ++step)
+    for (std::size_t i = 0; i + step < c.size(); ++i) c[i] = (1 - s) * c[i] + s * c[i + 1];
+  return c[0];
+}
+
+// ∫ μ|σ_n||u_t| over Γ_C by the midpoint rule. u: with the rigid motion.
+double friction_work(const testing::Solved& s, const DisplacementField& u) {
+  constexpr int steps = 2000;
+  const Problem& problem = *s.system.problem;
+  const ContactPoints& contact = s.system.contact;
+  if (contact.components == 1) return 0;
+  const int k = s.system.degree;
+  double sum = 0;
+  for (int p = 0; p < contact.count; p += k + 1) {
+    const int row = contact.boundary[p];
+    const auto [start, end] = problem.mesh.boundary[row].vertices;
+    const EdgeFrame frame = edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[end]);
+    std::vector<double> u_t, force;
+    with_degree(k, [&](auto degree) {
+      for (const int node : boundary_nodes<degree + 1>(problem, row))
+        u_t.push_back(frame.tangent.dot(u.col(node)));
+      return 0;
+    });
+    for (int j = 0; j <= k; ++j) force.push_back(s.hybrid.F_C(2 * (p + j)));
+    for (int i = 0; i < steps; ++i) {
+      const double x = (i + 0.5) / steps;
+      sum += (k + 1.) / steps * contact.friction_at(p) * std::abs(value_at(force, x)) *
+             std::abs(value_at(u_t, x));
+    }
+  }
+  return sum;
+}
+
+// Of every degree on the same mesh, with the recovered displacement.
+template <typename Check>
+void for_all_degrees(const Scene& scene, Check check) {
+  for (int k = 1; k <= highest_stress_degree; ++k)
+    check(testing::Solved(scene, testing::small_tooth(3, 3), k));
+}
+
+TEST(ConstitutiveError, OfEveryDegreeItIsTwiceTheEnergyGapAndTheSumOfTheTriangles) {
+  for (const Scene& scene : scenes())
+    for_all_degrees(scene, [&](const testing::Solved& s) {
+      const ConstitutiveError error = s.error();
+      const int k = s.system.degree;
+      EXPECT_EQ(error.flaw, "") << k;
+      EXPECT_EQ(error.guaranteed, scene.friction == 0) << k;
+      const double gap = error.upper_bound_Nmm - error.lower_bound_Nmm,
+                   friction = friction_work(s, with_rigid_motion(*s.system.problem, s.w));
+      EXPECT_NEAR(error.squared_Nmm(), 2 * (gap + friction),
+                  1e-6 * error.squared_Nmm() + 1e-10 * std::abs(error.upper_bound_Nmm))
+          << k;
+      EXPECT_NEAR(std::accumulate(error.of_triangle_Nmm.begin(), error.of_triangle_Nmm.end(), 0.),
+                  error.squared_Nmm(), 1e-12 * error.squared_Nmm())
+          << k;
+      for (const double part : error.of_triangle_Nmm)
+        EXPECT_GT(part, -1e-9 * error.squared_Nmm()) << k;
+    });
+}
+
+TEST(ConstitutiveError, RefusesADisplacementOfAnotherDegree) {
+  const testing::Solved s(Scene{}, testing::small_tooth(2, 2), 2);
+  const DisplacementField quadratic =
+      DisplacementField::Zero(2, displacement_nodes(*s.system.problem, 2));
+  try {
+    s.error_with(quadratic);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "a displacement of degree 2 for stresses of degree 2 (allowed: 3)");
+  }
+}
+
+// True errors by the energies of stresses of degree 7 on a graded mesh: without friction
+// ‖σ − σ_exact‖² ≤ 2 (Π*(σ) − Π*(σ_exact)).
+TEST(ConstitutiveError, OfEveryDegreeItIsNearTheTrueError) {
+  constexpr double exact_Nmm = 26.5292017;
+  for (int k = 1; k <= highest_stress_degree; ++k) {
+    const testing::Solved s({.friction = 0}, testing::catalogue_mesh("Mesh0"), k);
+    const ConstitutiveError error = s.error();
+    EXPECT_TRUE(error.guaranteed) << k;
+    EXPECT_LT(error.lower_bound_Nmm, exact_Nmm);
+    EXPECT_GT(error.upper_bound_Nmm, exact_Nmm);
+    const double ratio = std::sqrt(error.squared_Nmm() / (2 * (exact_Nmm - error.lower_bound_Nmm)));
+    EXPECT_GT(ratio, 1) << k;
+    EXPECT_LT(ratio, 2) << k;
+  }
+}
+
 TEST(ConstitutiveError, IsTwiceTheEnergyGapWithoutFriction) {
   for (const Scene& scene : scenes()) {
     if (scene.friction > 0) continue;
@@ -39,28 +130,6 @@ TEST(ConstitutiveError, IsTwiceTheEnergyGapWithoutFriction) {
   }
 }
 
-// ∫ μ|σ_n||u_t| over Γ_C by the midpoint rule.
-double friction_work(const Solved& s) {
-  constexpr int steps = 2000;
-  const Problem& problem = *s.system.problem;
-  const DisplacementField field = with_rigid_motion(problem, s.displacements.displacement);
-  double sum = 0;
-  for (int p = 0; p < s.system.contact.count; p += 2) {
-    const std::array<int, 3> nodes = boundary_nodes(problem, s.system.contact.boundary[p]);
-    const EdgeFrame frame =
-        edge_frame(problem.mesh.vertices[nodes[0]], problem.mesh.vertices[nodes[2]]);
-    for (int i = 0; i < steps; ++i) {
-      const double x = (i + 0.5) / steps;
-      const Eigen::Vector2d u = (1 - x) * (1 - x) * field.col(nodes[0]) +
-                                2 * x * (1 - x) * field.col(nodes[1]) + x * x * field.col(nodes[2]);
-      const double force = (1 - x) * s.hybrid.F_C(2 * p) + x * s.hybrid.F_C(2 * p + 2);
-      sum += 2. / steps * s.system.contact.friction_at(0) * std::abs(force) *
-             std::abs(frame.tangent.dot(u));
-    }
-  }
-  return sum;
-}
-
 TEST(ConstitutiveError, WithFrictionTheEnergyGapLacksTheFrictionWork) {
   // e² = 2 (Π(u) + Π*(σ) + ∫ μ|σ_n||u_t|)
   for (const Scene& scene : scenes()) {
@@ -69,7 +138,8 @@ TEST(ConstitutiveError, WithFrictionTheEnergyGapLacksTheFrictionWork) {
     const ConstitutiveError error = s.error();
     EXPECT_FALSE(error.guaranteed);
     const double gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
-    EXPECT_NEAR(error.squared_Nmm(), 2 * (gap + friction_work(s)),
+    EXPECT_NEAR(error.squared_Nmm(), 2 * (gap + friction_work(s, with_rigid_motion(*s.system.problem,
+                                                              s.displacements.displacement))),
                 1e-6 * std::abs(error.upper_bound_Nmm));
   }
 }

@@ -8,6 +8,7 @@
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
+#include "tests/support/degree_solution.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::testing {
@@ -23,12 +24,15 @@ struct Solved {
   Solution hybrid;
   DisplacementField w;  // recovered
 
-  explicit Solved(Problem problem)
-      : system(
-            assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points)),
-        hybrid(solved_by("HYBRID", system)),
+  // degree: of the stresses.
+  explicit Solved(Problem problem, int degree = 1)
+      : system(assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points,
+                        degree)),
+        hybrid(degree == 1 ? solved_by("HYBRID", system)
+                           : solved_by_degree(*system.problem, degree)),
         w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
-  Solved(const Scene& scene, Mesh mesh) : Solved(pose(scene, std::move(mesh))) {}
+  Solved(const Scene& scene, Mesh mesh, int degree = 1)
+      : Solved(pose(scene, std::move(mesh)), degree) {}
 
   ConstitutiveError error_with(const DisplacementField& u) const {
     return constitutive_error(system, hybrid.stress, hybrid.F_C, u);
