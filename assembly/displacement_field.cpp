@@ -133,6 +133,23 @@ std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
 }
 
 // ρ is linear, so a coefficient is its value at the coefficient's place.
+DisplacementField quadratic_interpolant(const Problem& problem, const DisplacementField& u) {
+  const int p = displacement_degree(problem, u);
+  if (p == 2) return u;
+  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
+  DisplacementField quadratic(2, displacement_nodes(problem));
+  quadratic.leftCols(vertices) = u.leftCols(vertices);
+  for (int edge = 0; edge < problem.edges.count(); ++edge) {
+    const auto [low, high] = problem.edges.vertices[edge];
+    Eigen::Vector2d middle = u.col(low) + u.col(high);
+    for (int i = 1; i < p; ++i)
+      middle += binomial(p, i) * u.col(vertices + static_cast<Eigen::Index>(p - 1) * edge + i - 1);
+    quadratic.col(vertices + edge) =
+        edge_coefficients<Eigen::Vector2d>(u.col(low), std::ldexp(1., -p) * middle, u.col(high))[1];
+  }
+  return quadratic;
+}
+
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
   const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;

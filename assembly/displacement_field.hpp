@@ -76,6 +76,9 @@ QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double are
 Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);  // its inverse
 std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names
 
+// The quadratic field with the values of u at vertices and at the middles of edges.
+DisplacementField quadratic_interpolant(const Problem& problem, const DisplacementField& u);
+
 // u = w + ρ: adds the rigid motion back.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);
 

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <set>
 
+#include "assembly/equilibrium_element.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/measure/build_info.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "mesh/model_format.hpp"
+#include "solvers/methods.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"
 #include "support/shortened.hpp"
@@ -86,7 +88,7 @@ void refuse_replaced(int argc, const char* const* argv) {
 // Option values that are parsed after CLI11.
 struct Texts {
   std::string study, stop = "target", contact = "newton", repetitions = "5", noise, threads = "1",
-                     timeout = "900", adapt, shard, fields;
+                     timeout = "900", adapt, degree, shard, fields;
 };
 
 void add_cases(CLI::App& app, Options& options, Texts& texts) {
@@ -104,6 +106,9 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
                  "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
   app.option_defaults()->group("By which methods");
+  app.add_option("--degree", texts.degree,
+                 "1 to 4, or auto: of HYBRID's stresses, instead of --method and --adapt=...,by= "
+                 "(auto: 3 for goals below 0.1%, else 2)");
   app.add_option("--method", options.methods,
                  "names or globs; default: the paper's, for your own bodies HYBRID and P2");
   add_files(app, "--external", options.externals,
@@ -262,6 +267,21 @@ void read_adapt(const std::string& text, Options& options) {
   options.goals_only = levels == "last";
 }
 
+void read_degree(const std::string& text, bool is_given, Options& options) {
+  constexpr double low_error = 0.001;  // from here on degree 3 needs less time (findings.md)
+  int degree = 2;
+  if (text == "auto") {
+    for (const AdaptGoal& goal : options.adapt)
+      if (goal.error.value_or(1) < low_error) degree = 3;
+  } else if (text.size() == 1 && text[0] >= '1' && text[0] - '0' <= highest_stress_degree) {
+    degree = text[0] - '0';
+  } else {
+    refuse("--degree", text, fmt::format("1 to {}, auto", highest_stress_degree));
+  }
+  options.adapt_by = hybrid_of_degree(degree);
+  if (!is_given) options.methods = options.adapt_by;
+}
+
 void read_fields(const std::string& text, Options& options) {
   options.fields = true;
   for (const std::string& word : split_list(text))
@@ -373,6 +393,7 @@ Options parse_options(int argc, const char* const* argv) {
   read_threads(texts.threads, given("--threads"), options);
   read_timeout(texts.timeout, given("--timeout"), options);
   if (given("--adapt")) read_adapt(texts.adapt, options);
+  if (given("--degree")) read_degree(texts.degree, given("--method"), options);
   if (!texts.shard.empty()) {
     const std::optional<Shard> part = shard_of(texts.shard);
     if (!part) refuse("--shard", texts.shard, "k/n with 1 <= k <= n");

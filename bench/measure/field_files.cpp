@@ -210,19 +210,15 @@ std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const Displace
   const Problem& problem = *system.problem;
   std::vector<Eigen::Vector2d> moments;
   for (int p = 0; p < system.contact.count; ++p) {
-    const int row = system.contact.boundary[p], end = p % 2;
+    const int row = system.contact.boundary[p];
     const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const Eigen::Vector2d &a = problem.mesh.vertices[nodes[0]],
-                          &b = problem.mesh.vertices[nodes[2]];
+    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
     const EdgeFrame& frame = frames[p];
-    const auto r = [&](const Eigen::Vector2d& x, const Eigen::Vector2d& u) -> Eigen::Vector2d {
-      return Eigen::Vector2d(frame.normal.dot(u), frame.tangent.dot(u)) -
-             problem.offset_at(x, row).along(frame.normal);
-    };
-    const Eigen::Vector2d at_a = w.col(nodes[0]), at_b = w.col(nodes[2]),
-                          middle = (at_a + 2 * w.col(nodes[1]) + at_b) / 4;
-    const auto [first, second] = edge_moments(r(a, at_a), r((a + b) / 2, middle), r(b, at_b));
-    moments.push_back(end == 0 ? first : second);
+    std::array<Eigen::Vector2d, 3> r;
+    for (std::size_t i = 0; i < 3; ++i)
+      r[i] = Eigen::Vector2d(frame.normal.dot(w.col(nodes[i])), frame.tangent.dot(w.col(nodes[i]))) -
+             offset[i].along(frame.normal);
+    moments.push_back(moment_of_quadratic(system.degree, p % system.contact.per_edge, r));
   }
   return moments;
 }
@@ -247,7 +243,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
     take_forces(contact, solution, picture);
   else
     take_forces_of_displacements(system, solution, picture);
-  if (w && system.degree == 1)
+  if (w)
     for (const Eigen::Vector2d& r : moments_of(system, *w, picture.frame)) {
       picture.gap_mm.push_back(-r.x());
       picture.slip_mm.push_back(r.y());
@@ -274,7 +270,9 @@ SolvedFields own_fields(const DualSystem& system, const Solution& solution) {
   if (solution.displacement.cols() > 0)
     fields.w = solution.displacement;
   else if (solution.edge_moments.cols() > 0)
-    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
+    fields.w = quadratic_interpolant(
+        *system.problem,
+        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
   if (fields.w && !fields.w->allFinite()) fields.w.reset();
   return fields;
 }

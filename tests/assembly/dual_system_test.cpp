@@ -183,8 +183,9 @@ TEST(StressField, EnergyKeepsItsDigitsWhereTheAiryFunctionIsLarge) {
 TEST(StressField, DistanceIsTheEnergyNormOfTheDifference) {
   const auto problem = posed({}, small_tooth(2, 2));
   const std::size_t triangles = problem->mesh.triangles.size();
-  const StressField one(triangles, ElementStress::Ones()),
-      two(triangles, 2 * ElementStress::Ones());
+  StressField one(triangles), two(triangles);
+  one.values().setOnes();
+  two.values().setConstant(2);
   EXPECT_EQ(stress_distance(*problem, one, one), 0);
   EXPECT_NEAR(stress_distance(*problem, one, two), std::sqrt(stress_norm_squared(*problem, one)),
               1e-15);

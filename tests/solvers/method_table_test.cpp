@@ -132,14 +132,15 @@ TEST(Methods, WhateverAMethodDoesBecomesAStatus) {
       Solution solution;
       solution.status = Status::ok;
       solution.F_C = Eigen::VectorXd::Zero(s.contact.size());
-      solution.stress.assign(s.problem->mesh.triangles.size(), ElementStress::Zero());
+      solution.stress = StressField(s.problem->mesh.triangles.size());
+      solution.stress.values().setZero();
       change(solution);
       return solution;
     };
   };
   EXPECT_EQ(status(claim_success([](Solution&) {})), Status::ok);
   EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C(1) = std::nan(""); })), Status::breakdown);
-  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress[3](1, 2) = INFINITY; })),
+  EXPECT_EQ(status(claim_success([](Solution& s) { s.stress.values()(1, 29) = INFINITY; })),
             Status::breakdown);
   EXPECT_EQ(status(claim_success([](Solution& s) { s.stress.clear(); })), Status::breakdown);
   EXPECT_EQ(status(claim_success([](Solution& s) { s.F_C.resize(1); })), Status::breakdown);

@@ -8,6 +8,16 @@
 
 namespace airybench {
 
+// In 128 bits there is degree 1 only.
+template <>
+const DegreeKernels<Quad>& degree_kernels(int) {
+  throw std::logic_error("128 bits: degree 1 only");
+}
+template <>
+DegreeInput<Quad> degree_input(const Problem&, const std::vector<int>&, int) {
+  throw std::logic_error("128 bits: degree 1 only");
+}
+
 template HybridizedSystemIn<Quad> assemble_hybridized(const Problem&, const ContactPoints&);
 template StressField hybridized_stress(const Problem&, const HybridizedSystemIn<Quad>&,
                                        const Eigen::VectorX<Quad>&);

@@ -142,7 +142,7 @@ TEST_F(Isolation, NonsenseIsNoSuccess) {
   EXPECT_EQ(record.status, Status::breakdown);
   record = run_between(harmful("LIES", [](Solution& solution) {
     solution.F_C *= 1.5;
-    for (ElementStress& stress : solution.stress) stress *= 1.5;
+    solution.stress.values() *= 1.5;
   }));
   EXPECT_EQ(record.status, Status::inaccurate);
   EXPECT_EQ(record.claimed_status, Status::ok);

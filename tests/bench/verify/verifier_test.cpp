@@ -44,7 +44,7 @@ TEST_F(Verifier, AcceptsARightSolution) {
 
 TEST_F(Verifier, MeasuresAStressErrorInTheEnergyNorm) {
   pose_scene({});
-  for (ElementStress& stress : solution_.stress) stress *= 1.001;
+  solution_.stress.values() *= 1.001;
   EXPECT_NEAR(*verified().error_stress, 1e-3, 1e-9);
 }
 
@@ -67,6 +67,31 @@ TEST_F(Verifier, FindsADivergence) {
   pose_scene({});
   solution_.stress[7](0, 2) += 1;  // xx at the centroid, in one third
   EXPECT_GT(verified().equilibrium_residual, 1e-4);
+}
+
+TEST_F(Verifier, JudgesStressesOfEveryDegree) {
+  for (const int k : {2, 3, 4}) {
+    Scene scene{.friction = 0.2};
+    scene.body_force_N_per_mm3 = {0.4, -0.2};
+    system_ = assemble(testing::posed(scene, testing::small_tooth(4, 3)), Blocks::contact_points, k);
+    reference_ = compute_reference(system_);
+    const Solution right = run(select_methods(hybrid_of_degree(k)).front(), system_, {});
+    ASSERT_EQ(right.status, Status::ok) << right.message;
+    solution_ = right;
+    EXPECT_LT(worst_measure(verified()).value, 1e-10) << k;
+    const auto unbalanced_by = [&](int column) {  // of one triangle's first third
+      solution_ = right;
+      solution_.stress[7](0, column) += 1;
+      return verified().equilibrium_residual.value();
+    };
+    EXPECT_GT(unbalanced_by(1), 1e-4) << k;                        // on an edge of the mesh
+    EXPECT_GT(unbalanced_by(ring_place(k, 0, 1)), 1e-4) << k;      // between thirds
+    EXPECT_GT(unbalanced_by(bernstein_count(k) - 1), 1e-4) << k;   // at the centroid
+    solution_ = right;
+    solution_.F_C(2) *= 1.001;
+    EXPECT_GT(verified().equilibrium_residual, 1e-5) << k;
+    EXPECT_GT(verified().natural_map_residual, 1e-5) << k;
+  }
 }
 
 TEST_F(Verifier, FindsForcesThatAreNotTheStresses) {
@@ -114,7 +139,7 @@ TEST_F(Verifier, ABodyThatIsOnlyMovedHasNoError) {
   pose_scene({.clearance_mm = 1});
   EXPECT_LT(worst_measure(verified()).value, 1e-9);
   // … but a stress that is not there in truth is one.
-  solution_.stress.assign(solution_.stress.size(), 0.1 * ElementStress::Ones());
+  solution_.stress.values().setConstant(0.1);
   EXPECT_GT(*verified().error_stress, 1e-4);
 }
 
@@ -186,7 +211,7 @@ TEST_F(WithoutAReference, SeesEveryPartOfAnAnswerThatIsWrong) {
   EXPECT_LT(worst(right), 1e-7);
   EXPECT_GT(after([](Solution& s) { s.F_C *= 1.001; }), 1e-5);
   EXPECT_GT(after([](Solution& s) {
-              for (ElementStress& stress : s.stress) stress *= 1.001;  // it balances but for F_C
+              s.stress.values() *= 1.001;  // it balances but for F_C
             }),
             1e-5);
   EXPECT_GT(after([](Solution& s) { s.edge_moments *= 1.001; }), 1e-5);
