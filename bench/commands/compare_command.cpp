@@ -32,10 +32,10 @@ Exit status  0  no regression
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Examples
-  ./run compare HEAD~1 HEAD --mesh=Mesh3 --method=HYBRID   # builds and runs both, in turn
+  {run} compare HEAD~1 HEAD --mesh=Mesh3 --method=HYBRID   # builds and runs both, in turn
   for i in 1 2 3 4 5 6; do old/bench/bench --out=a$i; build/release/bench/bench --out=b$i; done
-  bench compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
-  bench compare results/before results/after
+  {bench} compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
+  {bench} compare results/before results/after
 )";
 
 // Throws FileError if the runs differ in program or settings, or if one is repeated.
@@ -81,7 +81,7 @@ int compare_command(int argc, const char* const* argv) {
   std::filesystem::path out;
   double minimum_effect_percent = 3;
   CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
-               "bench compare");
+               "{bench} compare");
   app.footer(compare_footer);
   app.add_option("A", a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
       ->required();

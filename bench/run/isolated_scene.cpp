@@ -15,7 +15,7 @@
 #include "bench/measure/heap_probe.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/records/json.hpp"
-#include "bench/run/sign_of_life.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"

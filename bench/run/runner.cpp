@@ -19,7 +19,7 @@
 #include "bench/records/summary.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
-#include "bench/run/sign_of_life.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 #include "support/shortened.hpp"
