@@ -79,9 +79,10 @@ void declare_model_settings(CLI::App& app, Arguments& a) {
 
 void declare(CLI::App& app, Arguments& a) {
   const std::string what = "What to do, exactly one of";
-  app.add_option("--mesh", a.selection,
-                 "Make catalogue meshes again and compare them with the repository's: Mesh0..Mesh7, "
-                 "a list, a glob")
+  app.add_option(
+         "--mesh", a.selection,
+         "Make catalogue meshes again and compare them with the repository's: Mesh0..Mesh7, "
+         "a list, a glob")
       ->type_name("MESHES")
       ->group(what);
   app.add_flag("--check", a.check, "Compare the repository's meshes with the paper's Tab. 1")

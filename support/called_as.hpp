@@ -6,8 +6,8 @@
 
 namespace airybench {
 
-// "./run bench": as the script was typed ($AIRYBENCH_CALLED_AS), which starts this program; else the
-// program as it was typed, or the name of another. "run": the script itself.
+// "./run bench": as the script was typed ($AIRYBENCH_CALLED_AS), which starts this program; else
+// the program as it was typed, or the name of another. "run": the script itself.
 std::string called_as(std::string_view command);
 
 // The text with "{bench}", "{meshgen}" and "{run}" replaced by these.

@@ -1,19 +1,18 @@
 #include "support/sign_of_life.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cstdlib>
+#include <iostream>
 #include <sstream>
 #include <string_view>
-#include <utility>
+#include <system_error>
+#include <thread>
 
 #include "support/numbers.hpp"
 #include "support/seconds_since.hpp"
-#include "support/terminal.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -31,43 +30,34 @@ double most_silent_s() {
 }
 
 auto& last() {
-  static std::atomic<Clock::time_point> heard = Clock::now();
+  static Clock::time_point heard = Clock::now();
   return heard;
 }
+
+void print(const std::string& line) { std::cerr << line + "\n" << std::flush; }
 
 }  // namespace
 
 void sign_of_life(const std::function<std::string()>& what) {
   if (seconds_since(last()) < most_silent_s()) return;
-  std::string line = what() + "\n";
-  if (isatty(STDERR_FILENO) != 0) line = escaped_for_terminal(line);
-  // Not by a stream, whose lock a fork of another thread would keep.
-  if (write(STDERR_FILENO, line.data(), line.size()) < 0) return;
+  print(what());
   was_heard();
 }
 
 void was_heard() { last() = Clock::now(); }
 
-SignsOfLife::SignsOfLife(std::string what) {
-  was_heard();
-  thread_ = std::thread([this, text = std::move(what), start = Clock::now()] {
-    const std::chrono::duration<double> pause(std::min(most_silent_s(), 1.0));
-    std::unique_lock lock(mutex_);
-    while (!ended_.wait_for(lock, pause, [this] { return has_ended_; }))
-      sign_of_life([&] {
-        return fmt::format("{}{}, for {}", start_of_sign, text,
-                           show_duration(seconds_since(start)));
-      });
-  });
-}
-
-SignsOfLife::~SignsOfLife() {
-  {
-    const std::lock_guard lock(mutex_);
-    has_ended_ = true;
+SignsOfLife::SignsOfLife(const std::string& what) {
+  const auto tell = [&](Channel&) {
+    const Clock::time_point start = Clock::now();
+    for (;;) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(most_silent_s()));
+      print(fmt::format("{}{}, for {}", start_of_sign, what, show_duration(seconds_since(start))));
+    }
+  };
+  try {
+    process_.emplace(tell);
+  } catch (const std::system_error&) {  // what needs a process itself reports that there is none
   }
-  ended_.notify_one();
-  thread_.join();
 }
 
 std::string without_signs_of_life(const std::string& printed) {

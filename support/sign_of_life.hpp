@@ -1,11 +1,11 @@
 // What a user reads while nothing else is printed.
 #pragma once
 
-#include <condition_variable>
 #include <functional>
-#include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
+
+#include "support/process.hpp"
 
 namespace airybench {
 
@@ -14,19 +14,14 @@ namespace airybench {
 void sign_of_life(const std::function<std::string()>& what);
 void was_heard();  // a line has been printed
 
-// The same while it lives, by a thread, for work without a loop: "... WHAT, for 20 s".
+// Prints "... WHAT, for 20 s" as often while it lives, for work without a loop: by a child process,
+// since a thread would slow down all that is measured later. None if there is no process to be had.
 class SignsOfLife {
  public:
-  explicit SignsOfLife(std::string what);
-  ~SignsOfLife();
-  SignsOfLife(const SignsOfLife&) = delete;
-  SignsOfLife& operator=(const SignsOfLife&) = delete;
+  explicit SignsOfLife(const std::string& what);
 
  private:
-  std::mutex mutex_;
-  std::condition_variable ended_;
-  bool has_ended_ = false;
-  std::thread thread_;
+  std::optional<ChildProcess> process_;
 };
 // The text without such lines, of a program whose output is kept until it ends.
 std::string without_signs_of_life(const std::string& printed);

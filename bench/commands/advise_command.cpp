@@ -191,7 +191,8 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   return rows;
 }
 
-// " (P2 ties with it: ...)" for methods whose times are not apart from the best row's; rows: it first.
+// " (P2 ties with it: ...)" for methods whose times are not apart from the best row's; rows: it
+// first.
 std::string ties_of(const std::vector<Advice>& rows, double error) {
   const Record& best = rows.front().record;
   const auto shown = [](const Record& r) {

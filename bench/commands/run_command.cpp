@@ -69,7 +69,8 @@ void print_list(const std::vector<Method>& others) {
       "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
       "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE;\n"
       "      EXTERNAL:<name> of the declarations of --external;\n"
-      "      with --problem CONDENSED, the contact law alone by {}, and CONDENSED/contact=<solver>\n"
+      "      with --problem CONDENSED, the contact law alone by {}, and "
+      "CONDENSED/contact=<solver>\n"
       "contact solvers (--contact, {} by default): {}\n"
       "studies (--study):\n",
       name_of(ContactSolver::newton), name_of(ContactSolver::newton),
@@ -154,7 +155,8 @@ std::vector<Case> plan_of(const Options& options, std::vector<std::string>& shor
   std::vector<PosedScene> scenes = posed_scenes(options);
   if (!options.adapt.empty() && (options.dry_run || options.explain)) {
     check_adapting_method(options);
-    std::cerr << "note: --adapt: of the first level alone; the others are known when it is solved\n";
+    std::cerr
+        << "note: --adapt: of the first level alone; the others are known when it is solved\n";
   } else if (!options.adapt.empty()) {
     scenes = levels_of(scenes, options, short_of);
   }

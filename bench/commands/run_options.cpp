@@ -98,9 +98,10 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
   add_model_settings(app, options.model_settings);
   add_files(app, "--scene", options.scenes,
             "scene files or globs; default: the documented tooth or rack");
-  add_files(app, "--problem", options.problems,
-            "instead of meshes and scenes: condensed contact problems, FCLIB files or globs, by every "
-            "contact solver (CONDENSED: newton) or --contact");
+  add_files(
+      app, "--problem", options.problems,
+      "instead of meshes and scenes: condensed contact problems, FCLIB files or globs, by every "
+      "contact solver (CONDENSED: newton) or --contact");
   app.add_option("--adapt", texts.adapt,
                  "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
@@ -163,8 +164,9 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
                "go on with the run in the folder, of the same machine, program and options: run "
                "only the cases without a record")
       ->excludes(app.get_option("--append"));
-  app.add_option("--shard", texts.shard,
-                 "k/n: the k-th of n parts of the cases, for n machines ({bench} merge joins them)");
+  app.add_option(
+      "--shard", texts.shard,
+      "k/n: the k-th of n parts of the cases, for n machines ({bench} merge joins them)");
   app.add_flag("--fields", texts.fields,
                "stresses, displacements, contact points (*.csv, *.vtu), total errors; =mean: the "
                "mean with admissible stresses, too; =histories: of iterations, too");
@@ -183,9 +185,10 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
       ->excludes(app.get_option("--problem"))
       ->excludes(app.get_option("--adapt"));
   app.add_flag("--list", options.list, "print meshes, methods, contact solvers and studies");
-  app.add_flag("--dry-run", options.dry_run,
-               "print the cases, what they will take (from earlier records) and what is left out; with "
-               "--adapt of the first level");
+  app.add_flag(
+      "--dry-run", options.dry_run,
+      "print the cases, what they will take (from earlier records) and what is left out; with "
+      "--adapt of the first level");
   app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
 }
 

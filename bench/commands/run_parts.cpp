@@ -110,8 +110,8 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
     return "";
   };
   const auto is_path = [&](std::size_t k) { return result.record(k).load_steps.value_or(1) > 1; };
-  std::string mesh = last_mesh(
-      [&](std::size_t k) { return !is_named_after_catalogue(mesh_of(result.names[k])); });
+  std::string mesh =
+      last_mesh([&](std::size_t k) { return !is_named_after_catalogue(mesh_of(result.names[k])); });
   if (mesh.empty() && has_fields) mesh = last_mesh(is_path);
   if (mesh.empty()) return "";
   for (std::size_t k = 0; k < result.names.size(); ++k) {

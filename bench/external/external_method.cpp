@@ -240,8 +240,7 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
 // As with the default scene of the catalogue's meshes.
 bool is_without_G(const contact::Problem& problem, const Eigen::VectorXd& F) {
   constexpr double rounding = 1e-9;
-  return F.size() == problem.D.cols() &&
-         problem.G.norm() <= rounding * times(problem.D, F).norm();
+  return F.size() == problem.D.cols() && problem.G.norm() <= rounding * times(problem.D, F).norm();
 }
 
 // solve: the method whose contact law the program replaces. body: may be null.

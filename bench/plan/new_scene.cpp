@@ -97,15 +97,15 @@ Json values_to_fill_in(const std::string& label, const Walks& walks) {
 }
 
 void note_missing_roles(const Json& boundary, const std::string& name) {
-  for (const auto& [role, meaning] :
-       {std::pair("displacement", "it is held nowhere"), std::pair("contact", "it touches nothing")})
+  for (const auto& [role, meaning] : {std::pair("displacement", "it is held nowhere"),
+                                      std::pair("contact", "it touches nothing")})
     if (std::ranges::none_of(boundary.items(), [&](const auto& group) {
-          return parse_boundary_label(group.key())->role ==
-                 parse_boundary_label(role)->role;
+          return parse_boundary_label(group.key())->role == parse_boundary_label(role)->role;
         }))
-      std::cerr << fmt::format("note: {}: no curve has the role {}: {} (change one in roles, and its "
-                               "group in boundary)\n",
-                               name, role, meaning);
+      std::cerr << fmt::format(
+          "note: {}: no curve has the role {}: {} (change one in roles, and its "
+          "group in boundary)\n",
+          name, role, meaning);
 }
 
 }  // namespace

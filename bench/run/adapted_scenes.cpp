@@ -12,7 +12,6 @@
 #include "bench/records/json.hpp"
 #include "bench/run/adaptive_loop.hpp"
 #include "bench/run/isolated_scene.hpp"
-#include "support/sign_of_life.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
@@ -21,6 +20,7 @@
 #include "support/seconds_since.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 

@@ -225,16 +225,16 @@ Verification verify(const DualSystem& system, const Solution& solution,
 namespace {
 
 // A program's force at a vertex of two edges without friction may have any direction between their
-// normals: its law need not have their mean n, and its nodal forces, in Bernstein coefficients, have
-// another direction. What remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from n to
-// an edge's normal.
+// normals: its law need not have their mean n, and its nodal forces, in Bernstein coefficients,
+// have another direction. What remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from
+// n to an edge's normal.
 double beyond_both_normals(const Problem& problem, const ControlPoints& control, int p, double F_n,
                            double t) {
   const int row = control.law.boundary[p];
   const std::array<int, 3> nodes = boundary_nodes(problem, row);
   const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
-  const Eigen::Vector2d of_edge = control.frame(p).transpose() *
-                                  problem.frame_at_node(row, static_cast<int>(k)).normal;
+  const Eigen::Vector2d of_edge =
+      control.frame(p).transpose() * problem.frame_at_node(row, static_cast<int>(k)).normal;
   return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * std::abs(of_edge.y() / of_edge.x()));
 }
 

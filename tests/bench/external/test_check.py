@@ -129,11 +129,12 @@ class Check(unittest.TestCase):
         self.assertEqual(ran.returncode, 0)
         self.assertNotIn(said, ran.stdout)
 
-    def test_a_crash_is_named_before_what_its_case_is_made_for(self) -> None:
-        code, lines, out = self.check("CRASH")
-        self.assertEqual(code, 1)
+    def test_the_error_is_named_before_what_its_case_is_made_for(self) -> None:
+        _, lines, out = self.check("CRASH")
+        self.assertRegex(lines["08_no_friction"], r"crashed +mine ended with exit code 3$", out)
+        _, lines, out = self.check("always_two_components")
         self.assertRegex(lines["08_no_friction"],
-                         r"crashed +mine ended with exit code 3.* \(F_C has one row per point")
+                         r"breakdown +its answer: .* \(F_C has one row per point, the normal force.\)$")
 
     def test_a_new_program_overwrites_nothing(self) -> None:
         for there in ("mine.py", "mine.json"):

@@ -195,7 +195,8 @@ TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
   const std::string none = "\"displacement_mm\": [0, 0]";
   pressed.replace(pressed.find(none), none.size(), "\"displacement_mm\": [0.01, 0]");
   testing::write_text(bench_.path("pressed.json"), pressed);
-  const testing::CommandResult ran = run("--mesh=part.geo --scene=pressed.json " + quick + "--out=o");
+  const testing::CommandResult ran =
+      run("--mesh=part.geo --scene=pressed.json " + quick + "--out=o");
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_EQ(ran.err.find("no wall"), std::string::npos) << ran.err;
   EXPECT_LT(bench_.record()["normal_resultant_N"].get<double>(), -1);
@@ -214,9 +215,10 @@ TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
   testing::write_text(bench_.path("shoe.geo"), text);
   const testing::CommandResult result = run("--new-scene=shoe.geo");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.err,
-            "note: shoe.json: no curve has the role displacement: it is held nowhere (change one in "
-            "roles, and its group in boundary)\n");
+  EXPECT_EQ(
+      result.err,
+      "note: shoe.json: no curve has the role displacement: it is held nowhere (change one in "
+      "roles, and its group in boundary)\n");
   const Json scene = Json::parse(bench_.content("shoe.json"));
   EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:Contact_sole"}, {"top", "force:top"}}))
       << scene;
@@ -234,7 +236,8 @@ Physical Curve("displacement") = {4};
 Physical Curve("contact") = {5, 6};
 )");
   ASSERT_EQ(run("--new-scene=plate.geo").code, 0);
-  const Json pin = Json::parse(bench_.content("plate.json"))["boundary"]["contact"]["wall"]["circle"];
+  const Json pin =
+      Json::parse(bench_.content("plate.json"))["boundary"]["contact"]["wall"]["circle"];
   EXPECT_EQ(pin["bodies"], "outside");
   EXPECT_EQ(pin["centre_mm"], Json({3., 3.}));
   EXPECT_NEAR(pin["radius_mm"].get<double>(), 0.97, 0.03);
@@ -290,8 +293,9 @@ TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
 TEST_F(ModelRuns, EndsByNamingTheFilesOfAPathOfLoadSteps) {
   testing::write_text(bench_.path("path.json"), R"({"load_steps": 2})");
   const std::string said = "export AIRYBENCH_CACHE_DIR=cache AIRYBENCH_CALLED_AS=./run ";
-  const std::string moving = "numbers of every step: o/fields/Mesh0--path--HYBRID.steps.csv\n"
-                             "moving picture: ./run figures o --animate\n";
+  const std::string moving =
+      "numbers of every step: o/fields/Mesh0--path--HYBRID.steps.csv\n"
+      "moving picture: ./run figures o --animate\n";
   const auto run_path = [&](const std::string& then) {
     return bench_
         .run("--mesh=Mesh0 --scene=path.json " + quick + "--fields --out=o",
@@ -299,15 +303,17 @@ TEST_F(ModelRuns, EndsByNamingTheFilesOfAPathOfLoadSteps) {
         .out;
   };
   const std::string drawn_later = run_path(":");
-  EXPECT_TRUE(drawn_later.ends_with("ParaView: o/fields/Mesh0--path--HYBRID.pvd  (a picture: ./run "
-                                    "figures o)\n" +
-                                    moving))
+  EXPECT_TRUE(
+      drawn_later.ends_with("ParaView: o/fields/Mesh0--path--HYBRID.pvd  (a picture: ./run "
+                            "figures o)\n" +
+                            moving))
       << drawn_later;
   const std::string drawn = run_path(
       "f() { mkdir -p $1/figures; touch $1/figures/load_path_Mesh0--path--HYBRID.png; }; f");
-  EXPECT_TRUE(drawn.ends_with("picture: o/figures/load_path_Mesh0--path--HYBRID.png  (ParaView: "
-                              "o/fields/Mesh0--path--HYBRID.pvd)\n" +
-                              moving))
+  EXPECT_TRUE(
+      drawn.ends_with("picture: o/figures/load_path_Mesh0--path--HYBRID.png  (ParaView: "
+                      "o/fields/Mesh0--path--HYBRID.pvd)\n" +
+                      moving))
       << drawn;
   EXPECT_NE(drawn.find("error total"), std::string::npos) << drawn;  // the record has one
 }
