@@ -5,8 +5,11 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iostream>
+#include <set>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -37,13 +40,29 @@ std::string length_unit_of(const Options& options) {
   return "mm";
 }
 
+// "sole" of "Contact_sole".
+std::string part_of(const std::string& name, const std::string& role) {
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  std::string part = name;
+  const auto at = std::search(part.begin(), part.end(), role.begin(), role.end(), same);
+  part.erase(at, at + std::min(part.end() - at, std::ssize(role)));
+  const auto is_part = [](char c) {
+    return c < 0 || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
+  part.erase(part.begin(), std::ranges::find_if(part, is_part));
+  while (!part.empty() && !is_part(part.back())) part.pop_back();
+  return part;
+}
+
 // A curve that is given no role is addressed by its name, with the role that this may mean.
 std::string label_of(const Json& curve) {
   const std::string role = curve["role"], perhaps = curve["perhaps"];
   const std::vector<std::string> names = curve["names"];
   const bool is_given = role != "force" || std::ranges::find(names, role) != names.end();
   if (is_given || names.empty()) return role;
-  return fmt::format("{}:{}", perhaps.empty() ? role : perhaps, names.front());
+  if (perhaps.empty()) return fmt::format("{}:{}", role, names.front());
+  const std::string part = part_of(names.front(), perhaps);
+  return part.empty() ? perhaps : fmt::format("{}:{}", perhaps, part);
 }
 
 // Without the rounding of a mesher.
@@ -97,15 +116,17 @@ Json values_to_fill_in(const std::string& label, const Walks& walks) {
 }
 
 void note_missing_roles(const Json& boundary, const std::string& name) {
-  for (const auto& [role, meaning] : {std::pair("displacement", "it is held nowhere"),
-                                      std::pair("contact", "it touches nothing")})
-    if (std::ranges::none_of(boundary.items(), [&](const auto& group) {
-          return parse_boundary_label(group.key())->role == parse_boundary_label(role)->role;
-        }))
-      std::cerr << fmt::format(
-          "note: {}: no curve has the role {}: {} (change one in roles, and its "
-          "group in boundary)\n",
-          name, role, meaning);
+  std::set<BoundaryRole> there;
+  for (const auto& group : boundary.items()) there.insert(parse_boundary_label(group.key())->role);
+  const auto note = [&](BoundaryRole role, const char* meaning) {
+    if (there.contains(role)) return;
+    const std::string_view word = boundary_role_names[static_cast<std::size_t>(role)];
+    std::cerr << fmt::format(
+        "note: {}: no curve has the role {}: {} (--role=CURVE={} next to --new-scene gives it)\n",
+        name, word, meaning, word);
+  };
+  note(BoundaryRole::displacement, "it is held nowhere");
+  note(BoundaryRole::contact, "it touches nothing");
 }
 
 }  // namespace

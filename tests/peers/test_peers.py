@@ -67,8 +67,8 @@ class PeerTest(ExportingTest):
         self.assertLessEqual(len(wrong), 1, wrong)
 
     def test_the_harness_finds_no_mistake_in_it(self) -> None:
-        if self.peer["name"] in SUCCESS_IS_NO_PROOF or "hybrid" in self.peer["name"]:
-            self.skipTest("its mistakes are known, or it takes no body without a solution")
+        if self.peer["name"] in SUCCESS_IS_NO_PROOF:
+            self.skipTest("it goes wrong at times")
         ran = subprocess.run([BENCH, f"--check={self.declaration}"], capture_output=True, text=True,
                              check=False)
         self.assertEqual(0, ran.returncode, ran.stdout + ran.stderr)

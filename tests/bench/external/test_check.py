@@ -13,6 +13,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
+
 BENCH = os.environ["AIRYBENCH_BENCH"]
 MISTAKEN = Path(__file__).resolve().parent / "mistaken.py"
 # Mistake -> the case that is made for it, and what is said there.
@@ -93,11 +95,12 @@ class Check(unittest.TestCase):
         made = self.bench("--new-external=mine")
         if "this build is without" in made.stderr:
             self.skipTest(made.stderr)
-        data = Path(__file__).resolve().parents[2] / "data/fclib"
-        ran = self.bench(f"--problem={data / 'siconos_00071.hdf5'}", "--external=mine.json",
-                         "--method=EXTERNAL:*", "--repetitions=1", "--out=o")
-        self.assertEqual(ran.returncode, 1, ran.stdout + ran.stderr)
-        self.assertIn("3 components per contact point (allowed: 1 or 2, in the plane)", ran.stdout)
+        np.savez(self.folder / "problem.npz", D=np.eye(6), G=np.zeros(6), gap=-np.ones(6), mu=np.ones(2))
+        subprocess.run([sys.executable, "mine.py", ".", "."], cwd=self.folder, check=True)
+        answer = json.loads((self.folder / "answer.json").read_text(encoding="utf-8"))
+        self.assertEqual((answer["status"], answer["message"]),
+                         ("breakdown", "3 components per contact point (allowed: 1 or 2, in the plane)"))
+        self.assertFalse((self.folder / "F_C.npy").exists())
 
     def test_what_a_new_program_is_printed_with_finds_its_mistakes(self) -> None:
         made = subprocess.run([BENCH, "--new-external=mine"], capture_output=True, text=True,

@@ -215,14 +215,13 @@ TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
   testing::write_text(bench_.path("shoe.geo"), text);
   const testing::CommandResult result = run("--new-scene=shoe.geo");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(
-      result.err,
-      "note: shoe.json: no curve has the role displacement: it is held nowhere (change one in "
-      "roles, and its group in boundary)\n");
+  EXPECT_EQ(result.err,
+            "note: shoe.json: no curve has the role displacement: it is held nowhere "
+            "(--role=CURVE=displacement next to --new-scene gives it)\n");
   const Json scene = Json::parse(bench_.content("shoe.json"));
-  EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:Contact_sole"}, {"top", "force:top"}}))
+  EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:sole"}, {"top", "force:top"}}))
       << scene;
-  EXPECT_TRUE(scene["boundary"]["contact:Contact_sole"].contains("wall")) << scene;
+  EXPECT_TRUE(scene["boundary"]["contact:sole"].contains("wall")) << scene;
 }
 
 TEST_F(ModelRuns, ANewSceneHasAPinForAHole) {

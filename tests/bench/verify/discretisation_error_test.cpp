@@ -184,7 +184,7 @@ TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWal
   Scene scene{.friction = 0};
   scene.crown_radius_mm.reset();
   for (const char* group : {"force:flank", "force:side"})
-    scene.boundary[group].pressure_MPa = {{pressure_MPa, pressure_MPa}};
+    scene.boundary[group].pressure_MPa.emplace().values.fill(pressure_MPa);
   const auto problem = std::make_shared<const Problem>(
       pose(scene, read_msh(testing::source_folder() / "bench/scenes/check/block.msh")));
   const DualSystem system = assemble(problem, Blocks::contact_points);
