@@ -133,7 +133,7 @@ void check_loads(const Scene& scene, const std::string& prefix, const BoundaryCo
 }
 
 void check_faces(const Scene& scene) {
-  constexpr const char* why = "without a wall (allowed: beside one)";
+  constexpr const char* why = "without a wall (allowed: with one)";
   bool used = scene.wall.has_value();
   for (const auto& [label, values] : scene.boundary) {
     used |= values.contact.wall.has_value();

@@ -9,6 +9,7 @@
 #include <set>
 #include <sstream>
 
+#include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/file_text.hpp"
 
@@ -235,8 +236,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   const double version = reader.field<double>("the format's version");
   const int binary = reader.field<int>("the file type");
   if (!(version >= 2 && version < 3) || binary != 0)
-    reader.fail<ForeignMeshError>(
-        "only MSH 2 in ASCII is read here; convert with `meshgen --convert`");
+    reader.fail<ForeignMeshError>("only MSH 2 in ASCII is read here; convert with `" +
+                                  called_as("meshgen") + " --convert`");
   reader.expect("$EndMeshFormat");
   reader.expect("$PhysicalNames");
   const PhysicalGroups groups = read_physical_names(reader, mesh);
@@ -246,8 +247,8 @@ Mesh read_msh(std::istream& in, const std::string& file_name) {
   read_elements(reader, groups, vertex_of_node, mesh);
   if (!reader.at_end()) {
     reader.next_line("the end of the file");
-    reader.fail<ForeignMeshError>(
-        "unexpected section after $EndElements; convert with `meshgen --convert`");
+    reader.fail<ForeignMeshError>("unexpected section after $EndElements; convert with `" +
+                                  called_as("meshgen") + " --convert`");
   }
   mesh.name = file_name;  // until it is known to be good, the file is the name to complain about
   try {

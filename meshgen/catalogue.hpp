@@ -46,7 +46,7 @@ inline constexpr double catalogue_least_angle_deg = 20;
 // Throws std::invalid_argument for a name not in the catalogue.
 const CatalogueRow& catalogue_row(std::string_view name);
 
-// Makes the mesh anew; needs a GmshSession. Throws as tooth_mesh does.
+// Makes the mesh again; needs a GmshSession. Throws as tooth_mesh does.
 Mesh make_catalogue_mesh(const CatalogueRow& row);
 
 }  // namespace airybench

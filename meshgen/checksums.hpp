@@ -1,4 +1,4 @@
-// SHA256SUMS beside mesh files, as `sha256sum -c` reads it: "<64 hexadecimal digits>  <file>".
+// SHA256SUMS next to mesh files, as `sha256sum -c` reads it: "<64 hexadecimal digits>  <file>".
 #pragma once
 
 #include <filesystem>

@@ -65,7 +65,7 @@ int remake_command(const std::string& selection, const std::filesystem::path& re
   for (const std::string& name : names)
     if (is_mesh_file(name))
       throw std::invalid_argument(
-          fmt::format("--mesh: '{}' is a file; only Mesh0..Mesh7 can be made anew", name));
+          fmt::format("--mesh: '{}' is a file; only Mesh0..Mesh7 can be made again", name));
   if (out) std::filesystem::create_directories(*out);
 
   const GmshSession session;

@@ -14,12 +14,12 @@
 
 namespace airybench {
 
-// Makes catalogue meshes anew and compares them with the files in `repository`; writes them and
+// Makes catalogue meshes again and compares them with the files in `repository`; writes them and
 // SHA256SUMS to `out` if given (made when missing).
 int remake_command(const std::string& selection, const std::filesystem::path& repository,
                    const std::optional<std::filesystem::path>& out);
 
-// Prints the files of `repository` beside the paper's Tab. 1.
+// Prints the files of `repository` next to the paper's Tab. 1.
 int check_command(const std::filesystem::path& repository);
 
 // Writes one tooth or rack of the user's own dimensions.

@@ -12,8 +12,10 @@
 #include "mesh/model_settings.hpp"
 #include "meshgen/commands.hpp"
 #include "meshgen/complaints.hpp"
+#include "support/called_as.hpp"
 #include "support/data_folder.hpp"
 #include "support/numbers.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/terminal.hpp"
 #include "support/this_process.hpp"
 
@@ -77,9 +79,10 @@ void declare_model_settings(CLI::App& app, Arguments& a) {
 
 void declare(CLI::App& app, Arguments& a) {
   const std::string what = "What to do, exactly one of";
-  app.add_option("--mesh", a.selection,
-                 "Make catalogue meshes anew and compare them with the repository's: Mesh0..Mesh7, "
-                 "a list, a glob")
+  app.add_option(
+         "--mesh", a.selection,
+         "Make catalogue meshes again and compare them with the repository's: Mesh0..Mesh7, "
+         "a list, a glob")
       ->type_name("MESHES")
       ->group(what);
   app.add_flag("--check", a.check, "Compare the repository's meshes with the paper's Tab. 1")
@@ -193,8 +196,15 @@ void check_usage(const CLI::App& app, const Arguments& a) {
           name));
 }
 
+std::string subject_of(const Arguments& a) {
+  for (const std::string& given : {a.model, a.to_show, a.to_modify, a.selection})
+    if (!given.empty()) return given;
+  return a.tooth ? a.out : "the repository's meshes";
+}
+
 int run(const CLI::App& app, const Arguments& a) {
   check_usage(app, a);
+  const airybench::SignsOfLife signs("meshgen works on " + subject_of(a));
   if (a.check) return airybench::check_command(a.repository);
   if (a.tooth)
     return airybench::tooth_command(
@@ -222,13 +232,13 @@ std::string valid_options(const CLI::App& app) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app("Makes, checks and converts the meshes of airybench.", "meshgen");
+  CLI::App app("Makes, checks and converts the meshes of airybench.", "{meshgen}");
   Arguments arguments;
   declare(app, arguments);
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    std::cout << app.help();
+    std::cout << airybench::with_commands(app.help());
     return 0;
   } catch (const CLI::ParseError& error) {
     return airybench::complain(fmt::format("{} (valid: {})", error.what(), valid_options(app)),

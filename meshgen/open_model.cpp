@@ -15,6 +15,7 @@
 #include "meshgen/gmsh_input.hpp"
 #include "meshgen/plane_model.hpp"
 #include "meshgen/quiet_stdout.hpp"
+#include "support/called_as.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
@@ -281,7 +282,8 @@ OpenModel::OpenModel(const std::filesystem::path& file, const ModelOptions& opti
     refuse_crossing_lines();
     generate(options, about_to_mesh);
   } else if (options.size_factor || options.longest_edge_mm) {
-    throw InputError("--mesh-size: it has a mesh already (bench --adapt refines one)");
+    throw InputError(fmt::format("--mesh-size: it has a mesh already ({} --adapt refines one)",
+                                 called_as("bench")));
   }
 }
 

@@ -56,22 +56,6 @@ std::string lower(std::string text) {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-// The role that a name may mean: "contct", "Contact", "forces", "contact_left", "left contact".
-// Empty: none.
-std::string role_meant_by(const std::string& name) {
-  std::vector<std::string> words(1);
-  for (const char c : lower(name)) {
-    if (is_letter(c))
-      words.back() += c;
-    else if (!words.back().empty())
-      words.emplace_back();
-  }
-  for (const std::string& word : words)
-    for (const std::string_view role : boundary_role_names)
-      if (word.starts_with(role) || word.ends_with(role)) return std::string(role);
-  return nearest_of(words.front(), {boundary_role_names.begin(), boundary_role_names.end()});
-}
-
 class Giver {
  public:
   Giver(std::vector<ModelCurve>& curves, const std::map<std::string, std::string>& roles)
@@ -158,6 +142,20 @@ class Giver {
 };
 
 }  // namespace
+
+std::string role_meant_by(const std::string& name) {
+  std::vector<std::string> words(1);
+  for (const char c : lower(name)) {
+    if (is_letter(c))
+      words.back() += c;
+    else if (!words.back().empty())
+      words.emplace_back();
+  }
+  for (const std::string& word : words)
+    for (const std::string_view role : boundary_role_names)
+      if (word.starts_with(role) || word.ends_with(role)) return std::string(role);
+  return nearest_of(words.front(), {boundary_role_names.begin(), boundary_role_names.end()});
+}
 
 void give_roles(PlaneModel& model, const ModelOptions& options, std::vector<std::string>& notes) {
   Giver(model.curves, options.roles).give(notes);

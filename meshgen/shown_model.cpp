@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "meshgen/roles.hpp"
 #include "support/text_table.hpp"
 
 namespace airybench {
@@ -46,6 +47,14 @@ std::string table_of(const PlaneModel& model) {
   return table;
 }
 
+// The role that its names may mean, if it is given none.
+static std::string perhaps_of(const ModelCurve& curve) {
+  if (curve.is_unnamed_role)
+    for (const std::string& name : curve.names)
+      if (const std::string role = role_meant_by(name); !role.empty()) return role;
+  return "";
+}
+
 std::string json_of(const PlaneModel& model, const std::string& name) {
   using Json = nlohmann::ordered_json;
   const auto pair = [](const Eigen::Vector2d& p) { return Json::array({p.x(), p.y()}); };
@@ -73,6 +82,7 @@ std::string json_of(const PlaneModel& model, const std::string& name) {
     json["curves"].push_back({{"number", curve.number},
                               {"names", curve.names},
                               {"role", curve.label},
+                              {"perhaps", perhaps_of(curve)},
                               {"walks_mm", std::move(walks)}});
   }
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -147,8 +147,8 @@ CheckReport conclude(std::vector<Compared>& all) {
                                                               : c.unnamed;
     if (c.seen.name == tiny_case && !c.seen.passed && passed(same_as_tiny))
       c.seen.looks_like = "an absolute tolerance: with a billion times the loads it is right";
-    else if (!c.seen.passed && c.like.empty() && c.seen.verdict != "inaccurate" && !c.about.empty())
-      c.seen.looks_like = c.about + " " + c.seen.looks_like;
+    else if (!c.seen.passed && c.like.empty() && c.seen.verdict == "breakdown" && !c.about.empty())
+      c.seen.looks_like = fmt::format("{} ({})", c.seen.looks_like, c.about);
     report.cases.push_back(c.seen);
   }
   return report;

@@ -14,12 +14,14 @@
 #include "bench/plan/mesh_files.hpp"
 #include "bench/records/csv.hpp"
 #include "bench/records/record_files.hpp"
+#include "bench/records/summary.hpp"
 #include "bench/report/prediction.hpp"
 #include "bench/run/adapted_scenes.hpp"
 #include "bench/run/runner.hpp"
 #include "bench/run/threads_at_hand.hpp"
 #include "solvers/methods.hpp"
 #include "support/atomic_file.hpp"
+#include "support/called_as.hpp"
 #include "support/shortened.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
@@ -38,8 +40,8 @@ Exit status  0  a measured row meets the error
              2  wrong usage, or a file that cannot be used: one line on standard error
 
 Examples
-  bench advise --mesh=Mesh0 --error=0.5%
-  bench advise --mesh=part.geo --scene=load.json --error=1% --out=results/part
+  {bench} advise --mesh=Mesh0 --error=0.5%
+  {bench} advise --mesh=part.geo --scene=load.json --error=1% --out=results/part
 )";
 
 constexpr const char* candidates = "HYBRID,P2,BLIND:SCHUR,BLIND:SCHUR:REFINED,3STEPD";
@@ -57,7 +59,7 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   options.repetitions = 3;
   std::string error;
   CLI::App app("Which mesh and method give a total error, how long they take, in how much memory.",
-               "bench advise");
+               "{bench} advise");
   app.footer(advise_footer);
   add_one_body(app, options);
   app.add_option("--error", error, "total error, relative: 1%")->required();
@@ -93,7 +95,7 @@ struct Advice {
 
 // The command reads the level's mesh file or, if is_adapted, adapts the given mesh again.
 std::string command_of(const Options& options, const Record& r, bool is_adapted) {
-  std::string text = called_as() + " --mesh=";
+  std::string text = called_as("bench") + " --mesh=";
   if (is_adapted || r.adapt_level == 0) {
     text += shell_word(options.meshes);
     for (const std::string& setting : options.model_settings) text += " " + shell_word(setting);
@@ -189,6 +191,23 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   return rows;
 }
 
+// " (P2 ties with it: ...)" for methods whose times are not apart from the best row's; rows: it
+// first.
+std::string ties_of(const std::vector<Advice>& rows, double error) {
+  const Record& best = rows.front().record;
+  const auto shown = [](const Record& r) {
+    return fmt::format("{} ± {}", show_seconds(r.time_s), show_seconds(r.time_mad_s));
+  };
+  std::string ties;
+  for (const Advice& row : rows) {
+    const Record& r = row.record;
+    if (&row == &rows.front() || !row.meets(error) || r.mesh != best.mesh || !times_tie(best, r))
+      continue;
+    ties += fmt::format("{}{}, {}", ties.empty() ? "" : "; ", r.method, shown(r));
+  }
+  return ties.empty() ? "" : fmt::format(" ({}; ties with it: {})", shown(best), ties);
+}
+
 std::string table_of(const std::vector<Advice>& rows) {
   std::vector<std::vector<std::string>> cells = {
       {"mesh", "method", "n_phi", "error total", "time", "adapted in", "heap", "basis"}};
@@ -268,8 +287,8 @@ int advise_command(int argc, const char* const* argv) {
     return some_case_failed;
   }
   const Record& best = rows.front().record;
-  fmt::print("best: {}, {}:\n  {}\nalso in {}\n", best.mesh, best.method, rows.front().command,
-             (options.out / "advice.csv").string());
+  fmt::print("best: {}, {}{}:\n  {}\nalso in {}\n", best.mesh, best.method, ties_of(rows, goal),
+             rows.front().command, (options.out / "advice.csv").string());
 
   const auto planned = std::ranges::find_if(plan, [&](const Case& c) {
     return c.method.name == best.method && mesh_name_of(c.posed.problem) == best.mesh;

@@ -10,6 +10,7 @@
 #include "bench/external/new_external.hpp"
 #include "bench/measure/environment.hpp"
 #include "bench/run/threads_at_hand.hpp"
+#include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
@@ -46,11 +47,14 @@ int check_external(Options options) {
 int new_external(const Options& options) {
   const auto files = write_new_external(options.new_external);
   const std::string declaration = shell_word(files.back().string());
+  const std::string bench = called_as("bench");
   fmt::print(
       "{} and {} written: a program that is right as it is. Change its contact_forces(), then:\n"
-      "  bench --check={}\n"
-      "  bench --mesh=Mesh0 --method='HYBRID,EXTERNAL:*' --external={}\n",
-      files.front().string(), files.back().string(), declaration, declaration);
+      "  {} --check={}    (small cases that each find one mistake)\n"
+      "  {} --study=check --method='HYBRID,EXTERNAL:*' --external={}    (its time, next to ours)\n"
+      "Do not test with the default scene of Mesh0 to Mesh7: G is zero but for rounding there, so\n"
+      "that a wrong sign of it passes.\n",
+      files.front().string(), files.back().string(), bench, declaration, bench, declaration);
   return all_ok;
 }
 

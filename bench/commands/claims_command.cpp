@@ -29,7 +29,7 @@ Exit status  0  whatever the verdicts
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Example
-  bench claims results/paper --stop=target --out=results/paper/claims.md
+  {bench} claims results/paper --stop=target --out=results/paper/claims.md
 )";
 
 std::string cell(const std::vector<std::string>& lines) {
@@ -68,7 +68,7 @@ int claims_command(int argc, const char* const* argv) {
   std::filesystem::path folder, out;
   std::string stop = "target";
   CLI::App app("The paper's sentences on time and memory, held against the records of a run.",
-               "bench claims");
+               "{bench} claims");
   app.footer(claims_footer);
   app.add_option("DIR", folder, "folder with records.jsonl")->required();
   app.add_option("--stop", stop, "records of which stop of the iterative methods")

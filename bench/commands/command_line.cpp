@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "mesh/model_settings.hpp"
+#include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"
 #include "support/numbers.hpp"
@@ -36,7 +37,7 @@ void parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::CallForHelp&) {
-    throw HelpRequested(app.help());
+    throw HelpRequested(with_commands(app.help()));
   } catch (const CLI::CallForVersion&) {
     throw HelpRequested(app.version() + "\n");
   } catch (const CLI::ExtrasError& error) {

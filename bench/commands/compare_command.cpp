@@ -13,6 +13,7 @@
 #include "support/atomic_file.hpp"
 #include "support/errors.hpp"
 #include "support/lists.hpp"
+#include "support/shortened.hpp"
 #include "support/this_process.hpp"
 
 namespace airybench {
@@ -32,10 +33,10 @@ Exit status  0  no regression
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Examples
-  ./run compare HEAD~1 HEAD --mesh=Mesh3 --method=HYBRID   # builds and runs both, in turn
+  {run} compare HEAD~1 HEAD --mesh=Mesh3 --method=HYBRID   # builds and runs both, in turn
   for i in 1 2 3 4 5 6; do old/bench/bench --out=a$i; build/release/bench/bench --out=b$i; done
-  bench compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
-  bench compare results/before results/after
+  {bench} compare a1,a2,a3,a4,a5,a6 b1,b2,b3,b4,b5,b6 --out=comparison.md
+  {bench} compare results/before results/after
 )";
 
 // Throws FileError if the runs differ in program or settings, or if one is repeated.
@@ -77,23 +78,29 @@ std::string cases_of(const Runs& runs) {
 }  // namespace
 
 int compare_command(int argc, const char* const* argv) {
-  std::string a, b;
+  std::string a, b, names;
   std::filesystem::path out;
   double minimum_effect_percent = 3;
   CLI::App app("Two programs' runs of the same cases: which have become slower or faster.",
-               "bench compare");
+               "{bench} compare");
   app.footer(compare_footer);
   app.add_option("A", a, "folders with records.jsonl, a run each, before: DIR[,DIR...]")
       ->required();
   app.add_option("B", b, "and after")->required();
   add_number(app, "--minimum-effect", Least::zero, 1000, minimum_effect_percent,
              "per cent: smaller changes of a time are no change");
+  app.add_option("--names", names, "A,B: what they are, for the first line");
   app.add_option("--out", out, "also write the comparison to this file, *.md or *.json");
   parse_command_line(app, argc, argv);
   if (out.empty()) require_standard_output();
   if (!out.empty() && out.extension() != ".md" && out.extension() != ".json")
     throw UsageError(
         fmt::format("--out: {} (allowed: a name that ends in .md or .json)", out.string()));
+
+  const std::vector<std::string> called =
+      names.empty() ? std::vector<std::string>() : split_list(names);
+  if (!called.empty() && called.size() != 2)
+    throw UsageError(fmt::format("--names: {} (allowed: two names)", shortened(names)));
 
   CompareRules rules;
   rules.minimum_effect = minimum_effect_percent / 100;
@@ -102,7 +109,9 @@ int compare_command(int argc, const char* const* argv) {
   if (comparison.cases.empty())
     throw UsageError(fmt::format("{} and {}: no case is in both ({}; {})", a, b, cases_of(before),
                                  cases_of(after)));
-  const std::string title = fmt::format("A: {}, B: {}", a, b);
+  const std::string title =
+      fmt::format("A: {} ({} runs), B: {} ({} runs)", called.empty() ? a : called.front(),
+                  before.size(), called.empty() ? b : called.back(), after.size());
   if (out.extension() == ".md") write_file_atomically(out, title + "\n\n" + comparison.markdown());
   if (out.extension() == ".json")
     write_file_atomically(out, indented_json_text(comparison.json(), 1) + "\n");

@@ -31,7 +31,7 @@ Exit status  0  written, whatever the cases' statuses
              2  wrong usage, or records that cannot be read: one line on standard error
 
 Example
-  bench export results/latest --format=bencher --out=bmf.json
+  {bench} export results/latest --format=bencher --out=bmf.json
 )";
 
 const std::vector<std::pair<std::string, std::string (*)(const std::vector<Record>&)>> formats = {
@@ -60,7 +60,7 @@ std::vector<Record> cases_of_history(const std::filesystem::path& folder) {
 int export_command(int argc, const char* const* argv) {
   std::filesystem::path folder, out;
   std::string format;
-  CLI::App app("The records of a run in the format of another tool.", "bench export");
+  CLI::App app("The records of a run in the format of another tool.", "{bench} export");
   app.footer(export_footer);
   app.add_option("DIR", folder, "folder with records.jsonl, or for csv with nights/")->required();
   app.add_option("--format", format, "of the formats below")

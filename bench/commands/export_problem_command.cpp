@@ -23,7 +23,7 @@ Exit status  0  written
              2  wrong usage, or a problem that cannot be exported: one line on standard error
 
 Example
-  bench export-problem --mesh=Mesh0 --format=npz --out=Mesh0-problem
+  {bench} export-problem --mesh=Mesh0 --format=npz --out=Mesh0-problem
 )";
 
 }  // namespace
@@ -32,7 +32,7 @@ int export_problem_command(int argc, const char* const* argv) {
   Options options;
   options.dry_run = true;  // no keep_models()
   std::string format;
-  CLI::App app("A problem's matrices, for your own solvers.", "bench export-problem");
+  CLI::App app("A problem's matrices, for your own solvers.", "{bench} export-problem");
   app.footer(export_problem_footer);
   add_one_body(app, options);
   app.add_option("--format", format, "of the formats below")->required();

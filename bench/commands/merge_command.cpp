@@ -34,8 +34,8 @@ Exit status  0  joined
              2  refused, wrong usage, or records that cannot be read: one line on standard error
 
 Example
-  bench --shard=1/2 --out=part1    (and on another machine --shard=2/2 --out=part2)
-  bench merge part1 part2 --out=results/whole
+  {bench} --shard=1/2 --out=part1    (and on another machine --shard=2/2 --out=part2)
+  {bench} merge part1 part2 --out=results/whole
 )";
 
 struct MergeOptions {
@@ -47,7 +47,7 @@ struct MergeOptions {
 MergeOptions parse_merge(int argc, const char* const* argv) {
   MergeOptions options;
   CLI::App app("Joins the shards of a run, or several runs, into one results folder.",
-               "bench merge");
+               "{bench} merge");
   app.footer(merge_footer);
   app.add_option("DIR", options.folders, "folders with records.jsonl")->required();
   app.add_option("--out", options.out, "folder of the whole")->required();

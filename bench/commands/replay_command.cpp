@@ -37,7 +37,7 @@ struct ReplayOptions {
 
 ReplayOptions parse_replay(int argc, const char* const* argv) {
   ReplayOptions options;
-  CLI::App app("Runs one recorded case again, as it was run then.", "bench replay");
+  CLI::App app("Runs one recorded case again, as it was run then.", "{bench} replay");
   app.footer(replay_footer);
   app.add_option("RECORD", options.record, "which")->required();
   app.add_option("--out", options.out, "folder of the new record")->capture_default_str();

@@ -28,6 +28,7 @@
 #include "bench/run/threads_at_hand.hpp"
 #include "mesh/selection.hpp"
 #include "solvers/methods.hpp"
+#include "support/called_as.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 
@@ -67,9 +68,12 @@ void print_list(const std::vector<Method>& others) {
       "also: 3STEPCG:<preconditioner>[,refine=yes][,lanes=1],\n"
       "      SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1], ALM:r=<r>,rho=<rho>;\n"
       "      preconditioners: DTIC3..DTIC6, FLIC1..FLIC5, SSOR<0..2>, SKY, NONE;\n"
-      "      EXTERNAL:<name> of the declarations of --external\n"
-      "contact solvers (--contact): {}\n"
+      "      EXTERNAL:<name> of the declarations of --external;\n"
+      "      with --problem CONDENSED, the contact law alone by {}, and "
+      "CONDENSED/contact=<solver>\n"
+      "contact solvers (--contact, {} by default): {}\n"
       "studies (--study):\n",
+      name_of(ContactSolver::newton), name_of(ContactSolver::newton),
       fmt::join(names_of(all_contact_solvers), ", "));
   for (const Study& study : all_studies()) fmt::print("  {:<16}  {}\n", study.name, study.about);
 }
@@ -149,7 +153,13 @@ std::vector<PosedScene> levels_of(const std::vector<PosedScene>& scenes, const O
 
 std::vector<Case> plan_of(const Options& options, std::vector<std::string>& short_of) {
   std::vector<PosedScene> scenes = posed_scenes(options);
-  if (!options.adapt.empty()) scenes = levels_of(scenes, options, short_of);
+  if (!options.adapt.empty() && (options.dry_run || options.explain)) {
+    check_adapting_method(options);
+    std::cerr
+        << "note: --adapt: of the first level alone; the others are known when it is solved\n";
+  } else if (!options.adapt.empty()) {
+    scenes = levels_of(scenes, options, short_of);
+  }
   std::vector<Case> plan = plan_cases(scenes, methods_for(scenes, options), options);
   if (!options.filter.empty()) plan = matching(std::move(plan), options.filter, options.interleave);
   if (plan.empty() && short_of.empty())
@@ -182,7 +192,7 @@ int run_command(int argc, const char* const* argv) {
   }
   if (!options.new_scene.empty()) {
     const std::string scene = write_new_scene(options.new_scene, options);
-    fmt::print("{}: fill it in, then: bench --mesh={} --scene={}\n", scene,
+    fmt::print("{}: fill it in, then: {} --mesh={} --scene={}\n", scene, called_as("bench"),
                shell_word(options.new_scene.string()), shell_word(scene));
     return all_ok;
   }
@@ -190,7 +200,7 @@ int run_command(int argc, const char* const* argv) {
   if (!options.check.empty()) return check_external(std::move(options));
   if (!only_plans) require_threads(options.threads);
   if (!only_plans) check_takes_records(options.out);  // before meshes are written there
-  if (!options.adapt.empty())
+  if (!options.adapt.empty() && !only_plans)
     catch_interrupts();               // adapting solves; a signal just ends other planning
   std::vector<std::string> short_of;  // goals of --adapt that were not reached
   const std::vector<Case> whole = plan_of(options, short_of);

@@ -20,14 +20,14 @@ namespace {
 
 constexpr const char* run_footer = R"(
 Other commands (each has --help)
-  bench advise           which mesh and which method give the error that you choose
-  bench claims DIR       the paper's sentences, checked against a results folder
-  bench compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
-  bench track            a run that is added to a history and judged
-  bench export DIR       records for Google Benchmark's tools, trackers, JUnit
-  bench export-problem   a problem's matrices, for your own solvers
-  bench merge DIR...     the shards of a run, joined
-  bench replay RECORD    one recorded case, run again
+  {bench} advise           which mesh and which method give the error that you choose
+  {bench} claims DIR       the paper's sentences, checked against a results folder
+  {bench} compare A,… B,…  two programs' runs, case by case: faster, slower, or not separated
+  {bench} track            a run that is added to a history and judged
+  {bench} export DIR       records for Google Benchmark's tools, trackers, JUnit
+  {bench} export-problem   a problem's matrices, for your own solvers
+  {bench} merge DIR...     the shards of a run, joined
+  {bench} replay RECORD    one recorded case, run again
 
 Everything after "--" goes to Google Benchmark.
 
@@ -39,17 +39,17 @@ Exit status  0  every case is ok, or skipped with a reason
          128+n  ended by signal n (Ctrl-C: 130); what was measured is in the folder
 
 Examples
-  bench --mesh=Mesh0..Mesh7 --method='3STEPD*'
-  bench --figure=3 --out=results/figure3
-  bench --study=error --mesh=Mesh0..Mesh3 --out=results/error
-  bench --study=stability --out=results/stability
-  bench --study=adapted --out=results/adapted
-  bench --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
-  bench --mesh=Mesh0..Mesh7 --out=results/long --resume
-  bench --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
-  bench --new-external=mine; bench --check=mine.json
-  bench --mesh=part.geo --role=clamped=displacement --mesh-size=50%
-  bench --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
+  {bench} --mesh=Mesh0..Mesh7 --method='3STEPD*'
+  {bench} --figure=3 --out=results/figure3
+  {bench} --study=error --mesh=Mesh0..Mesh3 --out=results/error
+  {bench} --study=stability --out=results/stability
+  {bench} --study=adapted --out=results/adapted
+  {bench} --mesh=Mesh0,Mesh4 --method=HYBRID,P2 --adapt=0.3% --out=results/adapted
+  {bench} --mesh=Mesh0..Mesh7 --out=results/long --resume
+  {bench} --mesh=Mesh0..Mesh7 --shard=2/4 --out=results/part2
+  {bench} --new-external=mine; {bench} --check=mine.json
+  {bench} --mesh=part.geo --role=clamped=displacement --mesh-size=50%
+  {bench} --mesh=Mesh3,part.msh --scene=flat.json --repetitions=11 --out=results/flat
 )";
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text,
@@ -100,8 +100,10 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
   add_model_settings(app, options.model_settings);
   add_files(app, "--scene", options.scenes,
             "scene files or globs; default: the documented tooth or rack");
-  add_files(app, "--problem", options.problems,
-            "instead of meshes and scenes: condensed contact problems, FCLIB files or globs");
+  add_files(
+      app, "--problem", options.problems,
+      "instead of meshes and scenes: condensed contact problems, FCLIB files or globs, by every "
+      "contact solver (CONDENSED: newton) or --contact");
   app.add_option("--adapt", texts.adapt,
                  "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");
@@ -167,8 +169,9 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
                "go on with the run in the folder, of the same machine, program and options: run "
                "only the cases without a record")
       ->excludes(app.get_option("--append"));
-  app.add_option("--shard", texts.shard,
-                 "k/n: the k-th of n parts of the cases, for n machines (bench merge joins them)");
+  app.add_option(
+      "--shard", texts.shard,
+      "k/n: the k-th of n parts of the cases, for n machines ({bench} merge joins them)");
   app.add_flag("--fields", texts.fields,
                "stresses, displacements, contact points (*.csv, *.vtu), total errors; =mean: the "
                "mean with admissible stresses, too; =histories: of iterations, too");
@@ -187,8 +190,10 @@ void add_output(CLI::App& app, Options& options, Texts& texts) {
       ->excludes(app.get_option("--problem"))
       ->excludes(app.get_option("--adapt"));
   app.add_flag("--list", options.list, "print meshes, methods, contact solvers and studies");
-  app.add_flag("--dry-run", options.dry_run,
-               "print the cases, what they will take (from earlier records) and what is left out");
+  app.add_flag(
+      "--dry-run", options.dry_run,
+      "print the cases, what they will take (from earlier records) and what is left out; with "
+      "--adapt of the first level");
   app.add_flag("--explain", options.explain, "print each case's stages, those left out and why");
 }
 
@@ -326,8 +331,6 @@ void refuse_contradictions(const Options& options) {
   const Study& study = options.study;
   const std::string chosen = "not with --study=" + study.name;
   const std::pair<bool, std::string> rules[] = {
-      {!options.adapt.empty() && (options.dry_run || options.explain),
-       "--adapt: not with --dry-run or --explain: the meshes are not there yet"},
       {options.contact && paper,
        "--contact: not with --stop=paper, whose contact law is gauss-seidel"},
       {options.contact && study.points == contact,
@@ -353,7 +356,7 @@ Options parse_options(int argc, const char* const* argv) {
   CLI::App app(
       "Time, memory and error of methods for stress-formulated contact with friction, for every "
       "mesh, scene and method chosen.",
-      "bench");
+      "{bench}");
   app.footer(footer);
   app.set_version_flag("--version", std::string("airybench ") + build_info.version);
   add_cases(app, options, texts);

@@ -1,24 +1,25 @@
 #include "bench/commands/run_parts.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
-#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "mesh/selection.hpp"
+#include "support/called_as.hpp"
 #include "support/errors.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
+#include "support/sign_of_life.hpp"
 
 namespace airybench {
 namespace {
@@ -48,6 +49,20 @@ void note_out_of_reach(const PosedScene& posed) {
                              free + mesh_sizes(mesh).contact_edges);
 }
 
+void note_no_wall(const Mesh& mesh, const Scene& scene) {
+  if (scene.wall || scene.crown_radius_mm) return;
+  std::set<std::string> without;
+  for (const BoundaryEdge& edge : mesh.boundary) {
+    if (edge.role != BoundaryRole::contact) continue;
+    const std::string label = boundary_label(mesh, edge);
+    const auto values = scene.boundary.find(label);
+    if (values == scene.boundary.end() || !values->second.contact.wall) without.insert(label);
+  }
+  if (!without.empty())
+    std::cerr << fmt::format("note: {}/{}: {}: no wall: the wall lies on the edges\n", mesh.name,
+                             scene.name, fmt::join(without, ", "));
+}
+
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
   for (const fs::path& file : options.problems) {
@@ -70,24 +85,39 @@ bool is_newer(const fs::path& file, const fs::path& than) {
          fs::last_write_time(file, error) >= fs::last_write_time(than, error);
 }
 
+// Pictures and files for ParaView of a case with fields; of a path of load steps also how it moves.
+std::string pictures_of(const std::string& name, bool is_path, const fs::path& out) {
+  const fs::path grid = out / "fields" / (name + ".vtu"),
+                 shown = is_path ? out / "fields" / (name + ".pvd") : grid,
+                 picture = out / "figures" / ((is_path ? "load_path_" : "fields_") + name + ".png");
+  if (std::error_code error; !fs::exists(grid, error)) return "";
+  const std::string draw = called_as("run") + " figures " + shell_word(out.string());
+  const std::string moving =
+      is_path ? fmt::format("numbers of every step: {}\nmoving picture: {} --animate\n",
+                            (out / "fields" / (name + ".steps.csv")).string(), draw)
+              : "";
+  if (is_newer(picture, grid))
+    return fmt::format("picture: {}  (ParaView: {})\n{}", picture.string(), shown.string(), moving);
+  return fmt::format("ParaView: {}  (a picture: {})\n{}", shown.string(), draw, moving);
+}
+
+// Of the last body outside the catalogue, or else with load steps.
 std::string picture_line(const RunResult& result, const fs::path& out, bool has_fields) {
   const auto mesh_of = [](const std::string& name) { return name.substr(0, name.find('/')); };
-  std::string mesh;  // the last body outside the catalogue
-  for (std::size_t k = result.names.size(); k-- > 0 && mesh.empty();)
-    if (!is_named_after_catalogue(mesh_of(result.names[k])) && result.record(k).n_phi)
-      mesh = mesh_of(result.names[k]);
+  const auto last_mesh = [&](const auto& is_meant) -> std::string {
+    for (std::size_t k = result.names.size(); k-- > 0;)
+      if (result.record(k).n_phi && is_meant(k)) return mesh_of(result.names[k]);
+    return "";
+  };
+  const auto is_path = [&](std::size_t k) { return result.record(k).load_steps.value_or(1) > 1; };
+  std::string mesh =
+      last_mesh([&](std::size_t k) { return !is_named_after_catalogue(mesh_of(result.names[k])); });
+  if (mesh.empty() && has_fields) mesh = last_mesh(is_path);
   if (mesh.empty()) return "";
   for (std::size_t k = 0; k < result.names.size(); ++k) {
     if (!has_fields || mesh_of(result.names[k]) != mesh) continue;
-    const std::string name = name_of(result.record(k)).file();
-    const fs::path grid = out / "fields" / (name + ".vtu"),
-                   picture = out / "figures" / ("fields_" + name + ".png");
-    std::error_code error;
-    if (!fs::exists(grid, error)) continue;
-    if (is_newer(picture, grid))
-      return fmt::format("picture: {}  (ParaView: {})\n", picture.string(), grid.string());
-    return fmt::format("ParaView: {}  (a picture: ./run figures {})\n", grid.string(),
-                       out.string());
+    const std::string line = pictures_of(name_of(result.record(k)).file(), is_path(k), out);
+    if (!line.empty()) return line;
   }
   return fmt::format("for a picture of {}: --fields\n", mesh);
 }
@@ -97,6 +127,7 @@ std::string picture_line(const RunResult& result, const fs::path& out, bool has_
 std::vector<PosedScene> posed_scenes(const Options& options) {
   if (!options.problems.empty()) return posed_problems(options);
   const std::vector<SceneFile> scenes = read_scenes(options);
+  const SignsOfLife signs("reading " + shortened(options.meshes));
   std::vector<PosedScene> posed;
   std::map<std::vector<std::string>, std::vector<MeshFile>> meshes;  // by the scenes' settings
   for (const SceneFile& given : scenes)
@@ -110,6 +141,7 @@ std::vector<PosedScene> posed_scenes(const Options& options) {
       posed.push_back({scene.name, scene.group, recorded_path(file.path, options.out), file.sha256,
                        definition, std::make_shared<const Problem>(pose(scene, file.mesh))});
       note_out_of_reach(posed.back());
+      if (!is_of_catalogue(file.path)) note_no_wall(file.mesh, scene);
     }
   if (!options.dry_run && !options.explain)
     for (const auto& [settings, files] : meshes) keep_models(files);
@@ -129,25 +161,9 @@ bool is_named_after_catalogue(const std::string& mesh) {
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
-std::string called_as() {
-  const char* const by_script = std::getenv("AIRYBENCH_CALLED_AS");
-  return by_script != nullptr && *by_script != '\0' ? by_script
-                                                    : shell_word(program_invocation_name);
-}
-
 RunLimits limits_of(const Options& options) {
   return {least_repetitions(options), options.timeout_s, options.long_case_s,
           options.memory_limit_bytes, options.study.once};
-}
-
-std::string shell_word(const std::string& word) {
-  const bool is_plain = !word.empty() && std::ranges::all_of(word, [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) || std::strchr("_./+-=%@", c) != nullptr;
-  });
-  if (is_plain) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
 }
 
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {

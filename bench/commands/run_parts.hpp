@@ -21,10 +21,6 @@ RunLimits limits_of(const Options& options);
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
 bool is_named_after_catalogue(const std::string& mesh);
 
-// How to call this program from the user's shell, as "./run bench".
-std::string called_as();
-std::string shell_word(const std::string& word);  // quoted if necessary
-
 // Runs the shell command $AIRYBENCH_THEN with the results folder as its last argument; notes a
 // failure. Then prints which picture of the last mesh outside the catalogue to open, or how to get
 // one. has_fields: the run has written fields.

@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* track_footer = R"(
-Every other option is one of a run (bench --help). Without them the nightly selection is measured:
+Every other option is one of a run ({bench} --help). Without them the nightly selection is measured:
   --mesh=Mesh0..Mesh2 --repetitions=9
   --method=3STEPD,3STEPD:CHOLMOD,BLIND:SCHUR,HYBRID,P2,ALM:r=20,rho=20,SDTIC6,3STEPCG6
 
@@ -34,8 +34,8 @@ Exit status  0  nothing is worse
              2  wrong usage, or a file that cannot be used or written: one line on standard error
 
 Examples
-  bench track --history=results/history
-  bench track --history=results/history --from=results/latest
+  {bench} track --history=results/history
+  {bench} track --history=results/history --from=results/latest
 )";
 
 constexpr std::array refused = {"--out",  "--append",  "--study",  "--list",
@@ -57,7 +57,7 @@ bool is_option(const std::string& argument, const std::string& name) {
 TrackOptions parse_track(int argc, const char* const* argv) {
   TrackOptions options;
   CLI::App app("Measures a nightly selection, adds it to a history, and reports what has changed.",
-               "bench track");
+               "{bench} track");
   app.footer(track_footer);
   app.allow_extras();
   app.add_option("--history", options.history, "folder of the history")->capture_default_str();

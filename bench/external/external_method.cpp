@@ -14,6 +14,7 @@
 #include "bench/external/answer.hpp"
 #include "bench/problems/problem_files.hpp"
 #include "bench/verify/verifier.hpp"
+#include "solvers/base/dense_products.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/methods.hpp"
 #include "support/errors.hpp"
@@ -236,11 +237,18 @@ Eigen::VectorXd forces_of(const ProgramSolve& program, const ContactPoints& cont
   return F(Eigen::seqN(0, contact.count, 2));
 }
 
+// As with the default scene of the catalogue's meshes.
+bool is_without_G(const contact::Problem& problem, const Eigen::VectorXd& F) {
+  constexpr double rounding = 1e-9;
+  return F.size() == problem.D.cols() && problem.G.norm() <= rounding * times(problem.D, F).norm();
+}
+
 // solve: the method whose contact law the program replaces. body: may be null.
 Solution solve_contact_law(const Caller& caller,
                            const std::function<Solution(const RunControl&)>& solve,
                            const Problem* body, const RunControl& given) {
   std::optional<ProgramSolve> program;
+  bool no_G = false;
   RunControl control = given;
   control.contact.by = [&](const contact::Problem& problem) {
     const std::string& format = caller.declaration.format;
@@ -250,6 +258,7 @@ Solution solve_contact_law(const Caller& caller,
     result.F_C = forces_of(*program, problem.points, format);
     result.converged = has_answer(program->answer().status);  // as the program claims
     result.iterations = program->answer().contact_iterations.value_or(0);
+    no_G = body != nullptr && result.converged && is_without_G(problem, result.F_C);
     program->end_handing_over();
     return result;
   };
@@ -258,6 +267,9 @@ Solution solve_contact_law(const Caller& caller,
   const std::optional<std::int64_t> linear = solution.linear_iterations;
   if (has_answer(solution.status) || !has_answer(program->answer().status))
     program->note(given, solution);
+  if (no_G && solution.status == Status::ok)
+    solution.message =
+        "G is zero but for rounding: a wrong sign of it would pass here, and fail --check";
   solution.linear_iterations = linear;
   if (auto& contact_s = solution.times[Stage::contact]; contact_s && solution.program)
     *contact_s -= solution.program->not_solve_s;

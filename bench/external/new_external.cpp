@@ -23,6 +23,7 @@ constexpr const char* program_text =
     r = D F - G - gap      per contact point a normal row, then (with friction) a tangential one
     F_n <= 0, r_n <= 0, F_n r_n = 0;  |F_t| <= mu |F_n|, F_t r_t <= 0, r_t = 0 unless it slips
 
+It takes problems in the plane, with one or two components per point; in space there are three.
 F in N per mm of thickness, r, G and gap in mm, D in mm/N. Replace contact_forces() by your method.
 """
 import json
@@ -37,9 +38,15 @@ class NotConverged(Exception):
     pass
 
 
+class Refused(Exception):
+    pass
+
+
 def contact_forces(D, b, mu):
     """F with r = D F + b, and the number of steps: Newton's method on F = P(F - r / diag D)."""
     components, F = len(b) // max(len(mu), 1), np.zeros(len(b))
+    if components > 2:
+        raise Refused(f"{{components}} components per contact point (allowed: 1 or 2, in the plane)")
     for step in range(1, 51):
         trial = F - (D @ F + b) / np.diag(D)
         A, right = D.copy(), -b  # r = 0, closed and sticking
@@ -69,6 +76,8 @@ def main(folder, output):
         np.save(Path(output, "F_C.npy"), F.reshape(-1, 1))
     except (NotConverged, np.linalg.LinAlgError) as why:
         answer = {{"status": "not_converged", "message": str(why)}}
+    except Refused as why:
+        answer = {{"status": "breakdown", "message": str(why)}}
     answer["time_s"] = perf_counter() - start  # of the solve, without reading and writing
     Path(output, "answer.json").write_text(json.dumps(answer))
 

@@ -49,7 +49,8 @@ void note(const ContactIntervals& intervals, Record& record);
 void note(const MemorySplit& memory, Record& record);
 // Gives a verified ok case its reason: nothing touches, can touch, or is free.
 void note_what_is_idle(const Problem& problem, Record& record);
-// The same: half-size load steps change how many points stick or slip, or resultants by over 1 %.
+// The same: half-size load steps change, in any step, how many points stick or slip, or the
+// resultant by over 1 %.
 void note_slip_of_half_steps(Record& record);
 void note_large_strains(const Problem& problem, const StressField& stress, Record& record);
 

@@ -16,11 +16,13 @@
 #include "mesh/refinement.hpp"
 #include "mesh/selection.hpp"
 #include "support/atomic_file.hpp"
+#include "support/called_as.hpp"
 #include "support/data_folder.hpp"
 #include "support/errors.hpp"
 #include "support/process.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
+#include "support/sign_of_life.hpp"
 
 namespace airybench {
 
@@ -70,9 +72,9 @@ std::string said_of_model(const std::string& mode, const std::filesystem::path& 
   if (end.timed_out)
     throw FileError(fmt::format(
         "{}: {} was ended after {} s (allowed: that long; {} --convert by itself has no limit)",
-        model.string(), converter, time_limit_s, converter));
+        model.string(), converter, time_limit_s, called_as(converter)));
   if (end.exit_code != 0) throw FileError(complaint_of(end));
-  std::cerr << end.err;
+  std::cerr << without_signs_of_life(end.err);
   return std::move(end.out);
 }
 

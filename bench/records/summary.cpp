@@ -101,6 +101,11 @@ std::string outcome_of(const Record& r) {
   return r.other_solution ? "other_solution" : std::string(name_of(r.status));
 }
 
+bool times_tie(const Record& a, const Record& b) {
+  return a.time_low_s && b.time_low_s && *a.time_low_s <= *b.time_high_s &&
+         *b.time_low_s <= *a.time_high_s;
+}
+
 void summarise(Record& r) {
   summarise_times(r);
   summarise_stages(r);

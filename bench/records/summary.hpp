@@ -11,4 +11,7 @@ void summarise(Record& record);
 // reference. A discretisation error above 1 alone does not count. Else "other_solution" or status.
 std::string outcome_of(const Record& record);
 
+// Whether the intervals of both median times overlap, so that neither is known to be faster.
+bool times_tie(const Record& a, const Record& b);
+
 }  // namespace airybench

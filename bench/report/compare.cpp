@@ -146,12 +146,15 @@ std::vector<std::vector<std::string>> table_of(const Comparison& comparison) {
 }
 
 std::vector<std::string> summary(const Comparison& comparison) {
-  const auto any_is = [&](TimeVerdict verdict) {
-    return std::ranges::any_of(comparison.cases, [&](const ComparedCase& one) {
+  const auto count_of = [&](TimeVerdict verdict) {
+    return std::ranges::count_if(comparison.cases, [&](const ComparedCase& one) {
       return one.is_timed() && one.verdict == verdict;
     });
   };
-  std::vector<std::string> lines;
+  const auto faster = count_of(TimeVerdict::faster), slower = count_of(TimeVerdict::slower);
+  std::vector<std::string> lines = {
+      fmt::format("B is faster in {} cases, slower in {}, not separated from A in {}", faster,
+                  slower, static_cast<std::ptrdiff_t>(comparison.timed) - faster - slower)};
   if (comparison.mean_ratio)
     lines.push_back(fmt::format("geometric mean of B/A: {:.4g} {}", *comparison.mean_ratio,
                                 interval_text(comparison.mean_interval)));
@@ -160,12 +163,12 @@ std::vector<std::string> summary(const Comparison& comparison) {
                                 *comparison.drift));
   else
     lines.push_back("drift of the machine: not known (no noise_kernel_s in both)");
-  if (any_is(TimeVerdict::one_run_each) || any_is(TimeVerdict::too_few_runs))
+  if (count_of(TimeVerdict::one_run_each) + count_of(TimeVerdict::too_few_runs) > 0)
     lines.push_back(fmt::format(
         "{} runs of A, {} of B: with {} cases {} interleaved runs on both sides would "
         "do (repetitions within a run are not independent)",
         comparison.runs_a, comparison.runs_b, comparison.timed, comparison.runs_needed));
-  if (any_is(TimeVerdict::not_interleaved))
+  if (count_of(TimeVerdict::not_interleaved) > 0)
     lines.push_back(
         "runs not interleaved: by their dates one side had at some time two runs more than the "
         "other; run A, B, A, B, …");

@@ -12,7 +12,6 @@
 #include "bench/records/json.hpp"
 #include "bench/run/adaptive_loop.hpp"
 #include "bench/run/isolated_scene.hpp"
-#include "bench/run/sign_of_life.hpp"
 #include "mesh/msh_format.hpp"
 #include "mesh/refinement.hpp"
 #include "support/atomic_file.hpp"
@@ -21,6 +20,7 @@
 #include "support/seconds_since.hpp"
 #include "support/sha256.hpp"
 #include "support/shortened.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/text_table.hpp"
 #include "support/this_process.hpp"
 
@@ -144,8 +144,10 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   return refined;
 }
 
+void check_adapting_method(const Options& options) { adapting_method(options.adapt_by); }
+
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options) {
-  adapting_method(options.adapt_by);
+  check_adapting_method(options);
   const Mesh& mesh = start.body()->mesh;
   const std::string name = mesh.name + "/" + start.scene_name;
   const std::string definition = definition_on(mesh, start.scene_definition, name);

@@ -16,6 +16,7 @@ struct AdaptedScenes {
 };
 
 // Prints progress to standard error. Throws UsageError (options.adapt_by), FileError, Interrupted.
+void check_adapting_method(const Options& options);  // throws UsageError
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
 // Refines level 0 uniformly once; writes the mesh next to it, MESH+refined1.msh.

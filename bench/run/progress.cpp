@@ -33,7 +33,7 @@ struct Column {
   const char* header;
   const char* field;  // shown if any record has it; nullptr: always shown
   std::string (*text)(const Record&);
-  bool of_total_error = false, of_contact_study = false;
+  bool of_contact_study = false;
 };
 
 std::string whole(const std::optional<std::int64_t>& number) {
@@ -53,7 +53,7 @@ constexpr std::array<Column, 17> table_columns = {{
     {"±", nullptr,
      [](const Record& r) { return r.repetitions == 1 ? "n=1" : show_seconds(r.time_mad_s); }},
     {"contact law", "stage_contact_s",
-     [](const Record& r) { return show_seconds(r.stage_contact_s); }, false, true},
+     [](const Record& r) { return show_seconds(r.stage_contact_s); }, true},
     {"unchecked", "stage_check_s", [](const Record& r) { return show_seconds(unchecked_s(r)); }},
     {"heap", nullptr, [](const Record& r) { return show_bytes(r.peak_heap_bytes); }},
     {"program", "program_s", [](const Record& r) { return show_seconds(r.program_s); }},
@@ -66,9 +66,8 @@ constexpr std::array<Column, 17> table_columns = {{
     {"natural map", "siconos_error",
      [](const Record& r) { return show_error(r.natural_map_residual); }},
     {"Siconos", "siconos_error", [](const Record& r) { return show_error(r.siconos_error); }},
-    {"error total", "error_total", [](const Record& r) { return show_error(r.error_total); }, true},
-    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); },
-     true},
+    {"error total", "error_total", [](const Record& r) { return show_error(r.error_total); }},
+    {"adapted in", "adapt_time_s", [](const Record& r) { return show_seconds(r.adapt_time_s); }},
     {"status", nullptr, [](const Record& r) { return std::string(name_of(r.status)); }},
 }};
 }  // namespace
@@ -78,7 +77,6 @@ void ResultsTable::add(const Record& r) {
   for (const Column& column : table_columns)
     if (column.field != nullptr && has(column.field)) fields_.insert(column.field);
   shows_contact_law_ = shows_contact_law_ || r.study == "contact";
-  shows_total_ = shows_total_ || has("adapt_level") || r.in_displacements;
   std::string row;
   for (const Column& column : table_columns) row += column.text(r) + "\t";
   row.shrink_to_fit();
@@ -95,7 +93,6 @@ void ResultsTable::add(const Record& r) {
 std::string ResultsTable::text() const {
   const auto is_shown = [&](const Column& column) {
     return (column.field == nullptr || fields_.contains(column.field)) &&
-           (!column.of_total_error || shows_total_) &&
            (!column.of_contact_study || shows_contact_law_);
   };
   std::vector<std::vector<std::string>> shown(1);

@@ -16,9 +16,8 @@ class ResultsTable {
   std::string text() const;
 
  private:
-  std::vector<std::string> rows_;  // the cells of all columns, each ended by a tab
-  std::set<std::string> fields_;   // that some record has
-  bool shows_total_ = false;  // the total error: only where methods do not all share their mesh's
+  std::vector<std::string> rows_;   // the cells of all columns, each ended by a tab
+  std::set<std::string> fields_;    // that some record has
   bool shows_contact_law_ = false;  // its time: where contact solvers are compared
   std::string imprecise_, noisy_, reasons_;
   std::set<std::string> said_;  // reasons that all methods on a mesh share

@@ -19,10 +19,10 @@
 #include "bench/records/summary.hpp"
 #include "bench/run/isolated_scene.hpp"
 #include "bench/run/progress.hpp"
-#include "bench/run/sign_of_life.hpp"
 #include "support/errors.hpp"
 #include "support/seconds_since.hpp"
 #include "support/shortened.hpp"
+#include "support/sign_of_life.hpp"
 #include "support/temporary_folder.hpp"
 #include "support/this_process.hpp"
 

@@ -260,6 +260,24 @@ Verification verify(const DualSystem& system, const Solution& solution,
   return result;
 }
 
+namespace {
+
+// A program's force at a vertex of two edges without friction may have any direction between their
+// normals: its law need not have their mean n, and its nodal forces, in Bernstein coefficients,
+// have another direction. What remains of the force's part t ⊥ n: max(0, |t| − |F_n| tan α), α from
+// n to an edge's normal.
+double beyond_both_normals(const Problem& problem, const ControlPoints& control, int p, double F_n,
+                           double t) {
+  const int row = control.law.boundary[p];
+  const std::array<int, 3> nodes = boundary_nodes(problem, row);
+  const auto k = std::ranges::find(nodes, control.node[p]) - nodes.begin();
+  const Eigen::Vector2d of_edge =
+      control.frame(p).transpose() * problem.frame_at_node(row, static_cast<int>(k)).normal;
+  return std::max(0.0, std::abs(t) - std::max(0.0, -F_n) * std::abs(of_edge.y() / of_edge.x()));
+}
+
+}  // namespace
+
 Verification verify_displacement(const DualSystem& system, const Solution& solution) {
   const Problem& problem = *system.problem;
   const ControlPoints control = control_points(problem);
@@ -277,6 +295,12 @@ Verification verify_displacement(const DualSystem& system, const Solution& solut
       const bool held = k == 1 && control.on_roller[p];
       displacement(m * p + k) = held ? 0 : frame.col(k).dot(solution.displacement.col(node));
       balance.sum.col(node) -= solution.F_C(m * p + k) * frame.col(k);
+    }
+    if (m == 1 && solution.program && !control.on_roller[p]) {
+      const Eigen::Vector2d t = frame.col(1);
+      const double off = t.dot(balance.sum.col(node));
+      const double beyond = beyond_both_normals(problem, control, p, solution.F_C(p), off);
+      balance.sum.col(node) += (std::copysign(beyond, off) - off) * t;
     }
   }
   const PrescribedDisplacement prescribed = prescribed_displacement(problem);

@@ -52,7 +52,8 @@ Verification verify(const DualSystem& system, const Solution& solution, const Re
 // For a displacement method, whose discrete problem has no reference: judges displacements and
 // forces at the control points (control_points.hpp). Sets no error_*, no complementary energy.
 //   equilibrium_residual  largest unbalanced nodal force, ∫ σ(u):ε(u_i) − loads, F_C at the control
-//                         points, over the largest nodal force of an element
+//                         points, over the largest nodal force of an element; a program's force
+//                         without friction may be between the normals of two edges at their vertex
 //   natural_map_residual  with r from u, and ρ = 1/rough_compliance
 Verification verify_displacement(const DualSystem& system, const Solution& solution);
 

@@ -69,11 +69,23 @@ program airy_mumps
   mumps%icntl(26) = 2*min(n_c, 1) ! expand
   if (n_c > 0) call run(3)
   call system_clock(ticks(5))
+  if (force_error() > 1e-6) call answer('breakdown', 'MUMPS: its answer misses the known forces')
   call write_vector(trim(output)//'/x.mtx', mumps%rhs(:n))
   call write_vector(trim(output)//'/F_C.mtx', F_C)
   call answer(merge('ok           ', 'not_converged', error <= tolerance), '')
 
 contains
+
+  ! |C_F x - F| / (|F| + |F_C|): MUMPS reports no error for a singular system.
+  real(real64) function force_error()
+    real(real64) :: off(size(F))
+    integer :: k
+    off = -F
+    do k = 1, size(C_F%value)
+      off(C_F%row(k)) = off(C_F%row(k)) + C_F%value(k)*mumps%rhs(C_F%column(k))
+    end do
+    force_error = norm2(off)/max(norm2(F) + norm2(F_C), tiny(tolerance))
+  end function
 
   subroutine run(job)
     integer, intent(in) :: job

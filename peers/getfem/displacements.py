@@ -74,8 +74,9 @@ def solve(problem, of_coefficients):
     shear_modulus = add_elasticity(model, mesh, elements, problem)
     model.add_explicit_rhs("u", loads(problem, nodes, sides, size))
     rows, values, held = supports(problem, sides)
-    model.add_variable("reactions", len(values))
-    model.add_constraint_with_multipliers("u", "reactions", spmat(rows, size), values)
+    if values:  # GetFEM refuses variables of no size
+        model.add_variable("reactions", len(values))
+        model.add_constraint_with_multipliers("u", "reactions", spmat(rows, size), values)
     model.add_initialized_data("r", [shear_modulus])
     law = contact(problem, sides, held, of_coefficients)
     if law[0]:

@@ -205,10 +205,10 @@ TEST(Wall, WhatCannotBeAWall) {
             in + "boundary: contact: face: is 0.908712 mm from the edge at [10, 0] (allowed: up to "
                  "0.707107 mm, 5 % of the body's size)");
   scene.wall.reset();
-  EXPECT_EQ(complaint(scene), in + "face: given without a wall (allowed: beside one)");
+  EXPECT_EQ(complaint(scene), in + "face: given without a wall (allowed: with one)");
   scene = {};
   scene.boundary["contact"].contact.face = CircularWall{{0, 5}, 12, inside};
-  EXPECT_EQ(complaint(scene), in + "boundary: contact: face without a wall (allowed: beside one)");
+  EXPECT_EQ(complaint(scene), in + "boundary: contact: face without a wall (allowed: with one)");
   scene = {};
   scene.boundary["force:top"].contact.friction = 0.1;
   EXPECT_EQ(complaint(scene),

@@ -99,7 +99,8 @@ esac"""
             self.assertEqual((folder / "log").read_text().splitlines(),
                              [f"{program} --mesh=Mesh0 --out=o/{run}" for program, run in
                               (("one", "a1"), ("two", "b1"), ("one", "a2"), ("two", "b2"))])
-            self.assertEqual(ran.stdout.splitlines()[-1], "bench compare o/a1,o/a2 o/b1,o/b2")
+            self.assertEqual(ran.stdout.splitlines()[-1], "bench compare --names=./one,./two o/a1,o/a2 o/b1,o/b2")
+            self.assertEqual(ran.stdout.count("\n"), 1)  # no tables of the runs
 
     def test_what_is_neither_a_program_nor_a_revision_is_refused(self) -> None:
         for arguments, said in ((("./one", "nowhere"), "nowhere (allowed: a git revision, or a program)"),

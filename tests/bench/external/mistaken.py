@@ -10,6 +10,8 @@ from time import perf_counter
 import numpy as np
 
 mistake, folder, output = sys.argv[1:]
+if mistake == "CRASH":
+    sys.exit(3)
 
 
 def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False):

@@ -5,11 +5,15 @@ named; a right program passes.
 """
 import json
 import os
+import re
+import shlex
 import subprocess
 import sys
 import tempfile
 import unittest
 from pathlib import Path
+
+import numpy as np
 
 BENCH = os.environ["AIRYBENCH_BENCH"]
 MISTAKEN = Path(__file__).resolve().parent / "mistaken.py"
@@ -86,6 +90,54 @@ class Check(unittest.TestCase):
         ran = self.bench("--mesh=Mesh0", "--external=mine.json", "--method=EXTERNAL:*",
                          "--repetitions=1", "--out=o")
         self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+
+    def test_a_new_program_refuses_problems_in_space_by_name(self) -> None:
+        made = self.bench("--new-external=mine")
+        if "this build is without" in made.stderr:
+            self.skipTest(made.stderr)
+        np.savez(self.folder / "problem.npz", D=np.eye(6), G=np.zeros(6), gap=-np.ones(6), mu=np.ones(2))
+        subprocess.run([sys.executable, "mine.py", ".", "."], cwd=self.folder, check=True)
+        answer = json.loads((self.folder / "answer.json").read_text(encoding="utf-8"))
+        self.assertEqual((answer["status"], answer["message"]),
+                         ("breakdown", "3 components per contact point (allowed: 1 or 2, in the plane)"))
+        self.assertFalse((self.folder / "F_C.npy").exists())
+
+    def test_what_a_new_program_is_printed_with_finds_its_mistakes(self) -> None:
+        made = subprocess.run([BENCH, "--new-external=mine"], capture_output=True, text=True,
+                              check=False, cwd=self.folder,
+                              env=os.environ | {"AIRYBENCH_CALLED_AS": "./run"})
+        if "this build is without" in made.stderr:
+            self.skipTest(made.stderr)
+        commands = re.findall(r"^  (\./run bench .*?)(?:    .*)?$", made.stdout, re.M)
+        self.assertEqual(len(commands), 2, made.stdout)
+        program = self.folder / "mine.py"
+        right = program.read_text(encoding="utf-8")
+        program.write_text(right.replace("-G - gap", "G - gap"), encoding="utf-8")
+        for command in commands:
+            ran = self.bench(*shlex.split(command)[2:], *([] if "--check" in command else ["--out=o"]))
+            self.assertEqual(ran.returncode, 1, command + ran.stdout + ran.stderr)
+
+    def test_an_ok_that_does_not_depend_on_the_sign_of_G_says_so(self) -> None:
+        said = "G is zero but for rounding: a wrong sign of it would pass here, and fail --check"
+        for mistake in ("RIGHT", "sign_of_G"):
+            self.declare(mistake)
+            ran = self.bench("--mesh=Mesh0", "--external=mine.json", "--method=EXTERNAL:*",
+                             "--repetitions=1", "--out=o")
+            if "this build is without" in ran.stderr:
+                self.skipTest(ran.stderr)
+            self.assertEqual(ran.returncode, 0, ran.stdout + ran.stderr)
+            self.assertIn(said, ran.stdout)
+        self.declare("RIGHT")
+        ran = self.bench("--study=check", "--external=mine.json", "--method=EXTERNAL:*", "--out=o")
+        self.assertEqual(ran.returncode, 0)
+        self.assertNotIn(said, ran.stdout)
+
+    def test_the_error_is_named_before_what_its_case_is_made_for(self) -> None:
+        _, lines, out = self.check("CRASH")
+        self.assertRegex(lines["08_no_friction"], r"crashed +mine ended with exit code 3$", out)
+        _, lines, out = self.check("always_two_components")
+        self.assertRegex(lines["08_no_friction"],
+                         r"breakdown +its answer: .* \(F_C has one row per point, the normal force.\)$")
 
     def test_a_new_program_overwrites_nothing(self) -> None:
         for there in ("mine.py", "mine.json"):

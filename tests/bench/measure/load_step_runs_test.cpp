@@ -56,7 +56,7 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   }
 }
 
-TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
+TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
   Scene scene;
   const auto examined_in = [&](int steps, double friction, const char* method = "HYBRID") {
     scene.equal_steps = steps;
@@ -81,6 +81,32 @@ TEST(LoadStepRuns, APathWithFrictionHasTwiceItsStepsBesideIt) {
   EXPECT_NE(two.status_reason.find("with every load step in two halves "), std::string::npos)
       << two.status_reason;
   EXPECT_EQ(examined_in(2, 0.2, "P2").steps_in_halves, two.steps_in_halves);
+}
+
+// Fretting's first step sticks in 10 points, in two halves in 18; its last one is the same in both.
+TEST(LoadStepRuns, TheNoteOnHalvesNamesTheWorstStep) {
+  const auto step = [](int stick, int slip, double tangential_N) {
+    return Json{{"claimed_status", "ok"},
+                {"normal_resultant_N", -100.},
+                {"tangential_resultant_N", tangential_N},
+                {"n_stick", stick},
+                {"n_slip", slip}};
+  };
+  Record record;
+  record.steps = {step(10, 15, 0), step(20, 5, 10), step(0, 25, 20)};
+  record.steps_in_halves = {step(18, 7, 0), step(21, 4, 10.05), step(0, 25, 20)};
+  note_slip_of_half_steps(record);
+  EXPECT_EQ(record.status_reason,
+            "with every load step in two halves 2 of 3 steps end otherwise, step 1 most: 18 points "
+            "stick and 7 slip, not 10 and 15; F = (-100, 0) N, not (-100, 0)");
+  record.status_reason.clear();
+  record.steps_in_halves = record.steps;
+  note_slip_of_half_steps(record);
+  EXPECT_EQ(record.status_reason, "");
+  record.steps_in_halves[2]["tangential_resultant_N"] = 25;
+  note_slip_of_half_steps(record);
+  EXPECT_NE(record.status_reason.find("1 of 3 steps end otherwise, step 3 most"), std::string::npos)
+      << record.status_reason;
 }
 
 // Without friction nothing is remembered: the last of several equal steps is the single one.

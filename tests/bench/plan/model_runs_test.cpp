@@ -164,9 +164,13 @@ TEST_F(ModelRuns, AMeshOfAnotherProgramIsConverted) {
 }
 
 TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
-  const testing::CommandResult result = run("--new-scene=part.geo --role=clamped=displacement");
+  const testing::CommandResult result =
+      bench_.run("--new-scene=part.geo --role=clamped=displacement",
+                 "export AIRYBENCH_CACHE_DIR=cache AIRYBENCH_CALLED_AS=../run; ");
   EXPECT_EQ(result.code, 0) << result.err;
-  EXPECT_EQ(result.out, "part.json: fill it in, then: bench --mesh=part.geo --scene=part.json\n");
+  EXPECT_EQ(result.out,
+            "part.json: fill it in, then: ../run bench --mesh=part.geo --scene=part.json\n");
+  EXPECT_EQ(result.err, "");
   EXPECT_EQ(bench_.content("part.json"), R"({
   "length_unit": "mm",
   "roles": {
@@ -178,18 +182,87 @@ TEST_F(ModelRuns, ANewSceneNamesTheModelsGroups) {
   },
   "displacement_mm": [0, 0],
   "body_force_N_per_mm3": [0, 0],
-  "crown_radius_mm": null,
   "boundary": {
     "force": {"traction_MPa":[0,0]},
-    "contact": {"friction":0.2,"clearance_mm":0},
-    "displacement": {"displacement_mm":[0,0]}
+    "contact": {"friction":0.2,"clearance_mm":0,"wall":{"flat":{"point_mm":[1.0,0.0],"normal":[-1.0,0.0]}}},
+    "displacement": {"support":"full"}
   }
 }
 )");
   EXPECT_EQ(run("--mesh=part.geo --scene=part.json --dry-run").code, 0);
+  // The scene's displacement is the group's, too.
+  std::string pressed = bench_.content("part.json");
+  const std::string none = "\"displacement_mm\": [0, 0]";
+  pressed.replace(pressed.find(none), none.size(), "\"displacement_mm\": [0.01, 0]");
+  testing::write_text(bench_.path("pressed.json"), pressed);
+  const testing::CommandResult ran =
+      run("--mesh=part.geo --scene=pressed.json " + quick + "--out=o");
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.err.find("no wall"), std::string::npos) << ran.err;
+  EXPECT_LT(bench_.record()["normal_resultant_N"].get<double>(), -1);
   bench_.expect_refusal("--new-scene=part.geo",
                         "part.json: is there already (allowed: a name that is free)\n");
   bench_.expect_refusal("--new-scene=none.geo", "none.geo: ");
+}
+
+TEST_F(ModelRuns, ANewSceneGivesNamesTheRoleThatTheyMayMean) {
+  std::string text = square;
+  const auto rename = [&](const std::string& from, const std::string& to) {
+    text.replace(text.find(from), from.size(), to);
+  };
+  rename("\"contact\"", "\"Contact_sole\"");
+  rename("\"clamped\"", "\"top\"");
+  testing::write_text(bench_.path("shoe.geo"), text);
+  const testing::CommandResult result = run("--new-scene=shoe.geo");
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err,
+            "note: shoe.json: no curve has the role displacement: it is held nowhere "
+            "(--role=CURVE=displacement next to --new-scene gives it)\n");
+  const Json scene = Json::parse(bench_.content("shoe.json"));
+  EXPECT_EQ(scene["roles"], Json({{"Contact_sole", "contact:sole"}, {"top", "force:top"}}))
+      << scene;
+  EXPECT_TRUE(scene["boundary"]["contact:sole"].contains("wall")) << scene;
+}
+
+TEST_F(ModelRuns, ANewSceneHasAPinForAHole) {
+  testing::write_text(bench_.path("plate.geo"), R"(
+Point(1) = {0, 0, 0, 1}; Point(2) = {6, 0, 0, 1}; Point(3) = {6, 6, 0, 1}; Point(4) = {0, 6, 0, 1};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Point(5) = {3, 3, 0, 0.5}; Point(6) = {4, 3, 0, 0.5}; Point(7) = {2, 3, 0, 0.5};
+Circle(5) = {6, 5, 7}; Circle(6) = {7, 5, 6};
+Curve Loop(1) = {1:4}; Curve Loop(2) = {5, 6}; Plane Surface(1) = {1, 2};
+Physical Curve("displacement") = {4};
+Physical Curve("contact") = {5, 6};
+)");
+  ASSERT_EQ(run("--new-scene=plate.geo").code, 0);
+  const Json pin =
+      Json::parse(bench_.content("plate.json"))["boundary"]["contact"]["wall"]["circle"];
+  EXPECT_EQ(pin["bodies"], "outside");
+  EXPECT_EQ(pin["centre_mm"], Json({3., 3.}));
+  EXPECT_NEAR(pin["radius_mm"].get<double>(), 0.97, 0.03);
+  const testing::CommandResult planned = run("--mesh=plate.geo --scene=plate.json --dry-run");
+  EXPECT_EQ(planned.code, 0) << planned.err;
+}
+
+TEST_F(ModelRuns, ABodyWithoutAWallIsNoted) {
+  const testing::CommandResult result = run(part + "--dry-run");
+  EXPECT_EQ(result.code, 0);
+  EXPECT_NE(result.err.find("note: part/default: contact: no wall: the wall lies on the edges\n"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(run("--mesh=Mesh0 --dry-run").err.find("no wall"), std::string::npos);
+}
+
+TEST_F(ModelRuns, AConversionGivesSignsOfLife) {
+  const auto planned = [&](const std::string& silent_s) {
+    return bench_.run(part + "--dry-run", "export AIRYBENCH_CACHE_DIR=cache" + silent_s +
+                                              " AIRYBENCH_SILENT_S=" + silent_s + "; ");
+  };
+  const testing::CommandResult heard = planned("0.01");
+  EXPECT_EQ(heard.code, 0);
+  EXPECT_NE(heard.err.find("... reading part.geo, for 0 s\n"), std::string::npos) << heard.err;
+  EXPECT_EQ(heard.err.find("meshgen"), std::string::npos) << heard.err;  // its signs are late
+  EXPECT_EQ(planned("600").err.find("..."), std::string::npos);
 }
 
 TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
@@ -214,6 +287,34 @@ TEST_F(ModelRuns, EndsByNamingThePictureToOpen) {
   EXPECT_EQ(last_line(part + quick + "--fields --out=o").substr(0, 8), "ParaView");
   EXPECT_EQ(last_line(part + quick + "--out=o"), "for a picture of part: --fields\n");
   EXPECT_EQ(last_line("--mesh=Mesh0 " + quick + "--out=o").substr(0, 13), "records.jsonl");
+}
+
+TEST_F(ModelRuns, EndsByNamingTheFilesOfAPathOfLoadSteps) {
+  testing::write_text(bench_.path("path.json"), R"({"load_steps": 2})");
+  const std::string said = "export AIRYBENCH_CACHE_DIR=cache AIRYBENCH_CALLED_AS=./run ";
+  const std::string moving =
+      "numbers of every step: o/fields/Mesh0--path--HYBRID.steps.csv\n"
+      "moving picture: ./run figures o --animate\n";
+  const auto run_path = [&](const std::string& then) {
+    return bench_
+        .run("--mesh=Mesh0 --scene=path.json " + quick + "--fields --out=o",
+             said + "AIRYBENCH_THEN='" + then + "'; ")
+        .out;
+  };
+  const std::string drawn_later = run_path(":");
+  EXPECT_TRUE(
+      drawn_later.ends_with("ParaView: o/fields/Mesh0--path--HYBRID.pvd  (a picture: ./run "
+                            "figures o)\n" +
+                            moving))
+      << drawn_later;
+  const std::string drawn = run_path(
+      "f() { mkdir -p $1/figures; touch $1/figures/load_path_Mesh0--path--HYBRID.png; }; f");
+  EXPECT_TRUE(
+      drawn.ends_with("picture: o/figures/load_path_Mesh0--path--HYBRID.png  (ParaView: "
+                      "o/fields/Mesh0--path--HYBRID.pvd)\n" +
+                      moving))
+      << drawn;
+  EXPECT_NE(drawn.find("error total"), std::string::npos) << drawn;  // the record has one
 }
 
 TEST_F(ModelRuns, WrongModelsAndSettingsAreOneLine) {

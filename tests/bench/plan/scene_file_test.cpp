@@ -230,7 +230,7 @@ TEST_F(SceneFile, ComplaintsOfWalls) {
   EXPECT_EQ(complaint(R"({"face": {"circle": {"bodies": "inside"}}})"),
             "face: circle: bodies: unknown key (allowed: centre_mm, radius_mm)");
   EXPECT_EQ(complaint(R"({"face": {"circle": {"centre_mm": [0, 0], "radius_mm": 1}}})"),
-            "face: given without a wall (allowed: beside one)");
+            "face: given without a wall (allowed: with one)");
   const std::string wall = R"("wall": {"flat": {"point_mm": [0, 0], "normal": [0, 1]}})";
   EXPECT_EQ(complaint("{" + wall + R"(, "crown_radius_mm": 3})"),
             "wall and crown_radius_mm (allowed: one of them)");

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "bench/records/robust.hpp"
+#include "bench/records/summary.hpp"
 #include "bench/report/claims.hpp"
 #include "bench/report/statistics.hpp"
 #include "solvers/methods.hpp"
@@ -35,6 +36,22 @@ TEST(Robust, MedianAndItsDeviation) {
   EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
   EXPECT_EQ(median_absolute_deviation({1, 2, 3, 4, 100}), 1);
   EXPECT_NEAR(robust_standard_deviation({1, 2, 3, 4, 100}), 1.482602, 1e-6);
+}
+
+TEST(Robust, TimesTieWhoseIntervalsOverlap) {
+  const auto timed = [](std::vector<double> samples_s) {
+    Record r;
+    r.samples_s = std::move(samples_s);
+    summarise(r);
+    return r;
+  };
+  const Record fast = timed({1, 1.1, 1.2}), like_it = timed({1.15, 1.3, 1.4}),
+               slow = timed({2, 2.1, 2.2});
+  EXPECT_TRUE(times_tie(fast, like_it));
+  EXPECT_TRUE(times_tie(like_it, fast));
+  EXPECT_FALSE(times_tie(fast, slow));
+  EXPECT_FALSE(times_tie(slow, fast));
+  EXPECT_FALSE(times_tie(fast, timed({1})));  // not known
 }
 
 // Le Boudec, Tab. A.1, where it is symmetric: ranks j and k of n sorted samples.

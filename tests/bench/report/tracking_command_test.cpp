@@ -56,7 +56,12 @@ TEST_F(TrackingCommand, CompareSaysWhatIsSlower) {
   a = "'" + a + "' ";
   const Result worse = run("compare " + a + b + " --out=c.json");
   EXPECT_EQ(worse.code, 1) << worse.err;
-  EXPECT_NE(worse.out.find("slower"), std::string::npos) << worse.out;
+  EXPECT_NE(worse.out.find("B is faster in 0 cases, slower in 1, not separated from A in 0\n"),
+            std::string::npos)
+      << worse.out;
+  const Result named = run("compare " + a + b + " --names=HEAD~1,HEAD");
+  EXPECT_TRUE(named.out.starts_with("A: HEAD~1 (4 runs), B: HEAD (4 runs)\n")) << named.out;
+  expect_refused("compare " + a + b + " --names=HEAD", "--names: HEAD (allowed: two names)");
   EXPECT_EQ(Json::parse(bench_.content("c.json"))["cases"][0]["verdict"], "slower");
   EXPECT_EQ(run("compare " + b + " " + a).code, 0);
   EXPECT_EQ(run("compare " + a + b + " --minimum-effect=30").code, 0);

@@ -162,6 +162,15 @@ TEST_F(AdaptCommand, AGoalThatCannotBeReachedIsALineAndExitCode1) {
 }
 #endif
 
+TEST_F(AdaptCommand, ADryRunPlansTheFirstLevel) {
+  ASSERT_EQ(bench("--adapt=1% --dry-run --mesh=Mesh0 --method=HYBRID --out=o"), 0) << complaint();
+  EXPECT_EQ(complaint(),
+            "note: --adapt: of the first level alone; the others are known when it is solved\n");
+  EXPECT_NE(bench_.content("out.txt").find("Mesh0/default/HYBRID"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(bench_.path("o")));
+  EXPECT_EQ(bench("--adapt=1%,by=P2 --dry-run --mesh=Mesh0 --method=HYBRID --out=o"), 2);
+}
+
 TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
   for (const auto& [arguments, said] : std::vector<std::pair<std::string, std::string>>{
            {"--adapt=foo", "--adapt: foo (allowed: a total error"},
@@ -175,7 +184,6 @@ TEST_F(AdaptCommand, RefusesWhatItCannotAdapt) {
            {"--adapt=marking=0.5", "--adapt:  (allowed: a total error"},
            {"--adapt=levels=last", "--adapt:  (allowed: a total error"},
            {"--adapt=1%,levels=first", "--adapt: levels=first (allowed: all, last)"},
-           {"--adapt=1% --dry-run", "--adapt: not with --dry-run"},
            {"--adapt=1%,by=P2", "--adapt: by=P2 (allowed: HYBRID"},
            {"--adapt=1%,by=3STEPD", "--adapt: by=3STEPD (allowed: HYBRID"},
            {"--adapt=1%,by=FOO", "--adapt: by=FOO (allowed: HYBRID"}}) {

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "assembly/control_points.hpp"
 #include "bench/verify/verifier.hpp"
 #include "tests/bench/verify/solved.hpp"
 #include "tests/support/exact_fields.hpp"
@@ -244,6 +245,46 @@ TEST(DisplacementVerifier, FindsWhatIsSpoiled) {
   for (Eigen::Index i = 0; i < s.displacements.F_C.size(); ++i)
     EXPECT_GT(worst([&](Solution& x) { x.F_C(i) += 1; }), 1e-5) << i;
   EXPECT_TRUE(std::isnan(worst([](Solution& x) { x.displacement(0, 40) = std::nan(""); })));
+}
+
+// Between a floor and a ramp: without friction the force at their common vertex may have any
+// direction between their normals, but for P2, whose law has their mean.
+TEST(DisplacementVerifier, LeavesAProgramTheDirectionOfTheForceInACornerOfTwoWalls) {
+  constexpr double pressure_MPa = 10;
+  Scene scene{.friction = 0};
+  scene.crown_radius_mm.reset();
+  for (const char* group : {"force:flank", "force:side"})
+    scene.boundary[group].pressure_MPa.emplace().values.fill(pressure_MPa);
+  const auto problem = std::make_shared<const Problem>(
+      pose(scene, read_msh(testing::source_folder() / "bench/scenes/check/block.msh")));
+  const DualSystem system = assemble(problem, Blocks::contact_points);
+  const auto vertices = static_cast<Eigen::Index>(problem->mesh.vertices.size());
+  const auto unbalanced = [&](const Eigen::Matrix2d& gradient, bool is_of_program) {
+    Solution solution;
+    solution.displacement.resize(2, displacement_nodes(*problem));
+    for (Eigen::Index node = 0; node < solution.displacement.cols(); ++node) {
+      Eigen::Vector2d at;
+      if (node < vertices) {
+        at = problem->mesh.vertices[node];
+      } else {
+        const auto& [a, b] = problem->edges.vertices[node - vertices];
+        at = (problem->mesh.vertices[a] + problem->mesh.vertices[b]) / 2;
+      }
+      solution.displacement.col(node) = gradient * at;
+    }
+    solution.stress = stress_of_displacement(*problem, solution.displacement);
+    solution.F_C = contact_reactions(*problem, solution.stress);
+    if (is_of_program) solution.program.emplace();
+    return *verify_displacement(system, solution).equilibrium_residual;
+  };
+  const Eigen::Vector3d strain =
+      problem->compliance_of(0) * Eigen::Vector3d(-pressure_MPa, -pressure_MPa, 0);
+  Eigen::Matrix2d pressed = strain(0) * Eigen::Matrix2d::Identity();
+  EXPECT_LT(unbalanced(pressed, true), 1e-12);
+  EXPECT_GT(unbalanced(pressed, false), 1e-3);
+  pressed(0, 1) += strain(0);  // shear, which the walls do not take
+  EXPECT_GT(unbalanced(pressed, true), 1e-3);
+  EXPECT_GT(unbalanced(-strain(0) * Eigen::Matrix2d::Identity(), true), 1e-3);  // they do not pull
 }
 
 }  // namespace
