@@ -43,7 +43,8 @@ class Fields:
     of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
     load: np.ndarray | None = None   # (B, 2, 2) MPa: given traction at start, end; None: unknown
     moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
-    away: np.ndarray | None = None   # (P/2, 2, 2) mm: from the contact points to the wall
+    normal: np.ndarray | None = None  # (P/2, 2, 2): of the contact points, to the wall
+    gap: np.ndarray | None = None    # (P/2, 2) mm: along it, a mean around the point; NaN: unknown
 
     @property
     def triangles(self) -> np.ndarray:
@@ -146,7 +147,8 @@ class Unrolled:
         lines = np.ptp(boundary[..., 1], axis=1) < widest
         return replace(s, corners=corners[kept], stress=stress[kept], boundary=boundary[lines],
                        role=role[lines], traction=s.traction[face], state=s.state[face], of_face=True,
-                       load=None, moved=None, away=None, edges=np.stack([np.zeros_like(self.along), self.along], -1))
+                       load=None, moved=None, normal=None, gap=None,
+                       edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
 def unrolled(edges: np.ndarray) -> Unrolled:
@@ -251,7 +253,7 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
                   state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
                   moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
-                  away=(points[:, 2:4] * points[:, 7:8]).reshape(-1, 2, 2))
+                  normal=points[:, 2:4].reshape(-1, 2, 2), gap=points[:, 7].reshape(-1, 2))
 
 
 def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:

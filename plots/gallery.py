@@ -30,12 +30,13 @@ from matplotlib.figure import Figure
 import command
 from case_names import words_of_file
 from drawing import PAGE_WIDTH, axes_at, text_at, write_small_png
-from field_drawing import COLORMAP, areas, draw_body, draw_boundary, scales_of
+from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
+                           largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
                          layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
-from load_path_drawing import draw_frame, draw_path, frames_of, write_gif
+from load_path_drawing import draw_path, frames, frames_of, write_gif
 from words import csv_of, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
@@ -45,12 +46,13 @@ STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsa
 DPI = 160
 WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
 BODY = 5.0  # highest body in its own picture
-HEADING = (
-    r"Largest shear stress in the plane, "
-    r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
-    "stresses linear\non each third of a triangle, nothing averaged. Below or next to each body its contact "
-    "faces, enlarged\nand laid out straight: elements, contact points (two per edge) or a band of their "
-    "states, contact pressure.\nScene and method: ")
+STRESS = (r"Colour: the largest shear stress in the plane, "
+          r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
+          "linear stresses on each third of a triangle, not averaged.")
+FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points (two per "
+         "edge), pressure, friction.")
+WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
+         "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
 # Pictures of the error: inches, of a map and of levels of a loop.
 MAP_DPI, LEVELS_DPI = 120, 110
 SHADES = 24  # few, for a small file
@@ -66,22 +68,35 @@ Level = tuple[Fields, np.ndarray, float | None]  # fields, shares (T,) of e², t
 
 def compose(rows: list[list[Fields]]) -> Figure:
     """Rows of panels as wide as the page; a single body is at most BODY high."""
-    scales = scales_of([s for row in rows for s in row])
+    shown = [s for row in rows for s in row]
+    scales = scales_of(shown)
     widths = [WIDTH / len(row) for row in rows]
     if len(rows) == len(rows[0]) == 1:
         widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
     heights = [max(layout_of(s, width).height for s in row) for row, width in zip(rows, widths)]
     figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
-    heading = HEADING + plain(words_of_file(rows[0][0].name).partition(", ")[2])
-    figure.text(0.5, 1 - 0.1 / top, heading, ha="center", va="top")
+    figure.text(0.5, 1 - 0.1 / top, "\n".join(heading(shown, scales)), ha="center", va="top")
     top -= HEADER
     for row, width, height in zip(rows, widths, heights):
         for k, s in enumerate(row):
-            draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width, scales)
+            draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width,
+                       replace(scales, times=enlargement([s]), load_MPa=largest_load(s)))
         top -= height
-    draw_legend(figure, scales, [s for row in rows for s in row])
+    draw_legend(figure, scales, shown)
     return figure
+
+
+def heading(solutions: list[Fields], scales: Scales) -> list[str]:
+    lines = [STRESS]
+    touching = [s for s in solutions if len(s.edges)]
+    if touching:
+        places = sorted({"next to" if is_tall(s) else "below" for s in touching})
+        body = "each body" if len(solutions) > 1 else "the body"
+        lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}"))
+    if touching and scales.times is not None:
+        lines.append(WALLS)
+    return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
 
 
 def share_of_worst(share: np.ndarray) -> float:
@@ -285,9 +300,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
             of_steps = {k: replace(read_fields(args.results, f"{name}.steps/{k + 1:04}", {}),
                                    name=name, mesh=records.get(name, {}).get("mesh") or
                                    name.partition("--")[0]) for k in frames_of(path)}
-            scales = scales_of(list(of_steps.values()))
-            writers["gif"] = partial(write_gif, (draw_frame(path, k, s, scales)
-                                                 for k, s in of_steps.items()))
+            writers["gif"] = partial(write_gif, frames(path, of_steps))
         save(made, f"load_path_{name}", table_of(path), **writers)
 
 

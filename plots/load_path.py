@@ -14,6 +14,7 @@ from words import csv_of
 STEPS = ("step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,fields")
 PARTS = ("body", "contact")
+CLOSED = 1e-3  # of the range of a force: a cycle that returns to it
 SAME = 1e-6  # of the range of a displacement: two steps at the same place
 
 
@@ -42,6 +43,11 @@ class LoadPath:
         same = np.flatnonzero(np.abs(self.moved - self.moved[-1]) < SAME * np.ptp(self.moved))
         before = same[same < len(self.moved) - 2]
         return int(before[-1]) if before.size else None
+
+    @property
+    def force_returns(self) -> bool:
+        """The force at the end is that of the cycle's beginning."""
+        return bool(abs(self.push[-1] - self.push[self.cycle]) < CLOSED * np.ptp(self.push))
 
     def dissipated_in_cycle(self) -> float:
         return float(self.dissipated[self.cycle + 1:].sum())

@@ -250,19 +250,44 @@ class DisplacedTest(unittest.TestCase):
         load[0, :, 1] = -3  # below: pulls; above it would push
         load[-2, :, 1] = -1.5
         self.s = replace(s, moved=np.full_like(s.boundary, 0.004), load=load,
-                         away=np.tile([[[0.001, 0.0]]], (len(s.edges), 2, 1)))
+                         normal=np.tile([[[1.0, 0.0]]], (len(s.edges), 2, 1)),
+                         gap=np.full((len(s.edges), 2), 0.001))
 
     def test_displacements_are_enlarged_by_a_round_number(self) -> None:
-        self.assertIsNone(field_drawing.enlargement(bar(10, 8, 1)))
+        self.assertIsNone(field_drawing.enlargement([bar(10, 8, 1)]))
         for moved, times in ((0.004, 50), (0.001, 200), (0.0001, 2000), (1, 0.2)):
             s = replace(self.s, moved=np.full_like(self.s.boundary, moved))
-            self.assertAlmostEqual(field_drawing.enlargement(s), times, 9)
-        self.assertIsNone(field_drawing.enlargement(replace(s, moved=0 * s.moved)))
+            self.assertAlmostEqual(field_drawing.enlargement([s]), times, 9)
+            self.assertAlmostEqual(field_drawing.enlargement([replace(s, moved=s.moved / 9), s]), times, 9)
+        self.assertIsNone(field_drawing.enlargement([replace(s, moved=0 * s.moved)]))
+
+    def test_a_wall_keeps_its_shape_under_a_curved_face(self) -> None:
+        """A body pressed by 0.004 mm against the flat wall x = 11, from which its face bends away."""
+        s = self.s
+        bent = s.edges.copy()
+        bent[..., 0] -= 0.01 * (bent[..., 1] - 6)**2
+        s = replace(s, edges=bent, boundary=np.where((s.role == "contact")[:, None, None], 0, s.boundary))
+        s.boundary[s.role == "contact"] = bent
+        thirds = np.array([[2, 1], [1, 2]]) / 3
+        distance = 11 - np.einsum("kc,ec->ek", thirds, bent[..., 0])
+        s = replace(s, gap=distance - 0.004)
+        for state in (np.full_like(s.state, "open"), s.state):
+            wall, = field_drawing.walls_of(replace(s, state=state), 50)
+            np.testing.assert_allclose(wall[:, 0], wall[0, 0], atol=1e-12)  # as before it is enlarged
+        # No point touches it: the enlarged gap where it is least.
+        wall, = field_drawing.walls_of(replace(s, state=np.full_like(s.state, "open")), 50)
+        self.assertAlmostEqual(wall[0, 0], 11 + 49 * distance.min())
+        np.testing.assert_allclose(field_drawing.walls_of(s, 1)[0][:, 0], 11)
+
+    def test_the_outline_meets_the_wall_where_a_body_touches_it(self) -> None:
+        touching = replace(self.s, gap=0 * self.s.gap)
+        wall, = field_drawing.walls_of(touching, 50)
+        np.testing.assert_allclose(wall[:, 0], 11 + 50 * 0.004)
 
     def test_outline_wall_and_loads_are_drawn_and_named(self) -> None:
         figure = gallery.compose([[self.s]])
         body = figure.axes[0]
-        self.assertEqual(body.get_xlabel(), "x in mm; displacements, gaps × 50; loads to 3 MPa")
+        self.assertEqual(body.get_xlabel(), "x in mm; displacements × 50; loads to 3 MPa")
         outline, = (line for line in body.lines if line.get_linestyle() == "--"
                     and line.get_color() == field_drawing.OUTLINE["color"])
         np.testing.assert_allclose(outline.get_xydata()[0], self.s.boundary[0, 0] + 0.2)
@@ -277,7 +302,7 @@ class DisplacedTest(unittest.TestCase):
             self.assertLess(text.xy[1], text.xyann[1])  # all downwards
         self.assertTrue(pulls)
         words = drawn.words_of(figure)
-        for word in ("outline, displaced", "wall, behind the gap", "held", "stick"):
+        for word in ("outline, displaced", "wall", "held", "stick", "keeps its shape"):
             self.assertIn(word, words)
 
     def test_the_legend_names_only_what_is_drawn(self) -> None:
@@ -287,8 +312,12 @@ class DisplacedTest(unittest.TestCase):
         words = drawn.words_of(gallery.compose([[free]]))
         self.assertIn("on rollers", words)
         for word in ("contact", "stick", "open", "displaced", "wall", "friction"):
-            self.assertNotIn(word, words.partition("Scene and method")[2])
-        self.assertNotIn("rollers", drawn.words_of(gallery.compose([[s]])))
+            self.assertNotIn(word, words)
+        words = drawn.words_of(gallery.compose([[s]]))
+        self.assertNotIn("rollers", words)
+        self.assertIn("slip", words)
+        sticking = replace(s, state=np.full_like(s.state, "stick"))
+        self.assertNotIn("slip", drawn.words_of(gallery.compose([[sticking]])))
 
 
 class TablesTest(unittest.TestCase):
