@@ -96,7 +96,7 @@ def draw_times(axes: Axes, rows: list[Row]) -> None:
         labels.avoid(*line)
         if method not in named:
             named.add(method)
-            labels.add(method, line[0][::-1], line[1][::-1], color=look.colour, weight="bold")
+            labels.add(own[0].label, line[0][::-1], line[1][::-1], color=look.colour, weight="bold")
     loop = [(row.adapt_time_s, row.error_total)
             for row in best_of([row for row in rows if kind_of(row) == "adapted"]) if row.adapt_time_s]
     if loop:

@@ -42,11 +42,11 @@ def curves_of(rows: list[Row]) -> list[Curve]:
     curves = []
     rows = sorted((row for row in rows if row.stop == "target" or row.iterative),
                   key=lambda row: (order(row), row.n_phi))
-    for (method, stop, kind), own in grouped(
+    for (_, stop, kind), own in grouped(
             rows, lambda row: (row.method, row.stop, kind_of(row))).items():
         target = max(row.target_error or 0 for row in own)
-        words = f"{method}, the paper’s stop" if stop == "paper" else \
-            f"{method} to {short(target)}" if own[0].iterative else method
+        words = f"{own[0].label}, the paper’s stop" if stop == "paper" else \
+            f"{own[0].label} to {short(target)}" if own[0].iterative else own[0].label
         adapted = kind == "adapted"
         curves.append(Curve(words + ", adapted meshes" * adapted, own, (0, (1, 1))
                             if stop == "paper" else "-" if adapted else (0, (5, 2)), adapted))

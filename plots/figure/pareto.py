@@ -179,12 +179,12 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
         axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
                   zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
         labels.avoid(*line)
-        labels.add(f"{own[0].method}, {kinds[k]}" if len(kinds) > 1 else
-                   f"{own[0].method} displacements", *line, color=look.colour, **NAME)
+        labels.add(f"{own[0].label}, {kinds[k]}" if len(kinds) > 1 else
+                   f"{own[0].label} displacements", *line, color=look.colour, **NAME)
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
-    for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
+    for name, own in grouped(fronts.get("as they are", []), lambda row: row.label).items():
         meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
-        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column, "error_total"),
+        labels.add(f"{name}, {joined(meshes)}", *line_of(own[::-1], column, "error_total"),
                    weight="bold", color=own[0].look.colour)
 
 
@@ -201,7 +201,7 @@ def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]]
         axes.plot(cost, row.error_total, color=row.look.colour, marker=row.look.marker,
                   markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
     if kind != "as they are":
-        methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
+        methods = " and ".join(dict.fromkeys(row.label for row in reversed(best)))
         labels.add(f"{kind}: {methods}", line[0][::-1], line[1][::-1], color=colour, **NAME)
 
 

@@ -134,7 +134,7 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
         if not first and given(row) and row.family in ends:
             continue  # its memory is that of the method that chooses r and rho
         y, x = zip(*points)
-        labels.add(method, x, y, color=row.look.colour if len(points) > 1 else "0.1")
+        labels.add(row.label, x, y, color=row.look.colour if len(points) > 1 else "0.1")
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:
