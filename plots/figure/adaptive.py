@@ -10,7 +10,7 @@ from marks import WIDTH
 from records import Row
 from selection import (by_body, by_mesh, exponent, grouped, is_paper_stop, kind_of, line_of,
                        of_scene)
-from words import CASE, csv_of, plain, threads
+from words import CASE, csv_of, left_out, plain, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.62, 0.45, 0.42, 2.5, 0.15, 0.5  # inches
 BODIES = 2  # that there is room for
@@ -21,13 +21,14 @@ HIGHEST = 1.0  # total errors above are not drawn
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    known = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
-                      and not is_paper_stop(row) and row.completed and row.error_total])
+    run = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
+                    and not is_paper_stop(row)])
+    known = [row for row in run if row.completed and row.error_total]
     bodies = {body for body, own in by_body(known).items()
               if len({row.n_phi for row in own if kind_of(row) == "adapted"}) > 1}
     shown = [row for row in known if row.body in sorted(bodies)[:BODIES]]
     if shown:
-        yield Drawing("adaptive", shown, draw, table_of, vector=True)
+        yield Drawing("adaptive", shown, draw, table_of, vector=True, options=dict(run=run))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -39,8 +40,14 @@ def best_of(rows: list[Row]) -> list[Row]:
     return [min(own, key=lambda row: row.error_total) for own in by_mesh(rows).values()]
 
 
-def draw(rows: list[Row]) -> Figure:
-    bodies = by_body([row for row in rows if row.error_total <= HIGHEST])
+def why(row: Row) -> str:
+    return "only on other bodies" if row.error_total and row.error_total <= HIGHEST \
+        else f"no total error up to {HIGHEST:g}"
+
+
+def draw(rows: list[Row], run: list[Row]) -> Figure:
+    every = [row for row in rows if row.error_total <= HIGHEST]
+    bodies = by_body(every)
     figure = sheet(
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
         f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
@@ -48,8 +55,7 @@ def draw(rows: list[Row]) -> Figure:
         "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
         "estimates of the error. "
         "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
-        f"one's unknowns on. {threads(rows)}.", width=WIDTH)
-    every = [row for own in bodies.values() for row in own]
+        f"one's unknowns on. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
     width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$", [row.n_phi for row in every]),

@@ -9,7 +9,7 @@ from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import grouped, kind_of, order
-from words import CASE, csv_of, plain, threads
+from words import CASE, csv_of, left_out, plain, threads
 
 LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 2.9, 0.78, 0.6  # inches
 PANELS, IN_ROW = 4, 2
@@ -19,13 +19,13 @@ Panel = tuple[str, str]  # body and scene
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    known = [row for row in rows if not row.study and row.stop == "target" and row.completed
-             and row.error_total and time_of(row)]
+    run = [row for row in rows if not row.study and row.stop == "target"]
+    known = [row for row in run if row.completed and row.error_total and time_of(row)]
     degrees = grouped(known, panel_of)
     shown = [panel for panel, own in degrees.items() if len({row.degree for row in own}) > 1][:PANELS]
     if shown:
         yield Drawing("degrees", [row for row in known if panel_of(row) in shown], draw, table_of,
-                      options=dict(others=[panel for panel in degrees if panel not in shown]))
+                      options=dict(run=run))
 
 
 def panel_of(row: Row) -> Panel:
@@ -47,8 +47,9 @@ def lines_of(rows: list[Row]) -> dict[tuple[str, str], list[Row]]:
     return {name: sorted(line, key=time_of) for name, line in lines.items()}
 
 
-def draw(rows: list[Row], others: list[Panel]) -> Figure:
+def draw(rows: list[Row], run: list[Row]) -> Figure:
     panels = grouped(rows, panel_of)
+    others = [panel for panel in grouped(run, panel_of) if panel not in panels]
     lines = math.ceil(len(panels) / IN_ROW)
     kinds = {kind_of(row) for row in rows}
     words = {"adapted": "Solid, filled: adapted meshes, over the time of the whole loop, all levels and "
@@ -59,7 +60,8 @@ def draw(rows: list[Row], others: list[Panel]) -> Figure:
         TOP + lines * HEIGHT + (lines - 1) * BETWEEN + 0.45, "Total error over time, by degree",
         f"Total error of the stresses, mesh and method together; {threads(rows)}. "
         + " ".join(text for kind, text in words.items() if kind in kinds),
-        f"Not drawn: {', '.join(map(title_of, others))}." if others else "")
+        f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",
+        left_out(run, rows, lambda row: "no total error" if not row.error_total else "only on other bodies"))
     errors = log_limits([row.error_total for row in rows], 1.5)
     width = (PAGE_WIDTH - LEFT - 0.15 - GAP) / IN_ROW
     for k, (panel, own) in enumerate(panels.items()):

@@ -11,7 +11,7 @@ from labels import Labels
 from records import Row
 from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_scene,
                        value_of)
-from words import (CASE, KNOB, csv_of, mebibytes, percent, plain, seconds, threads, width_of)
+from words import (CASE, KNOB, csv_of, lacking, left_out, mebibytes, names_of, percent, plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
 TABLE_LINE = 0.17  # inches: a line of the table
@@ -115,7 +115,9 @@ def draw(rows: list[Row]) -> Figure | str:
     heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 1)
                for body, table in tables.items()}
     figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
-                   caption(rows, known, kinds))
+                   caption(rows, known, kinds),
+                   left_out(rows, known, lambda row: f"no total error up to {percent(highest_of(rows))}"),
+                   lacking(known, {"peak heap": lambda row: row.peak_heap_bytes}))
     above = 0.0
     for body, of_body in bodies.items():
         errors = [row.error_total for row in of_body]
@@ -150,13 +152,15 @@ def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
     cut = f" {beyond} solves with errors above {percent(highest)} are not drawn." \
         if beyond else ""
+    points = grouped([row for row in known if not row.in_displacements], lambda row: row.method)
+    methods = names_of([own[0] for own in points.values()])
     return (
         f"Scene {known[0].scene}, {threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
         "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
         "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
         "the discretisation error of meshes as they are, the lowest that a method can reach there. "
-        f"{others}Small points: all solves{tuned}.{adapting}{cut}")
+        f"{others}Small points: all solves of {methods}{tuned}.{adapting}{cut}")
 
 
 def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> None:

@@ -26,7 +26,7 @@ from figure.profile import CONFIDENCE, RESAMPLES, SEED
 from labels import Labels
 from records import Row
 from selection import by_mesh, grouped, of_scene, order
-from words import columns_of, csv_of
+from words import columns_of, csv_of, left_out
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.5, 0.55, 0.45, 3.2, 0.45  # inches
 MESHES = 2  # of strong scaling that there is room for, the largest
@@ -133,12 +133,17 @@ def draw(rows: list[Row]) -> Figure | str:
                        [point for point in weak if point.row.body == grown[0].row.body],
                        lambda point: point.weak_efficiency, lambda threads: 1.0))
     figure = sheet(TOP + HEIGHT + BOTTOM, "Scaling over threads",
-                   *caption(points, len(rows) - len(points), len(rows), grown))
+                   *caption(points, len(rows) - len(points), len(rows), grown),
+                   left_out(rows, [point.row for _, own, *_ in panels for point in own], why_not))
     row = side_by_side(figure, [title for title, *_ in panels], LEFT, TOP, HEIGHT, GAP, right=0.15)
     for axes, (_, *panel) in zip(row, panels):
         axes.tick_params(labelleft=True)
         draw_panel(axes, *panel)
     return figure
+
+
+def why_not(row: Row) -> str:
+    return "only on other meshes" if is_timed(row) else "timed once" if row.solved else "not verified"
 
 
 def caption(points: list[Point], lost: int, count: int, grown: list[Point]) -> Iterator[str]:

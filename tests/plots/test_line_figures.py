@@ -139,7 +139,7 @@ class DegreesTest(unittest.TestCase):
         figure = drawing.figure()
         self.assertEqual([axes.get_title() for axes in figure.axes],
                          ["one tooth", "rack of four teeth", "L", "cylinder, scene pressed"])
-        self.assertIn("Not drawn: ring.", drawn.words_of(figure))
+        self.assertIn("Bodies not drawn: ring.", drawn.words_of(figure))
         for axes in figure.axes:
             words = {text.get_text() for text in axes.texts}
             self.assertEqual(words, {f"HYBRID, degree {k}" for k in range(1, 5)})

@@ -258,7 +258,7 @@ class MemoryFigureTest(drawn.FiguresTest):
                          made_up.split("Mesh1", "BLIND", factor=(30, 10), other=(1, None)),
                          *(made_up.split("Mesh1", f"SYMMLQ:SSOR{k}") for k in range(30)),
                          made_up.split("Mesh2", "3STEPD"))        # alone
-        figure = memory_figure.draw(bars)
+        figure = memory_figure.draw(bars, bars)
         axes, = figure.axes
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["SSKY", "BLIND"])
         ends = [max(bar.get_x() + bar.get_width() for bar in axes.patches
@@ -275,7 +275,7 @@ class MemoryFigureTest(drawn.FiguresTest):
 
     def test_a_count_that_differs_is_named(self) -> None:
         record = made_up.split("Mesh0", "3STEPD") | {"memory_counts_differ": True}
-        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID"))))
+        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID")), []))
         self.assertIn("differs from the heap by more than 10 %: 3STEPD.", words)
 
     def test_other_records_are_passed_over(self) -> None:
@@ -308,4 +308,4 @@ class OtherFiguresTest(drawn.FiguresTest):
         rows = read(made_up.error_study(["Mesh1"]))
         curve, = stop_figure.curves_of(rows).values()
         self.assertEqual([stop_figure.parameters_of(row)[0] for row in curve], [5, 20, 80, 320, 1280])
-        self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows)))
+        self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows, rows)))
