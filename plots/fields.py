@@ -22,7 +22,7 @@ WITHOUT_LOADS = "x0_mm,y0_mm,x1_mm,y1_mm,role"  # of an earlier bench
 ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
-BY_LENGTH = "along the face from its dot, mm"
+BY_LENGTH = "distance along the face from its dot, mm"
 STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
 
 

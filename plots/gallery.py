@@ -138,13 +138,13 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     draw_shares(axes, s, share, norm, shades, edgecolor="white",
                 linewidths=np.clip(10 / math.sqrt(len(share)), 0.06, 0.4))
     label_body(axes)
-    title = f"{words_of_file(s.name)}: where the discretisation error is"
+    title = f"{words_of_file(s.name)}: discretisation error by triangle"
     text_at(figure, 0.1, 0.1, plain(title), weight="bold",
             fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
-    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; a tenth of them "
+    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
             f"has {100 * share_of_worst(share):.0f} % of the squared error.")
     draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "share of the squared error in a triangle")
+             "a triangle's share of the squared error")
     return figure
 
 
@@ -195,9 +195,9 @@ def draw_levels(levels: list[Level]) -> Figure:
         upper.tick_params(labelleft=k == 0, labelbottom=False)
         lower.tick_params(labelleft=k == 0)
     draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
-             "largest shear stress in the plane, MPa; brightest: or more")
+             "largest shear stress in the plane, MPa; brightest: this or more")
     draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "a triangle's part of the squared error over their mean")
+             "squared error of a triangle, relative to the mean")
     return figure
 
 

@@ -176,7 +176,7 @@ def time_caption(rows: list[Row], run: list[Row]) -> str:
         words += f", median of {span(done)} repetition{'' if done == {1} else 's'}"
     words = caption(rows, words, run)
     if any(row.tuning_s for row in rows):
-        words += " Finding tolerances and parameters is not in the time."
+        words += " The time does not include the search for tolerances and parameters."
     return words
 
 

@@ -17,6 +17,7 @@ BODIES = 2  # that there is room for
 ALL_LEVELS = "#B00020"
 COLOURS = {"as they are": "0.35", "refined everywhere": "#4B6BC8", "adapted": ALL_LEVELS}  # of kinds
 DASHES = {"as they are": (0, (4, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}
+LOOKS = {"as they are": "open, dashed", "refined everywhere": "open, dotted", "adapted": "filled, solid"}
 HIGHEST = 1.0  # total errors above are not drawn
 
 
@@ -40,6 +41,11 @@ def best_of(rows: list[Row]) -> list[Row]:
     return [min(own, key=lambda row: row.error_total) for own in by_mesh(rows).values()]
 
 
+def kinds_in(rows: list[Row]) -> str:
+    kinds = {kind_of(row) for row in rows}
+    return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
+
+
 def why(row: Row) -> str:
     return "only on other bodies" if row.error_total and row.error_total <= HIGHEST \
         else f"no total error up to {HIGHEST:g}"
@@ -50,12 +56,11 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     bodies = by_body(every)
     figure = sheet(
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
-        f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
-        "they are (open, dashed), refined everywhere (open, dotted) and adapted (filled, solid). Below: "
-        "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
-        "estimates of the error. "
-        "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
-        f"one's unknowns on. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
+        f"Scene {rows[0].scene}. Total error, discretisation and method together, of meshes "
+        f"{kinds_in(every)}. Below: the time of one solve on the mesh; red: of the whole adaptive loop, "
+        "all levels and estimates of the error. "
+        "N^p: power law by least squares of logarithms, of adapted meshes with at least 1.5 times "
+        f"the first one's unknowns. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
     width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$", [row.n_phi for row in every]),

@@ -71,10 +71,10 @@ def draw(rows: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + 2 * HEIGHT + GAP + BOTTOM + KEY * key_lines,
         ("Solvers" if programs else "Four solvers") + " of the condensed contact problem",
-        f"{rows[0].method}, {threads(rows)}. One column is a scene, one point a mesh: all "
-        "solvers get the same D and G there. Above: the median time of the stage; below: "
-        "Gauss–Seidel sweeps, plain (gauss-seidel), accelerated (anderson) or before active sets "
-        "(newton, whose steps are added), or iterations of ADMM. " +
+        f"{rows[0].method}, {threads(rows)}. A column is a scene, a point a mesh; all "
+        "solvers get the same D and G. Above: median time of the contact law. Below: Gauss–Seidel "
+        "sweeps, plain (gauss-seidel) or accelerated (anderson); sweeps and active-set steps together "
+        "(newton); iterations (admm). " +
         (f"Other programs: {', '.join(programs)}; their time is that of the contact law by their own "
          "clock, their iterations as they report them. " if programs else "") +
         (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "

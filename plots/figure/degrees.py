@@ -6,6 +6,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
+from figure.adaptive import DASHES, kinds_in
 from labels import Labels
 from records import Row
 from selection import grouped, kind_of, order
@@ -13,7 +14,6 @@ from words import CASE, csv_of, left_out, plain, threads
 
 LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 2.9, 0.78, 0.6  # inches
 PANELS, IN_ROW = 4, 2
-DASHES = {"as they are": (0, (5, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}  # as kind_of() says
 
 Panel = tuple[str, str]  # body and scene
 
@@ -51,15 +51,11 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
     panels = grouped(rows, panel_of)
     others = [panel for panel in grouped(run, panel_of) if panel not in panels]
     lines = math.ceil(len(panels) / IN_ROW)
-    kinds = {kind_of(row) for row in rows}
-    words = {"adapted": "Solid, filled: adapted meshes, over the time of the whole loop, all levels and "
-                        "error estimates.",
-             "as they are": "Dashed, open: meshes as they are, over the time of one solve.",
-             "refined everywhere": "Dotted, open: meshes refined everywhere, over the time of one solve."}
     figure = sheet(
         TOP + lines * HEIGHT + (lines - 1) * BETWEEN + 0.45, "Total error over time, by degree",
-        f"Total error of the stresses, mesh and method together; {threads(rows)}. "
-        + " ".join(text for kind, text in words.items() if kind in kinds),
+        f"Total error of the stresses, mesh and method together, of meshes {kinds_in(rows)}; "
+        f"{threads(rows)}. Time of one solve; of adapted meshes the time of the whole loop, all levels and "
+        "error estimates.",
         f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",
         left_out(run, rows, lambda row: "no total error" if not row.error_total else "only on other bodies"))
     errors = log_limits([row.error_total for row in rows], 1.5)

@@ -79,8 +79,8 @@ def draw(rows: list[Row]) -> Figure | str:
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "From a thousand unknowns to millions",
         f"Scene {rows[0].scene}, {threads(rows)}; one body, its mesh refined in memory. "
         "Memory: peak heap of one solve; of other programs the resident memory of all their "
-        "processes. Errors: against the reference (filled), beyond its limit of size by the method’s "
-        "own estimate (open), displacements’ at every size. Iterations: of the linear solves of all "
+        "processes. Errors: against the reference (filled); by the method’s own estimate (open) beyond "
+        "the reference’s size limit and for displacements. Iterations: of the linear solves of all "
         "active sets together; direct methods have none. n^p: least squares of logarithms from "
         f"n = {ASYMPTOTIC} on.", no_point(rows),
         left_out([row for row in rows if row.completed], [row for line in lines.values() for row in line],

@@ -32,9 +32,9 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
         return "no case of the study of load steps has a time"
     figure = sheet(
         TOP + HEIGHT + BOTTOM, "Load steps",
-        "Time of all steps of a path to the same loads, over their number. Level at the left: what "
-        "a body costs once, its condensation; rising in proportion to the right: what each step "
-        "adds, contact law, recovery and check, or a whole iteration. "
+        "Time of a whole path to the same loads, over the number of its steps. Where a line is level, the "
+        "time is what a body costs once, its condensation. Where it rises in proportion, it is what each "
+        "step costs: contact law, recovery and check, or a whole solve. "
         f"{threads(rows)}.", no_point(rows), left_out(run, rows, lambda row: "only on other meshes"))
     meshes = by_mesh(timed)
     panels = side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)

@@ -72,10 +72,10 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + body + BOTTOM, "Where the memory goes",
         f"{'; '.join(sizes)}, scene {rows[0].scene}, {threads(rows)}. "
-        "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
-        "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
-        "count, entries times size, and the blocks. A bar that ends beyond it is workspace; one "
-        "that ends before it never holds everything at once.",
+        "Peak heap of one solve, by owner at that moment; workspace belongs to the part that it serves. "
+        "Diamond: the method's own count of its matrices and vectors, entries times size, and the blocks. "
+        "What a bar has beyond it is workspace; where a bar is shorter, the solve never holds everything "
+        "at once.",
         f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
         else "", left_out(run, rows, lambda row: "no room, or not on these meshes" if row.memory_by_owner
                           else "heap not split by owner"))

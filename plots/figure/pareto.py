@@ -140,14 +140,14 @@ def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     names = displacements_of(known)
     others = ""
     if len(names) == 1:
-        others = (f"The displacement method {names[0]} has its own curve; by definition it has the "
-                  "mesh's error. ")
+        others = (f"The displacement method {names[0]} has its own curve; its error is that of the "
+                  "mesh by definition. ")
     elif names:
         others = (f"The displacement methods {', '.join(names[:-1])} and {names[-1]} have their own "
                   "curves and errors. ")
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
-    tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
-    adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
+    tuned = f"; their time does not include the search for r and ρ of {' and '.join(tuning)}" if tuning else ""
+    adapting = " Times do not include the adapting of a mesh." if "adapted" in kinds else ""
     highest = highest_of(rows)
     beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
     cut = f" {beyond} solves with errors above {percent(highest)} are not drawn." \
@@ -157,9 +157,9 @@ def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     return (
         f"Scene {known[0].scene}, {threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
-        "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
-        "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
-        "the discretisation error of meshes as they are, the lowest that a method can reach there. "
+        "Pareto front of the stress methods on each kind of meshes: no cheaper solve has a smaller "
+        "error, within 1 %; each method is named once, with its meshes on the front. Dotted: the "
+        "discretisation error of meshes as they are, the least that a method can reach there. "
         f"{others}Small points: all solves of {methods}{tuned}.{adapting}{cut}")
 
 

@@ -83,7 +83,7 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
              " Below: highest heap during one solve, its blocks and result included.",
              left_out(run, rows, why),
              *notes_of(cases, TIME)]
-    texts += [line.replace("no point", "no point below") for line in notes_of(timed, HEAP)]
+    texts += [line.replace("No point", "No point below") for line in notes_of(timed, HEAP)]
     footer = Footer(rows, TIME, texts, scale)
     figure = Figure(figsize=(WIDTH, BLOCK * len(meshes) + footer.height))
     for k, (mesh, own) in enumerate(meshes.items()):

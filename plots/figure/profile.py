@@ -136,13 +136,13 @@ def profiles_of(cases: Cases) -> list[Profile]:
     times = cases.costs(lambda row: row.time_s)
     repeated = any(len(row.samples_s or ()) > 1 for row in cases.rows.values())
     again = cases.resampled() if repeated else times[None]
-    found = [Profile("performance", "time_s", "time over that of the fastest method",
+    found = [Profile("performance", "time_s", "time relative to that of the fastest method",
                      ratios(times), ratios(again)),
              Profile("data", "time_s", "time of one solve, s", times, again)]
     heaps = cases.costs(lambda row: row.peak_heap_bytes or np.nan)
     if not np.isnan(heaps).any():
         found.insert(1, Profile("performance", "peak_heap_bytes",
-                                "peak heap over that of the smallest", ratios(heaps),
+                                "peak heap relative to the smallest", ratios(heaps),
                                 ratios(heaps)[None]))
     return found
 
@@ -191,14 +191,14 @@ def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
     rows = list(cases.rows.values())
     scenes, meshes = (len({getattr(row, name) for row in rows}) for name in ("scene", "mesh"))
     yield (f"Cases: {counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}; "
-           f"{threads(rows)}. Solved: status ok and verified; whatever else became of a case, "
-           "skipped too, it is not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
+           f"{threads(rows)}. A case is solved if its status is ok and verified; all other "
+           "outcomes, skipped included, are not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
            "solves within a factor of the best method's cost; at 1: how often it is the best. "
-           "Lowest: data profile (Moré & Wild 2009), the share solved within a time.")
+           "Bottom: data profile (Moré & Wild 2009), the share solved within a time.")
     yield ("A performance profile depends on the methods compared: with more than two, the order "
            "of those behind the best can change when one is left out (Gould & Scott 2016)"
-           + {None: ".", True: "; here it does at factor 2 without the one that leads there.",
-              False: "; at factor 2 it does not here without the one that leads there."}[
+           + {None: ".", True: "; here it does, at factor 2, without the leading method.",
+              False: "; here it does not, at factor 2, without the leading method."}[
                   order_depends_on_best(shown[0].values)])
     if len(shown[0].resampled) > 1:
         yield (f"Bands: {100 * CONFIDENCE:.0f} % of {RESAMPLES} bootstrap "

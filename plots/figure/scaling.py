@@ -148,7 +148,7 @@ def why_not(row: Row) -> str:
 
 def caption(points: list[Point], lost: int, count: int, grown: list[Point]) -> Iterator[str]:
     yield ("Speed-up: time of one solve on one thread over that on p, both medians; bars: 95 % "
-           "bootstrap intervals of the repetitions; dashed: p. Its share of p is the efficiency "
+           "bootstrap intervals of the repetitions; dashed: p. Speed-up over p is the efficiency "
            "(in the CSV).")
     if grown:
         growths = [point.weak_growth for point in grown]
@@ -157,11 +157,11 @@ def caption(points: list[Point], lost: int, count: int, grown: list[Point]) -> I
             "Growing meshes: unknowns solved per second and thread, over those of one thread on "
             f"{grown[0].weak_from}. The meshes have {ratios} times the "
             f"unknowns per thread (allowed: a factor of {NEAR}). Work grows faster than unknowns: the "
-            "CSV has what one thread loses to that (weak_one_thread) apart from what threads lose.")
+            "CSV has this loss (weak_one_thread) apart from the loss to threads.")
     busy = [point.busy_kernel_ratio for point in points if point.busy_kernel_ratio]
     if busy:
-        yield ("With all threads busy a loop that shares nothing but the machine takes "
-               f"{median(busy):.2g} times its time alone (median).")
+        yield ("With all threads busy, an independent loop takes "
+               f"{median(busy):.2g} times as long as alone (median).")
     if lost:
         yield (f"{lost} of {count} cases are not solved, were timed once, or have no case on "
                "one thread: not drawn.")

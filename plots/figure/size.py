@@ -72,8 +72,8 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
                          for name, line in lines.items()})
     cases = ((f"{name} on {row.mesh}", row) for name, line in lines.items() for row in line)
     texts = [quantity.caption(rows, run) + " n^p: power law fitted over a method's "
-             "completed cases, three or more. Points that would cover each other stand side by "
-             "side.", left_out(run, rows, lambda row: "no room"),
+             "completed cases, three or more. Points that would cover each other are moved "
+             "apart.", left_out(run, rows, lambda row: "no room"),
              *notes_of(cases, quantity)]
     footer = Footer(rows, quantity, texts, scale)
     shared = sharing_axes(rows)

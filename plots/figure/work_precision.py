@@ -58,14 +58,14 @@ def caption(rows: list[Row], known: list[Row], floor: float, target: float) -> I
     words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
              f"{threads(known)}. Error of the contact forces against the reference, a point "
              f"per solve. Joined: a method at several values of a parameter ({', '.join(knobs) or 'none'}); "
-             f"single points: methods run to their end. Dashed: the target error {short(target)}.")
+             f"single points: methods without one. Dashed: the target error {short(target)}.")
     for family, own in families_of(curves_of(known)).items():
         words += (f" {family}, thick: the best of its {len({row.method for row in own})} given r "
                   "and ρ, known only afterwards; grey: each of them.")
     stops = grouped([row for row in known if is_paper_stop(row)], lambda row: row.family)
     if stops:
-        words += (f" Stars: {' and '.join(stops)} ended by the paper's stop, small "
-                  "ones with given r and ρ.")
+        words += (f" Stars: {' and '.join(stops)} ended by the paper's stop; small "
+                  "stars: with given r and ρ.")
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     yield words

@@ -157,7 +157,7 @@ class UnrolledTest(unittest.TestCase):
 
     def test_an_arc_goes_by_its_length(self) -> None:
         line = unrolled(self.arc(400))
-        self.assertEqual(line.axis, "along the face from its dot, mm")
+        self.assertEqual(line.axis, "distance along the face from its dot, mm")
         for radius, angle in ((5, 0.3), (4, 1.0), (4.5, 3.0), (5.2, 2.0)):
             outward, along = line.of(radius * np.array([np.cos(angle), np.sin(angle)]))
             self.assertAlmostEqual(outward, radius - 5, 3)

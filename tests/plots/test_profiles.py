@@ -116,7 +116,7 @@ class ProfilesTest(unittest.TestCase):
 
     def test_the_figure_says_what_it_cannot_tell(self) -> None:
         words = drawn.words_of(drawn.plan(made_up.read_lines(lines()), "profiles").figure())
-        for part in ("3 methods on 4 cases", "Gould & Scott 2016", "status ok and verified", *TIMES):
+        for part in ("3 methods on 4 cases", "Gould & Scott 2016", "its status is ok and verified", *TIMES):
             self.assertIn(part, words)
         self.assertNotIn("bootstrap", words)
 
