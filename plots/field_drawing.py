@@ -137,7 +137,7 @@ def draw_boundary(axes: Axes, s: Fields) -> None:
             if role == "displacement":
                 line.set_path_effects([TICKED])
             if role == "rollers":
-                axes.plot(*s.placed(edges[chain].mean(1)).T, **ROLLER, zorder=3)
+                axes.plot(*edges[chain].mean(1).T, **ROLLER, zorder=3)
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:

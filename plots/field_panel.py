@@ -212,7 +212,7 @@ def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields])
     height = figure.get_size_inches()[1]
     bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
                           cax=figure.add_axes([0.7, 0.36 / height, 0.27, 0.12 / height]))
-    bar.set_label(r"$\tau_{max}$ , MPa; brightest: this or more", labelpad=1)
+    bar.set_label(r"$\tau_{max}$, MPa; brightest: this or more", labelpad=1)
 
 
 def contact_points(solutions: list[Fields]) -> str:

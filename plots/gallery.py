@@ -44,7 +44,7 @@ STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsa
          "xtick.labelsize": 7, "ytick.labelsize": 7, "grid.color": "0.88", "grid.linewidth": 0.4,
          "axes.axisbelow": True}
 DPI = 160
-WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
+WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
 BODY = 5.0  # highest body in its own picture
 STRESS = (r"Colour: the largest shear stress in the plane, "
           r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
@@ -74,10 +74,12 @@ def compose(rows: list[list[Fields]]) -> Figure:
     if len(rows) == len(rows[0]) == 1:
         widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
     heights = [max(layout_of(s, width).height for s in row) for row, width in zip(rows, widths)]
-    figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
+    words = "\n".join(heading(shown, scales))
+    header = 0.1 + LINE * (1 + words.count("\n")) + ROOT
+    figure = Figure(figsize=(WIDTH, header + sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
-    figure.text(0.5, 1 - 0.1 / top, "\n".join(heading(shown, scales)), ha="center", va="top")
-    top -= HEADER
+    figure.text(0.5, 1 - 0.1 / top, words, ha="center", va="top")
+    top -= header
     for row, width, height in zip(rows, widths, heights):
         for k, s in enumerate(row):
             draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width,

@@ -76,6 +76,13 @@ class UprightTest(unittest.TestCase):
                     box = words.get_window_extent(renderer)
                     self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
 
+    def test_words_above_a_body_are_apart_from_its_title(self) -> None:
+        for s in (bar(10, 8, 1), replace(bar(10, 8, 1), moved=np.full_like(bar(10, 8, 1).boundary, 0.01))):
+            figure = gallery.compose([[s]])
+            _, renderer = drawn.paint(figure)
+            above, title = (text.get_window_extent(renderer) for text in figure.texts[:2])
+            self.assertGreater(above.y0, title.y1 + 3)  # pixels
+
 
 class FacesTest(unittest.TestCase):
     def test_faces_do_not_cover_each_other_or_the_body(self) -> None:
@@ -304,6 +311,16 @@ class DisplacedTest(unittest.TestCase):
         words = drawn.words_of(figure)
         for word in ("outline, displaced", "wall", "held", "stick", "keeps its shape"):
             self.assertIn(word, words)
+
+    def test_rollers_lie_on_their_edge_in_the_body_and_at_a_face(self) -> None:
+        s = replace(self.s, role=np.where(self.s.role == "force", "rollers", self.s.role))
+        line = unrolled(s.edges[s.faces()[0]])
+        for seen in (s, line.seen(s, s.faces()[0], 20)):
+            axes = Figure().add_axes([0, 0, 1, 1])
+            field_drawing.draw_boundary(axes, seen)
+            marks = np.vstack([mark.get_xydata() for mark in axes.lines if mark.get_marker() == "o"])
+            middles = seen.placed(seen.boundary[seen.role == "rollers"].mean(1))
+            np.testing.assert_allclose(np.sort(marks, axis=0), np.sort(middles, axis=0))
 
     def test_the_legend_names_only_what_is_drawn(self) -> None:
         s = bar(10, 8, 1)
