@@ -81,7 +81,7 @@ class UprightTest(unittest.TestCase):
             figure = gallery.compose([[s]])
             _, renderer = drawn.paint(figure)
             above, title = (text.get_window_extent(renderer) for text in figure.texts[:2])
-            self.assertGreater(above.y0, title.y1 + 3)  # pixels
+            self.assertGreater(above.y0, title.y1 + 8)  # pixels: half a line
 
 
 class FacesTest(unittest.TestCase):
