@@ -28,6 +28,7 @@ from matplotlib.colors import Colormap, LogNorm
 from matplotlib.figure import Figure
 
 import command
+import drawing
 from case_names import words_of_file
 from drawing import PAGE_WIDTH, axes_at, text_at, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
@@ -40,9 +41,7 @@ from load_path_drawing import draw_path, frames, frames_of, write_gif
 from words import csv_of, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
-STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
-         "xtick.labelsize": 7, "ytick.labelsize": 7, "grid.color": "0.88", "grid.linewidth": 0.4,
-         "axes.axisbelow": True}
+STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
 WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
 BODY = 5.0  # highest body in its own picture

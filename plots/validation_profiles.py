@@ -14,13 +14,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+import drawing
 from command import replace_all, run
 from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"
-STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "axes.spines.top": False,
-         "axes.spines.right": False}
+STYLE = drawing.STYLE | {"axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False}
 OURS = dict(color="#0072B2", linestyle="", marker="o", markersize=2.5)
 OURS_TOO = dict(color="#D55E00", linestyle="", marker="s", markersize=2.2)
 OUTSIDE = dict(color="black", linewidth=0.8)

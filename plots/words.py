@@ -136,6 +136,11 @@ def left_out(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> str
     return f"Not drawn: {words}." if words else ""
 
 
+def unseen(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> list[str]:
+    """Cases of a run without an answer, and methods that have one but nothing in the figure."""
+    return [no_point(run), left_out([row for row in run if row.completed], drawn, why)]
+
+
 def lacking(rows: list[Row], panels: Mapping[str, Callable[[Row], object]],
             name: Callable[[Row], str] = attrgetter("method")) -> str:
     """What is drawn in some panels only: 'No peak heap: P2. ...'; empty if all is in all of them."""

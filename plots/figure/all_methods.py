@@ -12,7 +12,7 @@ from drawing import (MARGIN, MATH, PAGE_WIDTH, TYPE, Drawing, axes_at, error_flo
 from labels import LEFT, NAMES_APART, draw_names, mark_meshes
 from records import Row
 from selection import by_body, by_method, exponent, of_scene, sharing_axes, value_of
-from words import CASE, csv_of, lacking, left_out, no_point, plain, threads, width_of
+from words import CASE, csv_of, lacking, plain, threads, unseen, width_of
 
 TOP, BETWEEN, LOWEST, BOTTOM = 1.15, 0.12, 2.5, 0.5  # inches; LOWEST: a panel
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
@@ -63,9 +63,8 @@ def draw(rows: list[Row]) -> Figure | str:
         f"Scene {rows[0].scene}, {threads(rows)}"
         f"{', with the paper’s stops' if rows[0].stop == 'paper' else ''}. n^p: power law by least "
         f"squares of logarithms over all sizes of a method, three or more. Lines are interrupted "
-        f"between {between}. Errors of 0 are at the lower edge.", no_point(rows),
-        left_out([row for row in rows if row.completed], [row for own in drawn for row in own],
-                 lambda row: "one size"),
+        f"between {between}. Errors of 0 are at the lower edge.",
+        *unseen(rows, [row for own in drawn for row in own], lambda row: "one size"),
         lacking([row for own in drawn for row in own],
                 {NAMES[column]: partial(value_of, key=column) for column in PANELS}))
     names = max(width_of(method, TYPE) / 72 for lines in blocks for method in lines)

@@ -7,7 +7,7 @@ from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
 from selection import by_mesh, by_method, line_of
-from words import csv_of, left_out, no_point, threads
+from words import csv_of, threads, unseen
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
 COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
@@ -35,7 +35,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
         "Time of a whole path to the same loads, over the number of its steps. Where a line is level, the "
         "time is what a body costs once, its condensation. Where it rises in proportion, it is what each "
         "step costs: contact law, recovery and check, or a whole solve. "
-        f"{threads(rows)}.", no_point(rows), left_out(run, rows, lambda row: "only on other meshes"))
+        f"{threads(rows)}.", *unseen(run, rows, lambda row: "only on other meshes"))
     meshes = by_mesh(timed)
     panels = side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)
     for axes, own in zip(panels, meshes.values()):

@@ -53,8 +53,13 @@ class Cases:
             for s, method in enumerate(self.methods):
                 samples = self.rows[case, method].samples_s
                 if len(samples or ()) > 1 and np.isfinite(times[0, p, s]):
-                    times[:, p, s] = np.median(random.choice(samples, (RESAMPLES, len(samples))), 1)
+                    times[:, p, s] = medians_again(samples, random)
         return times
+
+
+def medians_again(samples_s: list[float], random: np.random.Generator) -> np.ndarray:
+    """(RESAMPLES,) of samples drawn with replacement."""
+    return np.median(random.choice(samples_s, (RESAMPLES, len(samples_s))), 1)
 
 
 def case_of(row: Row) -> Case:

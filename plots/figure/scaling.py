@@ -22,7 +22,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from drawing import Drawing, sheet, side_by_side
-from figure.profile import CONFIDENCE, RESAMPLES, SEED
+from figure.profile import CONFIDENCE, SEED, medians_again
 from labels import Labels
 from records import Row
 from selection import by_mesh, grouped, of_scene, order
@@ -71,8 +71,7 @@ def interval(one: Row, many: Row) -> tuple[float | None, float | None]:
     if not (one.samples_s and many.samples_s):
         return None, None
     random = np.random.default_rng(SEED)
-    again = [np.median(random.choice(row.samples_s, (RESAMPLES, len(row.samples_s))), 1)
-             for row in (one, many)]
+    again = [medians_again(row.samples_s, random) for row in (one, many)]
     low, high = np.quantile(again[0] / again[1], [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
     return float(low), float(high)
 

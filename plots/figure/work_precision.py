@@ -9,7 +9,7 @@ from labels import Labels
 from records import Row
 from selection import (by_mesh, front, given, grouped, is_paper_stop, of_scene, order,
                        value_of)
-from words import CASE, KNOB, csv_of, lacking, left_out, percent, short, threads
+from words import CASE, KNOB, csv_of, lacking, percent, short, threads, unseen
 
 LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 0.72, 0.35, (4.75, 2.45), 5.0, 0.28, 0.5  # inches
 HIGHEST = 1e3  # errors above are drawn here
@@ -69,12 +69,8 @@ def caption(rows: list[Row], known: list[Row], floor: float, target: float) -> I
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     yield words
-    absent = [f"{row.method} ({row.status_words()})" for row in rows
-              if row not in known and not row.in_displacements]
-    if absent:
-        yield f"No point: {'; '.join(dict.fromkeys(absent))}."
-    yield left_out([row for row in rows if row.in_displacements], [], lambda row: "in displacements, which "
-                   "have other contact forces")
+    yield from unseen(rows, known, lambda row: "in displacements, which have other contact forces"
+                      if row.in_displacements else "no error of the contact forces")
     yield lacking(known, {"peak heap": lambda row: row.peak_heap_bytes})
 
 

@@ -159,7 +159,7 @@ class WorkPrecisionTest(drawn.FiguresTest):
         rows = made_up.error_study(["Mesh3"], sweep=False)
         rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
         words = words_of(work_precision_figure.draw(read(rows)))
-        self.assertIn("No point: 3STEPD (timeout).", words)
+        self.assertIn("No point: 3STEPD on Mesh3 (timeout).", words)
 
 
 class ParetoTest(drawn.FiguresTest):
