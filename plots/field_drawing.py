@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
-from fields import Fields, chains, largest_shear
+from fields import Fields, chains, halves, largest_shear
 from drawing import SMALLEST_PT
 from words import width_of
 
@@ -247,19 +247,13 @@ def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
                   markersize=marker_pt, markeredgewidth=0.5)
 
 
-def halves(s: Fields) -> np.ndarray:
-    """(points of the face, 2): start and end along it of the half edge of each."""
-    a, b = s.edges[..., 1].T
-    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
-
-
 def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
     return [(state, list(run)) for state, run in
             groupby(range(states.size), states.ravel().__getitem__)]
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    place = halves(s)
+    place = halves(s.edges[..., 1])
     box = axes.get_window_extent()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):
@@ -276,7 +270,7 @@ def draw_traction(axes: Axes, s: Fields) -> None:
     pressure beyond the axis."""
     traction = np.abs(s.traction)
     p, q = traction[:, :, 0].T
-    x = halves(s)
+    x = halves(s.edges[..., 1])
     y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
     for state, run in runs(s.state):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)

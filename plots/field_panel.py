@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
+from drawing import bar_below
 from fields import BY_LENGTH, Fields, unrolled
 from words import columns_of, csv_of, plain
 
@@ -209,10 +210,8 @@ def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields])
         words.append(state)
     figure.legend(handles, words, loc="lower left", ncol=math.ceil(len(handles) / 3), frameon=False,
                   columnspacing=1.2, borderaxespad=0.2, bbox_to_anchor=(0, 0))
-    height = figure.get_size_inches()[1]
-    bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
-                          cax=figure.add_axes([0.7, 0.36 / height, 0.27, 0.12 / height]))
-    bar.set_label(r"$\tau_{max}$, MPa; brightest: this or more", labelpad=1)
+    bar_below(figure, ScalarMappable(scales.shear, drawing.COLORMAP), 0.7, 0.27,
+              r"$\tau_{max}$, MPa; brightest: this or more")
 
 
 def contact_points(solutions: list[Fields]) -> str:

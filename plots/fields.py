@@ -151,6 +151,12 @@ class Unrolled:
                        edges=np.stack([np.zeros_like(self.along), self.along], -1))
 
 
+def halves(along: np.ndarray) -> np.ndarray:
+    """(edges, 2) -> (points of the face, 2): start and end of the half edge of each point."""
+    a, b = along.T
+    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
+
+
 def unrolled(edges: np.ndarray) -> Unrolled:
     """A straight face along x or y has that coordinate as its axis, others the length from their start."""
     lengths = np.hypot(*(edges[:, 1] - edges[:, 0]).T)

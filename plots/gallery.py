@@ -30,7 +30,7 @@ from matplotlib.figure import Figure
 import command
 import drawing
 from case_names import words_of_file
-from drawing import PAGE_WIDTH, axes_at, text_at, write_small_png
+from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
@@ -38,7 +38,7 @@ from field_panel import (body_height, contact_points, draw_legend, draw_panel, i
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
 from load_path_drawing import draw_path, frames, frames_of, write_gif
-from words import csv_of, plain, width_of as words_width
+from words import csv_of, percent, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
 STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
@@ -112,16 +112,6 @@ def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades
     draw_boundary(axes, s)
 
 
-def draw_bar(figure: Figure, mappable: ScalarMappable, left: float, width: float,
-             words: str) -> None:
-    """left, width: of the figure's."""
-    top = figure.get_size_inches()[1]
-    bar = figure.colorbar(mappable, orientation="horizontal",
-                          cax=figure.add_axes([left, 0.38 / top, width, 0.1 / top]))
-    bar.ax.tick_params(pad=1, length=2)
-    bar.set_label(words, labelpad=0)
-
-
 def draw_map(s: Fields, share: np.ndarray) -> Figure:
     """share (T,): of the squared error, 1; its triangles in the order of s."""
     width = min(PAGE_WIDTH, width_of(s, HIGHEST))
@@ -144,7 +134,7 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
             fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
     text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
             f"has {100 * share_of_worst(share):.0f} % of the squared error.")
-    draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
+    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7,
              "a triangle's share of the squared error")
     return figure
 
@@ -189,15 +179,15 @@ def draw_levels(levels: list[Level]) -> Figure:
                     ylim=view.intervaly) for row in (0, 1))
         draw_body(upper, s, scales)
         words = f"{len(s.corners)} triangles"
-        upper.set_title(words if error is None else f"{words}, {100 * error:.2g} %", pad=4)
+        upper.set_title(words if error is None else f"{words}, total error {percent(error)}", pad=4)
         draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")
         label_body(upper, x="", y="y in mm" if k == 0 else "")
         label_body(lower, y="y in mm" if k == 0 else "")
         upper.tick_params(labelleft=k == 0, labelbottom=False)
         lower.tick_params(labelleft=k == 0)
-    draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
+    bar_below(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
              "largest shear stress in the plane, MPa; brightest: this or more")
-    draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
+    bar_below(figure, ScalarMappable(norm, shades), 0.56, 0.38,
              "squared error of a triangle, relative to the mean")
     return figure
 

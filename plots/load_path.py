@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
-from fields import CONTACT, STATES, chains, read_table, unrolled
+from fields import CONTACT, STATES, chains, halves, read_table, unrolled
 from records import RecordsError
 from words import csv_of
 
@@ -90,11 +90,10 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     ways = {what: numbers[:, k:k + 2] @ along for what, k in
             (("held", 7), ("loaded", 9)) if np.isfinite(numbers[:, k:k + 2]).all()}
     moved_what = max(ways, key=lambda what: np.ptp(ways[what]), default="")
-    a, b = line.along.T
     return LoadPath(
         name, numbers[:, 0].astype(int), parts == "body", -on_body.sum(1) @ along,
         -on_body.sum(1) @ mean, numbers[:, 3], ways.get(moved_what), moved_what, face, len(faces),
-        line.axis, np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2),
+        line.axis, halves(line.along),
         np.array([state for _, state in points])[:, chosen],
         force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / 2))  # F = (L/2) t
 

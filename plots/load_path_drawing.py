@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from PIL import Image
 
-from drawing import PAGE_WIDTH, axes_at, panel_at, sheet, text_at
+from drawing import PAGE_WIDTH, axes_at, colour_bar, panel_at, sheet, text_at
 from field_drawing import COLORMAP, STATE, Scales, scales_of
 from field_panel import draw_legend, draw_panel, layout_of
 from fields import STATES, Fields
@@ -58,10 +58,7 @@ def draw_path(path: LoadPath) -> Figure:
         axes.yaxis.get_major_locator().set_params(integer=True)
         place = (LEFT + k * (width + GAP) + 0.1, TOP + HEIGHT + BOTTOM)
         if label:
-            bar = figure.colorbar(drawn, orientation="horizontal",
-                                  cax=axes_at(figure, *place, width - 0.2, 0.1))
-            bar.set_label(label, labelpad=1)
-            bar.ax.tick_params(pad=1, length=2)
+            colour_bar(figure, drawn, *place, width - 0.2, label)
         else:
             figure.legend(handles=[Patch(color=colour, label=state) for state, colour in
                                    zip(STATES, colours.colors)], ncol=3, loc="upper left",
