@@ -40,7 +40,7 @@ def slenderness(s: Fields) -> float:
     return view_of(s).height / view_of(s).width
 
 
-def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
+def label_body(axes: Axes, x: str = "x, mm", y: str = "y, mm") -> None:
     axes.tick_params(length=2)
     axes.set_ylabel(y, labelpad=2)
     axes.set_xlabel(x, labelpad=1)
@@ -126,7 +126,7 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
     view, layout = view_of(s), layout_of(s, width)
     body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.intervalx,
                     ylim=view.intervaly)
-    label_body(body, x="; ".join(["x in mm", *drawn_over(s, scales)]))
+    label_body(body, x="; ".join(["x, mm", *drawn_over(s, scales)]))
     body.tick_params(axis="x", pad=1)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],

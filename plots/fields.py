@@ -166,7 +166,7 @@ def unrolled(edges: np.ndarray) -> Unrolled:
     along = np.stack([ends - lengths, ends], 1)
     for k, name in enumerate("xy"):
         if span > STRAIGHT * ends[-1] and chord[k] > STRAIGHT * span:
-            return Unrolled(edges, along + edges[0, 0, k], f"{name} in mm")
+            return Unrolled(edges, along + edges[0, 0, k], f"{name}, mm")
     return Unrolled(edges, along, BY_LENGTH)
 
 

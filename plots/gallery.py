@@ -181,8 +181,8 @@ def draw_levels(levels: list[Level]) -> Figure:
         words = f"{len(s.corners)} triangles"
         upper.set_title(words if error is None else f"{words}, total error {percent(error)}", pad=4)
         draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")
-        label_body(upper, x="", y="y in mm" if k == 0 else "")
-        label_body(lower, y="y in mm" if k == 0 else "")
+        label_body(upper, x="", y="y, mm" if k == 0 else "")
+        label_body(lower, y="y, mm" if k == 0 else "")
         upper.tick_params(labelleft=k == 0, labelbottom=False)
         lower.tick_params(labelleft=k == 0)
     bar_below(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,

@@ -59,7 +59,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + HEIGHT + BOTTOM, f"The paper's stop: errors from {low} to {high}",
         f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
-        "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
+        "force is out of balance by more than 1e-3 N/mm. Left: the error of its contact forces then, "
         f"which the stop does not measure; dashed: the target error {short(target)} of the other "
         "figures. Right: the iterations it took.",
         left_out(run, rows, lambda row: "not with r and ρ given and the paper's stop"))

@@ -56,7 +56,7 @@ class UprightTest(unittest.TestCase):
             s = bar(10, 8, 1, mesh=mesh)
             for figure in (gallery.compose([[s]]), gallery.draw_map(s, np.array([0.3, 0.7]))):
                 body = figure.axes[0]
-                self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x in mm", "y in mm"))
+                self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x, mm", "y, mm"))
                 for low, high in (body.get_xlim(), body.get_ylim()):
                     self.assertLess(low, high)
                 contact = [line for line in body.lines if line.get_color() == "#D00060"]
@@ -158,7 +158,7 @@ class UnrolledTest(unittest.TestCase):
 
     def test_a_straight_face_keeps_its_coordinate(self) -> None:
         line = unrolled(np.array([[[3, -1], [3, 0.5]], [[3, 0.5], [3, 2]]], float))
-        self.assertEqual(line.axis, "y in mm")
+        self.assertEqual(line.axis, "y, mm")
         points = np.random.default_rng(1).uniform(-5, 8, (40, 2, 2))  # also beyond its ends
         np.testing.assert_allclose(line.of(points), points - [3, 0], atol=1e-12)
 
@@ -294,7 +294,7 @@ class DisplacedTest(unittest.TestCase):
     def test_outline_wall_and_loads_are_drawn_and_named(self) -> None:
         figure = gallery.compose([[self.s]])
         body = figure.axes[0]
-        self.assertEqual(body.get_xlabel(), "x in mm; displacements × 50; loads to 3 MPa")
+        self.assertEqual(body.get_xlabel(), "x, mm; displacements × 50; loads to 3 MPa")
         outline, = (line for line in body.lines if line.get_linestyle() == "--"
                     and line.get_color() == field_drawing.OUTLINE["color"])
         np.testing.assert_allclose(outline.get_xydata()[0], self.s.boundary[0, 0] + 0.2)

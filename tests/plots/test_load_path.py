@@ -56,7 +56,7 @@ class LoadPathTest(FolderTest):
         np.testing.assert_allclose(path.push, np.negative(FORCE_N))  # on the wall
         np.testing.assert_allclose(path.normal, 60)
         np.testing.assert_allclose(path.moved, np.array(MOVED_UM) / 1000)
-        self.assertEqual((path.moved_what, path.faces, path.axis), ("held", 1, "y in mm"))
+        self.assertEqual((path.moved_what, path.faces, path.axis), ("held", 1, "y, mm"))
         np.testing.assert_allclose(path.traction[1], [[30, -3], [30, -3]])  # F = (L/2) t, L = 2
         self.assertEqual(path.state[:2].tolist(), [["stick"] * 2, ["slip"] * 2])
         # The rectangle of 2 um and 12 N is walked clockwise from step 2 to its end.
