@@ -107,7 +107,7 @@ def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
         own = of(table, "cattaneo_mindlin", quantity)
         own = own[(own.x_mm.abs() < 1.1 * a)]
         axes.plot(own.x_mm, own.value / scale, **look, label=label)
-    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="MPa")
+    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="traction, MPa")
 
 
 def draw_punch(axes: Axes, table: pd.DataFrame) -> None:
@@ -128,7 +128,7 @@ def draw_hertz(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot([number(table, case, "P") for case in cases],
               [number(table, case, "a") for case in cases], **OURS | dict(markersize=4),
               label="fitted to the pressure")
-    axes.set(title="Hertz", xlabel="load P, N per mm", ylabel="half width a, mm")
+    axes.set(title="Hertz", xlabel="load P, N/mm", ylabel="half width a, mm")
 
 
 def draw(table: pd.DataFrame) -> Figure:
