@@ -37,10 +37,11 @@ class Look(NamedTuple):
 # Okabe and Ito's colours.
 FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s", (0, (5, 1.5))),
             "3STEPD": ("#D55E00", "D"), "ALM": ("#00805C", "^"), "BLIND": ("#56B4E9", "<"),
-            "HYBRID": ("#000000", "P"), "P2": ("#C98500", "X"), "P3": ("#8A5A00", "D"),
-            "P4": ("#573300", "*")}
+            "HYBRID": ("#000000", "P"), "P2": ("#C98500", "X")}
 # Of stresses of degree 2, 3, …: colours that go on from the family's, and markers.
-OF_DEGREE = {"HYBRID": (("#5B2A86", "o"), ("#B0307A", "s"), ("#E8743B", "^"))}
+OF_DEGREE = {"HYBRID": (("#5B2A86", "o"), ("#B0307A", "s"), ("#E8743B", "^")),
+             "P2": (("#8A5A00", "D"), ("#573300", "*"))}
+FAMILIES |= dict(zip(("P3", "P4"), OF_DEGREE["P2"]))
 COLOURS = ("#B0307A", "#7B4B1E", "#6B8E00", "#4B4BC8", "#777777")
 MARKERS = ("v", ">", "p", "h", "d", "H", "8")  # not as many as colours, so that pairs differ
 

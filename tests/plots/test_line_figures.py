@@ -172,6 +172,8 @@ class DegreesTest(unittest.TestCase):
         looks = {row.method: (row.look.colour, row.look.marker) for row in rows}
         self.assertEqual(len(set(looks.values())), 7)
         self.assertEqual(looks["HYBRID"][0], "#000000")
+        of_family, = {row.look[:2] for row in made_up.read(self.levels("Mesh0", "default", {"P3": 2}, family="P2"))}
+        self.assertEqual(of_family, looks["P3"])  # whether it is its own family or one of P2's
         words = drawn.words_of(drawn.plan(rows, "adaptive").figure())
         for name in ("HYBRID, degree 2", "HYBRID, degree 4", "P4"):
             self.assertIn(name, words)
