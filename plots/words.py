@@ -121,7 +121,7 @@ def cases_by_reason(reasons: dict[str, list[str]]) -> str:
 def no_point(rows: list[Row]) -> str:
     """The cases that were not solved; empty if there are none."""
     failed = grouped([row for row in rows if not row.completed], Row.status_words)
-    words = cases_by_reason({why: [f"{row.method} on {row.mesh}" for row in own]
+    words = cases_by_reason({why: list(dict.fromkeys(f"{row.method} on {row.mesh}" for row in own))
                              for why, own in failed.items()})
     return f"No point: {words}." if words else ""
 
@@ -137,8 +137,10 @@ def left_out(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> str
 
 
 def unseen(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> list[str]:
-    """Cases of a run without an answer, and methods that have one but nothing in the figure."""
-    return [no_point(run), left_out([row for row in run if row.completed], drawn, why)]
+    """Cases of a run without an answer or a point, and methods that have one but nothing in the figure."""
+    lines = {row.line for row in drawn}
+    return [no_point([row for row in run if row.line not in lines]),
+            left_out([row for row in run if row.completed], drawn, why)]
 
 
 def lacking(rows: list[Row], panels: Mapping[str, Callable[[Row], object]],

@@ -161,6 +161,14 @@ class WorkPrecisionTest(drawn.FiguresTest):
         words = words_of(work_precision_figure.draw(read(rows)))
         self.assertIn("No point: 3STEPD on Mesh3 (timeout).", words)
 
+    def test_a_point_of_a_solve_that_was_stopped_is_drawn_and_not_named(self) -> None:
+        stopped = [made_up.case("Mesh0", "HYBRID", study="error", status="not_converged", knob="contact sweeps",
+                                knob_value=k, error_force=0.1**k) for k in (1, 2)]
+        lost = [case | dict(method="BLIND", general_name="BLIND", time_s="", error_force="") for case in stopped]
+        words = words_of(work_precision_figure.draw(read(stopped + lost)))
+        self.assertIn("No point: BLIND on Mesh0 (not converged).", words)
+        self.assertEqual(words.count("Mesh0"), 3)  # title, caption, BLIND's once
+
 
 class ParetoTest(drawn.FiguresTest):
     def test_nothing_beats_the_front(self) -> None:
