@@ -38,6 +38,10 @@ class Look(NamedTuple):
 FAMILIES = {"SYMMLQ": ("#0072B2", "o"), "3STEPCG": ("#8A3FA0", "s", (0, (5, 1.5))),
             "3STEPD": ("#D55E00", "D"), "ALM": ("#00805C", "^"), "BLIND": ("#56B4E9", "<"),
             "HYBRID": ("#000000", "P"), "P2": ("#C98500", "X")}
+# Of stresses of degree 2, 3, …: colours that go on from the family's, and markers.
+OF_DEGREE = {"HYBRID": (("#5B2A86", "o"), ("#B0307A", "s"), ("#E8743B", "^")),
+             "P2": (("#8A5A00", "D"), ("#573300", "*"))}
+FAMILIES |= dict(zip(("P3", "P4"), OF_DEGREE["P2"]))
 COLOURS = ("#B0307A", "#7B4B1E", "#6B8E00", "#4B4BC8", "#777777")
 MARKERS = ("v", ">", "p", "h", "d", "H", "8")  # not as many as colours, so that pairs differ
 
@@ -111,7 +115,15 @@ def looks_of(families: list[str]) -> dict[str, Look]:
 
 def with_looks(table: pd.DataFrame) -> pd.DataFrame:
     looks = looks_of(list(dict.fromkeys(table.family)))
-    return table.assign(look=[looks[family] for family in table.family])
+    degrees = table.degree if "degree" in table else [1] * len(table)
+    return table.assign(look=[of_degree(looks[family], family, degree)
+                              for family, degree in zip(table.family, degrees)])
+
+
+def of_degree(look: Look, family: str, degree: int) -> Look:
+    own = OF_DEGREE.get(family, ())
+    return look if not 2 <= degree <= 1 + len(own) else \
+        look._replace(colour=own[degree - 2][0], marker=own[degree - 2][1])
 
 
 def plain_looks(methods: dict[str, tuple[str, str]]) -> dict[str, tuple[str, object]]:

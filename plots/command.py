@@ -32,7 +32,7 @@ def run(doc: str, add_arguments: Callable[[argparse.ArgumentParser], object],
     except RecordsError as error:
         fail(error)
     except OSError as error:
-        fail(f"{error.filename}: {error.strerror}; expected {expected}")
+        fail(f"{error.filename or 'standard output'}: {error.strerror}; expected {expected}")
     except MemoryError:
         fail("out of memory")
 

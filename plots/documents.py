@@ -114,8 +114,8 @@ def cell(best: Best) -> str:
 def markdown(cases: list[Row]) -> str:
     lines = ["# The least error within a time", "",
              f"Scene {cases[0].scene}. The larger of the relative errors of stresses and contact "
-             "forces, with a solve of at most so long (median); choosing parameters is not in it, and "
-             "which point is the best is known only afterwards. –: none is so fast.", ""]
+             "forces of the solves that take at most this long (median), without the time to choose "
+             "parameters; which point is best is known only afterwards. –: no solve is that fast.", ""]
     budgets = budgets_of(cases)
     for mesh, own in grouped(best_of(cases), lambda best: best.cases[0].mesh).items():
         lines += [f"| {mesh} | {' | '.join(map(seconds, budgets))} |", "|---" * (len(budgets) + 1) + "|"]

@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib import ticker
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
+from matplotlib.cm import ScalarMappable
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
@@ -114,6 +115,19 @@ def panel_at(figure: Figure, left: float, top: float, width: float, height: floa
     axes.grid(which="major")
     axes.spines[["top", "right"]].set_visible(False)
     return axes
+
+
+def colour_bar(figure: Figure, shades: ScalarMappable, left: float, top: float, width: float,
+               words: str) -> None:
+    bar = figure.colorbar(shades, orientation="horizontal", cax=axes_at(figure, left, top, width, 0.1))
+    bar.ax.tick_params(pad=1, length=2)
+    bar.set_label(words, labelpad=1)
+
+
+def bar_below(figure: Figure, shades: ScalarMappable, left: float, width: float, words: str) -> None:
+    """left, width: of the figure's."""
+    across, height = figure.get_size_inches()
+    colour_bar(figure, shades, left * across, height - 0.48, width * across, words)
 
 
 def side_by_side(figure: Figure, titles: Iterable[str], left: float, top: float, height: float,

@@ -13,7 +13,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.patheffects import withStroke, withTickedStroke
 from matplotlib.tri import Triangulation
 
-from fields import Fields, chains, largest_shear
+from fields import Fields, chains, halves, largest_shear
 from drawing import SMALLEST_PT
 from words import width_of
 
@@ -30,14 +30,15 @@ ROLE = {
     "contact": dict(color="#D00060", linewidth=2.0, linestyle=(0, (2, 1))),
 }
 LINES = {"rollers": ROLE["force"]} | ROLE
-FRICTION = dict(color="black", linewidth=0.8, linestyle=(0, (3, 1)))
+PRESSURE = dict(color="black", linewidth=0.8)
+FRICTION = PRESSURE | {"linestyle": (0, (3, 1))}
 NEARLY = 1.25
 FINEST_PT, CLEAR_PT = 3, 20  # size of triangles whose lines begin to show, and show fully
 ROLLER = dict(marker="o", markersize=3.2, markerfacecolor="white", markeredgecolor="black",
               markeredgewidth=0.7, linestyle="none")
 OUTLINE = dict(color="0.15", linewidth=0.7, linestyle=(0, (4, 2)))
 WALL = dict(color="0.45", linewidth=1.0, linestyle="-")
-MOVED, FAR = 0.05, 0.1  # of a body's size: largest displacement drawn; wall that is drawn
+MOVED = 0.05  # of a body's size: largest displacement drawn
 ARROW_PT, SPACING_PT, WEAKEST = 20, 13, 0.02  # of the largest load; of its arrows; of it
 SMALLEST_MARKER_PT = 3.5  # smaller markers of open, stick and slip look alike
 TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for a clamped edge
@@ -45,15 +46,18 @@ TICKED = withTickedStroke(spacing=5, angle=-135, length=0.8)  # outward, as for 
 
 @dataclass(frozen=True)
 class Scales:
-    shear: Normalize     # MPa
-    pressure_MPa: float  # end of the axis
+    shear: Normalize             # MPa
+    pressure_MPa: float          # end of the axis
+    times: float | None = None   # displacements are drawn so much larger; None: not drawn
+    load_MPa: float = 0          # of the longest arrow; 0: no arrows
 
 
 def scales_of(solutions: list[Fields]) -> Scales:
     """Of the largest values, singular corners aside."""
     shear = max(map(highest_shear, solutions))
     pressure = max(map(highest_pressure, solutions))
-    return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1)
+    return Scales(Normalize(0, shear or 1), 1.08 * pressure or 1, enlargement(solutions),
+                  max(map(largest_load, solutions)))
 
 
 def areas(s: Fields) -> np.ndarray:
@@ -88,6 +92,11 @@ def marker(state: str) -> dict[str, str]:
     style = STATE[state]
     return dict(marker=style["marker"], markeredgecolor=style["color"],
                 markerfacecolor="none" if state == "open" else style["color"])
+
+
+def band(state: str) -> dict[str, object]:
+    return dict(facecolor="white" if state == "open" else STATE[state]["fill"],
+                edgecolor=STATE[state]["color"], linewidth=0.6)
 
 
 def cut(values: np.ndarray, parts: int) -> np.ndarray:
@@ -128,7 +137,7 @@ def draw_boundary(axes: Axes, s: Fields) -> None:
             if role == "displacement":
                 line.set_path_effects([TICKED])
             if role == "rollers":
-                axes.plot(*s.placed(edges[chain].mean(1)).T, **ROLLER, zorder=3)
+                axes.plot(*edges[chain].mean(1).T, **ROLLER, zorder=3)
 
 
 def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
@@ -136,14 +145,13 @@ def draw_body(axes: Axes, s: Fields, scales: Scales) -> None:
     draw_boundary(axes, s)
 
 
-def enlargement(s: Fields) -> float | None:
+def enlargement(solutions: list[Fields]) -> float | None:
     """Of displacements: 1, 2 or 5 times a power of ten. None: there are none to see."""
-    if s.moved is None or s.of_face:
-        return None
-    largest = np.hypot(*s.moved.reshape(-1, 2).T).max()
+    largest = max((np.hypot(*s.moved.reshape(-1, 2).T).max() / size_of(s) for s in solutions
+                   if s.moved is not None), default=0)
     if not largest > 0:
         return None
-    most = MOVED * size_of(s) / largest
+    most = MOVED / largest
     power = 10.0 ** np.floor(np.log10(most))
     return float(power * max(factor for factor in (1, 2, 5) if factor * power <= most))
 
@@ -152,25 +160,34 @@ def size_of(s: Fields) -> float:
     return float(np.ptp(s.boundary.reshape(-1, 2), axis=0).max())
 
 
-def draw_displaced(axes: Axes, s: Fields) -> None:
-    """The outline where enlarged displacements take it, and the wall behind the gap, enlarged as much."""
-    times = enlargement(s)
-    if times is None:
+def draw_displaced(axes: Axes, s: Fields, times: float | None) -> None:
+    """The outline where enlarged displacements take it, and the walls."""
+    if times is None or s.moved is None:
         return
     moved = s.boundary + times * s.moved
     for chain in chains(s.boundary):
         axes.plot(*np.vstack([moved[chain, 0], moved[chain[-1:], 1]]).T, **OUTLINE, zorder=4)
-    if s.away is None or not np.isfinite(s.away).all():
-        return
+    if s.gap is not None and np.isfinite(s.gap).all():
+        for wall in walls_of(s, times):
+            axes.plot(*wall.T, **WALL, zorder=3.5, path_effects=[TICKED])
+
+
+def walls_of(s: Fields, times: float) -> list[np.ndarray]:
+    """(points of a face, 2) mm. With p the points, u their displacements, n their normals, g their gaps,
+    the wall goes through p + u + g n. It keeps that shape, and is shifted along n by (times - 1) m,
+    m the mean of u n over the points that touch it: there the enlarged outline meets it."""
     thirds = np.array([[2, 1], [1, 2]]) / 3  # gaps are means around these points of an edge
-    wall = np.einsum("kc,ecx->ekx", thirds, moved[s.role == "contact"]) + times * s.away
-    near = times * np.hypot(*np.moveaxis(s.away, -1, 0)) < FAR * size_of(s)
+    at, u = (np.einsum("kc,ecx->ekx", thirds, ends[s.role == "contact"])
+             for ends in (s.boundary, s.moved))
+    normal, gap = s.normal, s.gap[..., None]
+    offset = (u * normal).sum(-1, keepdims=True) + gap  # from p to the wall
+    found = []
     for face in s.faces():
-        points, drawn = wall[face].reshape(-1, 2), near[face].ravel()
-        for is_drawn, run in groupby(range(len(drawn)), drawn.__getitem__):
-            own = list(run)
-            if is_drawn and len(own) > 1:
-                axes.plot(*points[own].T, **WALL, zorder=3.5, path_effects=[TICKED])
+        nearest = gap[face] <= max(gap[face].min(), 0)
+        touching = (s.state[face] != "open")[..., None] if (s.state[face] != "open").any() else nearest
+        shift = (times - 1) * offset[face][touching].mean()
+        found.append((at + u + (gap + shift) * normal)[face].reshape(-1, 2))
+    return found
 
 
 def largest_load(s: Fields) -> float:
@@ -178,11 +195,10 @@ def largest_load(s: Fields) -> float:
     return 0.0 if s.load is None else float(np.hypot(*s.load.reshape(-1, 2).T).max(initial=0))
 
 
-def draw_loads(axes: Axes, s: Fields) -> None:
+def draw_loads(axes: Axes, s: Fields, largest: float) -> None:
     """Arrows of the given tractions, about as far apart everywhere: what pushes ends on the edge, what
-    pulls begins there."""
-    largest = largest_load(s)
-    if not largest > 0:
+    pulls begins there. largest: of the longest arrow, MPa."""
+    if s.load is None or not largest > 0:
         return
     loaded = np.hypot(*np.moveaxis(s.load, -1, 0)).max(1) > WEAKEST * largest
     scale = np.abs(np.diff(axes.transData.transform([(0, 0), (1, 0)])[:, 0]))[0] * 72 / axes.figure.dpi
@@ -231,26 +247,19 @@ def draw_strip(axes: Axes, s: Fields, marker_pt: float, scales: Scales) -> None:
                   markersize=marker_pt, markeredgewidth=0.5)
 
 
-def halves(s: Fields) -> np.ndarray:
-    """(points of the face, 2): start and end along it of the half edge of each."""
-    a, b = s.edges[..., 1].T
-    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
-
-
 def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
     return [(state, list(run)) for state, run in
             groupby(range(states.size), states.ravel().__getitem__)]
 
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
-    place = halves(s)
+    place = halves(s.edges[..., 1])
     box = axes.get_window_extent()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):
         left, right = place[run[0], 0], place[run[-1], 1]
         axes.add_patch(Rectangle((left, 0.25 * outside), right - left, 0.65 * outside,
-                                 facecolor="white" if state == "open" else STATE[state]["fill"],
-                                 edgecolor=STATE[state]["color"], linewidth=0.6))
+                                 **band(state)))
         if width_of(state, SMALLEST_PT) + 4 < (right - left) * pt_per_mm:
             axes.text((left + right) / 2, 0.59 * outside, state, ha="center", va="center",
                       fontsize=SMALLEST_PT)
@@ -261,11 +270,11 @@ def draw_traction(axes: Axes, s: Fields) -> None:
     pressure beyond the axis."""
     traction = np.abs(s.traction)
     p, q = traction[:, :, 0].T
-    x = halves(s)
+    x = halves(s.edges[..., 1])
     y = np.stack([p, (p + q) / 2, (p + q) / 2, q], 1).reshape(-1, 2)
     for state, run in runs(s.state):
         axes.fill_between(x[run].ravel(), y[run].ravel(), color=STATE[state]["fill"], linewidth=0)
-    axes.plot(s.edges[..., 1].T, traction[:, :, 0].T, color="black", linewidth=0.8)
+    axes.plot(s.edges[..., 1].T, traction[:, :, 0].T, **PRESSURE)
     axes.plot(s.edges[..., 1].T, traction[:, :, 1].T, **FRICTION)
     highest = traction[:, :, 0].max()
     if highest > max(axes.get_ylim()):

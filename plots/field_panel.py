@@ -12,6 +12,7 @@ from matplotlib.patches import Patch
 from matplotlib.transforms import Bbox
 
 import field_drawing as drawing
+from drawing import bar_below
 from fields import BY_LENGTH, Fields, unrolled
 from words import columns_of, csv_of, plain
 
@@ -39,7 +40,7 @@ def slenderness(s: Fields) -> float:
     return view_of(s).height / view_of(s).width
 
 
-def label_body(axes: Axes, x: str = "x in mm", y: str = "y in mm") -> None:
+def label_body(axes: Axes, x: str = "x, mm", y: str = "y, mm") -> None:
     axes.tick_params(length=2)
     axes.set_ylabel(y, labelpad=2)
     axes.set_xlabel(x, labelpad=1)
@@ -125,7 +126,7 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
     view, layout = view_of(s), layout_of(s, width)
     body = add_axes(LEFT, TITLE, layout.body_width, layout.body_height, xlim=view.intervalx,
                     ylim=view.intervaly)
-    label_body(body, x="; ".join(["x in mm", *drawn_over(s)]))
+    label_body(body, x="; ".join(["x, mm", *drawn_over(s, scales)]))
     body.tick_params(axis="x", pad=1)
     n_phi = "" if s.n_phi is None else rf", $n_\varphi$ = {s.n_phi}"
     figure.text((left + LEFT + (layout.body_width / 2 if not is_tall(s) else 0)) / size[0],
@@ -133,16 +134,16 @@ def draw_panel(figure: Figure, s: Fields, left: float, top: float, width: float,
                 f"{plain(s.mesh)}: {len(s.corners)} triangles{n_phi}", va="bottom", fontsize=9,
                 ha="left" if is_tall(s) else "center")
     drawing.draw_body(body, s, scales)
-    drawing.draw_displaced(body, s)
-    drawing.draw_loads(body, s)
+    drawing.draw_displaced(body, s, scales.times)
+    drawing.draw_loads(body, s, scales.load_MPa)
     faces = faces_of(s)
     for k, (face, place) in enumerate(zip(faces, layout.faces)):
         draw_face(body, s, face, add_axes, place, scales, letter_of(k) if len(faces) > 1 else "")
 
 
-def drawn_over(s: Fields) -> list[str]:
-    times, load = drawing.enlargement(s), drawing.largest_load(s)
-    return ([f"displacements, gaps × {times:g}"] if times else []) + (
+def drawn_over(s: Fields, scales: drawing.Scales) -> list[str]:
+    load = drawing.largest_load(s)
+    return ([f"displacements × {scales.times:g}"] if scales.times else []) + (
         [f"loads to {load:.3g} MPa"] if load > 0 else [])
 
 
@@ -190,27 +191,27 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
 def draw_legend(figure: Figure, scales: drawing.Scales, solutions: list[Fields]) -> None:
     """Of what is drawn of the solutions."""
     roles = {role for s in solutions for role in s.role}
-    displaced = any(drawing.enlargement(s) for s in solutions)
+    states = {state for s in solutions for state in s.state.ravel()}
+    displaced = scales.times is not None
     ticked, edge = {"path_effects": [drawing.TICKED]}, drawing.ROLE["force"]
     lines = (("held", "displacement" in roles, drawing.ROLE["displacement"] | ticked),
              ("on rollers", "rollers" in roles, edge | drawing.ROLLER | {"linestyle": "-"}),
              ("free or loaded", "force" in roles, edge),
              ("contact", "contact" in roles, drawing.ROLE["contact"]),
              ("outline, displaced", displaced, drawing.OUTLINE),
-             ("wall, behind the gap", displaced and "contact" in roles, drawing.WALL | ticked))
+             ("wall", displaced and "contact" in roles, drawing.WALL | ticked),
+             ("pressure", "contact" in roles, drawing.PRESSURE),
+             ("|friction|", "contact" in roles, drawing.FRICTION))
     handles = [Line2D([], [], **style, label=label) for label, drawn, style in lines if drawn]
-    if "contact" in roles:
-        handles += [Line2D([], [], linestyle="none", label=state, **drawing.marker(state))
-                    for state in drawing.STATE]
-        handles += [Patch(color=drawing.STATE["stick"]["fill"], label="pressure, sticking"),
-                    Patch(color=drawing.STATE["slip"]["fill"], label="pressure, slipping"),
-                    Line2D([], [], **drawing.FRICTION, label="|friction|")]
-    figure.legend(handles=handles, loc="lower left", ncol=math.ceil(len(handles) / 3), frameon=False,
+    words = [handle.get_label() for handle in handles]
+    for state in filter(states.__contains__, drawing.STATE):
+        handles.append((Patch(**drawing.band(state)), Line2D([], [], linestyle="none",
+                                                             **drawing.marker(state))))
+        words.append(state)
+    figure.legend(handles, words, loc="lower left", ncol=math.ceil(len(handles) / 3), frameon=False,
                   columnspacing=1.2, borderaxespad=0.2, bbox_to_anchor=(0, 0))
-    height = figure.get_size_inches()[1]
-    bar = figure.colorbar(ScalarMappable(scales.shear, drawing.COLORMAP), orientation="horizontal",
-                          cax=figure.add_axes([0.7, 0.36 / height, 0.27, 0.12 / height]))
-    bar.set_label(r"$\tau_{max}$ in MPa; brightest: or more", labelpad=1)
+    bar_below(figure, ScalarMappable(scales.shear, drawing.COLORMAP), 0.7, 0.27,
+              r"$\tau_{max}$, MPa; brightest: this or more")
 
 
 def contact_points(solutions: list[Fields]) -> str:

@@ -22,7 +22,7 @@ WITHOUT_LOADS = "x0_mm,y0_mm,x1_mm,y1_mm,role"  # of an earlier bench
 ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
-BY_LENGTH = "along the face from its dot, mm"
+BY_LENGTH = "distance along the face from its dot, mm"
 STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
 
 
@@ -43,7 +43,8 @@ class Fields:
     of_face: bool = False  # seen from a face: distance outward and place along it, not x and y
     load: np.ndarray | None = None   # (B, 2, 2) MPa: given traction at start, end; None: unknown
     moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
-    away: np.ndarray | None = None   # (P/2, 2, 2) mm: from the contact points to the wall
+    normal: np.ndarray | None = None  # (P/2, 2, 2): of the contact points, to the wall
+    gap: np.ndarray | None = None    # (P/2, 2) mm: along it, a mean around the point; NaN: unknown
 
     @property
     def triangles(self) -> np.ndarray:
@@ -146,7 +147,14 @@ class Unrolled:
         lines = np.ptp(boundary[..., 1], axis=1) < widest
         return replace(s, corners=corners[kept], stress=stress[kept], boundary=boundary[lines],
                        role=role[lines], traction=s.traction[face], state=s.state[face], of_face=True,
-                       load=None, moved=None, away=None, edges=np.stack([np.zeros_like(self.along), self.along], -1))
+                       load=None, moved=None, normal=None, gap=None,
+                       edges=np.stack([np.zeros_like(self.along), self.along], -1))
+
+
+def halves(along: np.ndarray) -> np.ndarray:
+    """(edges, 2) -> (points of the face, 2): start and end of the half edge of each point."""
+    a, b = along.T
+    return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
 
 
 def unrolled(edges: np.ndarray) -> Unrolled:
@@ -158,7 +166,7 @@ def unrolled(edges: np.ndarray) -> Unrolled:
     along = np.stack([ends - lengths, ends], 1)
     for k, name in enumerate("xy"):
         if span > STRAIGHT * ends[-1] and chord[k] > STRAIGHT * span:
-            return Unrolled(edges, along + edges[0, 0, k], f"{name} in mm")
+            return Unrolled(edges, along + edges[0, 0, k], f"{name}, mm")
     return Unrolled(edges, along, BY_LENGTH)
 
 
@@ -251,7 +259,7 @@ def read_fields(results: Path, name: str, records: dict[str, dict]) -> Fields:
                   traction=points[:, 5:7].reshape(-1, 2, 2) / half_length,  # F = (L/2) t
                   state=state.reshape(-1, 2), mesh=record["mesh"], n_phi=record["n_phi"], load=load,
                   moved=moved_boundary(results / "fields" / f"{name}.displacement.csv", boundary),
-                  away=(points[:, 2:4] * points[:, 7:8]).reshape(-1, 2, 2))
+                  normal=points[:, 2:4].reshape(-1, 2, 2), gap=points[:, 7].reshape(-1, 2))
 
 
 def moved_boundary(path: Path, boundary: np.ndarray) -> np.ndarray | None:

@@ -28,29 +28,30 @@ from matplotlib.colors import Colormap, LogNorm
 from matplotlib.figure import Figure
 
 import command
+import drawing
 from case_names import words_of_file
-from drawing import PAGE_WIDTH, axes_at, text_at, write_small_png
-from field_drawing import COLORMAP, areas, draw_body, draw_boundary, scales_of
+from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, write_small_png
+from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
+                           largest_load, scales_of)
 from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
                          layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
-from load_path_drawing import draw_frame, draw_path, frames_of, write_gif
-from words import csv_of, plain, width_of as words_width
+from load_path_drawing import draw_path, frames, frames_of, write_gif
+from words import csv_of, percent, plain, width_of as words_width
 
 TEETH, RACKS = ("Mesh0", "Mesh1", "Mesh3"), ("Mesh4", "Mesh5", "Mesh6", "Mesh7")
-STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "svg.hashsalt": "airybench",
-         "xtick.labelsize": 7, "ytick.labelsize": 7, "grid.color": "0.88", "grid.linewidth": 0.4,
-         "axes.axisbelow": True}
+STYLE = drawing.STYLE | {"axes.titlesize": 9, "xtick.labelsize": 7, "ytick.labelsize": 7}
 DPI = 160
-WIDTH, HEADER, FOOTER = PAGE_WIDTH, 0.8, 0.62  # inches
+WIDTH, FOOTER, LINE, ROOT = PAGE_WIDTH, 0.62, 0.15, 0.12  # inches: of words, and more for a root
 BODY = 5.0  # highest body in its own picture
-HEADING = (
-    r"Largest shear stress in the plane, "
-    r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, as the elements have it: "
-    "stresses linear\non each third of a triangle, nothing averaged. Below or next to each body its contact "
-    "faces, enlarged\nand laid out straight: elements, contact points (two per edge) or a band of their "
-    "states, contact pressure.\nScene and method: ")
+STRESS = (r"Colour: the largest shear stress in the plane, "
+          r"$\tau_{max}=\sqrt{((\sigma_{xx}-\sigma_{yy})/2)^2+\sigma_{xy}^2}$, "
+          "linear stresses on each third of a triangle, not averaged.")
+FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points (two per "
+         "edge), pressure, friction.")
+WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
+         "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
 # Pictures of the error: inches, of a map and of levels of a loop.
 MAP_DPI, LEVELS_DPI = 120, 110
 SHADES = 24  # few, for a small file
@@ -66,22 +67,37 @@ Level = tuple[Fields, np.ndarray, float | None]  # fields, shares (T,) of e², t
 
 def compose(rows: list[list[Fields]]) -> Figure:
     """Rows of panels as wide as the page; a single body is at most BODY high."""
-    scales = scales_of([s for row in rows for s in row])
+    shown = [s for row in rows for s in row]
+    scales = scales_of(shown)
     widths = [WIDTH / len(row) for row in rows]
     if len(rows) == len(rows[0]) == 1:
         widths = [WIDTH if is_tall(rows[0][0]) else min(WIDTH, width_of(rows[0][0], BODY))]
     heights = [max(layout_of(s, width).height for s in row) for row, width in zip(rows, widths)]
-    figure = Figure(figsize=(WIDTH, HEADER + sum(heights) + FOOTER))
+    words = "\n".join(heading(shown, scales))
+    header = 0.1 + LINE * (1 + words.count("\n")) + ROOT
+    figure = Figure(figsize=(WIDTH, header + sum(heights) + FOOTER))
     top = figure.get_size_inches()[1]
-    heading = HEADING + plain(words_of_file(rows[0][0].name).partition(", ")[2])
-    figure.text(0.5, 1 - 0.1 / top, heading, ha="center", va="top")
-    top -= HEADER
+    figure.text(0.5, 1 - 0.1 / top, words, ha="center", va="top")
+    top -= header
     for row, width, height in zip(rows, widths, heights):
         for k, s in enumerate(row):
-            draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width, scales)
+            draw_panel(figure, s, WIDTH / 2 + (k - len(row) / 2) * width, top, width,
+                       replace(scales, times=enlargement([s]), load_MPa=largest_load(s)))
         top -= height
-    draw_legend(figure, scales, [s for row in rows for s in row])
+    draw_legend(figure, scales, shown)
     return figure
+
+
+def heading(solutions: list[Fields], scales: Scales) -> list[str]:
+    lines = [STRESS]
+    touching = [s for s in solutions if len(s.edges)]
+    if touching:
+        places = sorted({"next to" if is_tall(s) else "below" for s in touching})
+        body = "each body" if len(solutions) > 1 else "the body"
+        lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}"))
+    if touching and scales.times is not None:
+        lines.append(WALLS)
+    return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
 
 
 def share_of_worst(share: np.ndarray) -> float:
@@ -94,16 +110,6 @@ def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades
     axes.add_collection(PolyCollection(s.placed(s.triangles), array=np.maximum(values, norm.vmin),
                                        norm=norm, cmap=shades, rasterized=True, **edges))
     draw_boundary(axes, s)
-
-
-def draw_bar(figure: Figure, mappable: ScalarMappable, left: float, width: float,
-             words: str) -> None:
-    """left, width: of the figure's."""
-    top = figure.get_size_inches()[1]
-    bar = figure.colorbar(mappable, orientation="horizontal",
-                          cax=figure.add_axes([left, 0.38 / top, width, 0.1 / top]))
-    bar.ax.tick_params(pad=1, length=2)
-    bar.set_label(words, labelpad=0)
 
 
 def draw_map(s: Fields, share: np.ndarray) -> Figure:
@@ -123,13 +129,13 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     draw_shares(axes, s, share, norm, shades, edgecolor="white",
                 linewidths=np.clip(10 / math.sqrt(len(share)), 0.06, 0.4))
     label_body(axes)
-    title = f"{words_of_file(s.name)}: where the discretisation error is"
+    title = f"{words_of_file(s.name)}: discretisation error by triangle"
     text_at(figure, 0.1, 0.1, plain(title), weight="bold",
             fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
-    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; a tenth of them "
+    text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
             f"has {100 * share_of_worst(share):.0f} % of the squared error.")
-    draw_bar(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "share of the squared error in a triangle")
+    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7,
+             "a triangle's share of the squared error")
     return figure
 
 
@@ -173,16 +179,16 @@ def draw_levels(levels: list[Level]) -> Figure:
                     ylim=view.intervaly) for row in (0, 1))
         draw_body(upper, s, scales)
         words = f"{len(s.corners)} triangles"
-        upper.set_title(words if error is None else f"{words}, {100 * error:.2g} %", pad=4)
+        upper.set_title(words if error is None else f"{words}, total error {percent(error)}", pad=4)
         draw_shares(lower, s, share * len(share), norm, shades, edgecolor="none")
-        label_body(upper, x="", y="y in mm" if k == 0 else "")
-        label_body(lower, y="y in mm" if k == 0 else "")
+        label_body(upper, x="", y="y, mm" if k == 0 else "")
+        label_body(lower, y="y, mm" if k == 0 else "")
         upper.tick_params(labelleft=k == 0, labelbottom=False)
         lower.tick_params(labelleft=k == 0)
-    draw_bar(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
-             "largest shear stress in the plane, MPa; brightest: or more")
-    draw_bar(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "a triangle's part of the squared error over their mean")
+    bar_below(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
+             "largest shear stress in the plane, MPa; brightest: this or more")
+    bar_below(figure, ScalarMappable(norm, shades), 0.56, 0.38,
+             "squared error of a triangle, relative to the mean")
     return figure
 
 
@@ -285,9 +291,7 @@ def draw_paths(args: argparse.Namespace, made: command.Made, names: list[str],
             of_steps = {k: replace(read_fields(args.results, f"{name}.steps/{k + 1:04}", {}),
                                    name=name, mesh=records.get(name, {}).get("mesh") or
                                    name.partition("--")[0]) for k in frames_of(path)}
-            scales = scales_of(list(of_steps.values()))
-            writers["gif"] = partial(write_gif, (draw_frame(path, k, s, scales)
-                                                 for k, s in of_steps.items()))
+            writers["gif"] = partial(write_gif, frames(path, of_steps))
         save(made, f"load_path_{name}", table_of(path), **writers)
 
 

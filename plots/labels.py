@@ -45,14 +45,14 @@ class Labels:
 
     def line(self, words: str, x: list[float], y: list[float], color: object, formula: bool = False,
              **style: object) -> None:
-        """Draws a curve; `name_lines` names it, at its end rather than at its beginning."""
+        """Draws a curve; `name_lines` names it, if it has words, at its end rather than its beginning."""
         self.axes.plot(x, y, color=color, **style)
         self.avoid(x, y)
         self.lines.append((words, x[::-1], y[::-1], formula, color))
 
     def name_lines(self, **text: object) -> None:
         """Call it when all lines are drawn, so that no label hides one."""
-        for words, x, y, formula, color in self.lines:
+        for words, x, y, formula, color in filter(lambda line: line[0], self.lines):
             self.add(words, x, y, formula=formula, color=color, **text)
 
     def reserve(self, words: str, right: float, y: float, size: float) -> None:

@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
-from fields import CONTACT, STATES, chains, read_table, unrolled
+from fields import CONTACT, STATES, chains, halves, read_table, unrolled
 from records import RecordsError
 from words import csv_of
 
 STEPS = ("step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,fields")
 PARTS = ("body", "contact")
+CLOSED = 1e-3  # of the range of a force: a cycle that returns to it
 SAME = 1e-6  # of the range of a displacement: two steps at the same place
 
 
@@ -42,6 +43,11 @@ class LoadPath:
         same = np.flatnonzero(np.abs(self.moved - self.moved[-1]) < SAME * np.ptp(self.moved))
         before = same[same < len(self.moved) - 2]
         return int(before[-1]) if before.size else None
+
+    @property
+    def force_returns(self) -> bool:
+        """The force at the end is that of the cycle's beginning."""
+        return bool(abs(self.push[-1] - self.push[self.cycle]) < CLOSED * np.ptp(self.push))
 
     def dissipated_in_cycle(self) -> float:
         return float(self.dissipated[self.cycle + 1:].sum())
@@ -84,11 +90,10 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     ways = {what: numbers[:, k:k + 2] @ along for what, k in
             (("held", 7), ("loaded", 9)) if np.isfinite(numbers[:, k:k + 2]).all()}
     moved_what = max(ways, key=lambda what: np.ptp(ways[what]), default="")
-    a, b = line.along.T
     return LoadPath(
         name, numbers[:, 0].astype(int), parts == "body", -on_body.sum(1) @ along,
         -on_body.sum(1) @ mean, numbers[:, 3], ways.get(moved_what), moved_what, face, len(faces),
-        line.axis, np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2),
+        line.axis, halves(line.along),
         np.array([state for _, state in points])[:, chosen],
         force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / 2))  # F = (L/2) t
 

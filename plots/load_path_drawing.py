@@ -1,6 +1,6 @@
 """Draws a path of load steps: the contact face over the steps, and the force over the displacement."""
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import numpy as np
@@ -12,8 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from PIL import Image
 
-from drawing import PAGE_WIDTH, axes_at, panel_at, sheet, text_at
-from field_drawing import COLORMAP, STATE, Scales
+from drawing import PAGE_WIDTH, axes_at, colour_bar, panel_at, sheet, text_at
+from field_drawing import COLORMAP, STATE, Scales, scales_of
 from field_panel import draw_legend, draw_panel, layout_of
 from fields import STATES, Fields
 from load_path import LoadPath
@@ -36,14 +36,10 @@ def draw_path(path: LoadPath) -> Figure:
     """Maps of state, pressure and friction, places to the right and steps upwards; the loop below."""
     top = TOP + HEIGHT + BOTTOM + BAR
     words = [f"Contact face{which(path)} over the load steps: where its points are open, stick or slip, "
-             "pressure, and friction (on the body, positive to the right). Below: the force that the "
-             f"body exerts along the wall over {whose(path)}, with numbers of steps; and what friction "
-             "dissipates, Σ\u00a0−F_t\u00a0Δr_t. Forces and energies are per mm of thickness."]
-    if path.cycle is not None:
-        words += [f"In step {path.step[-1]} the displacement is that of step {path.step[path.cycle]} "
-                  f"again. In between friction dissipates {path.dissipated_in_cycle():.3g} N mm/mm; the "
-                  f"shaded area, with straight lines between the steps, is {path.area():.3g} N mm/mm. "
-                  "The two agree for small steps if all else returns, too."]
+             "pressure, and friction (on the body, positive to the right). Below left: force Q of the "
+             f"body along the wall over {whose(path)}, with numbers of steps. Below right: energy that "
+             "friction dissipates, Σ\u00a0−F_t\u00a0Δr_t over all contact points. Forces and energies "
+             "are per mm of thickness.", *words_of_cycle(path)]
     figure = sheet(top + LOOP_TOP + LOOP_HEIGHT + BOTTOM, title_of(path), *words)
     width = (PAGE_WIDTH - LEFT - 0.15 - 2 * GAP) / 3
     pressure, friction = path.traction[..., 0], path.traction[..., 1]
@@ -62,10 +58,7 @@ def draw_path(path: LoadPath) -> Figure:
         axes.yaxis.get_major_locator().set_params(integer=True)
         place = (LEFT + k * (width + GAP) + 0.1, TOP + HEIGHT + BOTTOM)
         if label:
-            bar = figure.colorbar(drawn, orientation="horizontal",
-                                  cax=axes_at(figure, *place, width - 0.2, 0.1))
-            bar.set_label(label, labelpad=1)
-            bar.ax.tick_params(pad=1, length=2)
+            colour_bar(figure, drawn, *place, width - 0.2, label)
         else:
             figure.legend(handles=[Patch(color=colour, label=state) for state, colour in
                                    zip(STATES, colours.colors)], ncol=3, loc="upper left",
@@ -76,6 +69,22 @@ def draw_path(path: LoadPath) -> Figure:
     draw_dissipation(panel_at(figure, LEFT + LOOP_WIDTH + 0.85, top + LOOP_TOP,
                               PAGE_WIDTH - LEFT - LOOP_WIDTH - 1.5, LOOP_HEIGHT), path)
     return figure
+
+
+def words_of_cycle(path: LoadPath) -> Iterator[str]:
+    """Work put in and energy dissipated: ∮ Q dU = D + ΔW, with the energy W stored in the body."""
+    if path.cycle is None:
+        return
+    first, last = path.step[path.cycle], path.step[-1]
+    area, lost = path.area(), path.dissipated_in_cycle()
+    yield (f"From step {first} to step {last}, which has the same displacement U, friction dissipates "
+           f"{lost:.3g} N mm/mm. That is not the shaded area: ∮\u00a0Q\u00a0dU = {area:.3g} N mm/mm is the "
+           "work of Q, with straight lines between the steps. " +
+           ("The force returns as well; the difference is the error of the straight lines, the work of "
+            "other loads and energy stored in the body." if path.force_returns else
+            f"The force does not return ({path.push[path.cycle]:.4g} and {path.push[-1]:.4g} N/mm): the "
+            f"cycle is not closed, and the difference of {area - lost:.2g} N mm/mm is mainly energy "
+            "stored in the body. Over a closed cycle in small steps the two are equal."))
 
 
 def title_of(path: LoadPath) -> str:
@@ -118,8 +127,8 @@ def draw_loop(axes: Axes, path: LoadPath, until: int | None = None) -> None:
         for k in {0, len(path.step) - 1, int(path.push.argmax()), int(path.push.argmin())}:
             if path.cycle is not None and k == path.cycle:
                 continue  # where the path ends
-            axes.annotate(f"{ends.get(k, '')}{path.step[k]}", (x[k], path.push[k]), xytext=(4, 3),
-                          textcoords="offset points", weight="bold")
+            axes.annotate(f"{ends.get(k, '')}{path.step[k]}", (x[k], path.push[k]), weight="bold",
+                          xytext=(5, 3 if path.push[k] >= 0 else -9), textcoords="offset points")
 
 
 def draw_dissipation(axes: Axes, path: LoadPath) -> None:
@@ -142,6 +151,15 @@ def frames_of(path: LoadPath) -> list[int]:
     return sorted(set(there[np.linspace(0, len(there) - 1, count).round().astype(int)].tolist()))
 
 
+def frames(path: LoadPath, of_steps: dict[int, Fields]) -> Iterator[Figure]:
+    """All with the same scales, factor of displacements and legend."""
+    scales = scales_of(list(of_steps.values()))
+    for step, s in of_steps.items():
+        figure = draw_frame(path, step, s, scales)
+        draw_legend(figure, scales, list(of_steps.values()))
+        yield figure
+
+
 def draw_frame(path: LoadPath, step: int, s: Fields, scales: Scales) -> Figure:
     """One step: body and contact faces, and next to them where on the loop it is."""
     loop = 2.9
@@ -154,7 +172,6 @@ def draw_frame(path: LoadPath, step: int, s: Fields, scales: Scales) -> Figure:
     draw_loop(panel_at(figure, FRAME_WIDTH - loop + 0.6, FRAME_TOP + 0.3, loop - 0.75, 2.2), path, step)
     text_at(figure, FRAME_WIDTH - loop + 0.6, FRAME_TOP + 3.05,
             f"dissipated so far\n{path.dissipated[:step + 1].sum():.3g} N mm/mm")
-    draw_legend(figure, scales, [s])
     return figure
 
 

@@ -65,15 +65,15 @@ HEAP = Quantity("memory", "peak heap, MiB", heap_caption)
 
 
 def notes_of(cases: Iterable[tuple[str, Row]], quantity: Quantity) -> list[str]:
-    titles: dict[str, dict[str, list[str]]] = {"no point": {}, "no estimate": {}}
+    titles: dict[str, dict[str, list[str]]] = {"No point": {}, "No estimate": {}}
     for case, row in cases:
         value, mark = quantity.of(row)
         if mark == "none":
             happened = "heap not counted" if row.completed else row.status_words()
-            titles["no point"].setdefault(happened, []).append(case)
+            titles["No point"].setdefault(happened, []).append(case)
         elif value is None:
-            titles["no estimate"].setdefault(row.status_words(), []).append(case)
-    return [f"{title}: {cases_by_reason(group)}" for title, group in titles.items() if group]
+            titles["No estimate"].setdefault(row.status_words(), []).append(case)
+    return [f"{title}: {cases_by_reason(group)}." for title, group in titles.items() if group]
 
 
 class ErrorScale:
@@ -155,7 +155,7 @@ def key_of(rows: list[Row], quantity: Quantity) -> list[tuple[Line2D | tuple, st
                     else "open: no answer, heap up to there"))
     if "bound" in marks:
         arrow = {**ARROW, "marker": [(0, -1), *SHAFT[1:]], "markersize": 10}
-        key.append((Line2D([], [], **arrow), "arrow: at least so much; no estimate: upper edge"))
+        key.append((Line2D([], [], **arrow), "arrow: lower bound; at the upper edge: no estimate"))
     return key
 
 

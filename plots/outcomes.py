@@ -29,9 +29,9 @@ MARKS = {
 }
 WORDS = {"other_solution": "another solution than the reference's",
          "unstressed": "no stress, so no relative error",
-         "unverified": "reported ok, and no reference can tell",
-         "wrong_success": "wrong success: reported ok, and is not", "timeout": "time limit reached",
-         "machine_fault": "no process or no file to be had"}
+         "unverified": "reported ok, cannot be verified",
+         "wrong_success": "wrong success: reported ok, but is not", "timeout": "time limit reached",
+         "machine_fault": "no process or file available"}
 
 
 def in_blocks(columns: list[Item], left: float, narrowest: float,

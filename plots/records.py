@@ -100,6 +100,8 @@ FLAG = Kind("true or false", lambda value: isinstance(value, bool),
 COUNT = Kind("a whole number, 0 or more",
              lambda value: isinstance(value, int) and not isinstance(value, bool) and value >= 0,
              lambda cell: int(cell) if re.fullmatch("[0-9]{1,18}", cell) else cell, None, False)
+DEGREE = Kind("a whole number from 1 to 4", lambda value: COUNT.accepts(value) and 1 <= value <= 4,
+              COUNT.of_text, 1)
 POSITIVE = number("a number above 0", lambda x: x > 0)
 NOT_NEGATIVE = number("a number, 0 or more", lambda x: x >= 0)
 FINITE = number("a number", lambda x: True)
@@ -123,6 +125,7 @@ KINDS = (
     (FLAG, "iterative in_paper in_displacements precision_reached noisy tuning_cut "
            "memory_counts_differ"),
     (COUNT, "n_phi n_f n_c threads repetitions load_steps noise_attempts adapt_level"),
+    (DEGREE, "degree"),  # of the stresses; those of P2 have degree 1
     (POSITIVE, "area_mm2 width_mm height_mm time_s noise_kernel_s busy_kernel_s peak_heap_bytes "
                "peak_rss_bytes extrapolated_time_s target_error adapt_time_s"),
     (NOT_NEGATIVE, "contact_length_mm time_mad_s time_once_s time_per_load_s assembly_s "
@@ -166,6 +169,11 @@ class Case:
     @property
     def solved(self) -> bool:
         return self.status == "ok" and self.outcome in VERIFIED and self.time_s is not None
+
+    @property
+    def label(self) -> str:
+        """HYBRID:k=2 -> 'HYBRID, degree 2'."""
+        return re.sub(r":k=(\d+)", r", degree \1", self.method)
 
     def status_words(self) -> str:
         """'timeout, 12 % done'."""

@@ -14,13 +14,13 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+import drawing
 from command import replace_all, run
 from drawing import COLOURS, DPI, PAGE_WIDTH, write_small_png
 
 PROJECT = Path(__file__).resolve().parents[1]
 PROFILES = PROJECT / "tests/data/validation/profiles.csv"
-STYLE = {"font.size": 8, "axes.titlesize": 9, "axes.linewidth": 0.6, "axes.spines.top": False,
-         "axes.spines.right": False}
+STYLE = drawing.STYLE | {"axes.titlesize": 9, "axes.spines.top": False, "axes.spines.right": False}
 OURS = dict(color="#0072B2", linestyle="", marker="o", markersize=2.5)
 OURS_TOO = dict(color="#D55E00", linestyle="", marker="s", markersize=2.2)
 OUTSIDE = dict(color="black", linewidth=0.8)
@@ -107,7 +107,7 @@ def draw_cattaneo(axes: Axes, table: pd.DataFrame) -> None:
         own = of(table, "cattaneo_mindlin", quantity)
         own = own[(own.x_mm.abs() < 1.1 * a)]
         axes.plot(own.x_mm, own.value / scale, **look, label=label)
-    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="MPa")
+    axes.set(title="Cattaneo–Mindlin", xlabel="x, mm", ylabel="traction, MPa")
 
 
 def draw_punch(axes: Axes, table: pd.DataFrame) -> None:
@@ -128,7 +128,7 @@ def draw_hertz(axes: Axes, table: pd.DataFrame) -> None:
     axes.plot([number(table, case, "P") for case in cases],
               [number(table, case, "a") for case in cases], **OURS | dict(markersize=4),
               label="fitted to the pressure")
-    axes.set(title="Hertz", xlabel="load P, N per mm", ylabel="half width a, mm")
+    axes.set(title="Hertz", xlabel="load P, N/mm", ylabel="half width a, mm")
 
 
 def draw(table: pd.DataFrame) -> Figure:

@@ -2,8 +2,9 @@
 import csv
 import io
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
+from operator import attrgetter
 
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
@@ -120,9 +121,42 @@ def cases_by_reason(reasons: dict[str, list[str]]) -> str:
 def no_point(rows: list[Row]) -> str:
     """The cases that were not solved; empty if there are none."""
     failed = grouped([row for row in rows if not row.completed], Row.status_words)
-    words = cases_by_reason({why: [f"{row.method} on {row.mesh}" for row in own]
+    words = cases_by_reason({why: list(dict.fromkeys(f"{row.method} on {row.mesh}" for row in own))
                              for why, own in failed.items()})
     return f"No point: {words}." if words else ""
+
+
+def left_out(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> str:
+    """The methods of a run that have nothing in a figure, with the reason; empty if there are none."""
+    shown = {row.general_name for row in drawn}
+    absent = grouped((row for row in run if row.general_name not in shown), lambda row: row.general_name)
+    rows = [next((row for row in own if row.completed), own[0]) for own in absent.values()]
+    reasons = grouped(rows, lambda row: why(row) if row.completed else row.status_words())
+    words = "; ".join(f"{names_of(own)} ({reason})" for reason, own in reasons.items())
+    return f"Not drawn: {words}." if words else ""
+
+
+def unseen(run: list[Row], drawn: list[Row], why: Callable[[Row], str]) -> list[str]:
+    """Cases of a run without an answer or a point, and methods that have one but nothing in the figure."""
+    lines = {row.line for row in drawn}
+    return [no_point([row for row in run if row.line not in lines]),
+            left_out([row for row in run if row.completed], drawn, why)]
+
+
+def lacking(rows: list[Row], panels: Mapping[str, Callable[[Row], object]],
+            name: Callable[[Row], str] = attrgetter("method")) -> str:
+    """What is drawn in some panels only: 'No peak heap: P2. ...'; empty if all is in all of them."""
+    own = grouped(rows, name)
+    absent = {panel: [name for name, group in own.items() if all(of(row) is None for row in group)]
+              for panel, of in panels.items()}
+    return " ".join(f"No {panel}: {', '.join(names)}." for panel, names in absent.items() if names)
+
+
+def names_of(rows: list[Row]) -> str:
+    few = 3
+    methods = grouped(rows, lambda row: row.family).items()
+    return ", ".join(", ".join(row.method for row in own) if len(own) <= few else
+                     f"{len(own)} of {family}" for family, own in methods)
 
 
 def targets(rows: list[Row]) -> list[str]:
@@ -149,7 +183,7 @@ def time_caption(rows: list[Row], run: list[Row]) -> str:
         words += f", median of {span(done)} repetition{'' if done == {1} else 's'}"
     words = caption(rows, words, run)
     if any(row.tuning_s for row in rows):
-        words += " Finding tolerances and parameters is not in the time."
+        words += " The time does not include the search for tolerances and parameters."
     return words
 
 

@@ -57,7 +57,8 @@ def draw(rows: list[Row]) -> Figure:
         body, "Methods on adapted meshes",
         f"Scene {rows[0].scene}, {threads(rows)}. A column is a mesh, with its total error. A "
         "cell: time of one solve; below it the larger of the relative errors of stresses and contact "
-        "forces, and κ, the 1-norm condition number, estimated, of what the method factorises.")
+        "forces, and κ, an estimate of the 1-norm condition number of the matrix that the method "
+        "factorises.")
     for k, own in enumerate(blocks):
         axes = axes_at(figure, left, 0.3 + k * (block + BETWEEN) + ABOVE, cell * len(own),
                        ROW * len(methods), xlim=(0, len(own)), ylim=(len(methods), 0))

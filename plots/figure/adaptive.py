@@ -1,5 +1,5 @@
 """Total error against unknowns and time: adapted meshes next to the meshes as they are."""
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -9,25 +9,27 @@ from labels import Labels
 from marks import WIDTH
 from records import Row
 from selection import (by_body, by_mesh, exponent, grouped, is_paper_stop, kind_of, line_of,
-                       of_scene)
-from words import CASE, csv_of, plain, threads
+                       of_scene, order)
+from words import CASE, csv_of, left_out, plain, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.62, 0.45, 0.42, 2.5, 0.15, 0.5  # inches
 BODIES = 2  # that there is room for
 ALL_LEVELS = "#B00020"
 COLOURS = {"as they are": "0.35", "refined everywhere": "#4B6BC8", "adapted": ALL_LEVELS}  # of kinds
 DASHES = {"as they are": (0, (4, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}
+LOOKS = {"as they are": "open, dashed", "refined everywhere": "open, dotted", "adapted": "filled, solid"}
 HIGHEST = 1.0  # total errors above are not drawn
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    known = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
-                      and not is_paper_stop(row) and row.completed and row.error_total])
+    run = of_scene([row for row in rows if row.study in ("", "error") and not row.knob
+                    and not is_paper_stop(row)])
+    known = [row for row in run if row.completed and row.error_total]
     bodies = {body for body, own in by_body(known).items()
               if len({row.n_phi for row in own if kind_of(row) == "adapted"}) > 1}
     shown = [row for row in known if row.body in sorted(bodies)[:BODIES]]
     if shown:
-        yield Drawing("adaptive", shown, draw, table_of, vector=True)
+        yield Drawing("adaptive", shown, draw, table_of, vector=True, options=dict(run=run))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -39,17 +41,26 @@ def best_of(rows: list[Row]) -> list[Row]:
     return [min(own, key=lambda row: row.error_total) for own in by_mesh(rows).values()]
 
 
-def draw(rows: list[Row]) -> Figure:
-    bodies = by_body([row for row in rows if row.error_total <= HIGHEST])
+def kinds_in(rows: list[Row]) -> str:
+    kinds = {kind_of(row) for row in rows}
+    return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
+
+
+def why(row: Row) -> str:
+    return "only on other bodies" if row.error_total and row.error_total <= HIGHEST \
+        else f"no total error up to {HIGHEST:g}"
+
+
+def draw(rows: list[Row], run: list[Row]) -> Figure:
+    every = [row for row in rows if row.error_total <= HIGHEST]
+    bodies = by_body(every)
     figure = sheet(
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
-        f"Scene {rows[0].scene}. Total error, discretisation and method together, of the meshes as "
-        "they are (open, dashed), refined everywhere (open, dotted) and adapted (filled, solid). Below: "
-        "the time of one solve on the mesh; red: of the whole adaptive loop, all levels and "
-        "estimates of the error. "
-        "N^p: power law by least squares of logarithms, of adapted meshes from 1.5 times the first "
-        f"one's unknowns on. {threads(rows)}.", width=WIDTH)
-    every = [row for own in bodies.values() for row in own]
+        f"Scene {rows[0].scene}. Total error, discretisation and method together. Meshes: "
+        f"{kinds_in(every)}. Below: the time of one solve on the mesh; red: of the whole adaptive loop, "
+        "all levels and estimates of the error. "
+        "N^p: power law by least squares of logarithms, of adapted meshes with at least 1.5 times "
+        f"the first one's unknowns. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
     width = (WIDTH - LEFT - 0.1 - (len(bodies) - 1) * GAP) / len(bodies)
     panels = ((TOP, draw_unknowns, r"unknowns $n_\varphi$", [row.n_phi for row in every]),
@@ -85,20 +96,24 @@ def draw_unknowns(axes: Axes, rows: list[Row]) -> None:
 
 
 def draw_times(axes: Axes, rows: list[Row]) -> None:
-    labels = Labels(axes)
-    named: set[str] = set()
-    curves = grouped([row for row in rows if row.time_s],
-                     lambda row: (row.method, kind_of(row)))
-    for (method, _), own in sorted(curves.items(), key=lambda item: item[0][1] != "adapted"):
-        own.sort(key=lambda row: row.n_phi)
-        look, line = own[0].look, line_of(own, "time_s", "error_total")
-        axes.plot(*line, color=look.colour, **style(own[0], look.marker, look.colour))
-        labels.avoid(*line)
-        if method not in named:
-            named.add(method)
-            labels.add(method, line[0][::-1], line[1][::-1], color=look.colour, weight="bold")
+    labels = draw_over_time(axes, rows, lambda row: row.time_s)
     loop = [(row.adapt_time_s, row.error_total)
             for row in best_of([row for row in rows if kind_of(row) == "adapted"]) if row.adapt_time_s]
     if loop:
-        axes.plot(*zip(*loop), color=ALL_LEVELS, linewidth=2, zorder=6)
-        labels.add("whole loop", *zip(*loop[::-1]), color=ALL_LEVELS, weight="bold")
+        labels.line("whole loop", *zip(*loop), ALL_LEVELS, linewidth=2, zorder=6)
+    labels.name_lines(weight="bold")
+
+
+def draw_over_time(axes: Axes, rows: list[Row], time: Callable[[Row], float | None]) -> Labels:
+    """Total errors, a line per method and kind of mesh; a method is named once. Names are still to be drawn."""
+    labels, named = Labels(axes), set()
+    higher = {row.family for row in rows if row.degree > 1}
+    lines = grouped(sorted(filter(time, rows), key=lambda row: (kind_of(row) != "adapted", order(row), row.n_phi)),
+                    lambda row: (row.method, kind_of(row)))
+    for own in lines.values():
+        first, look = own[0], own[0].look
+        words = first.label + ", degree 1" * (first.degree == 1 and first.family in higher)
+        labels.line("" if words in named else words, list(map(time, own)),
+                    [row.error_total for row in own], look.colour, **style(first, look.marker, look.colour))
+        named.add(words)
+    return labels

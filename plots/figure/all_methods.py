@@ -1,5 +1,6 @@
 """Time, memory and error over n_phi for all methods of a run."""
 from collections.abc import Iterator
+from functools import partial
 from itertools import groupby
 
 from matplotlib.axes import Axes
@@ -11,11 +12,12 @@ from drawing import (MARGIN, MATH, PAGE_WIDTH, TYPE, Drawing, axes_at, error_flo
 from labels import LEFT, NAMES_APART, draw_names, mark_meshes
 from records import Row
 from selection import by_body, by_method, exponent, of_scene, sharing_axes, value_of
-from words import CASE, csv_of, no_point, plain, threads, width_of
+from words import CASE, csv_of, lacking, plain, threads, unseen, width_of
 
 TOP, BETWEEN, LOWEST, BOTTOM = 1.15, 0.12, 2.5, 0.5  # inches; LOWEST: a panel
 PANELS = {"time_s": "time of one solve, s", "peak_heap_bytes": "peak heap, MiB",
           "error_force": "error of the contact forces"}
+NAMES = {"time_s": "time", "peak_heap_bytes": "peak heap", "error_force": PANELS["error_force"]}
 POWER = 0.6  # inches, for an exponent
 
 
@@ -61,7 +63,10 @@ def draw(rows: list[Row]) -> Figure | str:
         f"Scene {rows[0].scene}, {threads(rows)}"
         f"{', with the paper’s stops' if rows[0].stop == 'paper' else ''}. n^p: power law by least "
         f"squares of logarithms over all sizes of a method, three or more. Lines are interrupted "
-        f"between {between}. Errors of 0 are at the lower edge.", no_point(rows))
+        f"between {between}. Errors of 0 are at the lower edge.",
+        *unseen(rows, [row for own in drawn for row in own], lambda row: "one size"),
+        lacking([row for own in drawn for row in own],
+                {NAMES[column]: partial(value_of, key=column) for column in PANELS}))
     names = max(width_of(method, TYPE) / 72 for lines in blocks for method in lines)
     for k, (lines, own) in enumerate(zip(blocks, drawn)):
         if len(blocks) > 1:

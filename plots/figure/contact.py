@@ -9,7 +9,7 @@ from drawing import (Drawing, axes_at, file_name, log_limits, log_log, sheet, si
                      text_at)
 from records import CONTACT_SOLVERS, Row
 from selection import grouped
-from words import CASE, csv_of, plain, threads
+from words import CASE, csv_of, lacking, plain, threads
 
 LEFT, TOP, GAP, HEIGHT, BOTTOM, KEY = 0.72, 0.62, 0.12, 2.3, 0.45, 0.3  # inches
 LOOKS = (("#000000", "o"), ("#D55E00", "s"), ("#0072B2", "^"), ("#00805C", "D"), ("#CC79A7", "v"),
@@ -71,14 +71,15 @@ def draw(rows: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + 2 * HEIGHT + GAP + BOTTOM + KEY * key_lines,
         ("Solvers" if programs else "Four solvers") + " of the condensed contact problem",
-        f"{rows[0].method}, {threads(rows)}. One column is a scene, one point a mesh: all "
-        "solvers get the same D and G there. Above: the median time of the stage; below: "
-        "Gauss–Seidel sweeps, plain (gauss-seidel), accelerated (anderson) or before active sets "
-        "(newton, whose steps are added), or iterations of ADMM. " +
+        f"{rows[0].method}, {threads(rows)}. A column is a scene, a point a mesh; all "
+        "solvers get the same D and G. Above: median time of the contact law. Below: Gauss–Seidel "
+        "sweeps, plain (gauss-seidel) or accelerated (anderson); sweeps and active-set steps together "
+        "(newton); iterations (admm). " +
         (f"Other programs: {', '.join(programs)}; their time is that of the contact law by their own "
          "clock, their iterations as they report them. " if programs else "") +
         (f"Crosses on the upper edge: {len(failed)} of {len(rows)} cases were not solved within "
-         "the iterations or the time allowed." if failed else "All cases were solved."))
+         "the iterations or the time allowed." if failed else "All cases were solved."),
+        lacking([row for row in rows if row.completed], {"time": seconds, "iterations": iterations}, solver_of))
     xlim = log_limits([row.n_c for row in rows if row.n_c], 1.3)
     for k, (of, words) in enumerate(QUANTITIES):
         ylim = log_limits([value for row in rows if (value := of(row))], 1.6)

@@ -142,7 +142,7 @@ def draw_bounds(axes: Axes, body: str, points: list[Row], colour: str) -> None:
     axes.plot(h, lower, color=colour, marker="^", linestyle=(0, (4, 1.5)), label="lower bound")
     axes.margins(y=0.12)
     axes.legend(frameon=False, loc="best")
-    axes.set(xlabel=r"$n_\varphi^{-1/2}$", ylabel="energy, N mm",
+    axes.set(xlabel=r"$n_\varphi^{-1/2}$", ylabel="energy, N mm/mm",
              title=f"bounds of the energy, {plain(body)}")
     axes.ticklabel_format(axis="y", useOffset=False)
     axes.spines[["top", "right"]].set_visible(False)

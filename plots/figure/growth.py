@@ -9,7 +9,7 @@ from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import by_body, by_method, exponent, kind_of, of_scene
-from words import CASE, csv_of, no_point, threads
+from words import CASE, csv_of, lacking, threads, unseen
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP, BETWEEN = 0.68, 0.4, 0.42, 2.6, 0.62, 0.5  # inches
 ASYMPTOTIC = 200_000  # unknowns, from which on exponents are fitted
@@ -75,14 +75,16 @@ def draw(rows: list[Row]) -> Figure | str:
     lines = {method: line for method, line in lines_of(rows).items() if len(line) > 1}
     if not lines:
         return "no method has two sizes"
+    drawn = [row for line in lines.values() for row in line]
     figure = sheet(
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "From a thousand unknowns to millions",
         f"Scene {rows[0].scene}, {threads(rows)}; one body, its mesh refined in memory. "
         "Memory: peak heap of one solve; of other programs the resident memory of all their "
-        "processes. Errors: against the reference (filled), beyond its limit of size by the method’s "
-        "own estimate (open), displacements’ at every size. Iterations: of the linear solves of all "
+        "processes. Errors: against the reference (filled); by the method’s own estimate (open) beyond "
+        "the reference’s size limit and for displacements. Iterations: of the linear solves of all "
         "active sets together; direct methods have none. n^p: least squares of logarithms from "
-        f"n = {ASYMPTOTIC} on.", no_point(rows))
+        f"n = {ASYMPTOTIC} on.", *unseen(rows, drawn, lambda row: "one size"),
+        lacking(drawn, {"memory": memory_of, "error": error_of}))
     width = (PAGE_WIDTH - LEFT - 0.12 - GAP) / 2
     for k, panel in enumerate(PANELS):
         draw_panel(panel_at(figure, LEFT + k % 2 * (width + GAP),

@@ -7,7 +7,7 @@ from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
 from selection import by_mesh, by_method, line_of
-from words import csv_of, threads
+from words import csv_of, threads, unseen
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.62, 0.55, 0.45, 3.6, 0.15  # inches
 COLUMNS = ("mesh", "method", "load_steps", "status", "time_s", "time_once_s", "time_per_load_s")
@@ -18,7 +18,7 @@ def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = [row for row in rows if row.study == "load-steps" and row.load_steps]
     shown = [row for own in list(by_mesh(study).values())[:MESHES] for row in own]
     if shown:
-        yield Drawing("load_steps", shown, draw, table_of, vector=True)
+        yield Drawing("load_steps", shown, draw, table_of, vector=True, options=dict(run=study))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -26,18 +26,16 @@ def table_of(rows: list[Row]) -> str:
                    for line in by_method(own, "load_steps").values() for row in line], *COLUMNS)
 
 
-def draw(rows: list[Row]) -> Figure | str:
+def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     timed = [row for row in rows if row.completed and row.time_s]
     if not timed:
         return "no case of the study of load steps has a time"
-    lost = len(rows) - len(timed)
     figure = sheet(
         TOP + HEIGHT + BOTTOM, "Load steps",
-        "Time of all steps of a path to the same loads, over their number. Level at the left: what "
-        "a body costs once, its condensation; rising in proportion to the right: what each step "
-        "adds, contact law, recovery and check, or a whole iteration. "
-        f"{threads(rows)}."
-        + (f" {lost} of {len(rows)} cases have no answer and are not drawn." if lost else ""))
+        "Time of a whole path to the same loads, over the number of its steps. Where a line is level, the "
+        "time is what a body costs once, its condensation. Where it rises in proportion, it is what each "
+        "step costs: contact law, recovery and check, or a whole solve. "
+        f"{threads(rows)}.", *unseen(run, rows, lambda row: "only on other meshes"))
     meshes = by_mesh(timed)
     panels = side_by_side(figure, meshes, LEFT, TOP, HEIGHT, GAP)
     for axes, own in zip(panels, meshes.values()):

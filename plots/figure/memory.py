@@ -7,7 +7,7 @@ from matplotlib.figure import Figure
 from drawing import PAGE_WIDTH, TYPE, Drawing, panel_at, sheet
 from records import OWNERS, Row
 from selection import by_body, by_mesh, compared, grouped, of_scene
-from words import CASE, columns_of, csv_of, mebibytes, plain, threads, width_of
+from words import CASE, columns_of, csv_of, left_out, mebibytes, plain, threads, width_of
 
 LEFT, RIGHT, TOP, BOTTOM, BAR = 1.4, 1.75, 0.92, 0.45, 0.27  # inches
 BETWEEN = 0.75  # the axes of two meshes
@@ -18,7 +18,7 @@ LOOKS = {"blocks": ("#999999", "blocks S, C, q"),
          "system_matrix": ("#000000", "own system matrix"),
          "factor": ("#0072B2", "factor"),
          "preconditioner": ("#56B4E9", "preconditioner"),
-         "intermediate": ("#E69F00", "S⁻¹Cᵀ and its kin"),
+         "intermediate": ("#E69F00", "S⁻¹Cᵀ and similar"),
          "condensed": ("#D55E00", "D, G and contact"),
          "iteration": ("#009E73", "iteration vectors"),
          "answer": ("#CC79A7", "answer φ, σ"),
@@ -29,11 +29,11 @@ COUNT = dict(marker="D", markersize=5.5, markerfacecolor="white", markeredgecolo
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    split = of_scene([row for row in rows if row.memory_by_owner and row.completed
-                      and row.stop == "target" and not row.study])
+    run = of_scene([row for row in rows if row.stop == "target" and not row.study])
+    split = [row for row in run if row.memory_by_owner and row.completed]
     if split:
         bars = [bar for own in by_body(split).values() for bar in chosen(own)]
-        yield Drawing("memory_by_owner", bars, draw, table_of)
+        yield Drawing("memory_by_owner", bars, draw, table_of, options=dict(run=run))
 
 
 def chosen(rows: list[Row]) -> list[Row]:
@@ -60,7 +60,7 @@ def counted(row: Row) -> int:
     return sum(own.get("counted_bytes") or 0 for own in row.memory_by_owner.values())
 
 
-def draw(rows: list[Row]) -> Figure | str:
+def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     if not rows:
         return "no mesh has two methods whose heap was split"
     used = [owner for owner in OWNERS if any(peak_of(row, owner) > 0 for row in rows)]
@@ -72,12 +72,13 @@ def draw(rows: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + body + BOTTOM, "Where the memory goes",
         f"{'; '.join(sizes)}, scene {rows[0].scene}, {threads(rows)}. "
-        "Highest heap during one solve, split by whose it was at that moment: workspace counts for "
-        "the owner it is made for. Diamond: what the method's matrices and vectors take by its own "
-        "count, entries times size, and the blocks. A bar that ends beyond it is workspace; one "
-        "that ends before it never holds everything at once.",
+        "Peak heap of one solve, by owner at that moment; workspace belongs to the part that it serves. "
+        "Diamond: the method's own count of its matrices and vectors, entries times size, and the blocks. "
+        "What a bar has beyond it is workspace; where a bar is shorter, the solve never holds everything "
+        "at once.",
         f"The count differs from the heap by more than 10 %: {', '.join(differ)}." if differ
-        else "")
+        else "", left_out(run, rows, lambda row: "no room, or not on these meshes" if row.memory_by_owner
+                          else "heap not split by owner"))
     left = max(LEFT, max(width_of(row.method, TYPE) for row in rows) / 72 + 0.2)
     top = TOP
     for mesh, own in meshes.items():

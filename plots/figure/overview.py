@@ -8,7 +8,7 @@ from drawing import Drawing, log_limits, log_log, sheet, side_by_side
 from labels import Labels
 from records import Row
 from selection import by_body, grouped, kind_of, line_of, of_scene, order
-from words import CASE, csv_of, short, threads
+from words import CASE, csv_of, left_out, short, threads
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.72, 0.6, 0.45, 3.7, 0.15  # inches
 BODIES = 2  # that there is room for
@@ -24,12 +24,13 @@ class Curve:
 
 
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
-    known = of_scene([row for row in rows if not row.study and row.completed and row.time_s
-                      and row.error_total and not row.in_displacements])
+    run = of_scene([row for row in rows if not row.study])
+    known = [row for row in run if row.completed and row.time_s and row.error_total
+             and not row.in_displacements]
     shown = [row for own in list(by_body(known).values())[:BODIES] for row in own]
     if {"paper", "target"} <= {row.stop for row in shown if row.iterative} and any(
             kind_of(row) == "adapted" for row in shown):
-        yield Drawing("overview", shown, draw, table_of)
+        yield Drawing("overview", shown, draw, table_of, options=dict(run=run))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -42,11 +43,11 @@ def curves_of(rows: list[Row]) -> list[Curve]:
     curves = []
     rows = sorted((row for row in rows if row.stop == "target" or row.iterative),
                   key=lambda row: (order(row), row.n_phi))
-    for (method, stop, kind), own in grouped(
+    for (_, stop, kind), own in grouped(
             rows, lambda row: (row.method, row.stop, kind_of(row))).items():
         target = max(row.target_error or 0 for row in own)
-        words = f"{method}, the paper’s stop" if stop == "paper" else \
-            f"{method} to {short(target)}" if own[0].iterative else method
+        words = f"{own[0].label}, the paper’s stop" if stop == "paper" else \
+            f"{own[0].label} to {short(target)}" if own[0].iterative else own[0].label
         adapted = kind == "adapted"
         curves.append(Curve(words + ", adapted meshes" * adapted, own, (0, (1, 1))
                             if stop == "paper" else "-" if adapted else (0, (5, 2)), adapted))
@@ -58,14 +59,20 @@ def loop_of(rows: list[Row]) -> list[tuple[float, float]]:
     return [levels[size] for size in sorted(levels)]
 
 
-def draw(rows: list[Row]) -> Figure:
+def why(row: Row) -> str:
+    return "in displacements" if row.in_displacements else "no total error" if not row.error_total \
+        else "only on other bodies"
+
+
+def draw(rows: list[Row], run: list[Row]) -> Figure:
     bodies = by_body(rows)
     figure = sheet(
         TOP + HEIGHT + BOTTOM, "Which mesh and method for which error",
         f"Scene {rows[0].scene}, {threads(rows)}. Total error of the stresses, mesh and method "
         "together, over the time of one solve; a point per mesh. Dotted: the paper’s own stop; dashed: "
         "the method’s own error is below its target, what remains is the mesh’s; solid, filled: meshes "
-        f"adapted to the error. Thin: the {LOOP}, all levels and error estimates.")
+        f"adapted to the error. Thin: the {LOOP}, all levels and error estimates.",
+        left_out(run, rows, why))
     curves = {body: curves_of(own) for body, own in bodies.items()}
     errors = log_limits([row.error_total for own in curves.values() for curve in own
                          for row in curve.rows], 1.4)

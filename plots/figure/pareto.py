@@ -11,7 +11,7 @@ from labels import Labels
 from records import Row
 from selection import (by_body, front, given, grouped, is_paper_stop, kind_of, line_of, of_scene,
                        value_of)
-from words import (CASE, KNOB, csv_of, mebibytes, percent, plain, seconds, threads, width_of)
+from words import (CASE, KNOB, csv_of, lacking, left_out, mebibytes, names_of, percent, plain, seconds, threads, width_of)
 
 LEFT, TOP, HEIGHT, GAP, BOTTOM = 0.72, 0.65, 3.5, 0.2, 0.45  # inches, of a body
 TABLE_LINE = 0.17  # inches: a line of the table
@@ -115,7 +115,9 @@ def draw(rows: list[Row]) -> Figure | str:
     heights = {body: TOP + HEIGHT + BOTTOM + TABLE_LINE * (len(table) + 1)
                for body, table in tables.items()}
     figure = sheet(sum(heights.values()), "What a total error costs: method and mesh together",
-                   caption(rows, known, kinds))
+                   caption(rows, known, kinds),
+                   left_out(rows, known, lambda row: f"no total error up to {percent(highest_of(rows))}"),
+                   lacking(known, {"peak heap": lambda row: row.peak_heap_bytes}))
     above = 0.0
     for body, of_body in bodies.items():
         errors = [row.error_total for row in of_body]
@@ -138,25 +140,27 @@ def caption(rows: list[Row], known: list[Row], kinds: list[str]) -> str:
     names = displacements_of(known)
     others = ""
     if len(names) == 1:
-        others = (f"The displacement method {names[0]} has its own curve; by definition it has the "
-                  "mesh's error. ")
+        others = (f"The displacement method {names[0]} has its own curve; its error is that of the "
+                  "mesh by definition. ")
     elif names:
         others = (f"The displacement methods {', '.join(names[:-1])} and {names[-1]} have their own "
                   "curves and errors. ")
     tuning = dict.fromkeys(row.family for row in known if row.iterative and given(row))
-    tuned = f"; finding r and ρ of {' and '.join(tuning)} is not in the time" if tuning else ""
-    adapting = " The time of adapting a mesh is not in these times." if "adapted" in kinds else ""
+    tuned = f"; their time does not include the search for r and ρ of {' and '.join(tuning)}" if tuning else ""
+    adapting = " Times do not include the adapting of a mesh." if "adapted" in kinds else ""
     highest = highest_of(rows)
     beyond = sum(bool(row.error_total and row.error_total > highest) for row in rows)
     cut = f" {beyond} solves with errors above {percent(highest)} are not drawn." \
         if beyond else ""
+    points = grouped([row for row in known if not row.in_displacements], lambda row: row.method)
+    methods = names_of([own[0] for own in points.values()])
     return (
         f"Scene {known[0].scene}, {threads(known)}. Total error: relative constitutive "
         "relation error of the mesh plus the method's own error of the stresses. Thick lines: the "
-        "Pareto front of the stress methods on each kind of meshes: nothing cheaper has its error, "
-        "give or take 1 %; a method is named once, with the meshes that it is there on. Dotted: "
-        "the discretisation error of meshes as they are, the lowest that a method can reach there. "
-        f"{others}Small points: all solves{tuned}.{adapting}{cut}")
+        "Pareto front of the stress methods on each kind of meshes: no cheaper solve has a smaller "
+        "error, within 1 %; each method is named once, with its meshes on the front. Dotted: the "
+        "discretisation error of meshes as they are, the least that a method can reach there. "
+        f"{others}Small points: all solves of {methods}{tuned}.{adapting}{cut}")
 
 
 def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> None:
@@ -179,12 +183,12 @@ def draw_panel(axes: Axes, rows: list[Row], column: str, kinds: list[str]) -> No
         axes.plot(*line, color=look.colour, marker=look.marker, markersize=8, linewidth=1.5,
                   zorder=5, linestyle=(0, (4, 1.5)), markeredgecolor="white", markeredgewidth=0.6)
         labels.avoid(*line)
-        labels.add(f"{own[0].method}, {kinds[k]}" if len(kinds) > 1 else
-                   f"{own[0].method} displacements", *line, color=look.colour, **NAME)
+        labels.add(f"{own[0].label}, {kinds[k]}" if len(kinds) > 1 else
+                   f"{own[0].label} displacements", *line, color=look.colour, **NAME)
     draw_stops(axes, labels, [row for row in stress if kind_of(row) == "as they are"], column)
-    for method, own in grouped(fronts.get("as they are", []), lambda row: row.method).items():
+    for name, own in grouped(fronts.get("as they are", []), lambda row: row.label).items():
         meshes = list(dict.fromkeys(row.mesh for row in sorted(own, key=lambda row: row.n_phi)))
-        labels.add(f"{method}, {joined(meshes)}", *line_of(own[::-1], column, "error_total"),
+        labels.add(f"{name}, {joined(meshes)}", *line_of(own[::-1], column, "error_total"),
                    weight="bold", color=own[0].look.colour)
 
 
@@ -201,7 +205,7 @@ def draw_front(axes: Axes, labels: Labels, line: tuple[list[float], list[float]]
         axes.plot(cost, row.error_total, color=row.look.colour, marker=row.look.marker,
                   markersize=8, markeredgecolor="white", markeredgewidth=0.7, zorder=6)
     if kind != "as they are":
-        methods = " and ".join(dict.fromkeys(row.method for row in reversed(best)))
+        methods = " and ".join(dict.fromkeys(row.label for row in reversed(best)))
         labels.add(f"{kind}: {methods}", line[0][::-1], line[1][::-1], color=colour, **NAME)
 
 

@@ -11,7 +11,7 @@ from marks import (HEAP, MARGIN, SMALL, TIME, WIDTH, ErrorScale, Footer, Quantit
                    draw_point, notes_of)
 from records import Row
 from selection import by_body, by_mesh, grouped
-from words import CASE, EXTRAPOLATED, csv_of, plain, short
+from words import CASE, EXTRAPOLATED, csv_of, left_out, plain, short
 
 HEADS = {"SSOR": r"SSOR $\omega$"}
 MARKERS = "osD^v<>pPX*hd"
@@ -81,8 +81,9 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
     sizes = [f"{mesh}, {own[0].n_phi}" for mesh, own in meshes.items()]
     texts = [f"{'; '.join(sizes)} degrees of freedom. {TIME.caption(rows, run)}"
              " Below: highest heap during one solve, its blocks and result included.",
+             left_out(run, rows, why),
              *notes_of(cases, TIME)]
-    texts += [line.replace("no point", "no point below") for line in notes_of(timed, HEAP)]
+    texts += [line.replace("No point", "No point below") for line in notes_of(timed, HEAP)]
     footer = Footer(rows, TIME, texts, scale)
     figure = Figure(figsize=(WIDTH, BLOCK * len(meshes) + footer.height))
     for k, (mesh, own) in enumerate(meshes.items()):
@@ -91,6 +92,10 @@ def draw(rows: list[Row], run: list[Row], scale: ErrorScale) -> Figure | str:
         draw_block(figure, k * BLOCK + TOP, own, scale)
     footer.draw(figure)
     return figure
+
+
+def why(row: Row) -> str:
+    return "its preconditioner with other options is" if row.preconditioner else "no preconditioner"
 
 
 def draw_block(figure: Figure, top: float, rows: list[Row], scale: ErrorScale) -> None:

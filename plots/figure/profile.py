@@ -8,6 +8,7 @@ change when one is left out (Gould & Scott, ACM Trans. Math. Softw. 43, 2016, 15
 """
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -18,7 +19,7 @@ from drawing import PAGE_WIDTH, TYPE, Drawing, log_axis, panel_at, sheet
 from labels import DASHED, LEFT, draw_names
 from records import Row
 from selection import compared, grouped
-from words import counted, csv_of, threads, width_of
+from words import counted, csv_of, left_out, threads, width_of
 
 TOP, PANEL, BETWEEN, BOTTOM = 0.45, 2.3, 0.55, 0.5  # inches
 METHODS = 2  # at least
@@ -36,7 +37,6 @@ class Cases:
     methods: list[str]
     cases: list[Case]
     rows: dict[tuple[Case, str], Row]
-    absent: list[str]  # methods with records of too few of them
     dropped: int       # cases of which some method has no record
 
     def costs(self, of: Callable[[Row], float | None]) -> np.ndarray:
@@ -53,8 +53,13 @@ class Cases:
             for s, method in enumerate(self.methods):
                 samples = self.rows[case, method].samples_s
                 if len(samples or ()) > 1 and np.isfinite(times[0, p, s]):
-                    times[:, p, s] = np.median(random.choice(samples, (RESAMPLES, len(samples))), 1)
+                    times[:, p, s] = medians_again(samples, random)
         return times
+
+
+def medians_again(samples_s: list[float], random: np.random.Generator) -> np.ndarray:
+    """(RESAMPLES,) of samples drawn with replacement."""
+    return np.median(random.choice(samples_s, (RESAMPLES, len(samples_s))), 1)
 
 
 def case_of(row: Row) -> Case:
@@ -69,16 +74,16 @@ def cases_of(rows: list[Row]) -> Cases:
     methods = [{case_of(row): row for row in own}
                for own in grouped(shown, lambda row: row.general_name).values()]
     needed = max(len(every) / 2, min(FEWEST, len(every)))
-    common, kept, absent = set(every), [], []
+    common, kept = set(every), []
     for own in sorted(methods, key=len, reverse=True):
-        fits = not kept or len(common & own.keys()) >= needed
-        (kept if fits else absent).append(own)
-        common &= own.keys() if fits else common
+        if not kept or len(common & own.keys()) >= needed:
+            kept.append(own)
+            common &= own.keys()
     name = {id(own): next(iter(own.values())).method for own in methods}
     cases = [case for case in every if case in common]
     return Cases([name[id(own)] for own in kept], cases,
                  {(case, name[id(own)]): own[case] for own in kept for case in cases},
-                 [name[id(own)] for own in absent], len(every) - len(cases))
+                 len(every) - len(cases))
 
 
 def ratios(costs: np.ndarray) -> np.ndarray:
@@ -136,13 +141,13 @@ def profiles_of(cases: Cases) -> list[Profile]:
     times = cases.costs(lambda row: row.time_s)
     repeated = any(len(row.samples_s or ()) > 1 for row in cases.rows.values())
     again = cases.resampled() if repeated else times[None]
-    found = [Profile("performance", "time_s", "time over that of the fastest method",
+    found = [Profile("performance", "time_s", "time relative to that of the fastest method",
                      ratios(times), ratios(again)),
              Profile("data", "time_s", "time of one solve, s", times, again)]
     heaps = cases.costs(lambda row: row.peak_heap_bytes or np.nan)
     if not np.isnan(heaps).any():
         found.insert(1, Profile("performance", "peak_heap_bytes",
-                                "peak heap over that of the smallest", ratios(heaps),
+                                "peak heap relative to the smallest", ratios(heaps),
                                 ratios(heaps)[None]))
     return found
 
@@ -165,14 +170,15 @@ def table_of(rows: list[Row]) -> str:
 def draw(rows: list[Row]) -> Figure | str:
     cases = cases_of(rows)
     if len(cases.methods) < METHODS or len(cases.cases) < FEWEST:
-        return (f"{len(cases.methods)} methods on {len(cases.cases)} cases that all of them have; "
-                f"needs {METHODS} and {FEWEST}")
+        return (f"{counted(len(cases.methods), 'method')} on {counted(len(cases.cases), 'case')} that all "
+                f"of them have; needs {METHODS} and {FEWEST}")
     if not np.isfinite(cases.costs(lambda row: row.time_s)).any():
         return f"none of its {len(cases.cases)} cases is solved"
     shown = profiles_of(cases)
     figure = sheet(TOP + len(shown) * (PANEL + BETWEEN),
                    f"Profiles: {len(cases.methods)} methods on {len(cases.cases)} cases",
-                   *caption(cases, shown))
+                   *caption(cases, shown),
+                   left_out(rows, list(cases.rows.values()), partial(why, compared(rows, ROOM))))
     names = max(width_of(method, TYPE) / 72 for method in cases.methods)
     for k, profile in enumerate(shown):
         draw_panel(panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN),
@@ -180,24 +186,28 @@ def draw(rows: list[Row]) -> Figure | str:
     return figure
 
 
+def why(compared_ones: list[Row], row: Row) -> str:
+    names = {other.general_name for other in compared_ones}
+    return "in displacements" if row.in_displacements else "records of too few of the cases" \
+        if row.general_name in names else "no room"
+
+
 def caption(cases: Cases, shown: list[Profile]) -> Iterator[str]:
     rows = list(cases.rows.values())
     scenes, meshes = (len({getattr(row, name) for row in rows}) for name in ("scene", "mesh"))
     yield (f"Cases: {counted(meshes, 'mesh', 'meshes')}, {counted(scenes, 'scene')}; "
-           f"{threads(rows)}. Solved: status ok and verified; whatever else became of a case, "
-           "skipped too, it is not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
+           f"{threads(rows)}. A case is solved if its status is ok and verified; all other "
+           "outcomes, skipped included, are not. Above: performance profiles (Dolan & Moré 2002), the share of all cases that a method "
            "solves within a factor of the best method's cost; at 1: how often it is the best. "
-           "Lowest: data profile (Moré & Wild 2009), the share solved within a time.")
+           "Bottom: data profile (Moré & Wild 2009), the share solved within a time.")
     yield ("A performance profile depends on the methods compared: with more than two, the order "
            "of those behind the best can change when one is left out (Gould & Scott 2016)"
-           + {None: ".", True: "; here it does at factor 2 without the one that leads there.",
-              False: "; at factor 2 it does not here without the one that leads there."}[
+           + {None: ".", True: "; here it does, at factor 2, without the leading method.",
+              False: "; here it does not, at factor 2, without the leading method."}[
                   order_depends_on_best(shown[0].values)])
     if len(shown[0].resampled) > 1:
         yield (f"Bands: {100 * CONFIDENCE:.0f} % of {RESAMPLES} bootstrap "
                "resamples of each case's repetitions; they do not cover the choice of cases.")
-    if cases.absent:
-        yield f"Left out, with records of too few of the cases: {', '.join(cases.absent)}."
     if cases.dropped:
         yield (f"Left out, since some method has no record of them: {cases.dropped} of "
                f"{cases.dropped + len(cases.cases)} cases.")

@@ -22,11 +22,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import NullLocator
 
 from drawing import Drawing, sheet, side_by_side
-from figure.profile import CONFIDENCE, RESAMPLES, SEED
+from figure.profile import CONFIDENCE, SEED, medians_again
 from labels import Labels
 from records import Row
 from selection import by_mesh, grouped, of_scene, order
-from words import columns_of, csv_of
+from words import columns_of, csv_of, left_out
 
 LEFT, TOP, BOTTOM, HEIGHT, GAP = 0.5, 0.55, 0.45, 3.2, 0.45  # inches
 MESHES = 2  # of strong scaling that there is room for, the largest
@@ -71,8 +71,7 @@ def interval(one: Row, many: Row) -> tuple[float | None, float | None]:
     if not (one.samples_s and many.samples_s):
         return None, None
     random = np.random.default_rng(SEED)
-    again = [np.median(random.choice(row.samples_s, (RESAMPLES, len(row.samples_s))), 1)
-             for row in (one, many)]
+    again = [medians_again(row.samples_s, random) for row in (one, many)]
     low, high = np.quantile(again[0] / again[1], [(1 - CONFIDENCE) / 2, (1 + CONFIDENCE) / 2])
     return float(low), float(high)
 
@@ -133,7 +132,8 @@ def draw(rows: list[Row]) -> Figure | str:
                        [point for point in weak if point.row.body == grown[0].row.body],
                        lambda point: point.weak_efficiency, lambda threads: 1.0))
     figure = sheet(TOP + HEIGHT + BOTTOM, "Scaling over threads",
-                   *caption(points, len(rows) - len(points), len(rows), grown))
+                   *caption(points, len(rows) - len(points), len(rows), grown),
+                   left_out(rows, [point.row for _, own, *_ in panels for point in own], why_not))
     row = side_by_side(figure, [title for title, *_ in panels], LEFT, TOP, HEIGHT, GAP, right=0.15)
     for axes, (_, *panel) in zip(row, panels):
         axes.tick_params(labelleft=True)
@@ -141,9 +141,13 @@ def draw(rows: list[Row]) -> Figure | str:
     return figure
 
 
+def why_not(row: Row) -> str:
+    return "only on other meshes" if is_timed(row) else "timed once" if row.solved else "not verified"
+
+
 def caption(points: list[Point], lost: int, count: int, grown: list[Point]) -> Iterator[str]:
     yield ("Speed-up: time of one solve on one thread over that on p, both medians; bars: 95 % "
-           "bootstrap intervals of the repetitions; dashed: p. Its share of p is the efficiency "
+           "bootstrap intervals of the repetitions; dashed: p. Speed-up over p is the efficiency "
            "(in the CSV).")
     if grown:
         growths = [point.weak_growth for point in grown]
@@ -152,11 +156,11 @@ def caption(points: list[Point], lost: int, count: int, grown: list[Point]) -> I
             "Growing meshes: unknowns solved per second and thread, over those of one thread on "
             f"{grown[0].weak_from}. The meshes have {ratios} times the "
             f"unknowns per thread (allowed: a factor of {NEAR}). Work grows faster than unknowns: the "
-            "CSV has what one thread loses to that (weak_one_thread) apart from what threads lose.")
+            "CSV has this loss (weak_one_thread) apart from the loss to threads.")
     busy = [point.busy_kernel_ratio for point in points if point.busy_kernel_ratio]
     if busy:
-        yield ("With all threads busy a loop that shares nothing but the machine takes "
-               f"{median(busy):.2g} times its time alone (median).")
+        yield ("With all threads busy, an independent loop takes "
+               f"{median(busy):.2g} times as long as alone (median).")
     if lost:
         yield (f"{lost} of {count} cases are not solved, were timed once, or have no case on "
                "one thread: not drawn.")

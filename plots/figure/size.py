@@ -15,7 +15,7 @@ from marks import (EDGE_AT, HEAP, TIME, WIDTH, ErrorScale, Footer, Quantity, by_
                    marker_style, notes_of)
 from records import Row
 from selection import by_body, compared, exponent, grouped, sharing_axes
-from words import CASE, EXTRAPOLATED, csv_of, plain, width_of
+from words import CASE, EXTRAPOLATED, csv_of, left_out, plain, width_of
 
 LEFT, BESIDE, TOP, HEIGHT, BOTTOM = 0.62, 1.04, 0.36, 3.9, 0.42  # BESIDE: and a name
 NAMES = 0.66  # place for them at least
@@ -72,8 +72,9 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
                          for name, line in lines.items()})
     cases = ((f"{name} on {row.mesh}", row) for name, line in lines.items() for row in line)
     texts = [quantity.caption(rows, run) + " n^p: power law fitted over a method's "
-             "completed cases, three or more. Points that would cover each other stand side by "
-             "side.", *left_out(rows, run), *notes_of(cases, quantity)]
+             "completed cases, three or more. Points that would cover each other are moved "
+             "apart.", left_out(run, rows, lambda row: "no room"),
+             *notes_of(cases, quantity)]
     footer = Footer(rows, quantity, texts, scale)
     shared = sharing_axes(rows)
     top = TOP + names_pt(rows) / 72
@@ -88,20 +89,6 @@ def draw(rows: list[Row], run: list[Row], quantity: Quantity, scale: ErrorScale)
                    scale)
     footer.draw(figure)
     return figure
-
-
-def left_out(rows: list[Row], run: list[Row]) -> list[str]:
-    """Methods of the run that have no line here: variants and preconditioners beyond the room."""
-    shown = {row.general_name for row in rows}
-    methods = grouped((row for row in run if row.general_name not in shown), lambda row: row.family)
-    names = ", ".join(words_for(family, list(dict.fromkeys(row.method for row in own)))
-                      for family, own in methods.items())
-    return [f"Without a line here, for lack of room: {names}."] if names else []
-
-
-def words_for(family: str, methods: list[str]) -> str:
-    few = 3
-    return ", ".join(methods) if len(methods) <= few else f"{len(methods)} of {family}"
 
 
 def draw_block(axes: Axes, lines: dict[str, list[Row]], looks: PlainLooks, quantity: Quantity,

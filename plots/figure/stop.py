@@ -8,7 +8,7 @@ from drawing import Drawing, log_limits, log_log, panel_at, sheet
 from labels import Labels
 from records import Row
 from selection import given, grouped, is_paper_stop, of_scene
-from words import CASE, csv_of, percent, short
+from words import CASE, csv_of, left_out, percent, short
 
 LEFT, TOP, PANEL, GAP, HEIGHT, BOTTOM = 0.72, 0.4, 3.38, 0.72, 3.8, 0.5  # inches
 SHADES = ("#000000", "#0072B2", "#D55E00", "#00805C", "#8A3FA0", "#C98500", "#56B4E9", "#777777")
@@ -18,7 +18,8 @@ MARKERS = "o^sDvP<X"
 def drawings(rows: list[Row]) -> Iterator[Drawing]:
     study = of_scene([row for row in rows if row.study == "error"])
     if study:
-        yield Drawing("stop_and_error", [row for row in study if parameters_of(row)], draw, table_of)
+        yield Drawing("stop_and_error", [row for row in study if parameters_of(row)], draw, table_of,
+                      options=dict(run=study))
 
 
 def table_of(rows: list[Row]) -> str:
@@ -47,7 +48,7 @@ def curves_of(rows: list[Row]) -> dict[str, list[Row]]:
     return grouped(sorted(stops, key=lambda row: (row.n_phi, *parameters_of(row)[::-1])), name)
 
 
-def draw(rows: list[Row]) -> Figure | str:
+def draw(rows: list[Row], run: list[Row]) -> Figure | str:
     curves = curves_of(rows)
     if not any(len(curve) > 1 for curve in curves.values()):
         return "no two methods NAME:r=..,rho=.. with stop=paper and error_force"
@@ -58,9 +59,10 @@ def draw(rows: list[Row]) -> Figure | str:
     figure = sheet(
         TOP + HEIGHT + BOTTOM, f"The paper's stop: errors from {low} to {high}",
         f"Scene {rows[0].scene}. {families} with given r and ρ, ended by the paper's stop: no "
-        "force is out of balance by more than 1e-3 N. Left: the error of its contact forces then, "
-        f"which the stop does not see; dashed: the target error {short(target)} of the other "
-        "figures. Right: the iterations it took.")
+        "force is out of balance by more than 1e-3 N/mm. Left: the error of its contact forces then, "
+        f"which the stop does not measure; dashed: the target error {short(target)} of the other "
+        "figures. Right: the iterations it took.",
+        left_out(run, rows, lambda row: "not with r and ρ given and the paper's stop"))
     left = panel_at(figure, LEFT, TOP, PANEL, HEIGHT)
     draw_panel(left, curves, "error_force", [target])
     left.axhline(target, color="0.25", linewidth=0.9, linestyle=(0, (5, 3)))

@@ -9,7 +9,7 @@ from labels import Labels
 from records import Row
 from selection import (by_mesh, front, given, grouped, is_paper_stop, of_scene, order,
                        value_of)
-from words import CASE, KNOB, csv_of, percent, short, threads
+from words import CASE, KNOB, csv_of, lacking, percent, short, threads, unseen
 
 LEFT, TOP, PANELS, HEIGHT, GAP, BOTTOM = 0.72, 0.35, (4.75, 2.45), 5.0, 0.28, 0.5  # inches
 HIGHEST = 1e3  # errors above are drawn here
@@ -58,21 +58,20 @@ def caption(rows: list[Row], known: list[Row], floor: float, target: float) -> I
     words = (f"{known[0].mesh}, {known[0].n_phi} degrees of freedom, scene {known[0].scene}, "
              f"{threads(known)}. Error of the contact forces against the reference, a point "
              f"per solve. Joined: a method at several values of a parameter ({', '.join(knobs) or 'none'}); "
-             f"single points: methods run to their end. Dashed: the target error {short(target)}.")
+             f"single points: methods without one. Dashed: the target error {short(target)}.")
     for family, own in families_of(curves_of(known)).items():
         words += (f" {family}, thick: the best of its {len({row.method for row in own})} given r "
                   "and ρ, known only afterwards; grey: each of them.")
     stops = grouped([row for row in known if is_paper_stop(row)], lambda row: row.family)
     if stops:
-        words += (f" Stars: {' and '.join(stops)} ended by the paper's stop, small "
-                  "ones with given r and ρ.")
+        words += (f" Stars: {' and '.join(stops)} ended by the paper's stop; small "
+                  "stars: with given r and ρ.")
     if any(row.error_force < floor for row in known):
         words += " Errors of 0 are drawn at the lower edge."
     yield words
-    absent = [f"{row.method} ({row.status_words()})" for row in rows
-              if row not in known and not row.in_displacements]
-    if absent:
-        yield f"No point: {'; '.join(dict.fromkeys(absent))}."
+    yield from unseen(rows, known, lambda row: "in displacements, which have other contact forces"
+                      if row.in_displacements else "no error of the contact forces")
+    yield lacking(known, {"peak heap": lambda row: row.peak_heap_bytes})
 
 
 def draw(rows: list[Row]) -> Figure | str:
@@ -134,7 +133,7 @@ def draw_panel(axes: Axes, column: str, rows: list[Row], floor: float, target: f
         if not first and given(row) and row.family in ends:
             continue  # its memory is that of the method that chooses r and rho
         y, x = zip(*points)
-        labels.add(method, x, y, color=row.look.colour if len(points) > 1 else "0.1")
+        labels.add(row.label, x, y, color=row.look.colour if len(points) > 1 else "0.1")
 
 
 def draw_stops(axes: Axes, labels: Labels, stops: list[Row], column: str) -> None:

@@ -45,9 +45,9 @@ function decades(low, top) {
   return ticks;
 }
 
-// Round in the unit that is shown.
+// Round in the unit that is shown; two at least, since a width is at most 2.5 times the one before it.
 function roundTicks(low, top, unit) {
-  const rough = (top - low) / unit / 4, power = 10 ** Math.floor(Math.log10(rough));
+  const rough = (top - low) / unit / 5, power = 10 ** Math.floor(Math.log10(rough));
   const width = [1, 2, 5, 10].find((factor) => factor * power >= rough) * power * unit;
   const ticks = [];
   for (let k = Math.ceil(low / width); k * width <= top; ++k) ticks.push(k * width);

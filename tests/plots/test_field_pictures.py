@@ -56,7 +56,7 @@ class UprightTest(unittest.TestCase):
             s = bar(10, 8, 1, mesh=mesh)
             for figure in (gallery.compose([[s]]), gallery.draw_map(s, np.array([0.3, 0.7]))):
                 body = figure.axes[0]
-                self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x in mm", "y in mm"))
+                self.assertEqual((body.get_xlabel(), body.get_ylabel()), ("x, mm", "y, mm"))
                 for low, high in (body.get_xlim(), body.get_ylim()):
                     self.assertLess(low, high)
                 contact = [line for line in body.lines if line.get_color() == "#D00060"]
@@ -75,6 +75,13 @@ class UprightTest(unittest.TestCase):
                     self.assertGreaterEqual(words.get_fontsize(), SMALLEST_PT, words)
                     box = words.get_window_extent(renderer)
                     self.assertTrue(0 <= box.x0 and box.x1 <= figure.bbox.x1, words)
+
+    def test_words_above_a_body_are_apart_from_its_title(self) -> None:
+        for s in (bar(10, 8, 1), replace(bar(10, 8, 1), moved=np.full_like(bar(10, 8, 1).boundary, 0.01))):
+            figure = gallery.compose([[s]])
+            _, renderer = drawn.paint(figure)
+            above, title = (text.get_window_extent(renderer) for text in figure.texts[:2])
+            self.assertGreater(above.y0, title.y1 + 8)  # pixels: half a line
 
 
 class FacesTest(unittest.TestCase):
@@ -151,13 +158,13 @@ class UnrolledTest(unittest.TestCase):
 
     def test_a_straight_face_keeps_its_coordinate(self) -> None:
         line = unrolled(np.array([[[3, -1], [3, 0.5]], [[3, 0.5], [3, 2]]], float))
-        self.assertEqual(line.axis, "y in mm")
+        self.assertEqual(line.axis, "y, mm")
         points = np.random.default_rng(1).uniform(-5, 8, (40, 2, 2))  # also beyond its ends
         np.testing.assert_allclose(line.of(points), points - [3, 0], atol=1e-12)
 
     def test_an_arc_goes_by_its_length(self) -> None:
         line = unrolled(self.arc(400))
-        self.assertEqual(line.axis, "along the face from its dot, mm")
+        self.assertEqual(line.axis, "distance along the face from its dot, mm")
         for radius, angle in ((5, 0.3), (4, 1.0), (4.5, 3.0), (5.2, 2.0)):
             outward, along = line.of(radius * np.array([np.cos(angle), np.sin(angle)]))
             self.assertAlmostEqual(outward, radius - 5, 3)
@@ -250,19 +257,44 @@ class DisplacedTest(unittest.TestCase):
         load[0, :, 1] = -3  # below: pulls; above it would push
         load[-2, :, 1] = -1.5
         self.s = replace(s, moved=np.full_like(s.boundary, 0.004), load=load,
-                         away=np.tile([[[0.001, 0.0]]], (len(s.edges), 2, 1)))
+                         normal=np.tile([[[1.0, 0.0]]], (len(s.edges), 2, 1)),
+                         gap=np.full((len(s.edges), 2), 0.001))
 
     def test_displacements_are_enlarged_by_a_round_number(self) -> None:
-        self.assertIsNone(field_drawing.enlargement(bar(10, 8, 1)))
+        self.assertIsNone(field_drawing.enlargement([bar(10, 8, 1)]))
         for moved, times in ((0.004, 50), (0.001, 200), (0.0001, 2000), (1, 0.2)):
             s = replace(self.s, moved=np.full_like(self.s.boundary, moved))
-            self.assertAlmostEqual(field_drawing.enlargement(s), times, 9)
-        self.assertIsNone(field_drawing.enlargement(replace(s, moved=0 * s.moved)))
+            self.assertAlmostEqual(field_drawing.enlargement([s]), times, 9)
+            self.assertAlmostEqual(field_drawing.enlargement([replace(s, moved=s.moved / 9), s]), times, 9)
+        self.assertIsNone(field_drawing.enlargement([replace(s, moved=0 * s.moved)]))
+
+    def test_a_wall_keeps_its_shape_under_a_curved_face(self) -> None:
+        """A body pressed by 0.004 mm against the flat wall x = 11, from which its face bends away."""
+        s = self.s
+        bent = s.edges.copy()
+        bent[..., 0] -= 0.01 * (bent[..., 1] - 6)**2
+        s = replace(s, edges=bent, boundary=np.where((s.role == "contact")[:, None, None], 0, s.boundary))
+        s.boundary[s.role == "contact"] = bent
+        thirds = np.array([[2, 1], [1, 2]]) / 3
+        distance = 11 - np.einsum("kc,ec->ek", thirds, bent[..., 0])
+        s = replace(s, gap=distance - 0.004)
+        for state in (np.full_like(s.state, "open"), s.state):
+            wall, = field_drawing.walls_of(replace(s, state=state), 50)
+            np.testing.assert_allclose(wall[:, 0], wall[0, 0], atol=1e-12)  # as before it is enlarged
+        # No point touches it: the enlarged gap where it is least.
+        wall, = field_drawing.walls_of(replace(s, state=np.full_like(s.state, "open")), 50)
+        self.assertAlmostEqual(wall[0, 0], 11 + 49 * distance.min())
+        np.testing.assert_allclose(field_drawing.walls_of(s, 1)[0][:, 0], 11)
+
+    def test_the_outline_meets_the_wall_where_a_body_touches_it(self) -> None:
+        touching = replace(self.s, gap=0 * self.s.gap)
+        wall, = field_drawing.walls_of(touching, 50)
+        np.testing.assert_allclose(wall[:, 0], 11 + 50 * 0.004)
 
     def test_outline_wall_and_loads_are_drawn_and_named(self) -> None:
         figure = gallery.compose([[self.s]])
         body = figure.axes[0]
-        self.assertEqual(body.get_xlabel(), "x in mm; displacements, gaps × 50; loads to 3 MPa")
+        self.assertEqual(body.get_xlabel(), "x, mm; displacements × 50; loads to 3 MPa")
         outline, = (line for line in body.lines if line.get_linestyle() == "--"
                     and line.get_color() == field_drawing.OUTLINE["color"])
         np.testing.assert_allclose(outline.get_xydata()[0], self.s.boundary[0, 0] + 0.2)
@@ -277,8 +309,18 @@ class DisplacedTest(unittest.TestCase):
             self.assertLess(text.xy[1], text.xyann[1])  # all downwards
         self.assertTrue(pulls)
         words = drawn.words_of(figure)
-        for word in ("outline, displaced", "wall, behind the gap", "held", "stick"):
+        for word in ("outline, displaced", "wall", "held", "stick", "keeps its shape"):
             self.assertIn(word, words)
+
+    def test_rollers_lie_on_their_edge_in_the_body_and_at_a_face(self) -> None:
+        s = replace(self.s, role=np.where(self.s.role == "force", "rollers", self.s.role))
+        line = unrolled(s.edges[s.faces()[0]])
+        for seen in (s, line.seen(s, s.faces()[0], 20)):
+            axes = Figure().add_axes([0, 0, 1, 1])
+            field_drawing.draw_boundary(axes, seen)
+            marks = np.vstack([mark.get_xydata() for mark in axes.lines if mark.get_marker() == "o"])
+            middles = seen.placed(seen.boundary[seen.role == "rollers"].mean(1))
+            np.testing.assert_allclose(np.sort(marks, axis=0), np.sort(middles, axis=0))
 
     def test_the_legend_names_only_what_is_drawn(self) -> None:
         s = bar(10, 8, 1)
@@ -287,8 +329,12 @@ class DisplacedTest(unittest.TestCase):
         words = drawn.words_of(gallery.compose([[free]]))
         self.assertIn("on rollers", words)
         for word in ("contact", "stick", "open", "displaced", "wall", "friction"):
-            self.assertNotIn(word, words.partition("Scene and method")[2])
-        self.assertNotIn("rollers", drawn.words_of(gallery.compose([[s]])))
+            self.assertNotIn(word, words)
+        words = drawn.words_of(gallery.compose([[s]]))
+        self.assertNotIn("rollers", words)
+        self.assertIn("slip", words)
+        sticking = replace(s, state=np.full_like(s.state, "stick"))
+        self.assertNotIn("slip", drawn.words_of(gallery.compose([[sticking]])))
 
 
 class TablesTest(unittest.TestCase):

@@ -47,7 +47,7 @@ class AtlasTest(drawn.FiguresTest):
         self.assertEqual((len(places), len(set(places))), (len(rows), len(rows)))
         words = words_of(figure)
         wrong = sum(row.outcome == "wrong_success" for row in rows)
-        self.assertIn(f"wrong success: reported ok, and is not: {wrong}", words)
+        self.assertIn(f"wrong success: reported ok, but is not: {wrong}", words)
         self.assertEqual(words.split().count("W!"), wrong + 1)
         for row in rows:
             self.assertIn(row.scene, words)

@@ -5,11 +5,12 @@ import made_up  # finds plots
 
 import drawn
 from figure import adaptive as adaptive_figure
+from figure import degrees as degrees_figure
 from figure import growth as growth_figure
 from figure import load_steps as load_steps_figure
 from figure import overview as overview_figure
 from figure import scaling as scaling_figure
-from records import CONTACT_SOLVERS
+from records import CONTACT_SOLVERS, RecordsError
 
 
 def levels(mesh: str, count: int) -> list[dict]:
@@ -121,6 +122,68 @@ class OverviewTest(unittest.TestCase):
             self.assertEqual(list(overview_figure.drawings(made_up.read(rows))), [])
 
 
+class DegreesTest(unittest.TestCase):
+    METHODS = {"HYBRID": 1, "HYBRID:k=2": 2, "HYBRID:k=3": 3, "HYBRID:k=4": 4}
+    BODIES = (("Mesh0", "default"), ("Mesh4", "default"), ("L", "L"), ("cylinder", "pressed"),
+              ("ring", "ring"))
+
+    def levels(self, mesh: str, scene: str, methods: dict[str, int], **cells: object) -> list[dict]:
+        return [made_up.case(f"{mesh}+adapt{level}", method, scene=scene, degree=degree,
+                             n_phi=800 * 2**level, adapt_time_s=0.1 * degree * 2**level,
+                             error_total=0.3 / 2**(degree * level)) | cells
+                for method, degree in methods.items() for level in range(3)]
+
+    def test_a_panel_for_each_of_four_bodies_and_a_line_for_each_degree(self) -> None:
+        rows = [case for body in self.BODIES for case in self.levels(*body, self.METHODS)]
+        drawing = drawn.plan(made_up.read(rows), "degrees")
+        figure = drawing.figure()
+        self.assertEqual([axes.get_title() for axes in figure.axes],
+                         ["one tooth", "rack of four teeth", "L", "cylinder, scene pressed"])
+        self.assertIn("Bodies not drawn: ring.", drawn.words_of(figure))
+        for axes in figure.axes:
+            words = {text.get_text() for text in axes.texts}
+            self.assertEqual(words, {f"HYBRID, degree {k}" for k in range(1, 5)})
+            curves = [line for line in axes.lines if len(line.get_xdata()) == 3]
+            self.assertEqual(len({line.get_color() for line in curves}), 4)
+            self.assertEqual(len({line.get_marker() for line in curves}), 4)
+            self.assertEqual({round(line.get_xdata()[0], 9) for line in curves}, {0.1, 0.2, 0.3, 0.4})  # whole loops
+        painted, renderer = drawn.paint(figure)
+        drawn.assert_readable(self, figure, painted, renderer)
+        self.assertEqual({line["degree"] for line in drawn.table_of(drawing)}, set("1234"))
+
+    def test_other_methods_and_meshes_are_drawn_too(self) -> None:
+        rows = (self.levels("Mesh0", "default", self.METHODS)
+                + self.levels("Mesh0", "default", {"P3": 2, "EXTERNAL:mine": 1})
+                + [made_up.case(mesh, "HYBRID", error_total=0.2, time_s=0.01) for mesh in ("Mesh0", "Mesh1")])
+        words = drawn.words_of(drawn.plan(made_up.read(rows), "degrees").figure())
+        for name in ("P3", "EXTERNAL:mine", "HYBRID, degree 1", "Meshes: as they are (open, dashed)"):
+            self.assertEqual(words.count(name), 1, name)
+
+    def test_without_a_second_degree_there_is_none(self) -> None:
+        for methods in ({"HYBRID": 1}, {"HYBRID": 1, "P2": 1}, {"HYBRID:k=2": 2}):
+            rows = made_up.read(self.levels("Mesh0", "default", methods))
+            self.assertEqual(list(degrees_figure.drawings(rows)), [])
+        older = [{key: value for key, value in case.items() if key != "degree"}
+                 for case in self.levels("Mesh0", "default", {"HYBRID": 1})]
+        self.assertEqual({row.degree for row in made_up.read(older)}, {1})
+
+    def test_degrees_have_their_colours_and_names_in_the_other_figures(self) -> None:
+        rows = made_up.read(self.levels("Mesh0", "default", self.METHODS | {"P2": 1, "P3": 2, "P4": 3}))
+        looks = {row.method: (row.look.colour, row.look.marker) for row in rows}
+        self.assertEqual(len(set(looks.values())), 7)
+        self.assertEqual(looks["HYBRID"][0], "#000000")
+        of_family, = {row.look[:2] for row in made_up.read(self.levels("Mesh0", "default", {"P3": 2}, family="P2"))}
+        self.assertEqual(of_family, looks["P3"])  # whether it is its own family or one of P2's
+        words = drawn.words_of(drawn.plan(rows, "adaptive").figure())
+        for name in ("HYBRID, degree 2", "HYBRID, degree 4", "P4"):
+            self.assertIn(name, words)
+
+    def test_a_degree_that_cannot_be_is_refused(self) -> None:
+        for degree in (0, 5, 1.5, "two"):
+            with self.assertRaisesRegex(RecordsError, "degree is .*, expected a whole number from 1 to 4"):
+                made_up.read(self.levels("Mesh0", "default", {"HYBRID": 1}, degree=degree))
+
+
 STEPS = (1, 5, 20)
 COSTS = {"3STEPD:CHOLMOD": (0.13, 0.02), "ALM": (0, 0.1)}  # once, and each step
 
@@ -215,7 +278,7 @@ class ScalingTest(unittest.TestCase):
         (drawing,) = scaling_figure.drawings(made_up.read_lines(threaded() + threaded(scene="other")))
         words = drawn.words_of(drawing.figure())
         for part in ("Mesh2: speed-up", "Mesh3: speed-up", "growing meshes", "1.01 times",
-                     "takes 1.1 times its time alone", "3STEPD"):
+                     "takes 1.1 times as long as alone", "3STEPD"):
             self.assertIn(part, words)
         table = drawn.table_of(drawing)
         self.assertEqual([(line["mesh"], line["threads"]) for line in table],

@@ -2,6 +2,7 @@
 /usr/bin/python3 -m unittest FILE"""
 import csv
 import os
+from dataclasses import replace
 from pathlib import Path
 from unittest import mock
 
@@ -55,7 +56,7 @@ class LoadPathTest(FolderTest):
         np.testing.assert_allclose(path.push, np.negative(FORCE_N))  # on the wall
         np.testing.assert_allclose(path.normal, 60)
         np.testing.assert_allclose(path.moved, np.array(MOVED_UM) / 1000)
-        self.assertEqual((path.moved_what, path.faces, path.axis), ("held", 1, "y in mm"))
+        self.assertEqual((path.moved_what, path.faces, path.axis), ("held", 1, "y, mm"))
         np.testing.assert_allclose(path.traction[1], [[30, -3], [30, -3]])  # F = (L/2) t, L = 2
         self.assertEqual(path.state[:2].tolist(), [["stick"] * 2, ["slip"] * 2])
         # The rectangle of 2 um and 12 N is walked clockwise from step 2 to its end.
@@ -84,10 +85,43 @@ class LoadPathTest(FolderTest):
         self.assertEqual(float(lines[3]["push_N"]), -6)
         figure = load_path_drawing.draw_path(load_path.read_path(self.results, NAME))
         words = drawn.words_of(figure)
-        for part in ("6 load steps", "is that of step 2 again", "dissipates 0.024 N", "is 0.024 N"):
+        for part in ("6 load steps", "From step 2 to step 6", "dissipates 0.024 N", "dU = 0.024 N",
+                     "force returns"):
             self.assertIn(part, words)
+        self.assertNotIn("not closed", words)
         painted, renderer = drawn.paint(figure)
         drawn.assert_readable(self, figure, painted, renderer)
+
+    def test_work_and_dissipation_of_an_open_cycle_are_told_apart(self) -> None:
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        points = self.results / "fields" / f"{NAME}.steps" / "0006.contact.csv"
+        points.write_text(points.read_text().replace(",-3.0,", ",-2.0,"))  # the last force is 4 N, not 6 N
+        table.write_text(table.read_text().replace(",0.012,", ",0.005,"))
+        words = drawn.words_of(load_path_drawing.draw_path(load_path.read_path(self.results, NAME)))
+        for part in ("dissipates 0.01 N", "not the shaded area", "dU = 0.024 N", "(6 and 4 N/mm)",
+                     "not closed", "difference of 0.014 N", "stored in the body"):
+            self.assertIn(part, words)
+
+    def test_frames_have_one_factor_one_scale_and_one_legend(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        s = fields.read_fields(self.results, f"{NAME}.steps/0001", {})
+        count = len(s.boundary)
+        steps = {k: replace(s, moved=np.full((count, 2, 2), moved), stress=(k + 1) * s.stress,
+                            traction=(k + 1) * s.traction, state=np.full_like(s.state, state),
+                            load=np.full((count, 2, 2), load))
+                 for k, (moved, load, state) in enumerate(((1e-4, 3, "stick"), (7e-3, 1, "slip")))}
+        first, second = load_path_drawing.frames(path, steps)
+        for one, other in zip(first.axes, second.axes, strict=True):
+            self.assertEqual((one.get_xlim(), one.get_ylim()), (other.get_xlim(), other.get_ylim()))
+        factors = [figure.axes[0].get_xlabel().split("; ")[1] for figure in (first, second)]
+        self.assertEqual(factors[0], factors[1])
+        self.assertRegex(factors[0], r"displacements × \d+$")
+        arrows = [{round(float(np.hypot(*np.subtract(text.xyann, text.xy)))) for text in
+                   figure.axes[0].texts if text.arrow_patch} for figure in (first, second)]
+        self.assertEqual(arrows, [{20}, {7}])  # of 3 MPa and of 1 MPa
+        legends = [[text.get_text() for text in figure.legends[0].get_texts()] for figure in (first, second)]
+        self.assertEqual(legends[0], legends[1])
+        self.assertTrue({"stick", "slip"} <= set(legends[0]))
 
     def test_the_animation_has_a_frame_per_step_with_a_body_and_a_size_that_is_bounded(self) -> None:
         status, out, err = run(gallery, self.results, "--animate")
@@ -102,10 +136,9 @@ class LoadPathTest(FolderTest):
         with mock.patch.object(load_path_drawing, "FRAME_MS", 100):
             path = load_path.read_path(self.results, NAME)
             steps = [fields.read_fields(self.results, f"{NAME}.steps/{k:04}", {}) for k in range(1, 7)]
-            scales = gallery.scales_of(steps)
             small = self.results / "small.gif"
-            load_path_drawing.write_gif((load_path_drawing.draw_frame(path, k, s, scales)
-                                         for k, s in enumerate(steps)), small, size // 3)
+            load_path_drawing.write_gif(load_path_drawing.frames(path, dict(enumerate(steps))), small,
+                                        size // 3)
         self.assertLessEqual(small.stat().st_size, size // 3)
         with Image.open(small) as image:
             self.assertLess(image.width, width)

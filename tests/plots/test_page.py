@@ -10,7 +10,7 @@ from pathlib import Path
 
 import made_up_history as made_up
 from browser import CHROMIUM, Browser, Element
-from running import run, run_command
+from running import PROJECT, run, run_command
 
 import page as page_program
 
@@ -117,6 +117,11 @@ class PageTest(unittest.TestCase):
         self.assertIn(1, found)
         for panel in self.panels(self.shown("#quantity=error_stress")).values():  # logarithmic
             self.assertEqual(panel.all("path", class_="break"), [])
+
+    def test_an_axis_has_two_numbers_or_more(self) -> None:
+        page = self.make(PROJECT / "results/history", name="committed.html")
+        for name, panel in self.panels(self.shown("", page)).items():
+            self.assertGreaterEqual(len(panel.all("line", class_="grid")), 2, name)  # each with its number
 
     def test_the_quantity_is_chosen_by_the_address(self) -> None:
         document = self.shown("#quantity=peak_heap_bytes")

@@ -74,14 +74,16 @@ class ProfilesTest(unittest.TestCase):
         more = lines() + lines({"ALM": (1.0,)})
         cases = profile_figure.cases_of(made_up.read_lines([case for case in more if (
             case["method"], case["mesh"]) != ("HYBRID", "Mesh3")]))
-        self.assertEqual((cases.absent, cases.dropped), (["ALM"], 1))
+        self.assertEqual((set(cases.methods), cases.dropped), (set(TIMES), 1))
         self.assertEqual([case[0] for case in cases.cases], list(MESHES[:3]))
 
     def test_variants_on_few_meshes_do_not_take_the_others_cases(self) -> None:
         few = {f"3STEPD:V{k}": (1.0, 1.0) for k in range(3)}
         cases = profile_figure.cases_of(made_up.read_lines(lines(few) + lines()))
         self.assertEqual((set(cases.methods), len(cases.cases)), (set(TIMES), 4))
-        self.assertEqual(cases.absent, list(few))
+        drawing = drawn.plan(made_up.read_lines(lines(few) + lines()), "profiles")
+        self.assertIn("Not drawn: 3STEPD:V0, 3STEPD:V1, 3STEPD:V2 (records of too few of the cases).",
+                      drawn.words_of(drawing.figure()))
 
     def test_scenes_and_targets_make_cases(self) -> None:
         rows = made_up.read_lines(lines() + lines(scene="flat"))
@@ -114,7 +116,7 @@ class ProfilesTest(unittest.TestCase):
 
     def test_the_figure_says_what_it_cannot_tell(self) -> None:
         words = drawn.words_of(drawn.plan(made_up.read_lines(lines()), "profiles").figure())
-        for part in ("3 methods on 4 cases", "Gould & Scott 2016", "status ok and verified", *TIMES):
+        for part in ("3 methods on 4 cases", "Gould & Scott 2016", "its status is ok and verified", *TIMES):
             self.assertIn(part, words)
         self.assertNotIn("bootstrap", words)
 
@@ -130,7 +132,7 @@ class ProfilesTest(unittest.TestCase):
         self.assertLessEqual(steps, points)
 
     def test_too_few_are_left_out_with_the_reason(self) -> None:
-        for cases, reason in ((lines({"3STEPD": TIMES["3STEPD"]}), "1 methods on 4 cases"),
+        for cases, reason in ((lines({"3STEPD": TIMES["3STEPD"]}), "1 method on 4 cases"),
                               (lines({m: own[:2] for m, own in TIMES.items()}), "3 methods on 2 case"),
                               (lines({m: (None,) * 4 for m in TIMES}), "none of its 4 cases")):
             drawing, = profile_figure.drawings(made_up.read_lines(cases))

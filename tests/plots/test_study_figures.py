@@ -159,7 +159,15 @@ class WorkPrecisionTest(drawn.FiguresTest):
         rows = made_up.error_study(["Mesh3"], sweep=False)
         rows[0] |= dict(status="timeout", outcome="timeout", time_s="", error_force="")
         words = words_of(work_precision_figure.draw(read(rows)))
-        self.assertIn("No point: 3STEPD (timeout).", words)
+        self.assertIn("No point: 3STEPD on Mesh3 (timeout).", words)
+
+    def test_a_point_of_a_solve_that_was_stopped_is_drawn_and_not_named(self) -> None:
+        stopped = [made_up.case("Mesh0", "HYBRID", study="error", status="not_converged", knob="contact sweeps",
+                                knob_value=k, error_force=0.1**k) for k in (1, 2)]
+        lost = [case | dict(method="BLIND", general_name="BLIND", time_s="", error_force="") for case in stopped]
+        words = words_of(work_precision_figure.draw(read(stopped + lost)))
+        self.assertIn("No point: BLIND on Mesh0 (not converged).", words)
+        self.assertEqual(words.count("Mesh0"), 3)  # title, caption, BLIND's once
 
 
 class ParetoTest(drawn.FiguresTest):
@@ -258,7 +266,7 @@ class MemoryFigureTest(drawn.FiguresTest):
                          made_up.split("Mesh1", "BLIND", factor=(30, 10), other=(1, None)),
                          *(made_up.split("Mesh1", f"SYMMLQ:SSOR{k}") for k in range(30)),
                          made_up.split("Mesh2", "3STEPD"))        # alone
-        figure = memory_figure.draw(bars)
+        figure = memory_figure.draw(bars, bars)
         axes, = figure.axes
         self.assertEqual([label.get_text() for label in axes.get_yticklabels()], ["SSKY", "BLIND"])
         ends = [max(bar.get_x() + bar.get_width() for bar in axes.patches
@@ -275,7 +283,7 @@ class MemoryFigureTest(drawn.FiguresTest):
 
     def test_a_count_that_differs_is_named(self) -> None:
         record = made_up.split("Mesh0", "3STEPD") | {"memory_counts_differ": True}
-        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID"))))
+        words = words_of(memory_figure.draw(self.bars(record, made_up.split("Mesh0", "HYBRID")), []))
         self.assertIn("differs from the heap by more than 10 %: 3STEPD.", words)
 
     def test_other_records_are_passed_over(self) -> None:
@@ -308,4 +316,4 @@ class OtherFiguresTest(drawn.FiguresTest):
         rows = read(made_up.error_study(["Mesh1"]))
         curve, = stop_figure.curves_of(rows).values()
         self.assertEqual([stop_figure.parameters_of(row)[0] for row in curve], [5, 20, 80, 320, 1280])
-        self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows)))
+        self.assertIn("errors from 0.039 % to 10 %", words_of(stop_figure.draw(rows, rows)))

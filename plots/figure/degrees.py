@@ -1,0 +1,66 @@
+"""Total error against time, a line per method and degree, on several bodies."""
+import math
+from collections.abc import Iterator
+
+from matplotlib.figure import Figure
+
+from drawing import PAGE_WIDTH, Drawing, log_limits, log_log, panel_at, sheet
+from figure.adaptive import draw_over_time, kinds_in
+from records import Row
+from selection import grouped, kind_of
+from words import CASE, csv_of, left_out, plain, threads
+
+LEFT, TOP, HEIGHT, BETWEEN, GAP = 0.72, 0.62, 2.9, 0.78, 0.6  # inches
+PANELS, IN_ROW = 4, 2
+
+Panel = tuple[str, str]  # body and scene
+
+
+def drawings(rows: list[Row]) -> Iterator[Drawing]:
+    run = [row for row in rows if not row.study and row.stop == "target"]
+    known = [row for row in run if row.completed and row.error_total and time_of(row)]
+    degrees = grouped(known, panel_of)
+    shown = [panel for panel, own in degrees.items() if len({row.degree for row in own}) > 1][:PANELS]
+    if shown:
+        yield Drawing("degrees", [row for row in known if panel_of(row) in shown], draw, table_of,
+                      options=dict(run=run))
+
+
+def panel_of(row: Row) -> Panel:
+    return row.body, row.scene
+
+
+def time_of(row: Row) -> float | None:
+    """Of an adapted mesh: of the whole loop up to it."""
+    return row.adapt_time_s or row.time_s
+
+
+def table_of(rows: list[Row]) -> str:
+    return csv_of(rows, *CASE, "degree", ("kind_of_mesh", kind_of), ("time_s", time_of), "error_total")
+
+
+def draw(rows: list[Row], run: list[Row]) -> Figure:
+    panels = grouped(rows, panel_of)
+    others = [panel for panel in grouped(run, panel_of) if panel not in panels]
+    rows_of_panels = math.ceil(len(panels) / IN_ROW)
+    figure = sheet(
+        TOP + rows_of_panels * (HEIGHT + BETWEEN) - BETWEEN + 0.45, "Total error over time, by degree",
+        f"Total error of the stresses, mesh and method together; {threads(rows)}. Meshes: {kinds_in(rows)}. "
+        "Time: one solve; on adapted meshes the whole loop, all levels and error estimates.",
+        f"Bodies not drawn: {', '.join(map(title_of, others))}." if others else "",
+        left_out(run, rows, lambda row: "no total error" if not row.error_total else "only on other bodies"))
+    errors = log_limits([row.error_total for row in rows], 1.5)
+    width = (PAGE_WIDTH - LEFT - 0.15 - GAP) / IN_ROW
+    for k, (panel, own) in enumerate(panels.items()):
+        axes = panel_at(figure, LEFT + k % IN_ROW * (width + GAP), TOP + k // IN_ROW * (HEIGHT + BETWEEN),
+                        width, HEIGHT)
+        axes.set_title(plain(title_of(panel)), pad=4)
+        log_log(axes, xlim=log_limits(map(time_of, own), 1.5), ylim=errors, xlabel="time, s",
+                ylabel="" if k % IN_ROW else "total error of the stresses")
+        draw_over_time(axes, own, time_of).name_lines(weight="bold")
+    return figure
+
+
+def title_of(panel: Panel) -> str:
+    body, scene = panel
+    return body if scene in ("default", body) else f"{body}, scene {scene}"
