@@ -7,11 +7,15 @@
 // point normal, then tangential: none, one, or, in files of problems in space, two.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace airybench {
+
+using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct ContactPoints {
   int count = 0;                 // for a body `per_edge` on each contact edge, from its start on
@@ -29,7 +33,15 @@ struct ContactPoints {
 
 namespace contact {
 
+// D = Hᵀ M⁻¹ H of bodies with many contacts, which is not formed: v = M⁻¹ H F are their motions.
+struct Bodies {
+  Eigen::SparseMatrix<double> M, H;  // n × n, symmetric positive definite, whole; n × n_c
+  Eigen::VectorXd D_diagonal;        // rough: of Hᵀ diag(M)⁻¹ H, exact where M is diagonal
+  std::function<Eigen::VectorXd(const Eigen::VectorXd&)> solve;  // M⁻¹ b
+};
+
 // A condensed body, the paper's eq. (5), ū_C = D F_C − G, or a file's problem in the file's units.
+// D is in one of three forms; the others are empty.
 struct Problem {
   // n_c × n_c, mm/N, compliance: symmetric positive definite for a body; from a file perhaps
   // semidefinite, and nearly symmetric.
@@ -38,9 +50,15 @@ struct Problem {
   ContactPoints points = {};
   std::string name = {};     // for a file its stem
   bool is_symmetric = true;  // D, exactly; of bodies it always is
+  SparseRows rows = {};      // D with few entries; with all m × m of every point
+  std::shared_ptr<const Bodies> bodies = {};
+  std::string how = {};  // of a file: how D came about and is held, for records
 
+  bool is_dense() const { return rows.size() == 0 && bodies == nullptr; }
   std::size_t bytes() const {  // of D and G
-    return static_cast<std::size_t>(D.size() + G.size()) * sizeof(double);
+    const auto numbers = static_cast<std::size_t>(D.size() + G.size() + rows.nonZeros());
+    const auto indices = static_cast<std::size_t>(rows.nonZeros() + rows.outerSize());
+    return numbers * sizeof(double) + indices * sizeof(int);
   }
 };
 

@@ -27,7 +27,6 @@
 
 namespace airybench {
 
-using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 using LongVector = Eigen::VectorX<long double>;
 using SparseColumns = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 

@@ -61,7 +61,8 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/airybenchConfigVersion.cm
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/airybenchConfig.cmake
               ${PROJECT_BINARY_DIR}/airybenchConfigVersion.cmake
-              cmake/FindCHOLMOD.cmake cmake/FindMUMPS.cmake cmake/find_library_and_header.cmake
+              cmake/FindCHOLMOD.cmake cmake/FindMUMPS.cmake cmake/FindUMFPACK.cmake
+              cmake/find_library_and_header.cmake
         DESTINATION ${package})
 
 # The Debian package. Its maintainer is who builds it, by the variables of Debian's own tools.

@@ -100,10 +100,9 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
   add_model_settings(app, options.model_settings);
   add_files(app, "--scene", options.scenes,
             "scene files or globs; default: the documented tooth or rack");
-  add_files(
-      app, "--problem", options.problems,
-      "instead of meshes and scenes: condensed contact problems, FCLIB files or globs, by every "
-      "contact solver (CONDENSED: newton) or --contact");
+  add_files(app, "--problem", options.problems,
+            "instead of meshes and scenes: contact problems, files (FCLIB, Siconos' .dat), folders "
+            "or globs, by every contact solver (CONDENSED: newton) or --contact");
   app.add_option("--adapt", texts.adapt,
                  "GOALS[,levels=last][,by=METHOD][,marking=SHARE]: refine where the error is, "
                  "until 1% or 50000 unknowns, or each in turn (docs/adaptive-meshes.md)");

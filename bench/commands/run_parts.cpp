@@ -63,9 +63,33 @@ void note_no_wall(const Mesh& mesh, const Scene& scene) {
                              scene.name, fmt::join(without, ", "));
 }
 
+// A folder stands for its files of contact problems. Throws UsageError if it has none.
+std::vector<fs::path> problem_files_of(const std::vector<fs::path>& given) {
+  std::vector<fs::path> files;
+  for (const fs::path& path : given) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
+      files.push_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error))
+      if (const fs::path end = entry.path().extension();
+          end == ".hdf5" || end == ".h5" || end == ".dat")
+        inside.push_back(entry.path());
+    if (inside.empty())
+      throw UsageError(
+          fmt::format("--problem: {} (allowed: a folder with .hdf5, .h5 or .dat files)",
+                      shortened(path.string())));
+    std::ranges::sort(inside);
+    files.insert(files.end(), inside.begin(), inside.end());
+  }
+  return files;
+}
+
 std::vector<PosedScene> posed_problems(const Options& options) {
   std::vector<PosedScene> posed;
-  for (const fs::path& file : options.problems) {
+  for (const fs::path& file : problem_files_of(options.problems)) {
     auto problem = std::make_shared<const contact::Problem>(read_contact_problem(file));
     const auto same = [&](const PosedScene& p) { return mesh_name_of(p.problem) == problem->name; };
     if (!is_name(problem->name) || std::ranges::any_of(posed, same))

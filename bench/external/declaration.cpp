@@ -112,6 +112,14 @@ Declaration read_declaration(const std::filesystem::path& file) {
         }))
       value.fail("with {tolerance} in the command");
   };
+  const auto read_components = [&](const JsonValue& value) {
+    const Json& given = value.json;
+    if (reads != "condensed" || !given.is_array() || given.empty() ||
+        std::ranges::any_of(
+            given, [](const Json& one) { return !one.is_number_integer() || one < 1 || one > 3; }))
+      value.fail("with \"reads\": \"condensed\", a list of 1, 2 and 3");
+    declaration.components = given.get<std::vector<int>>();
+  };
   // A key comes after those that its reader uses.
   JsonValue(file.string(), "", json)
       .object({required({"name", read_name}),
@@ -121,6 +129,7 @@ Declaration read_declaration(const std::filesystem::path& file) {
                            reads = value.one_of(std::array{"airy", "body", "condensed"});
                          }}),
                required({"format", read_format}),
+               {"components", read_components},
                required({"returns", read_returns}),
                required({"command", read_command}),
                command_key("version", version),

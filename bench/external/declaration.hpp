@@ -10,6 +10,8 @@
 //   reads, returns   airy (S, C_F, C_C and loads): airy_function; condensed (D, G): contact_forces;
 //                    body (mesh, material, boundary data): displacement, or edge_displacements of
 //                    hybridized elements with their contact forces
+//   components       optional, of condensed: how many per contact the program takes, of 1 (without
+//                    friction; in FCLIB 2), 2 (plane), 3 (space), as [2] or [2, 3]; else all
 //   command          runs in this file's folder. {input}: folder of the problem's files; {output}:
 //                    empty folder for the answer (answer.hpp). Also {threads}, {tolerance},
 //                    {time_limit_s}
@@ -41,6 +43,7 @@ struct Declaration {
   std::filesystem::path folder;
   std::string name, summary, format;
   Returns returns = Returns::airy_function;  // also tells what it reads
+  std::vector<int> components;               // that it takes; empty: all
   std::vector<std::string> command;
   std::string version = "unknown version";  // printed by its version command
   double first_tolerance = 0;

@@ -1,6 +1,7 @@
 #include "bench/external/external_method.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -243,6 +244,16 @@ bool is_without_G(const contact::Problem& problem, const Eigen::VectorXd& F) {
   return F.size() == problem.D.cols() && problem.G.norm() <= rounding * times(problem.D, F).norm();
 }
 
+// Throws NoAnswer where the program does not take the problem.
+void check_components(const Declaration& declaration, int components) {
+  const std::vector<int>& taken = declaration.components;
+  const int handed_over = declaration.format == "fclib" ? std::max(2, components) : components;
+  if (taken.empty() || std::ranges::count(taken, handed_over) > 0) return;
+  throw NoAnswer(Status::skipped,
+                 fmt::format("{} components per contact (allowed by the program: {})", handed_over,
+                             fmt::join(taken, ", ")));
+}
+
 // solve: the method whose contact law the program replaces. body: may be null.
 Solution solve_contact_law(const Caller& caller,
                            const std::function<Solution(const RunControl&)>& solve,
@@ -252,6 +263,9 @@ Solution solve_contact_law(const Caller& caller,
   RunControl control = given;
   control.contact.by = [&](const contact::Problem& problem) {
     const std::string& format = caller.declaration.format;
+    check_components(caller.declaration, problem.points.components);
+    if (problem.bodies)
+      throw NoAnswer(Status::breakdown, "the program takes W, which is too large to be formed");
     program.emplace(
         caller, [&] { return contact_files(problem, body, format); }, given);
     ContactResult result;

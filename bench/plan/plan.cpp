@@ -106,6 +106,7 @@ Record blank_record(const PosedProblem& problem, const Method& method, const Opt
     record.n_f = sizes.n_f;
   }
   record.n_c = sizes.n_c;
+  if (body == nullptr) record.contact_matrix = held<contact::Problem>(problem)->how;
   record.load_steps = body != nullptr ? 1 + std::ssize(body->later_steps) : 1;
   record.stages_left_out = Json::object();
   for (const StageDecision& decision : decide_stages(problem, method, options.fields)) {

@@ -8,15 +8,11 @@
 #include <limits>
 
 #include "bench/problems/hdf5_handle.hpp"
-#include "solvers/base/solution.hpp"
-#include "solvers/condensation/global_problem.hpp"
+#include "bench/problems/problem_parts.hpp"
 #include "support/errors.hpp"
 
 namespace airybench {
 namespace {
-
-constexpr int most_rows = 20000;        // of a dense W, 3.2 GB
-constexpr int most_unknowns = 1000000;  // of M
 
 class FclibFile {
  public:
@@ -35,6 +31,11 @@ class FclibFile {
   [[noreturn]] void fail(const std::string& place, const std::string& what,
                          const std::string& allowed) const {
     throw FileError(fmt::format("{}: {}: {} (allowed: {})", path_, place, what, allowed));
+  }
+  Refuse refuse() const {
+    return [this](const auto& place, const auto& what, const auto& allowed) {
+      fail(place, what, allowed);
+    };
   }
   // H5Lexists() fails unless every group on the path exists.
   bool has(const std::string& name) const {
@@ -120,11 +121,9 @@ void check_indices(const FclibFile& file, const std::string& name, const std::ve
       file.fail(name, fmt::format("[{}] is {}", k, indices[k]), fmt::format("0 to {}", most));
 }
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
 // In compressed rows (nz = −2), compressed columns (−1) or triplets, columns in p, rows in i, as in
 // CSparse. Entries that occur twice are added.
-SparseMatrix read_matrix(const FclibFile& file, const std::string& place, int rows, int columns) {
+SparseRows read_matrix(const FclibFile& file, const std::string& place, int rows, int columns) {
   constexpr int compressed_rows = -2;
   const auto full = static_cast<std::int64_t>(rows) * columns;
   const int room =
@@ -161,80 +160,46 @@ SparseMatrix read_matrix(const FclibFile& file, const std::string& place, int ro
         else
           entries.emplace_back(i[k], line, x(k));
   }
-  SparseMatrix matrix(rows, columns);
+  SparseRows matrix(rows, columns);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
 
-void check_symmetric(const FclibFile& file, const std::string& place, const SparseMatrix& matrix) {
-  constexpr double most_off = 0.01;  // few digits, or other programs' inertia in another frame
-  const Eigen::VectorXd diagonal = matrix.diagonal();
-  for (Eigen::Index i = 0; i < diagonal.size(); ++i)
-    if (!(diagonal(i) > 0))
-      file.fail(place, fmt::format("diagonal entry {} is {}", i, diagonal(i)), "> 0");
-  const SparseMatrix difference = matrix - SparseMatrix(matrix.transpose());
-  const double off = difference.nonZeros() == 0 ? 0 : difference.coeffs().cwiseAbs().maxCoeff();
-  if (off > most_off * diagonal.maxCoeff())
-    file.fail(place, fmt::format("differs from its transpose by {:.3g}", off),
-              "1 % of the largest diagonal entry");
+// Rows of W, columns of H.
+int read_size(const FclibFile& file, const std::string& name, int dimension) {
+  const int size = file.whole(name, dimension, most_contact_rows);
+  check_rows(size, dimension, name, file.refuse());
+  return size;
 }
 
 ContactPoints read_points(const FclibFile& file, const std::string& place, int dimension,
                           int count) {
-  ContactPoints points;
-  points.count = count;
-  points.components = dimension;
-  const Eigen::VectorXd mu = file.numbers(place + "/vectors/mu", count);
-  points.friction.assign(mu.begin(), mu.end());
-  for (std::size_t k = 0; k < points.friction.size(); ++k)
-    if (mu(k) < 0)
-      file.fail(place + "/vectors/mu", fmt::format("[{}] is {}", k, mu(k)), "at least 0");
-  return points;
-}
-
-// Rows of W, columns of H: `dimension` per contact.
-int read_size(const FclibFile& file, const std::string& name, int dimension) {
-  const int size = file.whole(name, dimension, most_rows);
-  if (size % dimension != 0)
-    file.fail(name, std::to_string(size), fmt::format("a multiple of {} per contact", dimension));
-  return size;
+  const std::string mu = place + "/vectors/mu";
+  return points_of(dimension, file.numbers(mu, count), mu, file.refuse());
 }
 
 contact::Problem read_local(const FclibFile& file, const std::string& place, int dimension) {
-  contact::Problem problem;
   const int m = read_size(file, place + "/W/m", dimension);
   file.whole(place + "/W/n", m, m);
-  const SparseMatrix W = read_matrix(file, place + "/W/", m, m);
-  check_symmetric(file, place + "/W", W);
-  problem.D = W;
-  problem.is_symmetric = problem.D == problem.D.transpose();
-  problem.G = file.numbers(place + "/vectors/q", m);
-  problem.points = read_points(file, place, dimension, m / dimension);
-  return problem;
+  SparseRows W = read_matrix(file, place + "/W/", m, m);
+  Eigen::VectorXd q = file.numbers(place + "/vectors/q", m);
+  return local_problem(std::move(W), std::move(q),
+                       read_points(file, place, dimension, m / dimension), place + "/W",
+                       file.refuse());
 }
 
 contact::Problem read_global(const FclibFile& file, const std::string& place, int dimension) {
+  GlobalArrays arrays;
   const int n = file.whole(place + "/M/m", 1, most_unknowns);
   file.whole(place + "/M/n", n, n);
-  const SparseMatrix M = read_matrix(file, place + "/M/", n, n);
-  check_symmetric(file, place + "/M", M);
+  arrays.M = read_matrix(file, place + "/M/", n, n);
   file.whole(place + "/H/m", n, n);
   const int m = read_size(file, place + "/H/n", dimension);
-  const SparseMatrix H = read_matrix(file, place + "/H/", n, m);
-  const Eigen::VectorXd f = file.numbers(place + "/vectors/f", n);
-  const Eigen::VectorXd w = file.numbers(place + "/vectors/w", m);
-  const ContactPoints points = read_points(file, place, dimension, m / dimension);
-  try {
-    contact::Problem problem = condense_global(M, H, f, w);
-    problem.points = points;
-    for (int i = 0; i < m; ++i)
-      if (!(problem.D(i, i) > 0))
-        file.fail(place + "/H", fmt::format("column {} moves nothing", i),
-                  "columns that are not zero");
-    return problem;
-  } catch (const Breakdown&) {
-    file.fail(place + "/M", "is not positive definite to rounding", "a positive definite matrix");
-  }
+  arrays.H = read_matrix(file, place + "/H/", n, m);
+  arrays.f = file.numbers(place + "/vectors/f", n);
+  arrays.w = file.numbers(place + "/vectors/w", m);
+  return global_problem(std::move(arrays), read_points(file, place, dimension, m / dimension),
+                        place + "/M", place + "/H", file.refuse());
 }
 
 // Ours are all called problem.hdf5: they are named after their case, "Mesh0-default".

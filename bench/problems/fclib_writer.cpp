@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "bench/problems/hdf5_handle.hpp"
+#include "solvers/contact/compliance.hpp"
 #include "solvers/contact/condensed.hpp"
 
 namespace airybench {
@@ -65,20 +66,28 @@ void write_array(hid_t place, const ProblemArray& array) {
     write_rows(std::get<Eigen::MatrixXd>(array.values), H5T_NATIVE_DOUBLE);
 }
 
-void write_matrix(hid_t place, const Eigen::MatrixXd& W) {
+void write_matrix(hid_t place, const SparseRows& W) {
   const Handle matrix = group(place, "W");
-  const int m = static_cast<int>(W.rows());
   constexpr int compressed_rows = -2;
-  write(matrix, "m", m);
-  write(matrix, "n", m);
-  write(matrix, "nzmax", m * m);
+  const auto entries = static_cast<std::size_t>(W.nonZeros());
+  write(matrix, "m", static_cast<int>(W.rows()));
+  write(matrix, "n", static_cast<int>(W.cols()));
+  write(matrix, "nzmax", static_cast<int>(W.nonZeros()));
   write(matrix, "nz", compressed_rows);
-  std::vector<int> start, column;
-  for (int i = 0; i <= m; ++i) start.push_back(i * m);
-  for (int i = 0; i < m * m; ++i) column.push_back(i % m);
-  write(matrix, "p", start);
-  write(matrix, "i", column);
-  write(matrix, "x", W.reshaped());
+  write(matrix, "p", std::vector<int>(W.outerIndexPtr(), W.outerIndexPtr() + W.rows() + 1));
+  write(matrix, "i", std::vector<int>(W.innerIndexPtr(), W.innerIndexPtr() + entries));
+  write(matrix, "x",
+        Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(W.valuePtr(), W.nonZeros())));
+}
+
+// All entries, also zeros.
+SparseRows rows_of(const Eigen::MatrixXd& dense) {
+  SparseRows rows(dense.rows(), dense.cols());
+  rows.reserve(Eigen::VectorXi::Constant(dense.rows(), static_cast<int>(dense.cols())));
+  for (Eigen::Index i = 0; i < dense.rows(); ++i)
+    for (Eigen::Index j = 0; j < dense.cols(); ++j) rows.insert(i, j) = dense(i, j);
+  rows.makeCompressed();
+  return rows;
 }
 
 // Adds the tangential components: zero in a vector, the identity in a matrix.
@@ -101,8 +110,9 @@ void write_problem(hid_t file, const contact::Problem& problem, const Eigen::Vec
   const ContactPoints& points = problem.points;
   const Handle local = group(file, "fclib_local");
   write(local, "spacedim", std::max(2, points.components));
-  const Eigen::MatrixXd W = s * problem.D;
-  write_matrix(local, with_tangents(points, W));
+  const SparseRows W =
+      s * (problem.is_dense() ? rows_of(with_tangents(points, problem.D)) : problem.rows);
+  write_matrix(local, W);
   const Eigen::VectorXd q = s * contact_offset(problem);
   {
     const Handle vectors = group(local, "vectors");
@@ -124,9 +134,9 @@ void write_problem(hid_t file, const contact::Problem& problem, const Eigen::Vec
   }
   if (answer.size() == 0) return;
   const Handle solution = group(file, "solution");
-  const Eigen::VectorXd r = -answer;
-  write(solution, "r", with_tangents(points, r));
-  write(solution, "u", with_tangents(points, Eigen::VectorXd(W * r + q)));
+  const Eigen::VectorXd r = with_tangents(points, Eigen::VectorXd(-answer));
+  write(solution, "r", r);
+  write(solution, "u", Eigen::VectorXd(W * r + with_tangents(points, q)));
 }
 
 std::string image_of(hid_t file) {
@@ -144,7 +154,7 @@ std::string image_of(hid_t file) {
 std::string fclib_file(const contact::Problem& problem, const Eigen::VectorXd& answer,
                        const std::vector<ProblemArray>& arrays, const std::string& title) {
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // no messages from libhdf5
-  const double s = 1 / problem.D.diagonal().mean();
+  const double s = 1 / D_diagonal(problem).mean();
   const Handle in_memory(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr std::size_t growth_bytes = 1 << 20;
   check(H5Pset_fapl_core(in_memory, growth_bytes, false));

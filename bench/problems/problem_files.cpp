@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bench/problems/problem_arrays.hpp"
+#include "bench/problems/siconos_text.hpp"
 #include "bench/records/json.hpp"
 #include "bench/verify/reference.hpp"
 #include "support/errors.hpp"
@@ -267,6 +268,7 @@ ProblemFiles problem_files(const PosedScene& posed, const std::string& format) {
 }
 
 contact::Problem read_contact_problem(const std::filesystem::path& file) {
+  if (file.extension() == ".dat") return read_siconos_text(file);
 #ifdef AIRYBENCH_HAS_HDF5
   return read_fclib(file);
 #else

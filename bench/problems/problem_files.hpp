@@ -33,7 +33,8 @@ struct ProblemFiles {
 // Throws InputError if the format can hold nothing of the problem.
 ProblemFiles problem_files(const PosedScene& posed, const std::string& format);
 
-// Reads an fclib file (fclib.hpp). Throws FileError; UsageError if the build is without HDF5.
+// Reads a .dat file (siconos_text.hpp), or else an fclib file (fclib.hpp). Throws FileError;
+// UsageError if the build is without HDF5.
 contact::Problem read_contact_problem(const std::filesystem::path& file);
 
 // Input for another solver, without an answer. format: of problem_formats().

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "bench/verify/verifier.hpp"
-#include "solvers/base/dense_products.hpp"
+#include "solvers/contact/compliance.hpp"
 #include "solvers/contact/condensed.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 
@@ -39,12 +39,16 @@ double siconos_error(const ContactPoints& points, const Eigen::VectorXd& offset,
   return scale > 0 ? std::sqrt(squared) / scale : 0;
 }
 
-double friction_coupling(const ContactPoints& contact, const Eigen::MatrixXd& D) {
+// block: of a point's rows of D.
+template <typename Block>
+double friction_coupling(const ContactPoints& contact, Block block) {
   const int m = contact.components;
   double coupling = 0;
-  for (int n = 0, p = 0; p < contact.count; ++p, n += m)
-    coupling = std::max(coupling,
-                        contact.friction_at(p) * D.col(n).segment(n + 1, m - 1).norm() / D(n, n));
+  for (int p = 0; p < contact.count; ++p) {
+    const Eigen::MatrixXd D_pp = block(p);
+    coupling =
+        std::max(coupling, contact.friction_at(p) * D_pp.col(0).tail(m - 1).norm() / D_pp(0, 0));
+  }
   return coupling;
 }
 
@@ -113,19 +117,27 @@ void note_contact(const ContactPoints& points, const Eigen::MatrixXd& D, const E
                   Verification& result) {
   note_contact_forces(points, F, result);
   note_contact_law(points, F, displacement, D.diagonal(), scale, result);
-  if (points.components > 1) result.friction_coupling = friction_coupling(points, D);
+  const int m = points.components;
+  if (m > 1)
+    result.friction_coupling =
+        friction_coupling(points, [&](int p) { return D.block(m * p, m * p, m, m); });
 }
 
 Verification verify(const contact::Problem& problem, const Eigen::VectorXd& F) {
-  const Eigen::VectorXd DF = times(problem.D, F), offset = contact_offset(problem);
+  const Eigen::VectorXd DF = D_times(problem, F), offset = contact_offset(problem),
+                        diagonal = D_diagonal(problem);
   LoadScale scale;  // forces that cancel the offset point by point
-  scale.force_N = offset.cwiseQuotient(problem.D.diagonal()).norm();
+  scale.force_N = offset.cwiseQuotient(diagonal).norm();
   Verification result;
   result.equilibrium_residual.reset();
-  note_contact(problem.points, problem.D, F, DF - problem.G, scale, result);
+  note_contact_forces(problem.points, F, result);
+  note_contact_law(problem.points, F, DF - problem.G, diagonal, scale, result);
   result.strain_energy_Nmm = F.dot(DF) / 2;
-  if (problem.points.components > 1)
-    result.siconos_error = siconos_error(problem.points, offset, F, DF);
+  if (problem.points.components == 1) return result;
+  result.siconos_error = siconos_error(problem.points, offset, F, DF);
+  if (!problem.bodies)
+    result.friction_coupling =
+        friction_coupling(problem.points, [&](int p) { return D_of_point(problem, p); });
   return result;
 }
 

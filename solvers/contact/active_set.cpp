@@ -5,71 +5,39 @@
 #include <limits>
 
 #include "solvers/base/dense_products.hpp"
+#include "solvers/contact/admm.hpp"
+#include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
-#include "solvers/contact/point_laws.hpp"
+#include "solvers/contact/sparse_freedoms.hpp"
 #include "solvers/direct/dense_factors.hpp"
 
 namespace airybench {
-
 namespace {
 
-// An unknown z of the linear system, at one point: F changes by z · force; in return
-// r_component + diagonal · z = −rest there, or, across a slip, force · r in place of a component.
-struct Freedom {
-  int first;  // row of the point
-  int component;
-  Eigen::Vector3d force;
-  double diagonal = 0, rest = 0;
-};
-constexpr int across_slip = -1;
+// Several forces may give the same displacements: then the matrix is singular. The shift chooses
+// among them and changes no solution.
+constexpr double shift = 1e-10;  // of the mean diagonal entry of D
 
-Freedom along(int first, int component) {
-  return {first, component, Eigen::Vector3d::Unit(component)};
-}
-
-// Of a point that slips in space, where z = (F − ρ r)_t, e = z/|z|, q = −|z| / (μ F_n) ≥ 1: along e
-// F_t = −μ F_n e, and across it, f ⊥ e, Newton's method for F_t = (−μ F_n / |z|) z says
-//
-//   f · r_t + (q − 1) f · F_t / ρ = 0,  which is f · r_t = 0 at the onset of slip.
-void add_slip_in_space(int n, double mu, double rho, const Eigen::Vector3d& trial,
-                       Eigen::VectorXd& F, std::vector<Freedom>& freedoms) {
-  const Eigen::Vector2d e = trial.tail<2>().normalized(), f(-e.y(), e.x());
-  const double across = f.dot(F.segment<2>(n + 1));
-  Freedom normal = along(n, 0);
-  normal.force.tail<2>() = -mu * e;
-  freedoms.push_back(normal);
-  F.segment<2>(n + 1) = -mu * F(n) * e + across * f;
-  if (mu == 0) return;
-  const double q = std::max(1.0, -trial.tail<2>().norm() / (mu * std::min(trial(0), 0.0)));
-  const double diagonal = (q - 1) / rho;
-  freedoms.push_back({n, across_slip, {0, f.x(), f.y()}, diagonal, diagonal * across});
-}
-
-// What is free under the laws of the trial F − ρ r; F takes the forces that they prescribe.
-std::vector<Freedom> freedoms_of(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
-                                 const Eigen::VectorXd& trial, Eigen::VectorXd& F) {
+// times: D F; solve: from freedoms and the right-hand side to their z.
+template <typename Times, typename Solve>
+Eigen::VectorXd step_from(const ContactPoints& contact, const Eigen::VectorXd& D_diagonal,
+                          const Eigen::VectorXd& F, const Eigen::VectorXd& r, Times times_D,
+                          Solve solve) {
   const int m = contact.components;
-  std::vector<Freedom> freedoms;
-  freedoms.reserve(static_cast<std::size_t>(F.size()));
-  const std::vector<PointLaw> laws = laws_of(contact, trial);
-  for (int p = 0; p < contact.count; ++p) {
-    const int n = m * p;
-    if (!laws[p].closed) {
-      F.segment(n, m).setZero();
-    } else if (m == 1 || laws[p].sticks) {
-      for (int k = 0; k < m; ++k) freedoms.push_back(along(n, k));
-    } else if (m == 2) {
-      Freedom slip = along(n, 0);
-      slip.force(1) = laws[p].ratio;
-      F(n + 1) = slip.force(1) * F(n);
-      freedoms.push_back(slip);
-    } else {
-      const double rho = 1 / D_diagonal.segment<2>(n + 1).mean();
-      add_slip_in_space(n, contact.friction_at(p), rho, trial.segment<3>(n), F, freedoms);
-    }
-  }
-  return freedoms;
+  Eigen::VectorXd next = F;
+  const std::vector<Freedom> freedoms =
+      freedoms_of(contact, D_diagonal, trial_forces(contact, D_diagonal, F, r), next);
+  const auto count = static_cast<Eigen::Index>(freedoms.size());
+  if (count == 0) return next;
+  const Eigen::VectorXd violation = r + times_D(Eigen::VectorXd(next - F));
+  Eigen::VectorXd rest(count);
+  for (Eigen::Index k = 0; k < count; ++k)
+    rest(k) = relation(freedoms[k], m, violation) + freedoms[k].rest;
+  const Eigen::VectorXd z = solve(freedoms, rest);
+  for (Eigen::Index k = 0; k < count; ++k)
+    next.segment(freedoms[k].first, m) -= z(k) * freedoms[k].force.head(m);
+  return next;
 }
 
 }  // namespace
@@ -78,44 +46,43 @@ Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& c
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r) {
   const int m = contact.components;
   const Eigen::VectorXd diagonal = D.diagonal();
-  Eigen::VectorXd next = F;
-  const std::vector<Freedom> freedoms =
-      freedoms_of(contact, diagonal, trial_forces(contact, diagonal, F, r), next);
-  const auto count = static_cast<Eigen::Index>(freedoms.size());
-  if (count == 0) return next;
-  const auto relation = [&](const Freedom& of, const Eigen::VectorXd& at) {
-    return of.component == across_slip ? of.force.head(m).dot(at.segment(of.first, m))
-                                       : at(of.first + of.component);
+  const auto solve = [&](const std::vector<Freedom>& freedoms, const Eigen::VectorXd& rest) {
+    const Eigen::Index count = rest.size();
+    Eigen::MatrixXd matrix(count, count);
+    Eigen::VectorXd column(F.size());
+    for (Eigen::Index k = 0; k < count; ++k) {
+      column.noalias() = D.middleCols(freedoms[k].first, m) * freedoms[k].force.head(m);
+      for (Eigen::Index i = 0; i < count; ++i) matrix(i, k) = relation(freedoms[i], m, column);
+      matrix(k, k) += freedoms[k].diagonal;
+    }
+    if (m == 3) matrix.diagonal().array() += shift * diagonal.mean();  // in the plane LU suffices
+    return solve_by_lu(std::move(matrix), rest);
   };
-  Eigen::MatrixXd matrix(count, count);
-  Eigen::VectorXd column(F.size());
-  for (Eigen::Index k = 0; k < count; ++k) {
-    column.noalias() = D.middleCols(freedoms[k].first, m) * freedoms[k].force.head(m);
-    for (Eigen::Index i = 0; i < count; ++i) matrix(i, k) = relation(freedoms[i], column);
-    matrix(k, k) += freedoms[k].diagonal;
-  }
-  // In space D is often singular: several forces give the same displacements. The shift chooses
-  // among them and changes no solution.
-  constexpr double shift = 1e-10;
-  if (m == 3) matrix.diagonal().array() += shift * diagonal.mean();
-  const Eigen::VectorXd violation = r + times(D, next - F);
-  Eigen::VectorXd rest(count);
-  for (Eigen::Index k = 0; k < count; ++k)
-    rest(k) = relation(freedoms[k], violation) + freedoms[k].rest;
-  const Eigen::VectorXd change = solve_by_lu(std::move(matrix), rest);
-  for (Eigen::Index k = 0; k < count; ++k)
-    next.segment(freedoms[k].first, m) -= change(k) * freedoms[k].force.head(m);
-  return next;
+  return step_from(
+      contact, diagonal, F, r, [&](const Eigen::VectorXd& x) { return times(D, x); }, solve);
+}
+
+Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::VectorXd& F,
+                                const Eigen::VectorXd& r) {
+  if (problem.is_dense()) return active_set_step(problem.D, problem.points, F, r);
+  const Eigen::VectorXd diagonal = D_diagonal(problem);
+  return step_from(
+      problem.points, diagonal, F, r, [&](const Eigen::VectorXd& x) { return D_times(problem, x); },
+      [&](std::vector<Freedom> freedoms, const Eigen::VectorXd& rest) {
+        for (Freedom& freedom : freedoms) freedom.diagonal += shift * diagonal.mean();
+        return solve_sparse_freedoms(problem, freedoms, rest);
+      });
 }
 
 namespace {
 
 // In space the slip's direction turns with the step, which may be too long: halved until the
-// natural map falls, or what is least of a few. In the plane only signs change; steps are whole.
+// natural map falls, or what is least of a few. So it is for the many contacts of a sparse D. In
+// the plane only signs change; steps are whole.
 Eigen::VectorXd damped(const contact::Problem& problem, const Eigen::VectorXd& F,
                        const Eigen::VectorXd& next, double natural_map_of_F) {
   constexpr int most_halvings = 6;
-  if (problem.points.components != 3) return next;
+  if (problem.points.components != 3 && problem.is_dense()) return next;
   Eigen::VectorXd best = next;
   double least = std::numeric_limits<double>::infinity(), part = 1;
   for (int halving = 0; halving <= most_halvings && least >= natural_map_of_F;
@@ -140,8 +107,8 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
   int since_best = 0;
   for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
-    const Eigen::VectorXd u = times(problem.D, F) - problem.G;
-    const double relative = relative_natural_map(problem.points, problem.D.diagonal(), F, u);
+    const Eigen::VectorXd u = D_times(problem, F) - problem.G;
+    const double relative = relative_natural_map(problem.points, D_diagonal(problem), F, u);
     const double before = result.natural_map_residual;
     if (step == 0 || relative < before) {
       result.F_C = F;
@@ -151,8 +118,7 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
     // Below the tolerance for as long as it still falls: errors are a multiple of the map.
     const double best = result.natural_map_residual;
     if (best <= enough || (best <= options.tolerance && step > 0 && best > before / 2)) break;
-    F = damped(problem, F,
-               active_set_step(problem.D, problem.points, F, relative_to_gap(problem.points, u)),
+    F = damped(problem, F, active_set_step(problem, F, relative_to_gap(problem.points, u)),
                relative);
     ++result.active_set_steps;
     deadline.check("the active sets of the contact law");
@@ -169,7 +135,9 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
   std::vector<double> history;
   for (int next = first_sweeps;; next *= 10) {
     part.most_iterations = std::min(next, options.most_iterations - sweeps);
-    const ContactResult swept = solve_contact_by_gauss_seidel(problem, part, deadline);
+    const ContactResult swept = problem.bodies
+                                    ? solve_contact_by_admm(problem, part, deadline)
+                                    : solve_contact_by_gauss_seidel(problem, part, deadline);
     part.start = swept.F_C;
     sweeps += swept.iterations;
     history.insert(history.end(), swept.history.begin(), swept.history.end());

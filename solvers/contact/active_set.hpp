@@ -12,8 +12,8 @@
 //
 // With these held the law is a linear system for the change of F, whose right-hand side is r: as
 // accurate as r is. Where the statuses repeat themselves the step is the last one. There is no
-// proof that they do; what comes out counts by its natural map only. A step costs a dense LU of the
-// closed components.
+// proof that they do; what comes out counts by its natural map only. A step costs an LU of the
+// closed components: dense, or sparse where D is (sparse_freedoms.hpp).
 #pragma once
 
 #include "assembly/load_scale.hpp"
@@ -24,6 +24,9 @@ namespace airybench {
 // The F after one step from F, where r = ū_C − ḡ belongs to F.
 Eigen::VectorXd active_set_step(const Eigen::MatrixXd& D, const ContactPoints& contact,
                                 const Eigen::VectorXd& F, const Eigen::VectorXd& r);
+// The same with D in any form. Throws std::bad_alloc.
+Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::VectorXd& F,
+                                const Eigen::VectorXd& r);
 
 // Goes on from a result, and replaces it by a better one, if it finds one: until the natural map is
 // a hundredth of options.tolerance, or, below that tolerance, no longer halves.
@@ -31,7 +34,7 @@ void finish_by_active_set(const contact::Problem& problem, const ContactOptions&
                           const Deadline& deadline, ContactResult& result);
 
 // A few sweeps, then active sets; where these do not end, ten times as many sweeps, and active sets
-// again: what sweeps alone solve is solved.
+// again: what sweeps alone solve is solved. Where D is not formed ADMM iterates in place of sweeps.
 ContactResult solve_contact_by_newton(const contact::Problem& problem,
                                       const ContactOptions& options = {},
                                       const Deadline& deadline = {});

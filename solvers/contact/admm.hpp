@@ -8,7 +8,8 @@
 // its diagonal of D. At a fixed point F = z and r = D F − G − ḡ = −W y, so that the natural map is
 // zero. Coulomb's law is no minimum, there is no proof of convergence; z counts by its natural map.
 //
-// Of a D that is not quite symmetric the symmetric part is factorised; the rest acts on the last F.
+// How D + W is solved with: weighted_compliance.hpp. Of a D that is not quite symmetric that has
+// the symmetric part; the rest acts on the last F.
 //
 // w is chosen while it runs: where F − z and the change of z, both in W's norm, are apart by more
 // than 10, it is multiplied or divided by 2 (ibid., 3.4.1), and D + W is factorised again. It

@@ -9,6 +9,7 @@
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/admm.hpp"
 #include "solvers/contact/anderson.hpp"
+#include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
 
@@ -25,8 +26,8 @@ Eigen::VectorXd contact_offset(const contact::Problem& problem) {
 }
 
 double relative_natural_map(const contact::Problem& problem, const Eigen::VectorXd& F) {
-  return relative_natural_map(problem.points, problem.D.diagonal(), F,
-                              times(problem.D, F) - problem.G);
+  return relative_natural_map(problem.points, D_diagonal(problem), F,
+                              D_times(problem, F) - problem.G);
 }
 
 ContactResult solve_contact(const contact::Problem& problem, const ContactOptions& options,

@@ -10,17 +10,22 @@ namespace airybench {
 
 class GaussSeidel {
  public:
-  explicit GaussSeidel(const contact::Problem& problem);  // which must outlive this
+  // The problem must outlive this. Throws Breakdown unless its D is formed.
+  explicit GaussSeidel(const contact::Problem& problem);
   // One sweep from F, in place; returns the norm of the change. Nothing is allocated.
   double sweep(Eigen::VectorXd& F) const;
 
  private:
   template <int components>
+  Eigen::Matrix<double, components, 1> product(
+      Eigen::Index i, const Eigen::VectorXd& F,
+      Eigen::Matrix<double, components, components>& D_pp) const;
+  template <int components>
   double squared_change(Eigen::VectorXd& F) const;
 
   const contact::Problem* problem_;
   Eigen::VectorXd offset_;      // contact_offset()
-  Eigen::MatrixXd transposed_;  // of D; empty if D is symmetric
+  Eigen::MatrixXd transposed_;  // of a dense D that is not symmetric; else empty
 };
 
 // Not converged after options.most_iterations, or when a force is not finite.

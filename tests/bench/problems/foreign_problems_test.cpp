@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "bench/problems/problem_files.hpp"
+#include "solvers/contact/compliance.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/bench_command.hpp"
 
@@ -17,8 +18,8 @@ std::filesystem::path file_of(const std::string& name) {
 
 // The largest violation of the law by r = −F and u = W r + q, relative to the largest force.
 double violation(const contact::Problem& problem, const Eigen::VectorXd& F) {
-  const Eigen::VectorXd r = -F, u = problem.D * r + problem.G;
-  const double force = r.cwiseAbs().maxCoeff(), velocity = force * problem.D.diagonal().maxCoeff();
+  const Eigen::VectorXd r = -F, u = D_times(problem, r) + problem.G;
+  const double force = r.cwiseAbs().maxCoeff(), velocity = force * D_diagonal(problem).maxCoeff();
   double worst = 0;
   const auto at_least_zero = [&](double value, double scale) {
     worst = std::max(worst, -value / scale);

@@ -53,6 +53,16 @@ TEST_F(GivenProblemCommand, TwoExportsRunTogetherUnderTheNamesOfTheirCases) {
   EXPECT_EQ(names, (std::vector<std::string>{"Mesh0-default", "Mesh1-default"}));
 }
 
+TEST_F(GivenProblemCommand, AFolderIsItsFiles) {
+  std::filesystem::copy_file(bench_.path("fclib/problem.hdf5"),
+                             bench_.path("fclib/no_problem.txt"));
+  testing::write_text(bench_.path("fclib/one.dat"), "2\n1\n0\n2\n2\n2 2\n1 0 0 1\n-1 0.5\n0.5\n");
+  EXPECT_EQ(bench_.run("--problem=fclib --repetitions=1 --contact=newton --out=o").code, 0);
+  std::vector<std::string> names;
+  for (const Json& record : bench_.records()) names.push_back(record["mesh"]);
+  EXPECT_EQ(names, (std::vector<std::string>{"one", "Mesh0-default"}));
+}
+
 TEST_F(GivenProblemCommand, MethodsOfBodiesAreSkipped) {
   ASSERT_EQ(run("--method=HYBRID,CONDENSED --contact=newton").code, 0);
   const std::vector<Json> records = bench_.records();
@@ -83,7 +93,8 @@ TEST_F(GivenProblemCommand, WrongUseIsRefused) {
     refused(problem + option, std::string(option).substr(0, std::string(option).find('=')) +
                                   ": not with --problem, which has no body");
   refused("--problem=fclib/problem.hdf5,fclib/problem.hdf5", "--problem: fclib/problem.hdf5 (allo");
-  refused("--problem=fclib", "fclib: cannot be opened: no such file");
+  std::filesystem::create_directory(bench_.path("empty"));
+  refused("--problem=empty", "--problem: empty (allowed: a folder with .hdf5, .h5 or .dat files)");
   refused("--problem=fclib/problem.json", "fclib/problem.json: cannot be opened (allowed: an HDF5");
   refused("--problem='none*.hdf5'", "none*.hdf5: cannot be opened: no such file");
 }

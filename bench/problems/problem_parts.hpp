@@ -1,0 +1,39 @@
+// From the arrays of a file, FCLIB or text, to a contact problem: what every format checks alike.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "assembly/contact_problem.hpp"
+
+namespace airybench {
+
+// Throws FileError: the file, place, what is there, what is allowed.
+using Refuse = std::function<void(const std::string& place, const std::string& what,
+                                  const std::string& allowed)>;
+
+inline constexpr int most_contact_rows = 1'000'000;  // of W, columns of H
+inline constexpr int most_unknowns = 1'000'000;      // rows of M
+
+// d rows of W, columns of H, per contact.
+void check_rows(int rows, int dimension, const std::string& place, const Refuse& refuse);
+
+ContactPoints points_of(int dimension, const Eigen::VectorXd& mu, const std::string& place,
+                        const Refuse& refuse);
+
+// u = W r + q. W must have positive diagonal entries, and be symmetric to 1 % of the largest; what
+// differs is kept. place: of W.
+contact::Problem local_problem(SparseRows W, Eigen::VectorXd q, ContactPoints points,
+                               const std::string& place, const Refuse& refuse);
+
+// M v = H r + f, u = Hᵀ v + w: condensed (solvers/condensation/global_problem.hpp). M, which counts
+// as symmetric where W does, must be positive definite, and every column of H move something.
+struct GlobalArrays {
+  Eigen::SparseMatrix<double> M, H;
+  Eigen::VectorXd f, w;
+};
+contact::Problem global_problem(GlobalArrays arrays, ContactPoints points,
+                                const std::string& place_of_M, const std::string& place_of_H,
+                                const Refuse& refuse);
+
+}  // namespace airybench

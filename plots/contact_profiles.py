@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""Draws performance profiles of contact problems (bench --problem), at two precisions.
+
+    contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv
+
+Of a problem p and a solver s with time t_ps and error e_ps, both of one record,
+
+    c_ps = t_ps if e_ps <= precision, else infinite;   rho_s(tau) = |{p : c_ps <= tau min_s c_ps}| / P
+
+as in the comparison over FCLIB (Acary, Bremond & Huber 2018, doi:10.1007/978-3-319-75972-2_10). The
+error is Siconos' measure of the answer, by bench and not by the solver. Exit 2: no such records, or a
+file that cannot be written.
+"""
+import argparse
+from functools import partial
+
+import matplotlib
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from command import replace_all, results_and_out, run, text_writer
+from drawing import DPI, PAGE_WIDTH, STYLE, log_axis, panel_at, sheet, write_small_png
+from figure.profile import fractions, jumps, ratios
+from records import RecordsError, is_without_body, read_lines
+
+PRECISIONS = (1e-4, 1e-8)
+FEWEST_PROBLEMS, FEWEST_SOLVERS = 3, 2
+LEFT, TOP, PANEL, BETWEEN = 0.6, 0.35, 2.2, 0.7  # inches
+COLOURS = ("#000000", "#D55E00", "#0072B2", "#00805C", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F")
+DASHES = ("-", (0, (4, 2)), (0, (1, 1.5)), (0, (5, 1, 1, 1)))
+
+
+def solver_of(record: dict) -> str:
+    program = record["method"].removeprefix("EXTERNAL:")
+    return program if program != record["method"] else record["contact_solver"]
+
+
+def costs_of(records: list[dict], precision: float) -> pd.DataFrame:
+    """Problems x solvers, in the order of the records: seconds; infinite: not solved."""
+    table = pd.DataFrame(
+        {"problem": record["mesh"], "solver": solver_of(record),
+         "cost": record["time_s"] if record.get("time_s") and record.get("siconos_error") is not None
+         and record["siconos_error"] <= precision else np.inf} for record in records)
+    wide = table.pivot_table("cost", "problem", "solver", "min", sort=False).fillna(np.inf)
+    return wide[list(dict.fromkeys(table.solver))]
+
+
+def profile_of(costs: pd.DataFrame) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Solver -> factors of the fastest at which its share rises, and the shares there."""
+    factors = ratios(costs.to_numpy())
+    return {solver: (at, fractions(factors[:, s], at)) for s, solver in enumerate(costs.columns)
+            for at in [jumps(factors[:, s])]}
+
+
+def table_of(records: list[dict]) -> pd.DataFrame:
+    return pd.DataFrame([(precision, solver, factor, share) for precision in PRECISIONS
+                         for solver, steps in profile_of(costs_of(records, precision)).items()
+                         for factor, share in zip(*steps)],
+                        columns=["precision", "solver", "factor_of_best", "share_solved"])
+
+
+def draw(records: list[dict]) -> Figure:
+    solvers = costs_of(records, PRECISIONS[0]).columns
+    problems = {record["mesh"] for record in records}
+    if len(problems) < FEWEST_PROBLEMS or len(solvers) < FEWEST_SOLVERS:
+        raise RecordsError(f"{len(solvers)} solvers on {len(problems)} contact problems; "
+                           f"expected {FEWEST_SOLVERS} and {FEWEST_PROBLEMS}")
+    figure = sheet(TOP + len(PRECISIONS) * (PANEL + BETWEEN),
+                   f"Profiles: {len(solvers)} contact solvers on {len(problems)} problems",
+                   "The share of problems that a solver solves within a factor of the fastest "
+                   "solver's time. Solved: Siconos' error of the answer is at most the precision, "
+                   "whatever the solver says of it.")
+    for k, precision in enumerate(PRECISIONS):
+        axes = panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 1.9, PANEL)
+        draw_panel(axes, costs_of(records, precision), precision)
+    return figure
+
+
+def draw_panel(axes: Axes, costs: pd.DataFrame, precision: float) -> None:
+    steps = profile_of(costs)
+    high = 1.2 * max([10.0, *(at[-1] for at, _ in steps.values() if len(at))])
+    axes.set(xscale="log", xlim=(1, high), ylim=(0, 1.04), ylabel="share of problems solved",
+             xlabel=f"time over that of the fastest solver; error at most {precision:.0e}")
+    log_axis(axes.xaxis)
+    for s, (solver, (at, share)) in enumerate(steps.items()):
+        ends = share[-1] if len(share) else 0
+        axes.step(np.r_[1, at, high], np.r_[(at[:1] == 1) * share[:1] if len(at) else 0, share, ends],
+                  where="post", color=COLOURS[s % len(COLOURS)], linewidth=1.4, label=solver,
+                  linestyle=DASHES[s // len(COLOURS) % len(DASHES)])
+    axes.legend(loc="upper left", bbox_to_anchor=(1.01, 1), frameon=False, fontsize=8)
+
+
+def make(args: argparse.Namespace) -> None:
+    source = args.results / "records.jsonl"
+    records = [record for record in read_lines(source) if is_without_body(record)]
+    if not records:
+        raise RecordsError(f"{source}: no contact problems; expected records of bench --problem")
+    table = table_of(records).to_csv(index=False)
+    with matplotlib.rc_context(STYLE):
+        out = args.out or args.results / "figures"
+        out.mkdir(parents=True, exist_ok=True)
+        replace_all(out,
+                    {"contact_profiles.png": partial(write_small_png, draw(records), DPI),
+                     "contact_profiles.csv": text_writer(table)})
+
+
+def main() -> None:
+    run(__doc__, results_and_out, make, "a file to write")
+
+
+if __name__ == "__main__":
+    main()
