@@ -197,9 +197,9 @@ Eigen::Vector2d in_contact(const ContactNode& node, double k, const Eigen::Vecto
   return behind(node.walls, w_n * n + w_t * t);
 }
 
-// Of the Jacobi step, at most 1.4/λmax.
+// Of the Jacobi step: λmax grows like k + 3 (4.3, 5.1, 6.1, 7.2 on right triangles, ν = 0.3).
 template <int k>
-constexpr double damping = 0.6;
+constexpr double damping = 2.4 / (k + 3);
 
 class Constraints {
  public:

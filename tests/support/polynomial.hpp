@@ -54,7 +54,7 @@ template <int p, typename Function>
 DisplacementField interpolated(const Problem& problem, const Function& u) {
   using Triangle = DisplacementTriangle<p>;
   Eigen::MatrixXd basis(Triangle::nodes, Triangle::nodes);  // B_m at the place of node n
-  const auto place = [](int node) {
+  const auto place = [](int node) -> Eigen::Vector3d {
     const auto& [a, b, c] = Triangle::exponents[node];
     return Eigen::Vector3d(a, b, c) / p;
   };
