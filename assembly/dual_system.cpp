@@ -145,8 +145,7 @@ void build_load(DualSystem& system) {
 
   if (loads.displacement_mm) {
     for_each_edge(system, BoundaryRole::displacement, [&](const EdgeFunctionals& edge) {
-      const auto [start, end] = problem.prescribed_moments(edge.row);
-      const Eigen::Vector4d u(start.x(), start.y(), end.x(), end.y());
+      const Eigen::Vector4d u = problem.prescribed_moments(edge.row).reshaped();
       for (int k = 0; k < 7; ++k)
         if (edge.dofs[k] != DofNumbering::gauge)
           system.q(edge.dofs[k]) += u.dot(edge.forces.col(k));
@@ -179,6 +178,9 @@ std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree) {
   if (degree > 1 && problem.contact_turns())
     return "stresses of degree " + std::to_string(degree) +
            " need walls whose normal does not turn along an edge";
+  if (degree > 2 && problem.has_friction() && !problem.later_steps.empty())
+    return "stresses of degree " + std::to_string(degree) +
+           " have no load steps with friction (degrees 1 and 2 have them)";
   const int holes = hole_count(problem.mesh);
   if (blocks == Blocks::contact_points || holes == 0) return "";
   return "a body with " + std::to_string(holes) + (holes == 1 ? " hole" : " holes") +

@@ -99,6 +99,14 @@ class EquilibriumElement {
   // The total stress of edges displaced by ū, mm: σ_p plus modes.
   Stress stress(const OnEdges& displacement, const Stress& particular = Stress::Zero()) const;
 
+  // g = Tᵀ ū − ∫ σ(modes):C:σ is zero for the total stress σ that ū makes, but for rounding. The
+  // correction S⁻¹ g of the modes has these forces, N, and the energy gᵀ S⁻¹ g, N mm.
+  struct Defect {
+    OnEdges forces;
+    Scalar energy;
+  };
+  Defect defect(const OnEdges& displacement, const Stress& total) const;
+
   // F of any stress, N.
   OnEdges edge_forces(const Stress& stress) const;
   // ∫ σ : C : τ, N mm.
@@ -117,6 +125,7 @@ class EquilibriumElement {
   Factor suitable_factor(const Scalar& trace_of_compliance_in_tau) const;
   Root root() const;                                 // R = L⁻¹ Tᵀ: K = RᵀR
   Modes modes_load(const Stress& particular) const;  // ∫ σ(modes) : C : σ_p
+  Modes work_of(const OnEdges& displacement) const;  // Tᵀ ū
 
   Eigen::Matrix2<Scalar> B_;
   Scalar determinant_;

@@ -293,16 +293,40 @@ typename EquilibriumElement<Scalar, k>::OnEdges EquilibriumElement<Scalar, k>::l
 }
 
 template <typename Scalar, int k>
-typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
-    const OnEdges& displacement, const Stress& particular) const {
-  Modes modes = -modes_load(particular);
+typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::work_of(
+    const OnEdges& displacement) const {
+  Modes work = Modes::Zero();
   for (int j = 0; j < Degree::size; j += 2) {
     const Eigen::Vector2<Scalar> u =
         B_.transpose().lazyProduct(displacement.template segment<2>(j));
     for (int i = 0; i < Degree::outer; ++i)
-      modes(Degree::inner + i) +=
+      work(Degree::inner + i) +=
           reference().forces(i, j) * u(0) + reference().forces(i, j + 1) * u(1);
   }
+  return work;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::defect(
+    const OnEdges& displacement, const Stress& total) const {
+  const Modes g = work_of(displacement) - modes_load(total);
+  Modes correction = g;
+  flexibility_.solve(correction);
+  Defect result{OnEdges::Zero(), g.dot(correction)};
+  for (int j = 0; j < Degree::size; j += 2) {
+    Eigen::Vector2<Scalar> f = Eigen::Vector2<Scalar>::Zero();
+    for (int i = 0; i < Degree::outer; ++i)
+      f += correction(Degree::inner + i) *
+           reference().forces.row(i).template segment<2>(j).transpose();
+    result.forces.template segment<2>(j) = B_.lazyProduct(f);
+  }
+  return result;
+}
+
+template <typename Scalar, int k>
+typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::stress(
+    const OnEdges& displacement, const Stress& particular) const {
+  Modes modes = work_of(displacement) - modes_load(particular);
   flexibility_.solve(modes);
   Stress tau = Stress::Zero();
   for (int component = 0; component < 3; ++component)

@@ -88,16 +88,20 @@ EdgeCondition Problem::condition(int boundary_row) const {
   return {false, {force, force}};
 }
 
-std::array<Eigen::Vector2d, 2> Problem::prescribed_moments(int boundary_row) const {
+EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
+  EdgeMoments moments = EdgeMoments::Zero(2, degree + 1);
   const auto& u0 = loads.displacement_mm;
-  if (!u0) return {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  if (!u0) return moments;
   const auto [start, end] = mesh.boundary[boundary_row].vertices;
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-  const auto [u_a, u_b] =
-      edge_moments(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
-  if (!is_roller(boundary_row)) return {u_a, u_b};
-  const Eigen::Vector2d n = edge_frame(a, b).normal;
-  return {n.dot(u_a) * n, n.dot(u_b) * n};
+  const std::array<Eigen::Vector2d, 3> coefficients = edge_coefficients(
+      u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
+  for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of_quadratic(degree, j, coefficients);
+  if (is_roller(boundary_row)) {
+    const Eigen::Vector2d n = edge_frame(a, b).normal;
+    moments = (n * (n.transpose() * moments)).eval();
+  }
+  return moments;
 }
 
 bool same_body(const Problem& a, const Problem& b) {

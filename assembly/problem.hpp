@@ -81,6 +81,10 @@ struct ContactOffset {
   }
 };
 
+// The moments ū_j of an edge, k + 1 for stresses of degree k (edge_forces.hpp for k = 1,
+// equilibrium_element.hpp), from its start on. Columns: their x and y.
+using EdgeMoments = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 8>;
+
 struct Problem {
   Mesh mesh;
   MeshEdges edges = {};
@@ -138,8 +142,8 @@ struct Problem {
   bool is_roller(int boundary_row) const {
     return !loads.rollers.empty() && loads.rollers[static_cast<std::size_t>(boundary_row)];
   }
-  // ū0 (edge_forces.hpp) at start and end of an edge of Γ_D, mm; on a roller its normal part.
-  std::array<Eigen::Vector2d, 2> prescribed_moments(int boundary_row) const;
+  // ū0 of an edge of Γ_D, mm; on a roller its normal part.
+  EdgeMoments prescribed_moments(int boundary_row, int degree = 1) const;
 
   // A stress field that balances b: σ_p = −diag(b_x (x−x_c), b_y (y−y_c)), as (xx, yy, xy) in MPa.
   template <typename Scalar = double>

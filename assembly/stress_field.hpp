@@ -36,6 +36,15 @@ class StressField {
   auto operator[](std::size_t triangle) const {
     return values_.middleCols(static_cast<Eigen::Index>(triangle) * columns_, columns_);
   }
+  // At the nine corners of its thirds.
+  ElementStress corners(std::size_t triangle) const {
+    ElementStress corners;
+    const auto own = (*this)[triangle];
+    for (Eigen::Index t = 0; t < 3; ++t)
+      corners.middleCols<3>(3 * t) << own.col(t * columns_ / 3), own.col(t * columns_ / 3 + degree_),
+          own.col((t + 1) * columns_ / 3 - 1);
+    return corners;
+  }
   // Of all triangles, one after the other.
   Eigen::Matrix3Xd& values() { return values_; }
   const Eigen::Matrix3Xd& values() const { return values_; }

@@ -28,6 +28,7 @@ static const std::map<std::string, Method (*)(GeneralName)>& families() {
   static const std::map<std::string, Method (*)(GeneralName)> all = {
       {"3STEPCG", FAMILY(three_step_cg)},
       {"ALM", FAMILY(alm)},
+      {"HYBRID", FAMILY(hybrid_of_degree)},
       {"SYMMLQ", FAMILY(symmlq)},
   };
   return all;
@@ -46,6 +47,10 @@ static Method method_of_general_name(const std::string& text) {
     general.replace(name.family().size() + 1, name.first().size(), method.preconditioner);
   if (general != text) method.general_name = general;
   return method;
+}
+
+std::string hybrid_of_degree(int degree) {
+  return degree == 1 ? "HYBRID" : "HYBRID:k=" + std::to_string(degree);
 }
 
 // One of the paper's names for a method that has a general one.
@@ -129,7 +134,7 @@ std::vector<Method> select_methods(std::string_view selection, const std::vector
       throw std::invalid_argument("no method matches '" + shortened(item) +
                                   "' (valid: " + valid_names(table) +
                                   ", 3STEPCG:<preconditioner>, SYMMLQ:<preconditioner>, "
-                                  "ALM:r=<r>,rho=<rho>; globs like '3STEP*')");
+                                  "ALM:r=<r>,rho=<rho>, HYBRID:k=<degree>; globs like '3STEP*')");
     more.push_back(method_of_general_name(item));
   }
   std::vector<Method> result;

@@ -24,10 +24,14 @@ Method condensed_contact();
 //   3STEPCG:<preconditioner>[,refine=yes][,lanes=1]
 //   SYMMLQ:<preconditioner>[,refine=yes][,schur=sparse][,lanes=1]
 //   ALM:r=<r>,rho=<rho>
+//   HYBRID:k=<degree>, HYBRID:CHOLMOD,k=<degree>, HYBRID:MUMPS,k=<degree>
 // others: stand behind the table's. Throws std::invalid_argument: one line with the item that
 // matches nothing and what is valid.
 std::vector<Method> select_methods(std::string_view selection,
                                    const std::vector<Method>& others = {});
+
+// "HYBRID", "HYBRID:k=2", …
+std::string hybrid_of_degree(int degree);
 
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);

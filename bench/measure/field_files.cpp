@@ -25,9 +25,10 @@ std::string stress_csv(const Problem& problem, const StressField& stress) {
   std::string text = "triangle,third,corner,x_mm,y_mm,sxx_MPa,syy_MPa,sxy_MPa\n";
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
+    const ElementStress corners = stress.corners(static_cast<std::size_t>(t));
     for (int c = 0; c < 9; ++c) {
       const Eigen::Vector2d x = corner_of_third(v, c);
-      const auto s = stress[t].col(c);
+      const auto s = corners.col(c);
       text += fmt::format("{},{},{},{},{},{},{},{}\n", t + 1, c / 3 + 1, c % 3 + 1, x.x(), x.y(),
                           s(0), s(1), s(2));
     }
@@ -133,7 +134,8 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleVertices v = problem.vertices_of(t);
     for (int c = 0; c < 9; ++c) grid.points.push_back(corner_of_third(v, c));
-    stresses.insert(stresses.end(), stress[t].data(), stress[t].data() + stress[t].size());
+    const ElementStress corners = stress.corners(static_cast<std::size_t>(t));
+    stresses.insert(stresses.end(), corners.data(), corners.data() + corners.size());
     triangles.push_back(t + 1);
     if (!u) continue;
     const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
@@ -234,15 +236,18 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
   ContactPicture picture;
   for (int p = 0; p < contact.count; ++p) {
     const int row = contact.boundary[p];
-    const auto& ends = system.problem->mesh.boundary[row].vertices;
-    picture.at_mm.push_back(system.problem->mesh.vertices[ends[p % 2]]);
-    picture.frame.push_back(system.problem->frame_of_moment(row, p % 2));
+    const auto [start, end] = system.problem->mesh.boundary[row].vertices;
+    const int j = p % contact.per_edge;
+    const double s = static_cast<double>(j) / (contact.per_edge - 1);
+    picture.at_mm.push_back((1 - s) * system.problem->mesh.vertices[start] +
+                            s * system.problem->mesh.vertices[end]);
+    picture.frame.push_back(system.problem->frame_of_moment(row, j));
   }
   if (has_own_points)
     take_forces(contact, solution, picture);
   else
     take_forces_of_displacements(system, solution, picture);
-  if (w)
+  if (w && system.degree == 1)
     for (const Eigen::Vector2d& r : moments_of(system, *w, picture.frame)) {
       picture.gap_mm.push_back(-r.x());
       picture.slip_mm.push_back(r.y());

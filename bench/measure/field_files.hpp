@@ -31,7 +31,7 @@
 
 namespace airybench {
 
-// Two contact points per edge, in Problem::frame_of_moment(). Gap and slip are the contact law's:
+// The contact points in Problem::frame_of_moment(), from start to end of each edge. Gap and slip are the contact law's:
 // moments over the edge (edge_forces.hpp), from the load step before.
 struct ContactPicture {
   std::vector<Eigen::Vector2d> at_mm;

@@ -12,14 +12,14 @@ Judge::Judge(const PosedProblem& problem, const Options& options, const LeftOut&
       contact_problem_(held<contact::Problem>(problem)),
       options_(options),
       discretisation_left_out_(left_out.discretisation) {
-  references_.missing = problem_ ? left_out.reference : "a problem without a body";
-  if (references_.missing.empty() && is_too_large_for_reference())
-    references_.missing = fmt::format("no reference above n_phi = {}", largest_with_reference);
+  no_references_ = problem_ ? left_out.reference : "a problem without a body";
+  if (no_references_.empty() && is_too_large_for_reference())
+    no_references_ = fmt::format("no reference above n_phi = {}", largest_with_reference);
 }
 
 void Judge::prepare(const Method& method) {
-  reference();
-  if (const auto bound = bound_for(method)) discretisation(*bound);
+  reference(method.degree);
+  if (const auto bound = bound_for(method)) discretisation(*bound, method.degree);
   half_steps();
 }
 
@@ -27,16 +27,24 @@ bool Judge::is_too_large_for_reference() const {
   return mesh_sizes(problem_->mesh).n_phi > largest_with_reference;
 }
 
-const Reference* Judge::reference(int step) {
-  if (references_.steps.empty() && references_.missing.empty()) {
-    const ActivityScope scope(board_, Activity::reference);
-    try {
-      references_ = references_along(problem_, reference_error_at_most());
-    } catch (const std::bad_alloc&) {
-      references_.missing = "no reference: out of memory";
-    }
+const ReferencePath& Judge::references(int degree) {
+  const auto [found, is_new] = references_.try_emplace(degree);
+  ReferencePath& path = found->second;
+  if (!is_new) return path;
+  path.missing = no_references_;
+  if (!path.missing.empty()) return path;
+  const ActivityScope scope(board_, Activity::reference);
+  try {
+    path = references_along(problem_, degree, reference_error_at_most());
+  } catch (const std::bad_alloc&) {
+    path.missing = "no reference: out of memory";
   }
-  return references_.steps.empty() ? nullptr : &references_.steps[static_cast<std::size_t>(step)];
+  return path;
+}
+
+const Reference* Judge::reference(int degree, int step) {
+  const ReferencePath& path = references(degree);
+  return path.steps.empty() ? nullptr : &path.steps[static_cast<std::size_t>(step)];
 }
 
 bool Judge::is_answered(const Solution& solution) const {
@@ -47,7 +55,7 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
   const ActivityScope scope(board_, Activity::verification);
   const double dissipation = dissipation_Nmm(system, solution);
   if (solution.displacement.cols() == 0) {
-    const Verification v = verify(system, solution, reference(step));
+    const Verification v = verify(system, solution, reference(system.degree, step));
     return {solution.status, v, verify_as_other_solution(system, solution, v), dissipation};
   }
   JudgedStep result = {solution.status, verify_displacement(system, solution), {}, dissipation};
@@ -56,8 +64,7 @@ JudgedStep Judge::judged(int step, const DualSystem& system, const Solution& sol
     result.verification.natural_map_residual.reset();
     // A zero stress from the program does not prove that the body has none.
     result.verification.unstressed =
-        reference(step) != nullptr &&
-        reference(step)->stress.values().isZero(0);
+        reference(1, step) != nullptr && reference(1, step)->stress.values().isZero(0);
   }
   return result;
 }
@@ -77,7 +84,7 @@ std::optional<Verification> Judge::verify_as_other_solution(const DualSystem& sy
       !is_small(std::max(v.natural_map_residual.value_or(0), v.equilibrium_residual.value_or(0))))
     return {};
   try {
-    const DualSystem posed = assemble(system.problem, Blocks::contact_points);
+    const DualSystem posed = assemble(system.problem, Blocks::contact_points, system.degree);
     const Reference other = compute_reference(posed, solution.F_C, StartIs::solution);
     if (!(other.error_estimate <= reference_error_at_most())) return {};
     const Verification seen = verify(system, solution, &other);
@@ -120,9 +127,9 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
     give(Status::ok,
          fmt::format("{}: its error, {:.1e}, is its own estimate only; equilibrium, contact law "
                      "and that its stresses are those of its displacements are checked",
-                     references_.missing, *record.error_estimate));
+                     references(method.degree).missing, *record.error_estimate));
   } else if (!v.error_stress && !method.in_displacements && problem_) {
-    give(Status::inaccurate, "its error is not known: " + references_.missing);
+    give(Status::inaccurate, "its error is not known: " + references(method.degree).missing);
   } else if (v.unstressed) {
     give(Status::unstressed, method.in_displacements
                                  ? "its displacements have no stress: nothing touches or loads "

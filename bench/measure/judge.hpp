@@ -27,7 +27,9 @@ class Judge {
   void prepare(const Method& method);
 
   bool is_answered(const Solution& solution) const;  // there is something to judge
-  bool knows_errors() { return contact_problem_ || reference() != nullptr; }
+  bool knows_errors(const AssembledBlocks& blocks) {
+    return contact_problem_ || reference(blocks.system->degree) != nullptr;
+  }
   JudgedStep judged(int step, const DualSystem& system, const Solution& solution);
   JudgedStep judged(const AssembledBlocks& blocks, const Solution& solution);  // without a path
   // The status may become worse; steps: of the whole path.
@@ -37,8 +39,8 @@ class Judge {
                        const Record& record, const std::filesystem::path& file);
 
  private:
-  // Discretisation error of the reference's stresses with P2's displacements, or of adapt_by's
-  // stresses with displacements recovered from them.
+  // Discretisation error of the reference's stresses with P2's displacements, or of the stresses of
+  // adapt_by or, for another degree, HYBRID with displacements recovered from them.
   enum class Bound { p2, recovery };
   struct Discretisation {  // of the last load step
     ConstitutiveError error;
@@ -49,7 +51,9 @@ class Judge {
 
   bool is_too_large_for_reference() const;
   double reference_error_at_most() const { return options_.target_error / 10; }
-  const Reference* reference(int step = 0);  // null: references_.missing says why
+  // References belong to a degree of the stresses.
+  const ReferencePath& references(int degree);
+  const Reference* reference(int degree, int step = 0);  // null: references().missing says why
   std::string prefix_of(std::int64_t step) const {
     return problem_ ? step_prefix(step, *problem_) : "";
   }
@@ -61,8 +65,9 @@ class Judge {
                           const Solution& solution, Record& record);
 
   std::optional<Bound> bound_for(const Method& method) const;
-  const Discretisation* discretisation(Bound bound);  // null: stresses or displacements are missing
-  std::optional<Discretisation> compute_discretisation(Bound bound);
+  // Null: stresses or displacements are missing.
+  const Discretisation* discretisation(Bound bound, int degree);
+  std::optional<Discretisation> compute_discretisation(Bound bound, int degree);
   void judge_discretisation(const Method& method, const Solution& solution, Record& record);
   void note_discretisation(const Method& method, Record& record);
   // For an external program: its displacements, made admissible.
@@ -75,8 +80,9 @@ class Judge {
   const Options& options_;
   std::string discretisation_left_out_;
   ActivityBoard* board_ = nullptr;
-  ReferencePath references_;
-  std::map<Bound, std::optional<Discretisation>> discretisation_;
+  std::string no_references_;  // why; empty: they can be had
+  std::map<int, ReferencePath> references_;
+  std::map<std::pair<Bound, int>, std::optional<Discretisation>> discretisation_;
   std::optional<Json> steps_in_halves_;
 };
 

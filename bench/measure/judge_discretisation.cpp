@@ -13,15 +13,17 @@ namespace airybench {
 
 std::optional<Judge::Bound> Judge::bound_for(const Method& method) const {
   if (method.in_displacements && !method.program.empty()) return {};  // it has its own
-  if (options_.study.points == Study::Points::accuracy || method.in_displacements) return Bound::p2;
+  const bool of_accuracy = options_.study.points == Study::Points::accuracy;
+  if (method.degree > 1) return Bound::recovery;  // P2 would be far less accurate
+  if (of_accuracy || method.in_displacements) return Bound::p2;
   if (!options_.adapt.empty() || options_.fields || options_.study.bounds) return Bound::recovery;
   return {};
 }
 
-const Judge::Discretisation* Judge::discretisation(Bound bound) {
-  const auto [found, is_new] = discretisation_.try_emplace(bound);
-  if (is_new && reference() != nullptr && discretisation_left_out_.empty())
-    found->second = compute_discretisation(bound);
+const Judge::Discretisation* Judge::discretisation(Bound bound, int degree) {
+  const auto [found, is_new] = discretisation_.try_emplace({bound, degree});
+  if (is_new && reference(degree) != nullptr && discretisation_left_out_.empty())
+    found->second = compute_discretisation(bound, degree);
   return found->second ? &*found->second : nullptr;
 }
 
@@ -59,10 +61,12 @@ std::pair<ConstitutiveError, DisplacementField> error_of_p2(const DualSystem& sy
 }  // namespace
 
 // Each step's system measures slip from the stresses' own past.
-std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound) {
+std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound, int degree) {
   const ActivityScope scope(board_, Activity::discretisation);
   std::vector<DisplacementField> of_p2;
-  Solve solve = select_methods(bound == Bound::p2 ? "P2" : options_.adapt_by).front().solve;
+  Method method = select_methods(options_.adapt_by).front();
+  if (method.degree != degree) method = select_methods(hybrid_of_degree(degree)).front();
+  Solve solve = method.solve;
   if (bound == Bound::p2) {
     solve_load_steps(select_methods("P2").front(), problem_, {},
                      [&](int, const DualSystem&, const Solution& answer) {
@@ -70,12 +74,12 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound) 
                      });
     if (std::ssize(of_p2) < count_of_steps(*problem_)) return {};
     solve = [this, step = 0](const DualSystem&, const RunControl&) mutable {
-      return answer_of(*reference(step++));
+      return answer_of(*reference(1, step++));
     };
   }
   Discretisation result;
   std::optional<ResultantLifts> lifts;
-  DualSystem system = assemble(problem_, Blocks::contact_points);
+  DualSystem system = assemble(problem_, Blocks::contact_points, degree);
   solve_load_steps(solve, system, {}, [&](int step, const DualSystem& posed, const Solution& own) {
     if (own.status != Status::ok) return;
     if (bound == Bound::p2) {
@@ -87,7 +91,7 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound) 
     }
     result.of_steps.push_back(shown(result.error));
     result.intervals.reset();
-    if (bound == Bound::p2 || !result.error.flaw.empty()) return;
+    if (bound == Bound::p2 || degree > 1 || !result.error.flaw.empty()) return;
     if (!lifts) lifts = resultant_lifts(*problem_);
     result.intervals =
         contact_intervals(posed, own.stress, own.F_C, result.u, result.error, *lifts);
@@ -98,13 +102,13 @@ std::optional<Judge::Discretisation> Judge::compute_discretisation(Bound bound) 
 }
 
 void Judge::note_error_of_displacement(const Solution& solution, Record& record) {
-  if (reference() == nullptr) {
+  if (reference(1) == nullptr) {
     record.status = has_answer(record.status) ? Status::inaccurate : record.status;
-    record.status_reason = "its error is not known: " + references_.missing;
+    record.status_reason = "its error is not known: " + references(1).missing;
     return;
   }
   const DualSystem system = assemble(problem_, Blocks::contact_points);
-  const auto& [stress, F_C] = std::tie(reference()->stress, reference()->F_C);
+  const auto& [stress, F_C] = std::tie(reference(1)->stress, reference(1)->F_C);
   note(constitutive_error(system, stress, F_C,
                           admissible_displacement(system, F_C, solution.displacement)),
        "its own displacements", record);
@@ -112,7 +116,7 @@ void Judge::note_error_of_displacement(const Solution& solution, Record& record)
 
 void Judge::note_discretisation(const Method& method, Record& record) {
   const std::optional<Bound> bound = bound_for(method);
-  const Discretisation* known = bound ? discretisation(*bound) : nullptr;
+  const Discretisation* known = bound ? discretisation(*bound, method.degree) : nullptr;
   if (record.other_solution) {
     record.no_discretisation_error = "it is known for the reference's solution only";
   } else if (known != nullptr) {
@@ -121,7 +125,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
     for (std::size_t k = 0; k < std::min(record.steps.size(), known->of_steps.size()); ++k)
       record.steps[k].update(known->of_steps[k]);
   } else if (method.in_displacements) {
-    record.no_discretisation_error = !references_.missing.empty()       ? references_.missing
+    record.no_discretisation_error = !references(1).missing.empty()     ? references(1).missing
                                      : discretisation_left_out_.empty() ? "P2 has no answer"
                                                                         : discretisation_left_out_;
   }
@@ -129,7 +133,7 @@ void Judge::note_discretisation(const Method& method, Record& record) {
 
 const Json* Judge::half_steps() {
   if (!problem_ || count_of_steps(*problem_) == 1 || !problem_->has_friction() ||
-      reference() == nullptr || !discretisation_left_out_.empty())
+      reference(1) == nullptr || !discretisation_left_out_.empty())
     return nullptr;
   if (!steps_in_halves_) {
     const ActivityScope scope(board_, Activity::discretisation);
@@ -162,7 +166,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
                             const Solution& solution, const Record& record,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
-  const Discretisation* known = bound && !record.other_solution ? discretisation(*bound) : nullptr;
+  const Discretisation* known = bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
     fields.w = known->u;

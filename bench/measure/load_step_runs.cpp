@@ -72,7 +72,8 @@ Solution answer_of(const Reference& reference) {
   return answer;
 }
 
-ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most) {
+ReferencePath references_along(const std::shared_ptr<const Problem>& first, int degree,
+                               double error_at_most) {
   ReferencePath path;
   const Solve solve = [&](const DualSystem& system, const RunControl& control) {
     path.steps.push_back(compute_reference(system, control.contact.start));
@@ -85,7 +86,7 @@ ReferencePath references_along(const std::shared_ptr<const Problem>& first, doub
           estimate, residual));
     return answer;
   };
-  DualSystem system = assemble(first, Blocks::contact_points);
+  DualSystem system = assemble(first, Blocks::contact_points, degree);
   solve_load_steps(solve, system, {}, [&](int step, const DualSystem&, const Solution& answer) {
     if (has_answer(answer.status)) return;
     path.missing =

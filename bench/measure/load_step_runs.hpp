@@ -22,8 +22,9 @@ struct ReferencePath {
   std::vector<Reference> steps;  // all, or none
   std::string missing;           // why there are none
 };
-// error_at_most: limits each reference's own error estimate and equilibrium residual.
-ReferencePath references_along(const std::shared_ptr<const Problem>& first, double error_at_most);
+// degree: of the stresses. error_at_most: limits each reference's own error estimate and equilibrium residual.
+ReferencePath references_along(const std::shared_ptr<const Problem>& first, int degree,
+                               double error_at_most);
 
 Solution answer_of(const Reference& reference);
 

@@ -25,8 +25,8 @@ void note(const std::optional<Bracket>& bracket, std::optional<double>& low,
 
 }  // namespace
 
-AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
-                                     int repetitions) {
+AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem,
+                                     const Method& method, int repetitions) {
   AssembledBlocks blocks;
   for (int i = 0; i < repetitions; ++i) {
     blocks.system.reset();
@@ -34,7 +34,7 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    if (problem) blocks.system.reset(new DualSystem(assemble(problem, which)));  // no copy
+    if (problem) blocks.system.reset(new DualSystem(assemble(problem, method.blocks, method.degree)));  // no copy
     blocks.assembly_samples_s.push_back(seconds_since(start));
     blocks.blocks_heap_bytes = if_probed(heap::live_bytes() - before);
     blocks.assembly_peak_heap_bytes = if_probed(heap::peak_bytes() - before);

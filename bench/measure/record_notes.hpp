@@ -14,6 +14,7 @@
 
 namespace airybench {
 
+// What a method needs.
 struct AssembledBlocks {
   // With the loads of the path's first or last step; null if there is no body.
   std::unique_ptr<DualSystem> system;
@@ -21,8 +22,8 @@ struct AssembledBlocks {
   std::optional<std::int64_t> blocks_heap_bytes;         // live after assembly
   std::optional<std::int64_t> assembly_peak_heap_bytes;  // highest during it
 };
-AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem, Blocks which,
-                                     int repetitions);
+AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& problem,
+                                     const Method& method, int repetitions);
 
 std::optional<std::int64_t> if_probed(std::int64_t bytes);
 

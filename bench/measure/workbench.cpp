@@ -34,21 +34,22 @@ void Workbench::show_on(ActivityBoard* board) {
 
 void Workbench::prepare(const Method& method) {
   try {
-    blocks(method.blocks);
+    blocks(method);
   } catch (const std::exception&) {  // examine() reports it
     return;
   }
   judge_.prepare(method);
 }
 
-const AssembledBlocks& Workbench::blocks(Blocks which) {
-  if (const auto broken = blocks_left_out_.find(which); broken != blocks_left_out_.end())
+const AssembledBlocks& Workbench::blocks(const Method& method) {
+  if (const auto broken = blocks_left_out_.find(method.blocks); broken != blocks_left_out_.end())
     throw std::runtime_error(broken->second);
+  const std::pair which(method.blocks, method.degree);
   auto found = blocks_.find(which);
   if (found == blocks_.end()) {
     const ActivityScope scope(board_, Activity::assembly);
     found =
-        blocks_.emplace(which, assemble_and_measure(problem_, which, options_.repetitions)).first;
+        blocks_.emplace(which, assemble_and_measure(problem_, method, options_.repetitions)).first;
   }
   return found->second;
 }
@@ -59,13 +60,13 @@ Workbench::Examination Workbench::examine(const Method& method,
   auto& [record, choice, program_log] = examination;
   record = blank_record(posed_, method, options_);
   try {
-    take_over(blocks(method.blocks), record);
+    take_over(blocks(method), record);
   } catch (const std::exception& error) {
     record.status = Status::breakdown;
     record.status_reason = fmt::format("assembly: {}", error.what());
     return examination;
   }
-  const AssembledBlocks& assembled = blocks(method.blocks);
+  const AssembledBlocks& assembled = blocks(method);
   choice = choose(method, assembled, record);
   Run run = tighten(method, assembled, choice, record);
   Solution& solution = run.solution;
@@ -89,13 +90,13 @@ Workbench::Examination Workbench::examine(const Method& method,
 
 void Workbench::measure_memory(const Method& method, const Choice& choice, Record& record) {
   malloc_trim(0);
-  const Run run = solve(choice, blocks(method.blocks), Activity::memory_run);
+  const Run run = solve(choice, blocks(method), Activity::memory_run);
   note_memory(run, record);
   record.instructions = run.instructions;
 }
 
 TimedRun Workbench::measure_time(const Method& method, const Choice& choice) {
-  return timed(solve(choice, blocks(method.blocks), Activity::timed_run));
+  return timed(solve(choice, blocks(method), Activity::timed_run));
 }
 
 Workbench::Choice Workbench::choose(const Method& method, const AssembledBlocks& blocks,
@@ -144,7 +145,7 @@ void Workbench::note_attempt(const Choice& choice, const AssembledBlocks& blocks
   Json attempt = {{"tolerance", choice.tolerance},
                   {"claimed_status", name_of(run.solution.status)}};
   if (run.solution.error_estimate) attempt["error_estimate"] = *run.solution.error_estimate;
-  if (judge_.is_answered(run.solution) && judge_.knows_errors()) {
+  if (judge_.is_answered(run.solution) && judge_.knows_errors(blocks)) {
     verify_run(blocks, run);
     attempt["error"] = worst_measure(run.judged[worst_step(run.judged)].seen()).value;
   }

@@ -39,7 +39,7 @@ class Workbench {
     std::optional<MemorySplit> memory;
     std::vector<JudgedStep> judged;  // if asked for; of a path every step that it reached
   };
-  const AssembledBlocks& blocks(Blocks which);
+  const AssembledBlocks& blocks(const Method& method);
   RunControl control_of(const Choice& choice, Activity what) const;
   Run solve(const Choice& choice, const AssembledBlocks& blocks, Activity what);
   Choice choose(const Method& method, const AssembledBlocks& blocks, Record& record);
@@ -62,7 +62,7 @@ class Workbench {
   std::map<Blocks, std::string> blocks_left_out_;  // which, and why
   Judge judge_;
   ActivityBoard* board_ = nullptr;
-  std::map<Blocks, AssembledBlocks> blocks_;
+  std::map<std::pair<Blocks, int>, AssembledBlocks> blocks_;  // and the degree of the stresses
 };
 
 }  // namespace airybench

@@ -35,8 +35,11 @@ Method adapting_method(const std::string& name) {
   for (const Method& method : methods()) {
     if (!is_fit(method)) continue;
     if (method.name == name) return method;
-    allowed += (allowed.empty() ? "" : ", ") + method.name;
+    allowed += method.name + ", ";
   }
+  if (is_general_name(name))
+    if (const Method method = select_methods(name).front(); is_fit(method)) return method;
+  allowed += hybrid_of_degree(2) + " and more";
   throw UsageError(fmt::format("--adapt: by={} (allowed: {})", shortened(name), allowed));
 }
 

@@ -69,7 +69,7 @@ std::optional<AdaptiveLevel> AdaptiveLoop::next() {
   const auto start = std::chrono::steady_clock::now();
   if (!history_.empty() && !refine()) return {};
   const auto problem = std::make_shared<const Problem>(pose(scene_, mesh_));
-  DualSystem system = assemble(problem, Blocks::contact_points);
+  DualSystem system = assemble(problem, Blocks::contact_points, method_.degree);
 
   RunControl control;
   control.deadline = Deadline::after(settings_.timeout_s);
@@ -145,7 +145,8 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   constexpr double margin = 1.1, step = 0.85, least_marking = 0.1;
   const AdaptGoal& goal = settings_.goals[goal_];
   const auto& [unknowns, error] = history_.back();
-  const double needed = goal.error ? margin * unknowns * error / *goal.error  // e ~ 1/N
+  const double rate = 2. / (method_.degree + 1);  // e ~ N^−(k+1)/2
+  const double needed = goal.error ? margin * unknowns * std::pow(error / *goal.error, rate)
                                    : *goal.unknowns;
   double marking = *settings_.marking;
   BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, marking));
@@ -163,7 +164,7 @@ BisectedMesh AdaptiveLoop::bisected_as_expected() {
   constexpr double aim = 0.96;  // of the goal: a near miss costs one more level
   using Finer = ExpectedParts::Finer;
   const AdaptGoal& goal = settings_.goals[goal_];
-  const ExpectedParts expected(mesh_, edges_, parts_Nmm_);
+  const ExpectedParts expected(mesh_, edges_, parts_Nmm_, method_.degree);
   const auto triangles = static_cast<double>(mesh_.triangles.size());
   const auto& [unknowns, error] = history_.back();
   const auto with_neighbours = [&](const Finer& finer) {

@@ -25,14 +25,14 @@ std::array<Corners, 2> halves(const Corners& x) {
 }
 
 struct Ring {
-  double squared = 0, cubes = 0, distance = 0, area = 0;  // Σ e_T², A³, A |x_T − v|, A
-  void add(double part, double A, double to_vertex) {
+  double squared = 0, powers = 0, distance = 0, area = 0;  // Σ e_T², A^(k+2), A |x_T − v|, A
+  void add(double part, double A, int power, double to_vertex) {
     squared += part;
-    cubes += A * A * A;
+    powers += std::pow(A, power);
     distance += A * to_vertex;
     area += A;
   }
-  double kappa() const { return squared / cubes; }
+  double kappa() const { return squared / powers; }
   double mean_distance() const { return distance / area; }
 };
 
@@ -50,9 +50,9 @@ struct AtVertex {
   double kappa = 0, exponent = 0;
 };
 std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
-                                       const std::vector<double>& parts) {
-  constexpr double falls = 2.5;  // κ falls as r^−2.5 or faster: singular
-  constexpr double of_singular = 6 - 2 * 0.7;
+                                       const std::vector<double>& parts, int power) {
+  const double of_singular = 2 * power - 2 * 0.7;
+  const double falls = of_singular * 2.5 / 4.6;  // κ falls as this power of r or faster: singular
   std::vector<Ring> at(mesh.vertices.size()), behind(mesh.vertices.size());
   std::vector<std::array<int, 2>> of_edge(static_cast<std::size_t>(edges.count()), {-1, -1});
   const int triangles = static_cast<int>(mesh.triangles.size());
@@ -60,7 +60,7 @@ std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
     for (const int edge : edges.of_triangle[t]) of_edge[edge][of_edge[edge][0] >= 0] = t;
   const auto add = [&](Ring& ring, int t, int v) {
     const Corners x = corners_of(mesh, t);
-    ring.add(std::max(0.0, parts[t]), area_of(x), (centroid_of(x) - mesh.vertices[v]).norm());
+    ring.add(std::max(0.0, parts[t]), area_of(x), power, (centroid_of(x) - mesh.vertices[v]).norm());
   };
   for (int t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k) {
@@ -83,22 +83,22 @@ std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
 }  // namespace
 
 ExpectedParts::ExpectedParts(const Mesh& mesh, const MeshEdges& edges,
-                             const std::vector<double>& parts)
-    : mesh_(mesh) {
-  const std::vector<AtVertex> seen = look_at_vertices(mesh, edges, parts);
+                             const std::vector<double>& parts, int degree)
+    : mesh_(mesh), power_(degree + 2) {
+  const std::vector<AtVertex> seen = look_at_vertices(mesh, edges, parts, power_);
   triangles_.reserve(parts.size());
   for (int t = 0; t < static_cast<int>(parts.size()); ++t) {
     const Corners x = corners_of(mesh, t);
     const int v = *std::ranges::max_element(mesh.triangles[t], {},
                                             [&](int corner) { return seen[corner].kappa; });
-    triangles_.push_back({std::max(0.0, parts[t]) / std::pow(area_of(x), 3), area_of(x),
+    triangles_.push_back({std::max(0.0, parts[t]) / std::pow(area_of(x), power_), area_of(x),
                           seen[v].exponent, mesh.vertices[v],
                           (centroid_of(x) - mesh.vertices[v]).norm()});
   }
 }
 
 double ExpectedParts::of(const Triangle& triangle, const Corners& corners) const {
-  const double area = area_of(corners), smooth = triangle.kappa * area * area * area;
+  const double area = area_of(corners), smooth = triangle.kappa * std::pow(area, power_);
   if (triangle.exponent == 0) return smooth;
   const double nearer = (centroid_of(corners) - triangle.vertex).norm() / triangle.distance_mm;
   return smooth *
@@ -137,7 +137,7 @@ ExpectedParts::Finer ExpectedParts::cut_until(
     finer.squared -= cut.count * cut.part;
     finer.triangles += cut.count;
     if (triangles_[cut.triangle].exponent == 0) {
-      push({cut.part / 8, 2 * cut.count, cut.triangle, cut.corners});
+      push({std::ldexp(cut.part, -power_), 2 * cut.count, cut.triangle, cut.corners});
       continue;
     }
     for (const Corners& half : halves(cut.corners))

@@ -1,12 +1,13 @@
 // Predicts from one solution how the error would spread over a finer mesh, so that a mesh is
 // refined several times without a solve for each bisection.
 //
-// Stresses are linear on thirds of a triangle T of area A, so its part of e² is e_T² ~ |∇²σ|² A³.
-// Where the stress is smooth, κ = e_T² / A³ depends on the solution and not on the mesh: a half of
-// T has an eighth of its part. Near a vertex v where the stress is singular like r^(λ−1), κ ~ r^−s
-// with s = 6 − 2λ. A part of T with area A' and centroid x is expected to have
+// Stresses have degree k on thirds of a triangle T of area A, so its part of e² is e_T² ~
+// |∇^(k+1) σ|² A^(k+2). Where the stress is smooth, κ = e_T² / A^(k+2) depends on the solution and
+// not on the mesh: a half of T has 2^−(k+2) of its part. Near a vertex v where the stress is singular
+// like r^(λ−1), κ ~ r^−s with s = 2k + 4 − 2λ. A part of T with area A' and centroid x is expected to
+// have
 //
-//   κ_T (|x − v| / |x_T − v|)^−s A'³     x_T: centroid of T
+//   κ_T (|x − v| / |x_T − v|)^−s A'^(k+2)     x_T: centroid of T
 //
 // At v this gives a half of T 2^−λ of its part, as required (the ratio counts as at least √(A'/A),
 // for slivers). A vertex is singular if κ falls fast from its triangles to those behind them; λ =
@@ -14,7 +15,7 @@
 // so they wait for the next mesh.
 //
 // Of all meshes with a given number of triangles the one with equal parts has the least error (e² ~
-// Σ κ A³ for given Σ 1; bulk marking leads there too). So triangles are cut until no expected part
+// Σ κ A^(k+2) for given Σ 1; bulk marking leads there too). So triangles are cut until no expected part
 // exceeds a common threshold.
 #pragma once
 
@@ -29,7 +30,9 @@ namespace airybench {
 class ExpectedParts {
  public:
   // parts: of e², per triangle; negative ones count as zero.
-  ExpectedParts(const Mesh& mesh, const MeshEdges& edges, const std::vector<double>& parts);
+  // degree: k.
+  ExpectedParts(const Mesh& mesh, const MeshEdges& edges, const std::vector<double>& parts,
+                int degree = 1);
 
   double of(const TrianglePart& part) const;
 
@@ -42,7 +45,7 @@ class ExpectedParts {
 
  private:
   struct Triangle {
-    double kappa = 0;        // e_T² / A³
+    double kappa = 0;        // e_T² / A^(k+2)
     double area_mm2 = 0;     // A
     double exponent = 0;     // s; 0: the stress is smooth
     Eigen::Vector2d vertex;  // v
@@ -51,6 +54,7 @@ class ExpectedParts {
   double of(const Triangle& triangle, const std::array<Eigen::Vector2d, 3>& corners) const;
 
   const Mesh& mesh_;
+  int power_;  // of A: k + 2
   std::vector<Triangle> triangles_;
 };
 

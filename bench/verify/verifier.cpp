@@ -16,59 +16,98 @@
 namespace airybench {
 namespace {
 
-// Edge forces of the element stresses, N. Columns: low and high vertex; rows: x, y.
+// Edge forces of the element stresses, N: k + 1 columns per edge, its control values from the low
+// vertex on; rows: x, y.
 struct EdgeBalance {
-  std::vector<Eigen::Matrix2d> sum;
-  double largest = 0;     // largest single force, N
-  double divergence = 0;  // largest resultant of ∇·σ + b in a third, N
+  int points = 2;  // per edge
+  Eigen::Matrix2Xd sum;
+  double largest = 0;   // largest single force, N
+  double interior = 0;  // largest force that is not balanced inside a triangle, N
+
+  auto of(int edge) const { return sum.middleCols(static_cast<Eigen::Index>(points) * edge, points); }
 };
+
+// Largest of what ∇·σ + b leaves on a third, and of the jumps of tractions between thirds, N: the
+// divergence's Bernstein coefficients times the third's area, and the spokes' control forces.
+double unbalanced_inside(const TriangleVertices& v, const Eigen::Ref<const Eigen::Matrix3Xd>& stress,
+                         int degree, const Eigen::Vector2d& body_force) {
+  const Eigen::Vector2d centroid = v.rowwise().mean();
+  const double third_area = cross_area(v.col(0), v.col(1), v.col(2)) / 6;
+  const int third = bernstein_count(degree);
+  double largest = 0;
+  for (int t = 0; t < 3; ++t) {
+    const int next = (t + 1) % 3, other = (t + 2) % 3;
+    const Eigen::Vector2d a = v.col(t), b = v.col(next);
+    const auto of_third = stress.middleCols(third * t, third);
+    const auto long_normal = [](const Eigen::Vector2d& from, const Eigen::Vector2d& to) {
+      return Eigen::Vector2d(to.y() - from.y(), from.x() - to.x());
+    };
+    // Of the sides opposite to a, b and the centroid: ∇λ = −normal / (2 area).
+    const Eigen::Vector2d opposite[3] = {long_normal(b, centroid), long_normal(centroid, a),
+                                         long_normal(a, b)};
+    for (int j = 0; j < degree; ++j)
+      for (int i = 0; i < degree - j; ++i) {
+        Eigen::Vector2d resultant = third_area * body_force;
+        for (int p = 0; p < 3; ++p)
+          resultant -= degree / 2. *
+                       traction(of_third.col(ring_place(degree, i + (p == 1), j + (p == 2))),
+                                opposite[p]);
+        largest = std::max(largest, resultant.cwiseAbs().maxCoeff());
+      }
+    const auto before = stress.middleCols(third * other, third);  // it shares the spoke from a
+    for (int j = 0; j <= degree; ++j) {
+      const Eigen::Vector2d jump =
+          traction(of_third.col(ring_place(degree, 0, j)) -
+                       before.col(ring_place(degree, degree - j, j)),
+                   opposite[1]) /
+          (degree + 1);
+      largest = std::max(largest, jump.cwiseAbs().maxCoeff());
+    }
+  }
+  return largest;
+}
 
 EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
   EdgeBalance balance;
-  balance.sum.assign(static_cast<std::size_t>(problem.edges.count()), Eigen::Matrix2d::Zero());
+  balance.points = stress.degree() + 1;
+  balance.sum.setZero(2, static_cast<Eigen::Index>(balance.points) * problem.edges.count());
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     TriangleVertices v = problem.vertices_of(t);
     v.colwise() -= v.col(0).eval();  // keeps digits far from the origin
-    const Eigen::Vector2d centroid = v.rowwise().mean();
+    const auto of_triangle = stress[static_cast<std::size_t>(t)];
     for (int k = 0; k < 3; ++k) {
       const int a = problem.mesh.triangles[t][k], b = problem.mesh.triangles[t][(k + 1) % 3];
-      const Eigen::Matrix2d force = element_edge_forces(v, stress[t], k);
+      const ForcesOnEdge force = element_edge_forces(v, of_triangle, k);
       balance.largest = std::max(balance.largest, force.cwiseAbs().maxCoeff());
-      auto& sum = balance.sum[problem.edges.of_triangle[t][k]];
+      auto sum = balance.sum.middleCols(
+          static_cast<Eigen::Index>(balance.points) * problem.edges.of_triangle[t][k],
+          balance.points);
       if (a < b)
         sum += force;
       else
         sum += force.rowwise().reverse();
-
-      // ∫ (∇·σ + b) over the third = Σ of its sides' tractions + b · area.
-      const std::array<Eigen::Vector2d, 3> corner = {v.col(k), v.col((k + 1) % 3), centroid};
-      Eigen::Vector2d resultant = problem.area_mm2(t) / 3 * problem.loads.body_force_N_per_mm3;
-      for (int side = 0; side < 3; ++side) {
-        const int next = (side + 1) % 3;
-        const EdgeFrame frame = edge_frame(corner[side], corner[next]);
-        resultant +=
-            frame.length_mm / 2 *
-            traction(stress[t].col(3 * k + side) + stress[t].col(3 * k + next), frame.normal);
-      }
-      balance.divergence = std::max(balance.divergence, resultant.cwiseAbs().maxCoeff());
     }
+    balance.interior = std::max(balance.interior,
+                                unbalanced_inside(v, of_triangle, stress.degree(),
+                                                  problem.loads.body_force_N_per_mm3));
   }
   return balance;
 }
 
-// Force on a boundary edge in walking order; columns: start, end.
-Eigen::Matrix2d walked(const Problem& problem, const EdgeBalance& balance, int row) {
+// Forces on a boundary edge in walking order.
+ForcesOnEdge walked(const Problem& problem, const EdgeBalance& balance, int row) {
   const auto [a, b] = problem.mesh.boundary[row].vertices;
-  const Eigen::Matrix2d& sum = balance.sum[problem.edges.of_boundary[row]];
-  return a < b ? sum : Eigen::Matrix2d(sum.rowwise().reverse());
+  const auto sum = balance.of(problem.edges.of_boundary[row]);
+  return a < b ? ForcesOnEdge(sum) : ForcesOnEdge(sum.rowwise().reverse());
 }
 
 double equilibrium_residual(const DualSystem& system, const Solution& solution,
                             const EdgeBalance& balance, const LoadScale& scale) {
   const Problem& problem = *system.problem;
   const Mesh& mesh = problem.mesh;
-  double unbalanced = balance.divergence;
-  std::vector<bool> on_boundary(balance.sum.size(), false);
+  const int degree = balance.points - 1;
+  double unbalanced = balance.interior;
+  std::vector<bool> on_boundary(static_cast<std::size_t>(problem.edges.count()), false);
   int point = 0;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
     on_boundary[problem.edges.of_boundary[row]] = true;
@@ -77,27 +116,28 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
     const auto &a = mesh.vertices[mesh.boundary[row].vertices[0]],
                &b = mesh.vertices[mesh.boundary[row].vertices[1]];
     const EdgeFrame frame = edge_frame(a, b);
-    Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
+    ForcesOnEdge off = walked(problem, balance, row);
     if (role == BoundaryRole::force && problem.loads.traction_MPa) {
-      expected << problem.loads.traction_MPa(a, frame.normal, row),
-          problem.loads.traction_MPa(b, frame.normal, row);
-      expected *= frame.length_mm / 2;
+      const Eigen::Vector2d start = problem.loads.traction_MPa(a, frame.normal, row),
+                            end = problem.loads.traction_MPa(b, frame.normal, row);
+      for (int j = 0; j <= degree; ++j)
+        off.col(j) -=
+            frame.length_mm / balance.points * ((degree - j) * start + j * end) / degree;
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
-      for (int end = 0; end < 2; ++end, ++point) {
-        const EdgeFrame of_law = problem.frame_of_moment(row, end);
-        expected.col(end) = solution.F_C(m * point) * of_law.normal;
-        if (m == 2) expected.col(end) += solution.F_C(m * point + 1) * of_law.tangent;
+      for (int j = 0; j <= degree; ++j, ++point) {
+        const EdgeFrame of_law = problem.frame_of_moment(row, j);
+        off.col(j) -= solution.F_C(m * point) * of_law.normal;
+        if (m == 2) off.col(j) -= solution.F_C(m * point + 1) * of_law.tangent;
       }
     }
-    Eigen::Matrix2d off = walked(problem, balance, row) - expected;
     if (problem.is_roller(row))  // its normal force is free
-      off = frame.tangent * (frame.tangent.transpose() * off).eval();
+      off = (frame.tangent * (frame.tangent.transpose() * off)).eval();
     unbalanced = std::max(unbalanced, off.cwiseAbs().maxCoeff());
   }
-  for (std::size_t edge = 0; edge < balance.sum.size(); ++edge)
+  for (int edge = 0; edge < problem.edges.count(); ++edge)
     if (!on_boundary[edge])
-      unbalanced = std::max(unbalanced, balance.sum[edge].cwiseAbs().maxCoeff());
+      unbalanced = std::max(unbalanced, balance.of(edge).cwiseAbs().maxCoeff());
   return relative_error(unbalanced, balance.largest, scale.force_N);
 }
 
@@ -107,9 +147,9 @@ double work_of_prescribed_displacement(const Problem& problem, const EdgeBalance
   double work = 0;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const auto [start, end] = problem.prescribed_moments(row);
-    const Eigen::Matrix2d force = walked(problem, balance, row);
-    work += start.dot(force.col(0)) + end.dot(force.col(1));
+    work += problem.prescribed_moments(row, balance.points - 1)
+                .cwiseProduct(walked(problem, balance, row))
+                .sum();
   }
   return work;
 }
@@ -142,13 +182,11 @@ Eigen::MatrixXd in_frames(const Problem& problem, Eigen::MatrixXd moments) {
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (!problem.condition(row).in_frame) continue;
     const auto [a, b] = problem.mesh.boundary[row].vertices;
-    auto own = moments.col(problem.edges.of_boundary[row]);
-    const bool low_first = a < b;
-    const std::array<Eigen::Vector2d, 2> walked = {low_first ? own.head<2>() : own.tail<2>(),
-                                                   low_first ? own.tail<2>() : own.head<2>()};
-    for (int end = 0; end < 2; ++end) {
-      const EdgeFrame frame = problem.frame_of_moment(row, end);
-      own.segment<2>(2 * end) << frame.normal.dot(walked[end]), frame.tangent.dot(walked[end]);
+    auto own = moments.col(problem.edges.of_boundary[row]).reshaped(2, moments.rows() / 2);
+    if (a > b) own = own.rowwise().reverse().eval();
+    for (int j = 0; j < own.cols(); ++j) {
+      const EdgeFrame frame = problem.frame_of_moment(row, j);
+      own.col(j) = Eigen::Vector2d(frame.normal.dot(own.col(j)), frame.tangent.dot(own.col(j)));
     }
   }
   return moments;
@@ -162,11 +200,11 @@ MomentsCheck check_moments(const DualSystem& system, const Eigen::MatrixXd& edge
   HybridizedSystem hybrid;
   hybrid.n_c = system.contact.size();
   const int inner = number_unknowns(problem, system.contact, hybrid.unknown);
-  hybrid.displacement = prescribed_displacements(problem);
+  hybrid.displacement = prescribed_displacements(problem, system.degree);
   hybrid.b.setZero(inner + hybrid.n_c);
   Eigen::VectorXd u(hybrid.b.size());
   for (int edge = 0; edge < problem.edges.count(); ++edge)
-    for (int k = 0; k < 4; ++k)
+    for (int k = 0; k < hybrid.unknown.length(); ++k)
       if (const int unknown = hybrid.unknown[edge][k]; unknown != prescribed_unknown)
         u(unknown) = moments(k, edge);
   return {recover_stresses(problem, hybrid, u).stress, u.tail(hybrid.n_c)};

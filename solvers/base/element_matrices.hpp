@@ -1,6 +1,7 @@
 // A symmetric matrix as the sum of its elements' matrices, never put together:
 //
-//   K = Σ_e P_eᵀ K_e P_e,   K_e 12×12; P_e picks the element's unknowns, and drops prescribed ones
+//   K = Σ_e P_eᵀ K_e P_e,   K_e of the size that all share; P_e picks the element's unknowns, and
+//                           drops prescribed ones
 //
 // This is what a multifrontal factorisation reads (multifrontal.hpp), and products need no more.
 // Where the elements are helps to order the unknowns (dissection.hpp).
@@ -9,9 +10,11 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "solvers/base/equal_rows.hpp"
 #include "solvers/base/index_lists.hpp"
 
 namespace airybench {
@@ -31,20 +34,26 @@ Eigen::Matrix<Scalar, 12, 12> from_lower(const Scalar* entry) {
 }
 
 template <typename Scalar>
-struct ElementMatricesIn {
-  static constexpr int size = 12;
-  using Unknowns = std::array<int, size>;  // negative: prescribed
-  using Matrix = Eigen::Matrix<Scalar, size, size>;
+class ElementMatricesIn {
+ public:
   using Point = std::array<double, 2>;
+  // Of twelve unknowns, most elements' size.
+  using Unknowns = std::array<int, 12>;
+  using Matrix = Eigen::Matrix<Scalar, 12, 12>;
 
-  int order = 0;                                               // of K
-  std::vector<Unknowns> unknown;                               // per element
-  std::vector<Point> centre;                                   // per element, mm
-  std::vector<std::array<Scalar, size*(size + 1) / 2>> lower;  // K_e's lower triangle, by columns
+  ElementMatricesIn() : ElementMatricesIn(12) {}
+  explicit ElementMatricesIn(int of_size)
+      : size(of_size), unknown(of_size), lower(of_size * (of_size + 1) / 2) {}
 
-  int count() const { return static_cast<int>(unknown.size()); }
+  int size;                   // of K_e
+  int order = 0;              // of K
+  EqualRows<int> unknown;     // per element; negative: prescribed
+  std::vector<Point> centre;  // per element, mm
+  EqualRows<Scalar> lower;    // K_e's lower triangle, by columns
+
+  int count() const { return static_cast<int>(centre.size()); }
   std::size_t bytes() const {
-    return unknown.size() * (sizeof(unknown[0]) + sizeof(centre[0]) + sizeof(lower[0]));
+    return unknown.bytes() + centre.size() * sizeof(Point) + lower.bytes();
   }
   void reserve(std::size_t elements) {
     unknown.reserve(elements);
@@ -52,18 +61,17 @@ struct ElementMatricesIn {
     lower.reserve(elements);
   }
   // K_e's lower triangle, by columns.
-  void add(const Unknowns& of_element, const Point& at, const Scalar* of_lower) {
-    unknown.push_back(of_element);
+  void add(std::span<const int> of_element, const Point& at, const Scalar* of_lower) {
+    unknown.push_back(of_element.data());
     centre.push_back(at);
-    auto& entries = lower.emplace_back();
-    std::copy_n(of_lower, entries.size(), entries.begin());
+    lower.push_back(of_lower);
   }
   // K_e: its lower triangle is read.
   void add(const Unknowns& of_element, const Point& at, const Matrix& K_e) {
-    std::array<Scalar, size*(size + 1) / 2> of_lower;
+    std::array<Scalar, 78> of_lower;
     auto* entry = of_lower.data();
-    for (int j = 0; j < size; ++j)
-      for (int i = j; i < size; ++i) *entry++ = K_e(i, j);
+    for (int j = 0; j < 12; ++j)
+      for (int i = j; i < 12; ++i) *entry++ = K_e(i, j);
     add(of_element, at, of_lower.data());
   }
   // An unknown by itself.
@@ -75,18 +83,31 @@ struct ElementMatricesIn {
     K_e(0, 0) = stiffness;
     add(alone, at, K_e);
   }
-  // K_e x.
-  Eigen::Matrix<Scalar, size, 1> product(int e, const Eigen::Matrix<Scalar, size, 1>& x) const {
-    Eigen::Matrix<Scalar, size, 1> y = Eigen::Matrix<Scalar, size, 1>::Zero();
-    const Scalar* entry = lower[e].data();
-    for (int j = 0; j < size; ++j) {
-      y(j) += *entry++ * x(j);
-      for (int i = j + 1; i < size; ++i, ++entry) {
-        y(i) += *entry * x(j);
-        y(j) += *entry * x(i);
+  // y = K_e x.
+  void multiply(int e, const Scalar* x, Scalar* y) const {
+    if (size == 12)
+      multiply_of<12>(lower[e].data(), x, y, 12);
+    else
+      multiply_of<Eigen::Dynamic>(lower[e].data(), x, y, size);
+  }
+  Eigen::Matrix<Scalar, 12, 1> product(int e, const Eigen::Matrix<Scalar, 12, 1>& x) const {
+    Eigen::Matrix<Scalar, 12, 1> y;
+    multiply_of<12>(lower[e].data(), x.data(), y.data(), 12);
+    return y;
+  }
+
+ private:
+  template <int fixed>
+  static void multiply_of(const Scalar* entry, const Scalar* x, Scalar* y, int n) {
+    if constexpr (fixed != Eigen::Dynamic) n = fixed;
+    std::fill_n(y, n, Scalar(0));
+    for (int j = 0; j < n; ++j) {
+      y[j] += *entry++ * x[j];
+      for (int i = j + 1; i < n; ++i, ++entry) {
+        y[i] += *entry * x[j];
+        y[j] += *entry * x[i];
       }
     }
-    return y;
   }
 };
 using ElementMatrices = ElementMatricesIn<double>;
@@ -95,20 +116,20 @@ using ElementMatrices = ElementMatricesIn<double>;
 template <typename Scalar>
 void add_product(const ElementMatricesIn<Scalar>& K, const Eigen::VectorX<Scalar>& x,
                  Eigen::VectorX<Scalar>& y) {
-  constexpr int size = ElementMatricesIn<Scalar>::size;
+  std::vector<Scalar> from(static_cast<std::size_t>(K.size)), to(from);
   for (int e = 0; e < K.count(); ++e) {
-    Eigen::Matrix<Scalar, size, 1> from;
-    for (int i = 0; i < size; ++i) from(i) = K.unknown[e][i] < 0 ? 0 : x(K.unknown[e][i]);
-    const Eigen::Matrix<Scalar, size, 1> to = K.product(e, from);
-    for (int i = 0; i < size; ++i)
-      if (K.unknown[e][i] >= 0) y(K.unknown[e][i]) += to(i);
+    const std::span<const int> unknown = K.unknown[e];
+    for (int i = 0; i < K.size; ++i) from[i] = unknown[i] < 0 ? Scalar(0) : x(unknown[i]);
+    K.multiply(e, from.data(), to.data());
+    for (int i = 0; i < K.size; ++i)
+      if (unknown[i] >= 0) y(unknown[i]) += to[i];
   }
 }
 
 // Put together after all: the lower triangle.
 template <typename Scalar>
 Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
-  constexpr int size = ElementMatricesIn<Scalar>::size;
+  const int size = K.size;
   // Columns size e + j of the elements, by unknown.
   const IndexLists columns = gather_lists(K.order, [&](auto add) {
     for (int e = 0; e < K.count(); ++e)
@@ -133,7 +154,7 @@ Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
   Eigen::SparseMatrix<Scalar> lower(K.order, K.order);
   lower.reserve(entries);
   met.assign(met.size(), -1);
-  const auto place = [](int i, int j) { return j * size - j * (j - 1) / 2 + i - j; };
+  const auto place = [size](int i, int j) { return j * size - j * (j - 1) / 2 + i - j; };
   std::vector<Scalar> sum(static_cast<std::size_t>(K.order), 0);  // zero between columns
   std::vector<int> rows;
   for (int column = 0; column < K.order; ++column) {
@@ -154,14 +175,13 @@ Eigen::SparseMatrix<Scalar> lower_triangle(const ElementMatricesIn<Scalar>& K) {
 // The same with entries of another scalar, rounded.
 template <typename To, typename From>
 ElementMatricesIn<To> rounded(const ElementMatricesIn<From>& K) {
-  ElementMatricesIn<To> result;
+  ElementMatricesIn<To> result(K.size);
   result.order = K.order;
   result.unknown = K.unknown;
   result.centre = K.centre;
-  result.lower.resize(K.lower.size());
-  for (std::size_t e = 0; e < K.lower.size(); ++e)
-    for (std::size_t k = 0; k < K.lower[e].size(); ++k)
-      result.lower[e][k] = static_cast<To>(K.lower[e][k]);
+  result.lower.entries().reserve(K.lower.entries().size());
+  for (const From& entry : K.lower.entries())
+    result.lower.entries().push_back(static_cast<To>(entry));
   return result;
 }
 

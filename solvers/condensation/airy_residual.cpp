@@ -100,9 +100,7 @@ void add_prescribed_displacements(const DualSystem& system, LongVector& r) {
   if (!problem.loads.displacement_mm) return;
   for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::displacement) continue;
-    const auto [start, end] = problem.prescribed_moments(row);
-    LongColumn<4> u;
-    u << start.cast<Long>(), end.cast<Long>();
+    const LongColumn<4> u = problem.prescribed_moments(row).reshaped().cast<Long>();
     add_displacements(system, edge_rows(system, row), u, r);
   }
 }

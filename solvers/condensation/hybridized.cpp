@@ -8,7 +8,7 @@ namespace airybench {
 HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem& system,
                                   const Eigen::VectorXd& u) {
   HybridizedAnswer answer;
-  answer.stress = StressField(problem.mesh.triangles.size());
+  answer.stress = StressField(problem.mesh.triangles.size(), system.degree());
   UnbalancedForces& unbalanced = answer.unbalanced;
   {
     const OwnerScope scope(MemoryOwner::check);
@@ -16,16 +16,17 @@ HybridizedAnswer recover_stresses(const Problem& problem, const HybridizedSystem
     unbalanced.defect.setZero(system.b.size());
   }
   add_tractions(problem, system.unknown, unbalanced.r);
-  visit_stresses(problem, system, u, [&](int t, const HybridStress<double>& of_triangle) {
-    answer.stress[t] = Eigen::Map<const ElementStress>(of_triangle.stress);
+  std::vector<int> unknowns;
+  visit_stresses(problem, system, u, [&](int t, const StressOfTriangle<double>& of_triangle) {
+    auto stress = answer.stress[static_cast<std::size_t>(t)];
+    std::copy_n(of_triangle.stress, stress.size(), stress.data());
     unbalanced.defect_energy += std::max(0.0, of_triangle.defect_energy);
-    const std::array<int, 12> unknowns = element_unknowns(problem, system.unknown, t);
-    for (int k = 0; k < 12; ++k) {
+    element_unknowns(problem, system.unknown, t, unknowns);
+    for (std::size_t k = 0; k < unknowns.size(); ++k) {
       unbalanced.largest = std::max(unbalanced.largest, std::abs(of_triangle.forces[k]));
-      const int unknown = unknowns[k];
-      if (unknown == prescribed_unknown) continue;
-      unbalanced.r(unknown) -= of_triangle.forces[k];
-      unbalanced.defect(unknown) -= of_triangle.defect[k];
+      if (unknowns[k] == prescribed_unknown) continue;
+      unbalanced.r(unknowns[k]) -= of_triangle.forces[k];
+      unbalanced.defect(unknowns[k]) -= of_triangle.defect[k];
     }
   });
   return answer;

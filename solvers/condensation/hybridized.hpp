@@ -13,6 +13,10 @@
 // ū is prescribed on Γ_D. Contact displacements are the last unknowns, and D and G come as in
 // stiffness_condensation.hpp.
 //
+// Stresses of degree k (equilibrium_element.hpp) have k + 1 moments per edge, and the contact law
+// holds at the Bernstein control values of a contact edge's traction: these in the cone, σ_n ≤ 0
+// and |σ_t| ≤ −μ σ_n hold on the whole edge. Gap and ū0 are quadratic on edges, and so exact.
+//
 // D, G and F_C are the same numbers as from the Airy system, without its ill-conditioning: the
 // scaled condition number grows like h⁻², not h⁻⁴. No gauge, no multipliers.
 //
@@ -34,16 +38,18 @@ namespace airybench {
 template <typename Scalar>
 struct HybridizedSystemIn {
   EdgeUnknowns unknown;
-  std::vector<Eigen::Vector4d> displacement;  // ū0 of displacement edges, else 0; empty: all zero
-  ElementMatricesIn<Scalar> K;                // N/mm
-  Eigen::VectorX<Scalar> b;                   // N, without the contact forces
-  int n_c = 0;                                // the last unknowns
+  Eigen::MatrixXd displacement;  // prescribed_displacements()
+  ElementMatricesIn<Scalar> K;   // N/mm
+  Eigen::VectorX<Scalar> b;      // N, without the contact forces
+  int n_c = 0;                   // the last unknowns
+  int degree() const { return unknown.length() / 2 - 1; }  // of the stresses
   std::size_t bytes() const;                  // of K and b
 };
 using HybridizedSystem = HybridizedSystemIn<double>;
 
-// `contact` is that of the Airy system: it says which contact unknowns there are. Throws Breakdown
-// naming the triangle whose flexibility is not positive definite to rounding.
+// `contact` is contact_points() of a degree: it says that of the stresses and which contact unknowns
+// there are. Throws Breakdown naming the triangle whose flexibility is not positive definite to
+// rounding.
 template <typename Scalar = double>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact);

@@ -4,57 +4,64 @@
 #include <limits>
 
 #include "assembly/edge_forces.hpp"
+#include "solvers/condensation/degree_element.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "solvers/condensation/hybridized.hpp"
 
 namespace airybench {
 
-// Adds the prescribed forces on Γ_F to b.
+// Adds the prescribed forces on Γ_F to b: the traction is linear, its control values lie on it.
 template <typename Scalar>
 void add_tractions(const Problem& problem, const EdgeUnknowns& unknown, Eigen::VectorX<Scalar>& b) {
   if (!problem.loads.traction_MPa) return;
+  const int degree = unknown.length() / 2 - 1;
   for (std::size_t row = 0; row < problem.mesh.boundary.size(); ++row) {
     if (problem.mesh.boundary[row].role != BoundaryRole::force) continue;
     const int edge = problem.edges.of_boundary[row];
     const auto [start, stop] = problem.mesh.boundary[row].vertices;
     const EdgeFrame frame = edge_frame(problem.mesh.vertices[start], problem.mesh.vertices[stop]);
-    for (int end = 0; end < 2; ++end) {
-      const auto& at = problem.mesh.vertices[problem.edges.vertices[edge][end]];
+    const auto traction_at = [&](int end) {
+      return problem.loads.traction_MPa(problem.mesh.vertices[problem.edges.vertices[edge][end]],
+                                        frame.normal, static_cast<int>(row));
+    };
+    const Eigen::Vector2d low = traction_at(0), high = traction_at(1);
+    for (int j = 0; j <= degree; ++j) {
       const Eigen::Vector2d force =
-          frame.length_mm / 2 * problem.loads.traction_MPa(at, frame.normal, static_cast<int>(row));
-      for (int k = 0; k < 2; ++k) b(unknown[edge][2 * end + k]) += force(k);
+          frame.length_mm / (degree + 1) * ((degree - j) * low + j * high) / degree;
+      for (int k = 0; k < 2; ++k) b(unknown[edge][2 * j + k]) += force(k);
     }
   }
 }
 
 // ū_e: what is prescribed, and the unknowns' values where there are any.
 template <typename Scalar>
-Eigen::Matrix<Scalar, 12, 1> element_displacement(const Problem& problem,
-                                                  const HybridizedSystemIn<Scalar>& system,
-                                                  const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u,
-                                                  int t) {
-  Eigen::Matrix<Scalar, 12, 1> local = Eigen::Matrix<Scalar, 12, 1>::Zero();
+void element_displacement(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
+                          const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, int t,
+                          Eigen::Ref<Eigen::VectorX<Scalar>> local) {
+  local.setZero();
+  const int per_edge = system.unknown.length();
   for (int k = 0; k < 3; ++k) {
     const int edge = problem.edges.of_triangle[t][k];
-    if (!system.displacement.empty())
-      local.template segment<4>(4 * k) = system.displacement[edge].template cast<Scalar>();
+    if (system.displacement.cols() > 0)
+      local.segment(per_edge * k, per_edge) =
+          system.displacement.col(edge).template cast<Scalar>();
     if (u.size() > 0)
-      for (int i = 0; i < 4; ++i)
+      for (int i = 0; i < per_edge; ++i)
         if (const int unknown = system.unknown[edge][i]; unknown != prescribed_unknown)
-          local(4 * k + i) = u(unknown);
+          local(per_edge * k + i) = u(unknown);
   }
-  return local;
 }
 
 // b −= K ū0.
 template <typename Scalar>
 void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
+  Eigen::VectorX<Scalar> u0(system.K.size), f(system.K.size);
   for (int t = 0; t < system.K.count(); ++t) {
-    const Eigen::Matrix<Scalar, 12, 1> u0 = element_displacement(problem, system, {}, t);
+    element_displacement<Scalar>(problem, system, {}, t, u0);
     if (u0.isZero(0)) continue;
-    const Eigen::Matrix<Scalar, 12, 1> f = system.K.product(t, u0);
-    for (int j = 0; j < 12; ++j)
+    system.K.multiply(t, u0.data(), f.data());
+    for (int j = 0; j < system.K.size; ++j)
       if (const int unknown = system.K.unknown[t][j]; unknown != prescribed_unknown)
         system.b(unknown) -= f(j);
   }
@@ -62,8 +69,8 @@ void subtract_prescribed(const Problem& problem, HybridizedSystemIn<Scalar>& sys
 
 template <typename Scalar>
 std::size_t HybridizedSystemIn<Scalar>::bytes() const {
-  return K.bytes() + static_cast<std::size_t>(b.size()) * sizeof(Scalar) +
-         unknown.size() * sizeof(unknown[0]) + displacement.size() * sizeof(Eigen::Vector4d);
+  return K.bytes() + static_cast<std::size_t>(b.size()) * sizeof(Scalar) + unknown.bytes() +
+         static_cast<std::size_t>(displacement.size()) * sizeof(double);
 }
 
 template <typename Scalar>
@@ -94,32 +101,56 @@ void in_batches(const Problem& problem, const HybridKernels<Scalar>& kernels, Wo
   }
 }
 
-// Calls visit(triangle, K_e and f_e). Throws Breakdown where there is no K_e.
+// K_e's lower triangle, f_e and the independence of an element's stresses.
+template <typename Scalar>
+struct StiffnessOfTriangle {
+  const Scalar *lower, *load;
+  Scalar independence;
+};
+// As in HybridStress.
+template <typename Scalar>
+struct StressOfTriangle {
+  const Scalar *stress, *forces, *defect;
+  Scalar defect_energy;
+};
+
+// Calls visit(triangle, its stiffness). Throws Breakdown where there is none.
 template <typename Scalar, typename Visit>
-void visit_stiffness(const Problem& problem, Visit visit) {
+void visit_stiffness(const Problem& problem, int degree, Visit visit) {
   constexpr double few_roundings = 100 * std::numeric_limits<double>::epsilon();
+  const auto checked = [&](int t, const StiffnessOfTriangle<Scalar>& of_triangle) {
+    if (!(of_triangle.independence > few_roundings))
+      throw Breakdown("hybridized: triangle " + std::to_string(t + 1) +
+                      ": its flexibility is not positive definite to rounding");
+    visit(t, of_triangle);
+  };
+  const bool loaded = problem.loads.has_body_force();
+  if (degree > 1) {
+    const DegreeKernels<Scalar>& kernels = degree_kernels<Scalar>(degree);
+    const std::vector<int> rows = rows_in_frame(problem);
+    const auto size = static_cast<std::size_t>(6 * (degree + 1));
+    std::vector<Scalar> lower(size * (size + 1) / 2), load(size);
+    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+      const Scalar independence = kernels.stiffness(degree_input<Scalar>(problem, rows, t), loaded,
+                                                    lower.data(), load.data());
+      checked(t, {lower.data(), load.data(), independence});
+    }
+    return;
+  }
   const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
   std::vector<HybridStiffness<Scalar>> result(static_cast<std::size_t>(kernels.width));
-  const bool loaded = problem.loads.has_body_force();
   in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
     kernels.stiffness(input, loaded, result.data());
-    for (int l = 0; l < count; ++l) {
-      if (!(result[l].independence > few_roundings))
-        throw Breakdown("hybridized: triangle " + std::to_string(first + l + 1) +
-                        ": its flexibility is not positive definite to rounding");
-      visit(first + l, result[l]);
-    }
+    for (int l = 0; l < count; ++l)
+      checked(first + l, {result[l].lower, result[l].load, result[l].independence});
   });
 }
 
-// b −= f_e.
+// b −= f_e of an element with these unknowns.
 template <typename Scalar>
-void subtract_load(const Problem& problem, int t, const HybridStiffness<Scalar>& element,
-                   HybridizedSystemIn<Scalar>& system) {
-  const std::array<int, 12> unknown = element_unknowns(problem, system.unknown, t);
-  const Eigen::Map<const Eigen::Matrix<Scalar, 12, 1>> f(element.load);
-  for (int j = 0; j < 12; ++j)
-    if (unknown[j] != prescribed_unknown) system.b(unknown[j]) -= f(j);
+void subtract_load(std::span<const int> unknown, const Scalar* load, Eigen::VectorX<Scalar>& b) {
+  for (std::size_t j = 0; j < unknown.size(); ++j)
+    if (unknown[j] != prescribed_unknown) b(unknown[j]) -= load[j];
 }
 
 template <typename Scalar>
@@ -128,57 +159,78 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   HybridizedSystemIn<Scalar> system;
   system.n_c = contact.size();
   const int n = number_unknowns(problem, contact, system.unknown) + system.n_c;
-  system.displacement = prescribed_displacements(problem);
+  system.displacement = prescribed_displacements(problem, system.degree());
   system.b = Eigen::VectorX<Scalar>::Zero(n);
+  system.K = ElementMatricesIn<Scalar>(3 * system.unknown.length());
   system.K.order = n;
   system.K.reserve(problem.mesh.triangles.size());
 
-  visit_stiffness<Scalar>(problem, [&](int t, const HybridStiffness<Scalar>& element) {
-    system.K.add(element_unknowns(problem, system.unknown, t), centre_of(problem.vertices_of(t)),
-                 element.lower);
-    subtract_load(problem, t, element, system);
-  });
-  if (!system.displacement.empty()) subtract_prescribed(problem, system);
+  std::vector<int> unknown;
+  visit_stiffness<Scalar>(
+      problem, system.degree(), [&](int t, const StiffnessOfTriangle<Scalar>& element) {
+        element_unknowns(problem, system.unknown, t, unknown);
+        system.K.add(unknown, centre_of(problem.vertices_of(t)), element.lower);
+        subtract_load(unknown, element.load, system.b);
+      });
+  if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
   return system;
 }
 
 template <typename Scalar>
 void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
-  system.displacement = prescribed_displacements(problem);
+  system.displacement = prescribed_displacements(problem, system.degree());
   system.b.setZero();
   if (problem.loads.has_body_force())
-    visit_stiffness<Scalar>(problem, [&](int t, const HybridStiffness<Scalar>& element) {
-      subtract_load(problem, t, element, system);
-    });
-  if (!system.displacement.empty()) subtract_prescribed(problem, system);
+    visit_stiffness<Scalar>(
+        problem, system.degree(), [&](int t, const StiffnessOfTriangle<Scalar>& element) {
+          subtract_load(system.K.unknown[t], element.load, system.b);
+        });
+  if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
 }
 
-// Calls visit(triangle, hybrid_stress of what u makes of its edges).
+// Calls visit(triangle, the stress that u makes of its edges).
 template <typename Scalar, typename Visit>
 void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                     const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u, Visit visit) {
+  const bool loaded = problem.loads.has_body_force();
+  const int size = 3 * system.unknown.length();
+  if (system.degree() > 1) {
+    const DegreeKernels<Scalar>& kernels = degree_kernels<Scalar>(system.degree());
+    const std::vector<int> rows = rows_in_frame(problem);
+    Eigen::VectorX<Scalar> local(size), forces(size), defect(size),
+        stress(9 * bernstein_count(system.degree()));
+    for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
+      element_displacement<Scalar>(problem, system, u, t, local);
+      const Scalar energy = kernels.stress(degree_input<Scalar>(problem, rows, t), loaded,
+                                           local.data(), stress.data(), forces.data(),
+                                           defect.data());
+      visit(t, StressOfTriangle<Scalar>{stress.data(), forces.data(), defect.data(), energy});
+    }
+    return;
+  }
   const HybridKernels<Scalar> kernels = hybrid_kernels<Scalar>();
   std::vector<HybridStress<Scalar>> result(static_cast<std::size_t>(kernels.width));
-  Eigen::Matrix<Scalar, 12, Eigen::Dynamic> local =
-      Eigen::Matrix<Scalar, 12, Eigen::Dynamic>::Zero(12, kernels.width);
-  const bool loaded = problem.loads.has_body_force();
+  Eigen::MatrixX<Scalar> local = Eigen::MatrixX<Scalar>::Zero(size, kernels.width);
   in_batches(problem, kernels, [&](int first, int count, const HybridInput<Scalar>* input) {
     for (int l = 0; l < count; ++l)
-      local.col(l) = element_displacement(problem, system, u, first + l);
+      element_displacement<Scalar>(problem, system, u, first + l, local.col(l));
     kernels.stress(input, loaded, local.data(), result.data());
-    for (int l = 0; l < count; ++l) visit(first + l, result[l]);
+    for (int l = 0; l < count; ++l)
+      visit(first + l, StressOfTriangle<Scalar>{result[l].stress, result[l].forces,
+                                                result[l].defect, result[l].defect_energy});
   });
 }
 
 template <typename Scalar>
 StressField hybridized_stress(const Problem& problem, const HybridizedSystemIn<Scalar>& system,
                               const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& u) {
-  StressField field(problem.mesh.triangles.size());
-  visit_stresses(problem, system, u, [&](int t, const HybridStress<Scalar>& of_triangle) {
-    field[t] =
-        Eigen::Map<const ElementStressIn<Scalar>>(of_triangle.stress).template cast<double>();
+  StressField field(problem.mesh.triangles.size(), system.degree());
+  visit_stresses(problem, system, u, [&](int t, const StressOfTriangle<Scalar>& of_triangle) {
+    auto own = field[static_cast<std::size_t>(t)];
+    own = Eigen::Map<const Eigen::Matrix3X<Scalar>>(of_triangle.stress, 3, own.cols())
+              .template cast<double>();
   });
   return field;
 }

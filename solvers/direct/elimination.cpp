@@ -53,10 +53,10 @@ IndexLists blocks_of_elements(const ElementMatrices& K, const UnknownBlocks& blo
   IndexLists lists;
   lists.start.reserve(K.unknown.size() + 1);
   lists.entry.reserve(4 * K.unknown.size());
-  for (const auto& unknowns : K.unknown) {
-    std::array<int, ElementMatrices::size> own;
+  std::vector<int> own(static_cast<std::size_t>(K.size));
+  for (int e = 0; e < K.count(); ++e) {
     auto end = own.begin();
-    for (const int u : unknowns)
+    for (const int u : K.unknown[e])
       if (u >= 0) *end++ = blocks.of[u];
     std::sort(own.begin(), end);
     lists.entry.insert(lists.entry.end(), own.begin(), std::unique(own.begin(), end));

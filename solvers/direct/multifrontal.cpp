@@ -27,7 +27,9 @@ class Fronts {
         waiting_(std::make_unique_for_overwrite<double[]>(elimination.update_doubles)),
         row_of_(elimination.place.size(), -1),
         to_(static_cast<std::size_t>(elimination.most_rows)),
-        run_end_(to_.size()) {
+        run_end_(to_.size()),
+        element_row_(static_cast<std::size_t>(K.size)),
+        element_column_(element_row_.size()) {
     map_at_once(waiting_.get(), elimination.update_doubles * sizeof(double));
   }
 
@@ -60,9 +62,10 @@ class Fronts {
   // Elements lie where the mesh has them: anywhere.
   void fetch(int element) const {
     constexpr std::size_t line = 64;
-    const auto* bytes = reinterpret_cast<const char*>(K_.lower[element].data());
-    for (std::size_t b = 0; b < sizeof(K_.lower[element]); b += line) __builtin_prefetch(bytes + b);
-    __builtin_prefetch(&K_.unknown[element]);
+    const std::span<const double> lower = K_.lower[element];
+    const auto* bytes = reinterpret_cast<const char*>(lower.data());
+    for (std::size_t b = 0; b < lower.size_bytes(); b += line) __builtin_prefetch(bytes + b);
+    __builtin_prefetch(K_.unknown[element].data());
   }
 
   // Nothing else is read; where there is little, one call does it.
@@ -83,11 +86,12 @@ class Fronts {
   }
 
   void add_element(int element, Panel& panel, Panel& update) {
-    constexpr int size = ElementMatrices::size;
-    std::array<int, size> row;
-    std::array<double*, size> at;
+    const int size = K_.size;
+    int* const row = element_row_.data();
+    double** const at = element_column_.data();
+    const std::span<const int> unknowns = K_.unknown[element];
     for (int i = 0; i < size; ++i) {
-      const int unknown = K_.unknown[element][i];
+      const int unknown = unknowns[i];
       row[i] = unknown < 0 ? -1 : row_of_[elimination_.place[unknown]];
       at[i] = unknown < 0 ? nullptr : column(row[i], panel, update);
     }
@@ -137,6 +141,8 @@ class Fronts {
   std::size_t top_ = 0;
   std::vector<int> row_of_;  // of a place, in the front at work
   std::vector<int> to_, run_end_;
+  std::vector<int> element_row_;  // of each unknown of the element at work, and its column
+  std::vector<double*> element_column_;
 };
 
 template <typename Entry>

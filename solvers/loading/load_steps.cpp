@@ -4,6 +4,9 @@
 #include <map>
 #include <type_traits>
 
+#include <Eigen/LU>
+
+#include "assembly/bernstein.hpp"
 #include "assembly/control_points.hpp"
 #include "solvers/base/kept_body.hpp"
 #include "solvers/contact/coulomb_law.hpp"
@@ -13,13 +16,24 @@ namespace {
 
 using Slid = std::vector<std::array<double, 3>>;
 
-// Two points per edge, its start and its end: the linear slip that has these moments.
+// The linear slip that has an edge's two moments; for stresses of degree 2 the quadratic one that has
+// its three.
 void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& slip, Slid& slid) {
-  for (int p = 0; p < contact.count; p += 2) {
-    const double start = slip(2 * p + 1), end = slip(2 * p + 3);
-    const double a = 2 * start - end, b = 2 * end - start;
+  for (int p = 0; p < contact.count; p += contact.per_edge) {
+    const Eigen::VectorXd moments =
+        slip(Eigen::seqN(2 * p + 1, contact.per_edge, 2));
     auto& edge = slid[static_cast<std::size_t>(contact.boundary[p])];
-    edge = {edge[0] + a, edge[1] + (a + b) / 2, edge[2] + b};
+    Eigen::Map<Eigen::Vector3d> coefficients(edge.data());
+    if (contact.per_edge == 2) {
+      const double a = 2 * moments(0) - moments(1), b = 2 * moments(1) - moments(0);
+      coefficients += Eigen::Vector3d(a, (a + b) / 2, b);
+    } else {
+      Eigen::Matrix3d of_quadratic;
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i)
+          of_quadratic(j, i) = moment_of_quadratic(2, j, Eigen::Vector3d::Unit(i));
+      coefficients += of_quadratic.inverse() * moments;
+    }
   }
 }
 
@@ -139,7 +153,7 @@ Solution solve_load_steps(const Solve& solve, DualSystem& system, const RunContr
 
 Solution solve_load_steps(const Method& method, const std::shared_ptr<const Problem>& first,
                           const RunControl& control, const VisitStep& visit) {
-  DualSystem system = assemble(first, method.blocks);
+  DualSystem system = assemble(first, method.blocks, method.degree);
   return solve_load_steps(method.solve, system, control, visit);
 }
 

@@ -1,12 +1,16 @@
 // HYBRID: hybridized equilibrium elements, multifrontal Cholesky. HYBRID:CHOLMOD, HYBRID:MUMPS: the
-// same K by a library's factor.
+// same K by a library's factor. HYBRID:k=2 and more, HYBRID:CHOLMOD,k=2: stresses of that degree.
 #include "solvers/condensation/hybridized.hpp"
 
+#include <utility>
+
+#include "assembly/equilibrium_element.hpp"
 #include "solvers/base/method.hpp"
 #include "solvers/condensation/finish.hpp"
 #include "solvers/condensation/library_stiffness.hpp"
 #include "solvers/condensation/stiffness_body.hpp"
 #include "solvers/direct/condition.hpp"
+#include "solvers/names/general_names.hpp"
 
 namespace airybench {
 namespace {
@@ -62,34 +66,53 @@ Solution solve_hybridized(const DualSystem& airy, const RunControl& control, Mak
   return solution;
 }
 
-Method hybrid_method(const char* name, const char* summary, MakeFactor make) {
-  return {
-      .name = name,
+struct Factors {
+  const char* name;  // behind the colon
+  const char* summary;
+  MakeFactor make;
+};
+constexpr Factors factors[] = {
+    {"", "hybridized equilibrium elements, multifrontal Cholesky; the reference of all errors",
+     make_factor<MultifrontalStiffness>},
+    {"CHOLMOD", "HYBRID's matrix by CHOLMOD's supernodal Cholesky", make_factor<CholmodStiffness>},
+    {"MUMPS", "HYBRID's matrix by MUMPS, D from its Schur complement",
+     make_factor<MumpsStiffness>}};
+
+Method hybrid_method(const Factors& of, int degree = 1) {
+  const std::string first = of.name;
+  Method method = {
+      .name = "HYBRID" + (first.empty() ? "" : ":" + first),
       .family = "HYBRID",
-      .summary = summary,
+      .summary = of.summary,
       .blocks = Blocks::contact_points,
-      .solve = [make](const DualSystem& airy,
-                      const RunControl& control) { return solve_hybridized(airy, control, make); },
+      .degree = degree,
+      .solve = [make = of.make](
+                   const DualSystem& airy,
+                   const RunControl& control) { return solve_hybridized(airy, control, make); },
       .knob = AccuracyKnob::contact_sweeps};
+  if (degree > 1) {
+    method.name += (first.empty() ? ":k=" : ",k=") + std::to_string(degree);
+    method.summary = "stresses of degree " + std::to_string(degree) + ": " + method.summary;
+  }
+  return method;
 }
 
 }  // namespace
 
-Method hybrid() {
-  return hybrid_method(
-      "HYBRID",
-      "hybridized equilibrium elements, multifrontal Cholesky; the reference of all errors",
-      make_factor<MultifrontalStiffness>);
-}
+Method hybrid() { return hybrid_method(factors[0]); }
+Method hybrid_cholmod() { return hybrid_method(factors[1]); }
+Method hybrid_mumps() { return hybrid_method(factors[2]); }
 
-Method hybrid_cholmod() {
-  return hybrid_method("HYBRID:CHOLMOD", "HYBRID's matrix by CHOLMOD's supernodal Cholesky",
-                       make_factor<CholmodStiffness>);
-}
-
-Method hybrid_mumps() {
-  return hybrid_method("HYBRID:MUMPS", "HYBRID's matrix by MUMPS, D from its Schur complement",
-                       make_factor<MumpsStiffness>);
+Method hybrid_of_degree(GeneralName name) {
+  const int degree = name.whole("k", 1, 1, highest_stress_degree);
+  name.refuse_rest("k");
+  for (const Factors& of : factors)
+    if (name.first() == of.name) {
+      Method method = hybrid_method(of, degree);
+      if (method.name != name.name()) method.general_name = std::exchange(method.name, name.name());
+      return method;
+    }
+  name.refuse("'" + name.first() + "' (valid: CHOLMOD, MUMPS, k=<degree>)");
 }
 
 }  // namespace airybench

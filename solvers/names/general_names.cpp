@@ -1,5 +1,6 @@
 #include "solvers/names/general_names.hpp"
 
+#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -59,6 +60,15 @@ double GeneralName::positive(const std::string& key) {
   const std::optional<double> value = parse_number(text);
   if (!value || !(*value > 0)) refuse(key + "='" + text + "' (allowed: a number above 0)");
   return *value;
+}
+
+int GeneralName::whole(const std::string& key, int otherwise, int least, int most) {
+  const std::string text = take(key, std::to_string(otherwise));
+  const std::optional<double> value = parse_number(text);
+  if (!value || !(*value >= least && *value <= most) || *value != std::floor(*value))
+    refuse(key + "='" + text + "' (allowed: a whole number from " + std::to_string(least) + " to " +
+           std::to_string(most) + ")");
+  return static_cast<int>(*value);
 }
 
 void GeneralName::refuse_rest(const std::string& valid) const {

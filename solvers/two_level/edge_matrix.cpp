@@ -106,8 +106,9 @@ std::vector<Eigen::Index> prescribed_slots(const EdgeMatrix& K, const EdgeUnknow
 
 Eigen::VectorXd prescribed_in_slots(const EdgeMatrix& K, const HybridizedSystem& system) {
   Eigen::VectorXd x = Eigen::VectorXd::Zero(K.slots());
-  for (std::size_t edge = 0; edge < system.displacement.size(); ++edge)
-    x.segment<4>(4 * static_cast<Eigen::Index>(K.block_of_edge[edge])) = system.displacement[edge];
+  for (Eigen::Index edge = 0; edge < system.displacement.cols(); ++edge)
+    x.segment<4>(4 * static_cast<Eigen::Index>(K.block_of_edge[edge])) =
+        system.displacement.col(edge);
   return x;
 }
 

@@ -1,0 +1,212 @@
+// HYBRID:k=…: the default tooth and others by stresses of every degree; HYBRID's answer from the
+// general element for k = 1, the reference values as k grows, the contact law, loads and supports.
+#include <gtest/gtest.h>
+
+#include "assembly/elasticity.hpp"
+#include "assembly/equilibrium_element.hpp"
+#include "mesh/bisection.hpp"
+#include "solvers/condensation/degree_element.hpp"
+#include "solvers/condensation/hybridized.hpp"
+#include "solvers/condensation/hybrid_element_templates.hpp"
+#include "solvers/loading/load_steps.hpp"
+#include "solvers/methods.hpp"
+#include "tests/support/exact_fields.hpp"
+#include "tests/support/posed.hpp"
+#include "tests/support/sanitized.hpp"
+
+namespace airybench::degrees_test {
+namespace {
+
+using testing::small_tooth;
+
+struct Solved {
+  DualSystem system;
+  Solution solution;
+};
+
+// The method's own estimate counts the contact law, equilibrium and the stresses.
+Solved solved(const std::shared_ptr<const Problem>& problem, int degree,
+              const std::string& name = "") {
+  const Method method = select_methods(name.empty() ? hybrid_of_degree(degree) : name).front();
+  EXPECT_EQ(method.degree, degree);
+  DualSystem system = assemble(problem, method.blocks, method.degree);
+  Solution solution = run(method, system, {});
+  EXPECT_EQ(solution.status, Status::ok) << solution.message;
+  EXPECT_LT(solution.error_estimate.value_or(1), 1e-9) << degree;
+  return {std::move(system), std::move(solution)};
+}
+
+double energy(const Solved& s) {
+  return stress_norm_squared(*s.system.problem, s.solution.stress) / 2;
+}
+
+Eigen::Vector2d resultant(const Solved& s) {
+  const int m = s.system.contact.components;
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (int i = 0; i < s.solution.F_C.size(); ++i) sum(i % m) += s.solution.F_C(i);
+  return sum;
+}
+
+Scene loaded_scene() {
+  Scene scene;
+  scene.body_force_N_per_mm3 = {0.4, -0.2};
+  LinearValue<double> pressure{{20, 40}, {Eigen::Vector2d(0, 0), Eigen::Vector2d(10, 0)}};
+  scene.boundary["force"].pressure_MPa = pressure;
+  return scene;
+}
+
+// K_e and f_e of the general element are those of HYBRID's vectorised one.
+TEST(Degrees, TheGeneralElementOfDegreeOneIsHybrids) {
+  Scene rolling = loaded_scene(), inclined;
+  inclined.crown_radius_mm.reset();
+  inclined.wall = FlatWall{{10.004, 0}, {-1, 0.002}};
+  rolling.boundary["displacement"].support = BoundaryValues::Support::normal;
+  const Mesh tooth = small_tooth(3, 2),
+             guided = testing::with_role(tooth, BoundaryRole::force, BoundaryRole::displacement);
+  for (const auto& [scene, mesh] : {std::pair(Scene{}, tooth),
+                                    {loaded_scene(), tooth},
+                                    {rolling, guided},
+                                    {inclined, tooth}}) {
+    const auto problem = testing::posed(scene, mesh);
+    const bool loaded = problem->loads.has_body_force();
+    const HybridizedSystem system = assemble_hybridized(*problem, contact_points(*problem));
+    const std::vector<int> rows = rows_in_frame(*problem);
+    for (int t = 0; t < system.K.count(); ++t) {
+      Eigen::Matrix<double, 78, 1> lower;
+      Eigen::Matrix<double, 12, 1> load;
+      degree_kernels<double>(1).stiffness(degree_input<double>(*problem, rows, t), loaded,
+                                          lower.data(), load.data());
+      const Eigen::Map<const Eigen::Matrix<double, 78, 1>> own(system.K.lower[t].data());
+      EXPECT_LT((lower - own).norm(), 1e-11 * own.norm()) << t;
+      const HybridStiffness<double> hybrid =
+          hybrid_stiffness(hybrid_input<double>(*problem, rows, t), loaded);
+      EXPECT_LT((load - Eigen::Map<const Eigen::Matrix<double, 12, 1>>(hybrid.load)).norm(),
+                1e-11 * (1 + load.norm()));
+    }
+  }
+}
+
+// Linear stresses with tractions, displacements and body force; no contact.
+TEST(Degrees, LinearStressesAreExactForEveryDegree) {
+  constexpr double young = 210000, poisson = 0.3;
+  const Mesh mesh =
+      testing::with_role(small_tooth(2, 2), BoundaryRole::contact, BoundaryRole::force);
+  for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
+    const auto problem = std::make_shared<const Problem>(
+        make_problem(mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact),
+                     0));
+    for (int k = 1; k <= highest_stress_degree; ++k) {
+      const StressField stress = solved(problem, k).solution.stress;
+      double off = 0, size = 0;
+      for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
+        for (int i = 0; i < 3; ++i) {
+          const Eigen::Vector3d expected = exact.stress(problem->vertices_of(t).col(i));
+          const Eigen::Vector3d own = stress.corners(t).col(3 * i);
+          off = std::max(off, (own - expected).cwiseAbs().maxCoeff());
+          size = std::max(size, expected.cwiseAbs().maxCoeff());
+        }
+      EXPECT_LT(off, 1e-9 * size) << exact.name << ' ' << k;
+    }
+  }
+}
+
+// Smaller towards the corners, where the stress has singularities, and where points open or slip.
+Mesh graded_tooth() {
+  const std::array<Eigen::Vector2d, 4> corners = {Eigen::Vector2d(0, -5), Eigen::Vector2d(0, 5),
+                                                  Eigen::Vector2d(10, -3), Eigen::Vector2d(10, 3)};
+  return bisected(small_tooth(2, 2),
+                  [&](const TrianglePart& part) {
+                    const auto& [a, b, c] = part.corners;
+                    const Eigen::Vector2d centre = (a + b + c) / 3;
+                    double allowed = 10 - centre.x() < 0.2 ? 0.1 : 2;
+                    for (const Eigen::Vector2d& corner : corners)
+                      allowed = std::min(allowed, std::max(0.01, 0.7 * (centre - corner).norm()));
+                    return std::max({(a - b).norm(), (b - c).norm(), (c - a).norm()}) > allowed;
+                  })
+      .mesh;
+}
+
+// The reference values are those of stresses of degree 7 on a graded mesh.
+TEST(Degrees, TendsToTheReferenceValuesOfTheTooth) {
+  struct Expected {
+    double friction;
+    Eigen::Vector2d resultant_N;
+    double energy_Nmm;
+  };
+  const Expected cases[] = {{0.2, {-2910.0265, -196.4404}, 27.2027517},
+                            {0, {-2905.9981, 0}, 26.5292017}};
+  for (const Expected& expected : cases) {
+    Scene scene;
+    scene.friction = expected.friction;
+    const auto problem = testing::posed(scene, graded_tooth());
+    constexpr int highest = testing::sanitized ? 2 : highest_stress_degree;
+    for (int k = 1; k <= highest; ++k) {
+      const Solved answer = solved(problem, k);
+      EXPECT_LT((resultant(answer) - expected.resultant_N).norm(), k == 1 ? 0.3 : 0.03) << k;
+      EXPECT_NEAR(energy(answer), expected.energy_Nmm, k == 1 ? 6e-3 : 1e-4) << k;
+    }
+  }
+}
+
+TEST(Degrees, AreSolvedByEveryFactorAlike) {
+  const auto problem = testing::posed(Scene{}, small_tooth(4, 3));
+  for (const int k : {2, 3}) {
+    const Solved own = solved(problem, k);
+    for (const char* factor : {"CHOLMOD", "MUMPS"}) {
+      const Solved other =
+          solved(problem, k, std::string("HYBRID:") + factor + ",k=" + std::to_string(k));
+      EXPECT_LT((own.solution.F_C - other.solution.F_C).norm(), 1e-9 * own.solution.F_C.norm());
+    }
+  }
+}
+
+TEST(Degrees, HaveLoadSteps) {
+  Scene scene;
+  scene.equal_steps = 3;
+  const auto problem = testing::posed(scene, small_tooth(4, 3));
+  const auto last = [&](int degree) {
+    return solve_load_steps(select_methods(hybrid_of_degree(degree)).front(), problem, {}, {});
+  };
+  const Solution linear = last(1), quadratic = last(2);
+  ASSERT_EQ(quadratic.status, Status::ok) << quadratic.message;
+  const double energies[] = {stress_norm_squared(*problem, linear.stress),
+                             stress_norm_squared(*problem, quadratic.stress)};
+  EXPECT_NEAR(energies[0], energies[1], 0.01 * energies[1]);
+  EXPECT_LT(energies[1], energies[0]);  // the larger space has less complementary energy
+}
+
+TEST(Degrees, AreRefusedWhereTheyAreNot) {
+  const auto complaint = [](const auto& ask) -> std::string {
+    try {
+      ask();
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto of_scene = [&](const Scene& scene, int degree) {
+    return complaint([&] { assemble(testing::posed(scene), Blocks::contact_points, degree); });
+  };
+  Scene steps, socket;
+  steps.equal_steps = 3;
+  EXPECT_EQ(of_scene(steps, 3),
+            "stresses of degree 3 have no load steps with friction (degrees 1 and 2 have them)");
+  socket.crown_radius_mm.reset();
+  socket.wall = CircularWall{{-390, 0}, 400.01, CircularWall::Bodies::inside};
+  EXPECT_EQ(of_scene(socket, 2),
+            "stresses of degree 2 need walls whose normal does not turn along an edge");
+  const auto of_name = [&](const char* name) {
+    return complaint([&] { select_methods(name); });
+  };
+  EXPECT_EQ(of_name("HYBRID:k=5"),
+            "method 'HYBRID:k=5': k='5' (allowed: a whole number from 1 to 4)");
+  EXPECT_EQ(of_name("HYBRID:k=1.5"),
+            "method 'HYBRID:k=1.5': k='1.5' (allowed: a whole number from 1 to 4)");
+  EXPECT_EQ(of_name("HYBRID:CG,k=2"),
+            "method 'HYBRID:CG,k=2': 'CG' (valid: CHOLMOD, MUMPS, k=<degree>)");
+  EXPECT_EQ(of_name("HYBRID:k=2,refine=yes"),
+            "method 'HYBRID:k=2,refine=yes': unknown option 'refine' (valid: k)");
+}
+
+}  // namespace
+}  // namespace airybench::degrees_test
