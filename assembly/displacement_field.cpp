@@ -51,10 +51,10 @@ int displacement_nodes(const Problem& problem, int degree) {
 int displacement_degree(const Problem& problem, const DisplacementField& u) {
   for (int p = 2; p <= highest_stress_degree + 1; ++p)
     if (displacement_nodes(problem, p) == u.cols()) return p;
-  throw std::invalid_argument("a displacement field of " + std::to_string(u.cols()) +
-                              " coefficients (allowed: " +
-                              std::to_string(displacement_nodes(problem)) +
-                              " for quadratic ones on this mesh, more for higher degrees)");
+  throw std::invalid_argument(
+      "a displacement field of " + std::to_string(u.cols()) +
+      " coefficients (allowed: " + std::to_string(displacement_nodes(problem)) +
+      " for quadratic ones on this mesh, more for higher degrees)");
 }
 
 template <int p>
@@ -198,17 +198,16 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
     if (loads.has_body_force())
       for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
         for (const int node : triangle_nodes<p>(problem, t))
-          force.col(node) += problem.area_mm2(t) / DisplacementTriangle<p>::nodes *
-                             loads.body_force_N_per_mm3;
+          force.col(node) +=
+              problem.area_mm2(t) / DisplacementTriangle<p>::nodes * loads.body_force_N_per_mm3;
     if (!loads.traction_MPa) return force;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
       if (mesh.boundary[row].role != BoundaryRole::force) continue;
       const auto [start, end] = mesh.boundary[row].vertices;
       const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
       const EdgeFrame frame = edge_frame(a, b);
-      const Eigen::Vector2d
-          at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
-          at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
+      const Eigen::Vector2d at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
+                            at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
       const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
       for (int i = 0; i <= p; ++i)
         force.col(nodes[i]) += edge_moment(1, 0, p, i) * at_a + edge_moment(1, 1, p, i) * at_b;
@@ -257,11 +256,11 @@ double work_of_loads(const Problem& problem, const DisplacementField& u) {
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
 
-#define AIRYBENCH_INSTANTIATE(k)                                                                \
-  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>(       \
-      const Problem&, int);                                                                     \
-  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);               \
-  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(                    \
+#define AIRYBENCH_INSTANTIATE(k)                                                          \
+  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>( \
+      const Problem&, int);                                                               \
+  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);         \
+  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(              \
       const Problem&, const DisplacementField&, int);
 AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)
 #undef AIRYBENCH_INSTANTIATE

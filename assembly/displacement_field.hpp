@@ -73,7 +73,7 @@ QuadraticStrain quadratic_strain(const TriangleVertices& v);
 using QuadraticStiffness = Eigen::Matrix<double, 12, 12>;
 QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
                                        const Eigen::Matrix3d& elasticity);
-Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);  // its inverse
+Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);   // its inverse
 std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names
 
 // u = w + ρ: adds the rigid motion back.

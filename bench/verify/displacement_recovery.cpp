@@ -88,8 +88,7 @@ Eigen::Matrix2Xd half_gradient(const Problem& problem, const std::vector<LocalCo
     const TriangleShape shape(problem.vertices_of(t));
     const typename Triangle<k>::Strain dual =
         (shape.area_mm2 * elasticity[problem.mesh.triangle_body[t]])
-            .lazyProduct(
-                Triangle<k>::strain(shape.gradients, difference).lazyProduct(mass).eval());
+            .lazyProduct(Triangle<k>::strain(shape.gradients, difference).lazyProduct(mass).eval());
     const LocalCoefficients<k> force = Triangle<k>::forces(shape.gradients, dual);
     for (int m = 0; m < Triangle<k>::nodes; ++m) gradient.col(nodes[m]) += force.col(m);
   }
@@ -269,8 +268,7 @@ DisplacementField recovered(const DualSystem& system, const StressField& stress,
   constraints.apply(stiffness, w);
 
   stiffness /= damping<k>;
-  w.array() -=
-      half_gradient<k>(problem, own, w).array().rowwise() / stiffness.transpose().array();
+  w.array() -= half_gradient<k>(problem, own, w).array().rowwise() / stiffness.transpose().array();
   constraints.apply(stiffness, w);
   if (need_vertex_stars(problem)) {
     const std::vector<bool> held = constraints.nodes();
@@ -286,9 +284,8 @@ DisplacementField recovered(const DualSystem& system, const StressField& stress,
 DisplacementField recovered_displacement(const DualSystem& system, const StressField& stress,
                                          const Eigen::VectorXd& F_C,
                                          const Eigen::MatrixXd& edge_moments) {
-  return with_degree(stress.degree(), [&](auto k) {
-    return recovered<k>(system, stress, F_C, edge_moments);
-  });
+  return with_degree(stress.degree(),
+                     [&](auto k) { return recovered<k>(system, stress, F_C, edge_moments); });
 }
 
 DisplacementField admissible_displacement(const DualSystem& system, const Eigen::VectorXd& F_C,

@@ -86,8 +86,7 @@ typename OwnDisplacement<k>::Triangle::Displacement OwnDisplacement<k>::operator
     Eigen::Matrix<double, conditions, conditions> S =
         Eigen::Matrix<double, conditions, conditions>::Zero();
     for (int m = 0; m < 6; ++m) S += c(pairs[m][0], pairs[m][1]) * product_[m];
-    Eigen::Matrix<double, conditions, 1> y =
-        condition_.transpose().lazyProduct(strain.reshaped());
+    Eigen::Matrix<double, conditions, 1> y = condition_.transpose().lazyProduct(strain.reshaped());
     const SmallCholesky<double, conditions> factor(S);
     if (factor.last_pivot() > 0) {  // else a sliver's strain stays nearly compatible
       factor.solve(y);

@@ -202,7 +202,8 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
       };
       work += s.norm() / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
     }
-    const double by_nodes = nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
+    const double by_nodes =
+        nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
     EXPECT_NEAR(by_nodes, work, 1e-10 * (1 + std::abs(work)));
   }
 }

@@ -31,7 +31,8 @@ class Polynomial {
     for (const auto& [i, j, c] : terms_) {
       const double along_x = i * power(x.x(), i - 1) * power(x.y(), j) / size_mm_,
                    along_y = j * power(x.x(), i) * power(x.y(), j - 1) / size_mm_;
-      strain += Eigen::Vector3d(c.x() * along_x, c.y() * along_y, c.x() * along_y + c.y() * along_x);
+      strain +=
+          Eigen::Vector3d(c.x() * along_x, c.y() * along_y, c.x() * along_y + c.y() * along_x);
     }
     return strain;
   }

@@ -8,12 +8,11 @@
 #include "bench/verify/discretisation_error.hpp"
 #include "bench/verify/displacement_recovery.hpp"
 #include "solvers/methods.hpp"
-#include "tests/support/degree_solution.hpp"
 #include "tests/support/places.hpp"
 
 namespace airybench::testing {
 
-inline Solution solved_by(const char* method, const DualSystem& system) {
+inline Solution solved_by(const std::string& method, const DualSystem& system) {
   Solution solution = run(select_methods(method).front(), system, {});
   EXPECT_EQ(solution.status, Status::ok) << method << ": " << solution.message;
   return solution;
@@ -28,8 +27,7 @@ struct Solved {
   explicit Solved(Problem problem, int degree = 1)
       : system(assemble(std::make_shared<const Problem>(std::move(problem)), Blocks::contact_points,
                         degree)),
-        hybrid(degree == 1 ? solved_by("HYBRID", system)
-                           : solved_by_degree(*system.problem, degree)),
+        hybrid(solved_by(hybrid_of_degree(degree), system)),
         w(recovered_displacement(system, hybrid.stress, hybrid.F_C, hybrid.edge_moments)) {}
   Solved(const Scene& scene, Mesh mesh, int degree = 1)
       : Solved(pose(scene, std::move(mesh)), degree) {}
