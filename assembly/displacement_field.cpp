@@ -132,6 +132,30 @@ std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
   return elasticity;
 }
 
+Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField& u, int triangle,
+                                const Eigen::Vector3d& lambda) {
+  return with_degree(displacement_degree(problem, u) - 1, [&](auto k) -> Eigen::Vector2d {
+    constexpr int p = k + 1;
+    const auto local = of_triangle<p>(problem, u, triangle);
+    Eigen::Vector2d value = Eigen::Vector2d::Zero();
+    for (int m = 0; m < DisplacementTriangle<p>::nodes; ++m) {
+      const auto& [a, b, c] = DisplacementTriangle<p>::exponents[m];
+      value += binomial(p, a) * binomial(p - a, b) * std::pow(lambda(0), a) *
+               std::pow(lambda(1), b) * std::pow(lambda(2), c) * local.col(m);
+    }
+    return value;
+  });
+}
+
+// All Bernstein polynomials have the same mean.
+Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u, int row) {
+  return with_degree(displacement_degree(problem, u) - 1, [&](auto k) -> Eigen::Vector2d {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const int node : boundary_nodes<k + 1>(problem, row)) sum += u.col(node);
+    return sum / (k + 2);
+  });
+}
+
 // ρ is linear, so a coefficient is its value at the coefficient's place.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
   const int p = displacement_degree(problem, w);
