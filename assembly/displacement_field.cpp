@@ -51,10 +51,10 @@ int displacement_nodes(const Problem& problem, int degree) {
 int displacement_degree(const Problem& problem, const DisplacementField& u) {
   for (int p = 2; p <= highest_stress_degree + 1; ++p)
     if (displacement_nodes(problem, p) == u.cols()) return p;
-  throw std::invalid_argument("a displacement field of " + std::to_string(u.cols()) +
-                              " coefficients (allowed: " +
-                              std::to_string(displacement_nodes(problem)) +
-                              " for quadratic ones on this mesh, more for higher degrees)");
+  throw std::invalid_argument(
+      "a displacement field of " + std::to_string(u.cols()) +
+      " coefficients (allowed: " + std::to_string(displacement_nodes(problem)) +
+      " for quadratic ones on this mesh, more for higher degrees)");
 }
 
 template <int p>
@@ -132,24 +132,31 @@ std::vector<Eigen::Matrix3d> elasticities(const Problem& problem) {
   return elasticity;
 }
 
-// ρ is linear, so a coefficient is its value at the coefficient's place.
-DisplacementField quadratic_interpolant(const Problem& problem, const DisplacementField& u) {
-  const int p = displacement_degree(problem, u);
-  if (p == 2) return u;
-  const auto vertices = static_cast<Eigen::Index>(problem.mesh.vertices.size());
-  DisplacementField quadratic(2, displacement_nodes(problem));
-  quadratic.leftCols(vertices) = u.leftCols(vertices);
-  for (int edge = 0; edge < problem.edges.count(); ++edge) {
-    const auto [low, high] = problem.edges.vertices[edge];
-    Eigen::Vector2d middle = u.col(low) + u.col(high);
-    for (int i = 1; i < p; ++i)
-      middle += binomial(p, i) * u.col(vertices + static_cast<Eigen::Index>(p - 1) * edge + i - 1);
-    quadratic.col(vertices + edge) =
-        edge_coefficients<Eigen::Vector2d>(u.col(low), std::ldexp(1., -p) * middle, u.col(high))[1];
-  }
-  return quadratic;
+Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField& u, int triangle,
+                                const Eigen::Vector3d& lambda) {
+  return with_degree(displacement_degree(problem, u) - 1, [&](auto k) -> Eigen::Vector2d {
+    constexpr int p = k + 1;
+    const auto local = of_triangle<p>(problem, u, triangle);
+    Eigen::Vector2d value = Eigen::Vector2d::Zero();
+    for (int m = 0; m < DisplacementTriangle<p>::nodes; ++m) {
+      const auto& [a, b, c] = DisplacementTriangle<p>::exponents[m];
+      value += binomial(p, a) * binomial(p - a, b) * std::pow(lambda(0), a) *
+               std::pow(lambda(1), b) * std::pow(lambda(2), c) * local.col(m);
+    }
+    return value;
+  });
 }
 
+// All Bernstein polynomials have the same mean.
+Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u, int row) {
+  return with_degree(displacement_degree(problem, u) - 1, [&](auto k) -> Eigen::Vector2d {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    for (const int node : boundary_nodes<k + 1>(problem, row)) sum += u.col(node);
+    return sum / (k + 2);
+  });
+}
+
+// ρ is linear, so a coefficient is its value at the coefficient's place.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w) {
   const int p = displacement_degree(problem, w);
   const auto& x = problem.mesh.vertices;
@@ -215,17 +222,16 @@ Eigen::Matrix2Xd nodal_loads(const Problem& problem, int degree) {
     if (loads.has_body_force())
       for (int t = 0; t < static_cast<int>(mesh.triangles.size()); ++t)
         for (const int node : triangle_nodes<p>(problem, t))
-          force.col(node) += problem.area_mm2(t) / DisplacementTriangle<p>::nodes *
-                             loads.body_force_N_per_mm3;
+          force.col(node) +=
+              problem.area_mm2(t) / DisplacementTriangle<p>::nodes * loads.body_force_N_per_mm3;
     if (!loads.traction_MPa) return force;
     for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
       if (mesh.boundary[row].role != BoundaryRole::force) continue;
       const auto [start, end] = mesh.boundary[row].vertices;
       const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
       const EdgeFrame frame = edge_frame(a, b);
-      const Eigen::Vector2d
-          at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
-          at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
+      const Eigen::Vector2d at_a = frame.length_mm / 2 * loads.traction_MPa(a, frame.normal, row),
+                            at_b = frame.length_mm / 2 * loads.traction_MPa(b, frame.normal, row);
       const std::array<int, p + 1> nodes = boundary_nodes<p>(problem, row);
       for (int i = 0; i <= p; ++i)
         force.col(nodes[i]) += edge_moment(1, 0, p, i) * at_a + edge_moment(1, 1, p, i) * at_b;
@@ -274,11 +280,11 @@ double work_of_loads(const Problem& problem, const DisplacementField& u) {
   return nodal_loads(problem, displacement_degree(problem, u)).cwiseProduct(u).sum();
 }
 
-#define AIRYBENCH_INSTANTIATE(k)                                                                \
-  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>(       \
-      const Problem&, int);                                                                     \
-  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);               \
-  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(                    \
+#define AIRYBENCH_INSTANTIATE(k)                                                          \
+  template std::array<int, DisplacementTriangle<(k) + 1>::nodes> triangle_nodes<(k) + 1>( \
+      const Problem&, int);                                                               \
+  template std::array<int, (k) + 2> boundary_nodes<(k) + 1>(const Problem&, int);         \
+  template DisplacementTriangle<(k) + 1>::Displacement of_triangle<(k) + 1>(              \
       const Problem&, const DisplacementField&, int);
 AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)
 #undef AIRYBENCH_INSTANTIATE

@@ -73,11 +73,13 @@ QuadraticStrain quadratic_strain(const TriangleVertices& v);
 using QuadraticStiffness = Eigen::Matrix<double, 12, 12>;
 QuadraticStiffness quadratic_stiffness(const QuadraticStrain& strain, double area_mm2,
                                        const Eigen::Matrix3d& elasticity);
-Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);  // its inverse
+Eigen::Matrix3d elasticity_of(const Eigen::Matrix3d& compliance);   // its inverse
 std::vector<Eigen::Matrix3d> elasticities(const Problem& problem);  // per row of mesh.body_names
 
-// The quadratic field with the values of u at vertices and at the middles of edges.
-DisplacementField quadratic_interpolant(const Problem& problem, const DisplacementField& u);
+// u at λ_1, λ_2, λ_3 of a triangle; its mean over a boundary edge. mm, of fields of any degree.
+Eigen::Vector2d displacement_at(const Problem& problem, const DisplacementField& u, int triangle,
+                                const Eigen::Vector3d& lambda);
+Eigen::Vector2d mean_on_edge(const Problem& problem, const DisplacementField& u, int row);
 
 // u = w + ρ: adds the rigid motion back.
 DisplacementField with_rigid_motion(const Problem& problem, DisplacementField w);

@@ -64,7 +64,7 @@ const typename DisplacementTriangle<p>::Constants& DisplacementTriangle<p>::cons
   return constants;
 }
 
-#define AIRYBENCH_INSTANTIATE(k)                              \
+#define AIRYBENCH_INSTANTIATE(k)                           \
   template const DisplacementTriangle<(k) + 1>::Constants& \
   DisplacementTriangle<(k) + 1>::constants();
 AIRYBENCH_STRESS_DEGREES(AIRYBENCH_INSTANTIATE)

@@ -1,4 +1,5 @@
-// A displacement of degree p = k + 1 on one triangle, in Bernstein form, and its strain of degree k.
+// A displacement of degree p = k + 1 on one triangle, in Bernstein form, and its strain of degree
+// k.
 //
 //   u = Σ_α u_α B_α,    ∂u/∂ξ_a = p Σ_β (u_{β+e_a} − u_{β+e_0}) B_β,    |α| = p,  |β| = k
 //

@@ -201,10 +201,14 @@ WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<dou
     const double start = piece.start, length = piece.end - piece.start;
     const auto add = [&](auto value, WallDetail::Moments& moments) {
       for (int j = 0; j <= n; ++j)
-        moments[j] += (n + 1) * length * Points::integrate([&](double u) {
-                        const double s = start + u * length;
-                        return binomial(n, j) * std::pow(s, j) * std::pow(1 - s, n - j) * value(u);
-                      }, 0., 1.);
+        moments[j] +=
+            (n + 1) * length *
+            Points::integrate(
+                [&](double u) {
+                  const double s = start + u * length;
+                  return binomial(n, j) * std::pow(s, j) * std::pow(1 - s, n - j) * value(u);
+                },
+                0., 1.);
     };
     if (!piece.is_met) {
       add([](double) { return 1.; }, detail.unmet);
@@ -215,8 +219,8 @@ WallDetail wall_detail(const std::vector<GapPiece>& pieces, const std::array<dou
     rise = std::max(rise, largest_of(above) + piece.off_mm);
     add(
         [&](double u) {
-          return piece.off_mm - ((1 - u) * (1 - u) * above[0] + 2 * u * (1 - u) * above[1] +
-                                 u * u * above[2]);
+          return piece.off_mm -
+                 ((1 - u) * (1 - u) * above[0] + 2 * u * (1 - u) * above[1] + u * u * above[2]);
         },
         detail.moments_mm);
   }

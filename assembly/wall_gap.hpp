@@ -43,7 +43,8 @@ struct WallDetail {
   // coefficients): the highest in the mean of q − max (q − g0), the least g0, and the convex one
   // from g0 at one end to g0 at the other.
   std::array<double, 3> lowered_mm{0, 0, 0};
-  // (n + 1)/L ∫ B_j … ds, B_j of the highest degree n of stresses; of lower degrees: lower_moments().
+  // (n + 1)/L ∫ B_j … ds, B_j of the highest degree n of stresses; of lower degrees:
+  // lower_moments().
   using Moments = std::array<double, highest_stress_degree + 1>;
   Moments moments_mm{};  // of g0 − q where a wall is met, or above
   Moments unmet{};       // of 1 where none is met

@@ -36,20 +36,17 @@ std::string stress_csv(const Problem& problem, const StressField& stress) {
   return text;
 }
 
+// At the vertices, then the middles of the edges V1V2, V2V3, V3V1.
 Eigen::Matrix<double, 2, 6> values_at_nodes(const Problem& problem, int triangle,
                                             const DisplacementField& u) {
-  const std::array<int, 6> nodes = triangle_nodes(problem, triangle);
   Eigen::Matrix<double, 2, 6> values;
   for (int k = 0; k < 3; ++k) {
-    values.col(k) = u.col(nodes[k]);
-    values.col(3 + k) = (u.col(nodes[k]) + 2 * u.col(nodes[3 + k]) + u.col(nodes[(k + 1) % 3])) / 4;
+    const Eigen::Vector3d here = Eigen::Vector3d::Unit(k),
+                          next = Eigen::Vector3d::Unit((k + 1) % 3);
+    values.col(k) = displacement_at(problem, u, triangle, here);
+    values.col(3 + k) = displacement_at(problem, u, triangle, (here + next) / 2);
   }
   return values;
-}
-
-// Σ U_i λ_i² + Σ U_ij 2 λ_i λ_j at λ = (1/3, 1/3, 1/3), from the values at the nodes.
-Eigen::Vector2d value_at_centroid(const Eigen::Matrix<double, 2, 6>& values) {
-  return (4 * values.rightCols<3>().rowwise().sum() - values.leftCols<3>().rowwise().sum()) / 9;
 }
 
 std::string displacement_csv(const Problem& problem, const DisplacementField& u) {
@@ -140,8 +137,9 @@ std::string vtu_of_body(const Problem& problem, const StressField& stress,
     if (!u) continue;
     const Eigen::Matrix<double, 2, 6> values = values_at_nodes(problem, t, *u);
     for (int c = 0; c < 9; ++c)
-      displacements.push_back(c % 3 == 2 ? value_at_centroid(values)
-                                         : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
+      displacements.push_back(
+          c % 3 == 2 ? displacement_at(problem, *u, t, Eigen::Vector3d::Constant(1. / 3))
+                     : Eigen::Vector2d(values.col((c / 3 + c % 3) % 3)));
   }
   grid.of_points = vtu_array("stress_MPa", stresses, {"xx", "yy", "xy"});
   if (u) grid.of_points += vtu_vectors("displacement_mm", displacements);
@@ -207,20 +205,24 @@ void take_forces_of_displacements(const DualSystem& system, const Solution& solu
 // r = (w_n − (g0 − ρ_n), w_t − (s0 − ρ_t)) as moments, per contact point.
 std::vector<Eigen::Vector2d> moments_of(const DualSystem& system, const DisplacementField& w,
                                         const std::vector<EdgeFrame>& frames) {
-  const Problem& problem = *system.problem;
-  std::vector<Eigen::Vector2d> moments;
-  for (int p = 0; p < system.contact.count; ++p) {
-    const int row = system.contact.boundary[p];
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const std::array<ContactOffset, 3> offset = problem.offset_coefficients(row);
-    const EdgeFrame& frame = frames[p];
-    std::array<Eigen::Vector2d, 3> r;
-    for (std::size_t i = 0; i < 3; ++i)
-      r[i] = Eigen::Vector2d(frame.normal.dot(w.col(nodes[i])), frame.tangent.dot(w.col(nodes[i]))) -
-             offset[i].along(frame.normal);
-    moments.push_back(moment_of_quadratic(system.degree, p % system.contact.per_edge, r));
-  }
-  return moments;
+  return with_degree(system.degree, [&](auto degree) {
+    constexpr int k = degree, p = k + 1;
+    std::vector<Eigen::Vector2d> moments;
+    for (int point = 0; point < system.contact.count; ++point) {
+      const int row = system.contact.boundary[point];
+      const std::array<int, p + 1> nodes = boundary_nodes<p>(*system.problem, row);
+      const auto offset = offset_coefficients<p>(*system.problem, row);
+      const EdgeFrame& frame = frames[point];
+      Eigen::Vector2d& moment = moments.emplace_back(0, 0);
+      for (int i = 0; i <= p; ++i) {
+        const Eigen::Vector2d u = w.col(nodes[i]);
+        moment += edge_moment(k, point % (k + 1), p, i) *
+                  (Eigen::Vector2d(frame.normal.dot(u), frame.tangent.dot(u)) -
+                   offset[i].along(frame.normal));
+      }
+    }
+    return moments;
+  });
 }
 
 }  // namespace
@@ -270,9 +272,7 @@ SolvedFields own_fields(const DualSystem& system, const Solution& solution) {
   if (solution.displacement.cols() > 0)
     fields.w = solution.displacement;
   else if (solution.edge_moments.cols() > 0)
-    fields.w = quadratic_interpolant(
-        *system.problem,
-        recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments));
+    fields.w = recovered_displacement(system, solution.stress, solution.F_C, solution.edge_moments);
   if (fields.w && !fields.w->allFinite()) fields.w.reset();
   return fields;
 }

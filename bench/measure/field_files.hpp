@@ -50,7 +50,7 @@ ContactPicture contact_picture(const DualSystem& system, const Solution& solutio
 struct SolvedFields {
   const DualSystem& system;
   const Solution& solution;
-  // Quadratic (displacement_field.hpp), without the problem's rigid motion.
+  // Bernstein coefficients (displacement_field.hpp) without the problem's rigid motion.
   std::optional<DisplacementField> w;
   const ConstitutiveError* error = nullptr;  // null if unknown
   std::optional<StressField> mean;

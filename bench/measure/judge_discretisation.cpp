@@ -169,7 +169,7 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
   const Discretisation* known = bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
-    fields.w = quadratic_interpolant(*problem_, known->u);
+    fields.w = known->u;
   if (known != nullptr && known->error.flaw.empty()) {
     fields.error = &known->error;
     if (options_.mean_fields) fields.mean = mean_stress(*problem_, solution.stress, known->u);

@@ -22,7 +22,7 @@ bool is_loaded(const Loads& loads, const Mesh& mesh, int row) {
                                  loads.traction_MPa(b, normal, row).isZero(0));
 }
 
-// "x,y", or "," if unknown. Bernstein polynomials have the same mean.
+// "x,y", or "," if unknown.
 std::string mean_on(const std::vector<int>& rows, const Problem& problem,
                     const std::optional<DisplacementField>& w) {
   if (!w || rows.empty()) return ",";
@@ -30,11 +30,10 @@ std::string mean_on(const std::vector<int>& rows, const Problem& problem,
   Eigen::Vector2d sum(0, 0);
   double length_mm = 0;
   for (const int row : rows) {
-    const std::array<int, 3> nodes = boundary_nodes(problem, row);
-    const double length =
-        (problem.mesh.vertices[nodes[2]] - problem.mesh.vertices[nodes[0]]).norm();
+    const auto [start, end] = problem.mesh.boundary[row].vertices;
+    const double length = (problem.mesh.vertices[end] - problem.mesh.vertices[start]).norm();
     length_mm += length;
-    for (const int node : nodes) sum += length / 3 * u.col(node);
+    sum += length * mean_on_edge(problem, u, row);
   }
   return fmt::format("{},{}", sum.x() / length_mm, sum.y() / length_mm);
 }

@@ -101,8 +101,7 @@ ContactTerms contact_terms(const DualSystem& system, int point, const Eigen::Vec
   }
   if (m == 2)
     terms.tangential =
-        2 *
-        FrictionGap<k>(system.contact.friction_at(point), normal, tangential).integral(u_t);
+        2 * FrictionGap<k>(system.contact.friction_at(point), normal, tangential).integral(u_t);
   const EdgeValues<p> lowered = elevated<p>(detail.lowered_mm);
   for (int i = 0; i <= p; ++i) r[i] += lowered[i];
   terms.highest_gap = *std::max_element(r.begin(), r.end());
@@ -170,8 +169,7 @@ double strain_energy(const Eigen::Matrix<double, 3, columns>& stress, double are
   Eigen::Matrix3d products = Eigen::Matrix3d::Zero();
   for (int part = 0; part < parts; ++part) {
     const Eigen::Matrix<double, 3, n> of_part = stress.template middleCols<n>(n * part);
-    products +=
-        of_part.lazyProduct(constants.mass.lazyProduct(of_part.transpose()).eval());
+    products += of_part.lazyProduct(constants.mass.lazyProduct(of_part.transpose()).eval());
   }
   return area_mm2 / (2 * parts) * products.cwiseProduct(compliance).sum();
 }
@@ -189,9 +187,8 @@ ConstitutiveError error_of(const DualSystem& system, const StressField& stress,
   std::vector<int> triangle_of_edge(static_cast<std::size_t>(problem.edges.count()));
   for (int t = 0; t < static_cast<int>(stress.size()); ++t) {
     const TriangleShape shape(problem.vertices_of(t));
-    const typename Triangle::Strain other =
-        elasticity[problem.mesh.triangle_body[t]].lazyProduct(
-            Triangle::strain(shape.gradients, of_triangle<k + 1>(problem, u, t)));
+    const typename Triangle::Strain other = elasticity[problem.mesh.triangle_body[t]].lazyProduct(
+        Triangle::strain(shape.gradients, of_triangle<k + 1>(problem, u, t)));
     using ByThirds = Eigen::Matrix<double, 3, 3 * Triangle::strains>;
     const ByThirds own = stress[t];
     const ByThirds difference = own - other.lazyProduct(constants.on_thirds);
@@ -238,8 +235,7 @@ ConstitutiveError constitutive_error(const DualSystem& system, const StressField
     throw std::invalid_argument(
         fmt::format("a displacement of degree {} for stresses of degree {} (allowed: {})", of_u + 1,
                     stress.degree(), stress.degree() + 1));
-  return with_degree(stress.degree(),
-                     [&](auto k) { return error_of<k>(system, stress, F_C, u); });
+  return with_degree(stress.degree(), [&](auto k) { return error_of<k>(system, stress, F_C, u); });
 }
 
 StressField mean_stress(const Problem& problem, const StressField& stress,

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <Eigen/QR>
-#include <algorithm>
 #include <vector>
 
 #include "assembly/small_cholesky.hpp"
@@ -20,47 +19,60 @@ Eigen::Matrix3d to_coordinates(const Eigen::Matrix2d& B) {
   return map;
 }
 
+// The constant matrices of OwnDisplacement, of one type for all degrees: compiled once.
+struct Matrices {
+  Eigen::MatrixXd projection, integral, condition, mass_inverse;
+  std::array<Eigen::MatrixXd, 6> product;
+};
+
+// strain: of all displacements on the reference triangle; rows and columns as `reshaped()`.
+Matrices matrices(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& on_thirds,
+                  const Eigen::MatrixXd& strain) {
+  const Eigen::Index n = mass.rows(), unknowns = strain.cols();
+  Matrices result;
+  result.mass_inverse = mass.inverse();
+  result.projection.resize(3 * n, n);
+  for (Eigen::Index t = 0; t < 3; ++t)
+    result.projection.middleRows(n * t, n) =
+        mass / 3 * on_thirds.middleCols(n * t, n).transpose() * result.mass_inverse;
+  // Without three that hold the triangle, V1 and V2 across V1V2, columns are independent.
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < unknowns; ++i)
+    if (i != 0 && i != 1 && i != 3) free.push_back(i);
+  const auto rank = static_cast<Eigen::Index>(free.size());
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(Eigen::MatrixXd(strain(Eigen::all, free)));
+  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(3 * n, 3 * n);
+  Eigen::MatrixXd inverse = Q.leftCols(rank).transpose();
+  qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>().solveInPlace(inverse);
+  result.integral.setZero(unknowns, 3 * n);
+  result.integral(free, Eigen::all) = inverse;
+  result.condition = Q.rightCols(3 * n - rank);
+  for (int m = 0; m < 6; ++m) {
+    const Eigen::MatrixXd first = result.condition(Eigen::seqN(pairs[m][0], n, 3), Eigen::all),
+                          second = result.condition(Eigen::seqN(pairs[m][1], n, 3), Eigen::all);
+    result.product[m] = first.transpose() * result.mass_inverse * second;
+    if (m >= 3) result.product[m] += result.product[m].transpose().eval();
+  }
+  return result;
+}
+
 }  // namespace
 
 template <int k>
 OwnDisplacement<k>::OwnDisplacement() {
-  const auto& constants = Triangle::constants();
-  mass_inverse_ = Eigen::MatrixXd(constants.mass).inverse();
-  for (int t = 0; t < 3; ++t)
-    projection_.template middleRows<n>(n * t) =
-        constants.mass / 3 * constants.on_thirds.template middleCols<n>(n * t).transpose() *
-        mass_inverse_;
-  // Strains of all displacements but three that hold the triangle: V1, and V2 across V1V2.
-  constexpr std::array<int, 3> held = {0, 1, 3};
-  Eigen::MatrixXd strain(3 * n, 0);
-  std::vector<int> free;
+  Eigen::MatrixXd strain(3 * n, 2 * Triangle::nodes);
   for (int i = 0; i < 2 * Triangle::nodes; ++i) {
-    if (std::ranges::count(held, i) > 0) continue;
     typename Triangle::Displacement u = Triangle::Displacement::Zero();
     u(i % 2, i / 2) = 1;
-    free.push_back(i);
-    strain.conservativeResize(Eigen::NoChange, strain.cols() + 1);
-    strain.rightCols(1) = Triangle::strain(Eigen::Matrix2d::Identity(), u).reshaped();
+    strain.col(i) = Triangle::strain(Eigen::Matrix2d::Identity(), u).reshaped();
   }
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(strain);
-  const Eigen::MatrixXd Q = qr.householderQ() * Eigen::MatrixXd::Identity(3 * n, 3 * n);
-  const Eigen::MatrixXd inverse =
-      qr.matrixQR().topRows(strain.cols()).template triangularView<Eigen::Upper>().solve(
-          Eigen::MatrixXd(Q.leftCols(strain.cols()).transpose()));
-  integral_.setZero();
-  for (std::size_t i = 0; i < free.size(); ++i)
-    integral_.row(free[i]) = inverse.row(static_cast<Eigen::Index>(i));
-  if constexpr (conditions > 0) {
-    condition_ = Q.template rightCols<conditions>();
-    for (int m = 0; m < 6; ++m) {
-      const auto rows = [&](int component) {
-        return Eigen::MatrixXd(condition_(Eigen::seqN(component, n, 3), Eigen::all));
-      };
-      const auto [a, b] = pairs[m];
-      const Eigen::MatrixXd product = rows(a).transpose() * mass_inverse_ * rows(b);
-      product_[m] = a == b ? product : Eigen::MatrixXd(product + product.transpose());
-    }
-  }
+  const auto& constants = Triangle::constants();
+  const Matrices all = matrices(constants.mass, constants.on_thirds, strain);
+  projection_ = all.projection;
+  integral_ = all.integral;
+  condition_ = all.condition;
+  mass_inverse_ = all.mass_inverse;
+  for (int m = 0; m < 6; ++m) product_[m] = all.product[m];
 }
 
 template <int k>
@@ -74,8 +86,7 @@ typename OwnDisplacement<k>::Triangle::Displacement OwnDisplacement<k>::operator
     Eigen::Matrix<double, conditions, conditions> S =
         Eigen::Matrix<double, conditions, conditions>::Zero();
     for (int m = 0; m < 6; ++m) S += c(pairs[m][0], pairs[m][1]) * product_[m];
-    Eigen::Matrix<double, conditions, 1> y =
-        condition_.transpose().lazyProduct(strain.reshaped());
+    Eigen::Matrix<double, conditions, 1> y = condition_.transpose().lazyProduct(strain.reshaped());
     const SmallCholesky<double, conditions> factor(S);
     if (factor.last_pivot() > 0) {  // else a sliver's strain stays nearly compatible
       factor.solve(y);

@@ -33,7 +33,8 @@ VertexStars<k>::VertexStars(const Problem& problem, const std::vector<OfTriangle
       constexpr int inner = 2 * Triangle::inner;
       const SmallCholesky<double, inner> factor(
           Eigen::Matrix<double, inner, inner>(K.template bottomRightCorner<inner, inner>()));
-      Eigen::Matrix<double, inner, 2 * outer> root = K.template bottomLeftCorner<inner, 2 * outer>();
+      Eigen::Matrix<double, inner, 2 * outer> root =
+          K.template bottomLeftCorner<inner, 2 * outer>();
       factor.solve_lower(root);
       of_outer -= root.transpose() * root;
     }

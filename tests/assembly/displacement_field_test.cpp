@@ -87,6 +87,17 @@ TEST(DisplacementField, PolynomialsOfItsDegreeAreExact) {
               << "degree " << p << ", triangle " << t << ", corner " << corner;
         }
     }
+    const TriangleVertices v = problem.vertices_of(3);
+    const Eigen::Vector3d lambda(0.2, 0.5, 0.3);
+    EXPECT_LT((displacement_at(problem, u, 3, lambda) - exact(v * lambda)).norm(), 1e-13) << p;
+    for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+      constexpr int steps = 2000;
+      const auto [start, end] = problem.mesh.boundary[row].vertices;
+      const auto &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+      Eigen::Vector2d mean(0, 0);
+      for (int i = 0; i < steps; ++i) mean += exact(a + (i + 0.5) / steps * (b - a)) / steps;
+      EXPECT_LT((mean_on_edge(problem, u, row) - mean).norm(), 1e-6) << p;
+    }
     // Against the field of the highest degree, which is the same function.
     constexpr int highest = highest_stress_degree + 1;
     const DisplacementField same = testing::interpolated<highest>(problem, exact);
@@ -202,7 +213,8 @@ TEST(DisplacementField, NodalLoadsHaveTheLoadsResultantAndMoment) {
       };
       work += s.norm() / 6 * (at(a) + 4 * at((a + b) / 2) + at(b));
     }
-    const double by_nodes = nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
+    const double by_nodes =
+        nodal_loads(problem).cwiseProduct(testing::interpolated<2>(problem, motion)).sum();
     EXPECT_NEAR(by_nodes, work, 1e-10 * (1 + std::abs(work)));
   }
 }

@@ -31,7 +31,8 @@ class Polynomial {
     for (const auto& [i, j, c] : terms_) {
       const double along_x = i * power(x.x(), i - 1) * power(x.y(), j) / size_mm_,
                    along_y = j * power(x.x(), i) * power(x.y(), j - 1) / size_mm_;
-      strain += Eigen::Vector3d(c.x() * along_x, c.y() * along_y, c.x() * along_y + c.y() * along_x);
+      strain +=
+          Eigen::Vector3d(c.x() * along_x, c.y() * along_y, c.x() * along_y + c.y() * along_x);
     }
     return strain;
   }
@@ -54,7 +55,7 @@ template <int p, typename Function>
 DisplacementField interpolated(const Problem& problem, const Function& u) {
   using Triangle = DisplacementTriangle<p>;
   Eigen::MatrixXd basis(Triangle::nodes, Triangle::nodes);  // B_m at the place of node n
-  const auto place = [](int node) {
+  const auto place = [](int node) -> Eigen::Vector3d {
     const auto& [a, b, c] = Triangle::exponents[node];
     return Eigen::Vector3d(a, b, c) / p;
   };

@@ -109,9 +109,8 @@ TEST(RandomBounds, OfOneDegreeHoldForAnother) {
   int judged = 0;
   for (int i = 0; i < of_degrees; ++i) {
     Dice dice(static_cast<std::uint32_t>(5000 + i));
-    Mesh mesh = dice.below(2) == 0
-                    ? testing::small_block(2 + dice.below(2), 2 + dice.below(2), 0)
-                    : testing::small_tooth(2 + dice.below(2), 2 + dice.below(2));
+    Mesh mesh = dice.below(2) == 0 ? testing::small_block(2 + dice.below(2), 2 + dice.below(2), 0)
+                                   : testing::small_tooth(2 + dice.below(2), 2 + dice.below(2));
     Scene scene = random_scene(dice);
     scene.equal_steps = 1;
     Bounds bounds;
@@ -123,9 +122,8 @@ TEST(RandomBounds, OfOneDegreeHoldForAnother) {
         EXPECT_TRUE(error.guaranteed);
         bounds.below = std::max(bounds.below, error.lower_bound_Nmm);
         bounds.above = std::min(bounds.above, error.upper_bound_Nmm);
-        EXPECT_LE(bounds.below, bounds.above)
-            << "scene " << i << ", level " << level << ", degree " << k << ", nu "
-            << scene.material.poisson;
+        EXPECT_LE(bounds.below, bounds.above) << "scene " << i << ", level " << level << ", degree "
+                                              << k << ", nu " << scene.material.poisson;
       }
     }
   }

@@ -139,7 +139,8 @@ TEST(ConstitutiveError, WithFrictionTheEnergyGapLacksTheFrictionWork) {
     const ConstitutiveError error = s.error();
     EXPECT_FALSE(error.guaranteed);
     const double gap = error.upper_bound_Nmm - error.lower_bound_Nmm;
-    EXPECT_NEAR(error.squared_Nmm(), 2 * (gap + friction_work(s, with_rigid_motion(*s.system.problem,
+    EXPECT_NEAR(error.squared_Nmm(),
+                2 * (gap + friction_work(s, with_rigid_motion(*s.system.problem,
                                                               s.displacements.displacement))),
                 1e-6 * std::abs(error.upper_bound_Nmm));
   }
