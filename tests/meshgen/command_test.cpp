@@ -50,6 +50,20 @@ TEST_F(Command, HelpNamesTheModes) {
     EXPECT_NE(outcome.out.find(mode), std::string::npos) << mode;
 }
 
+TEST_F(Command, ItsCommandIsPrintedAsItWasStartedAndItsWorkGivesSignsOfLife) {
+  EXPECT_NE(run("--help", "AIRYBENCH_CALLED_AS=../run").out.find("Usage: ../run meshgen "),
+            std::string::npos);
+  EXPECT_NE(run("--help").out.find("Usage: " + testing::meshgen_executable().string()),
+            std::string::npos);
+  write_text(folder / "a.geo", triangle_geo);
+  const Outcome heard =
+      run("--convert=a.geo --parameter=h=0.01 --out=a.msh", "AIRYBENCH_SILENT_S=0.01");
+  EXPECT_EQ(heard.exit_code, 0);
+  EXPECT_NE(heard.err.find("... meshgen works on a.geo, for 0 s\n"), std::string::npos)
+      << heard.err;
+  EXPECT_EQ(run("--convert=a.geo --out=b.msh", "AIRYBENCH_SILENT_S=600").err, "");
+}
+
 TEST_F(Command, WrongUsageIsOneLineAndExitCode2) {
   expect_refusal("", 2, {"--mesh, --check, --tooth, --convert"});
   expect_refusal("--check --mesh=Mesh0", 2, {"--mesh, --check, --tooth, --convert"});

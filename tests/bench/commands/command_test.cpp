@@ -291,10 +291,30 @@ TEST(Command, ARunSaysThatItReplacesTheRecordsOfItsFolder) {
     EXPECT_EQ(bench.run(run + kept).err.find(said), std::string::npos) << kept;
 }
 
+// As the script was typed, or else this program.
+TEST(Command, PrintedCommandsBeginWithWhatTheUserStarted) {
+  const BenchCommand bench;
+  const std::string typed = testing::bench_executable().string();
+  for (const char* command : {"", "advise ", "claims ", "compare ", "export ", "export-problem ",
+                              "merge ", "replay ", "track "}) {
+    const std::string asked = std::string(command) + "--help";
+    for (const auto& [before, called] :
+         {std::pair("", typed),
+          std::pair("export AIRYBENCH_CALLED_AS=../run; ", std::string("../run bench"))}) {
+      const std::string help = bench.run(asked, before).out;
+      EXPECT_NE(help.find("Usage: " + called + " " + command), std::string::npos) << help;
+      EXPECT_EQ(help.find("\n  bench "), std::string::npos) << help;
+      for (const char* left : {"{bench}", "{run}", "{meshgen}"})
+        EXPECT_EQ(help.find(left), std::string::npos) << help;
+    }
+  }
+}
+
 TEST(Command, TheListIsComplete) {
   const std::string list = BenchCommand().run("--list").out;
-  for (const char* part : {"Mesh7", "HYBRID:CG", "EXTERNAL:<name>",
-                           "newton, gauss-seidel, anderson", "\n  stability ", "\n  check "})
+  for (const char* part :
+       {"Mesh7", "HYBRID:CG", "EXTERNAL:<name>", "newton, gauss-seidel, anderson",
+        "CONDENSED, the contact law alone by newton", "\n  stability ", "\n  check "})
     EXPECT_NE(list.find(part), std::string::npos) << part;
 }
 
