@@ -13,7 +13,7 @@ using Vector = Eigen::Vector3d;  // in the plane the last component is zero
 constexpr int wall = -1;
 
 struct Touch {
-  int below, above;  // bodies; below may be the wall
+  int below, above;                     // bodies; below may be the wall
   Vector arm_below, arm_above, normal;  // from the centres to the point; from below to above
 };
 
@@ -92,8 +92,7 @@ std::vector<Touch> lattice(int components, int contacts, bool on_wall, Dice& dic
           if (!space) normal.x() -= 0.5 * step.y();  // of the triangles
           normal = (normal + jitter).normalized();
           const int there = at(i + step.x(), j + step.y(), k + step.z());
-          touches.push_back(
-              {here, there, radius[here] * normal, -radius[there] * normal, normal});
+          touches.push_back({here, there, radius[here] * normal, -radius[there] * normal, normal});
         }
       }
   return touches;
@@ -161,8 +160,7 @@ Packing packing(Packed shape, int components, int contacts, unsigned seed) {
   for (int b = 0; b < bodies; ++b) {
     const double mass = dice.between(0.5, 2);
     for (int i = 0; i < per_body; ++i)
-      masses.emplace_back(per_body * b + i, per_body * b + i,
-                          i < components ? mass : 0.4 * mass);
+      masses.emplace_back(per_body * b + i, per_body * b + i, i < components ? mass : 0.4 * mass);
   }
   for (int p = 0; p < points.count; ++p) {
     const Touch& touch = touches[static_cast<std::size_t>(p)];
