@@ -20,7 +20,8 @@ namespace {
 // Word by word.
 class Words {
  public:
-  explicit Words(const std::filesystem::path& path) : path_(path.string()), text_(std::make_shared<const std::string>(file_text(path))) {
+  explicit Words(const std::filesystem::path& path)
+      : path_(path.string()), text_(std::make_shared<const std::string>(file_text(path))) {
     find();
   }
   [[noreturn]] void fail(const std::string& what, const std::string& allowed) const {
@@ -90,7 +91,9 @@ class Words {
   }
 
  private:
-  std::string shown() const { return word_.empty() ? "the file ends" : shortened(std::string(word_)); }
+  std::string shown() const {
+    return word_.empty() ? "the file ends" : shortened(std::string(word_));
+  }
   void find() {
     const auto is_blank = [](char c) { return c == ' ' || (c >= '\t' && c <= '\r'); };
     while (next_ < text_->size() && is_blank((*text_)[next_])) line_ += (*text_)[next_++] == '\n';
@@ -215,8 +218,8 @@ SparseRows read_matrix(Words& words) {
   return matrix;
 }
 
-void check_shape(const Words& words, const char* place, const SparseRows& matrix,
-                 Eigen::Index rows, Eigen::Index columns) {
+void check_shape(const Words& words, const char* place, const SparseRows& matrix, Eigen::Index rows,
+                 Eigen::Index columns) {
   if (matrix.rows() != rows || matrix.cols() != columns)
     words.refuse()(place, fmt::format("{} x {}", matrix.rows(), matrix.cols()),
                    fmt::format("{} x {}", rows, columns));

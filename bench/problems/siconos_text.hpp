@@ -10,12 +10,14 @@
 //              many of the two lists that follow: for each row of blocks the first of its blocks,
 //              and the end; for each block its column of blocks. Then every block: its number, its
 //              entries by columns
-//   2  sparse  as CSparse prints it, with six digits: its storage (1 to 4), a line about CSparse, "m-by-n,
-//              nzmax: z nnz: k, …", with "triplet:" or "csr:" before it, and "row column : x", or "col j
-//              : locations a to b" before each column's "row : x" (of csr: "row", "column : x")
+//   2  sparse  as CSparse prints it, with six digits: its storage (1 to 4), a line about CSparse,
+//   "m-by-n,
+//              nzmax: z nnz: k, …", with "triplet:" or "csr:" before it, and "row column : x", or
+//              "col j : locations a to b" before each column's "row : x" (of csr: "row", "column :
+//              x")
 //
-// Nothing says which of both a file is: the second where a matrix of M's rows and W's columns follows
-// the first one. Numbers after μ, a guess of r and u, are passed over.
+// Nothing says which of both a file is: the second where a matrix of M's rows and W's columns
+// follows the first one. Numbers after μ, a guess of r and u, are passed over.
 #pragma once
 
 #include <filesystem>

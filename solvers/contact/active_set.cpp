@@ -9,6 +9,7 @@
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
 #include "solvers/contact/gauss_seidel.hpp"
+#include "solvers/contact/proximal_points.hpp"
 #include "solvers/contact/sparse_freedoms.hpp"
 #include "solvers/direct/dense_factors.hpp"
 
@@ -100,12 +101,13 @@ Eigen::VectorXd damped(const contact::Problem& problem, const Eigen::VectorXd& F
 }  // namespace
 
 void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
-                          const Deadline& deadline, ContactResult& result) {
-  constexpr int most_steps = 100, patience = 15;  // steps without a smaller natural map
+                          const Deadline& deadline, ContactResult& result,
+                          const ActiveSetLimits& limits) {
   const double enough = options.tolerance / 100;
   Eigen::VectorXd F = result.F_C;
   int since_best = 0;
-  for (int step = 0; step <= most_steps && since_best <= patience; ++step, ++since_best) {
+  for (int step = 0; step <= limits.most_steps && since_best <= limits.patience;
+       ++step, ++since_best) {
     if (!std::isfinite(F.norm())) break;
     const Eigen::VectorXd u = D_times(problem, F) - problem.G;
     const double relative = relative_natural_map(problem.points, D_diagonal(problem), F, u);
@@ -143,6 +145,8 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
     finish_by_active_set(problem, options, deadline, result);
+    if (!result.converged && problem.rows.size() > 0 && result.F_C.allFinite())
+      finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
       best = std::move(result);

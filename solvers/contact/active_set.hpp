@@ -30,11 +30,16 @@ Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::Ve
 
 // Goes on from a result, and replaces it by a better one, if it finds one: until the natural map is
 // a hundredth of options.tolerance, or, below that tolerance, no longer halves.
+struct ActiveSetLimits {
+  int most_steps = 100, patience = 15;  // patience: steps without a smaller natural map
+};
 void finish_by_active_set(const contact::Problem& problem, const ContactOptions& options,
-                          const Deadline& deadline, ContactResult& result);
+                          const Deadline& deadline, ContactResult& result,
+                          const ActiveSetLimits& limits = {});
 
 // A few sweeps, then active sets; where these do not end, ten times as many sweeps, and active sets
-// again: what sweeps alone solve is solved. Where D is not formed ADMM iterates in place of sweeps.
+// again: what sweeps alone solve is solved. Where D is not formed ADMM iterates in place of sweeps;
+// where it is by rows proximal points (proximal_points.hpp) follow on active sets that do not end.
 ContactResult solve_contact_by_newton(const contact::Problem& problem,
                                       const ContactOptions& options = {},
                                       const Deadline& deadline = {});

@@ -26,7 +26,8 @@ Eigen::MatrixXd D_of_point(const contact::Problem& problem, int p) {
   Eigen::MatrixXd block = Eigen::MatrixXd::Zero(m, m);
   for (int k = 0; k < m; ++k)
     for (SparseRows::InnerIterator entry(problem.rows, first + k); entry; ++entry)
-      if (entry.col() >= first && entry.col() < first + m) block(k, entry.col() - first) = entry.value();
+      if (entry.col() >= first && entry.col() < first + m)
+        block(k, entry.col() - first) = entry.value();
   return block;
 }
 

@@ -16,13 +16,6 @@ class GaussSeidel {
   double sweep(Eigen::VectorXd& F) const;
 
  private:
-  template <int components>
-  Eigen::Matrix<double, components, 1> product(
-      Eigen::Index i, const Eigen::VectorXd& F,
-      Eigen::Matrix<double, components, components>& D_pp) const;
-  template <int components>
-  double squared_change(Eigen::VectorXd& F) const;
-
   const contact::Problem* problem_;
   Eigen::VectorXd offset_;      // contact_offset()
   Eigen::MatrixXd transposed_;  // of a dense D that is not symmetric; else empty

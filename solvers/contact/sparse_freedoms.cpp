@@ -11,7 +11,8 @@ SparseRows forces_of(const std::vector<Freedom>& freedoms, int m, Eigen::Index n
   Triplets entries;
   for (int k = 0; k < static_cast<int>(freedoms.size()); ++k)
     for (int i = 0; i < m; ++i)
-      if (freedoms[k].force(i) != 0) entries.emplace_back(freedoms[k].first + i, k, freedoms[k].force(i));
+      if (freedoms[k].force(i) != 0)
+        entries.emplace_back(freedoms[k].first + i, k, freedoms[k].force(i));
   SparseRows P(n_c, static_cast<Eigen::Index>(freedoms.size()));
   P.setFromTriplets(entries.begin(), entries.end());
   return P;

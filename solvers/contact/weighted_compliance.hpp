@@ -28,8 +28,8 @@ class WeightedCompliance {
 
   const contact::Problem* problem_;
   Eigen::VectorXd weight_;
-  Eigen::MatrixXd L_;                        // dense
-  Eigen::SparseMatrix<double> lower_;        // of D, sparse
+  Eigen::MatrixXd L_;                       // dense
+  Eigen::SparseMatrix<double> lower_;       // of D, sparse
   std::unique_ptr<CholmodFactor> cholmod_;  // null: conjugate gradients
 };
 

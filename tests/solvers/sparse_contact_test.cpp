@@ -1,10 +1,12 @@
-// Contact problems of many rigid bodies: D by rows, and D that is not formed, against the dense one.
+// Contact problems of many rigid bodies: D by rows, and D that is not formed, against the dense
+// one.
 #include <gtest/gtest.h>
 
 #include "solvers/condensation/global_problem.hpp"
 #include "solvers/contact/active_set.hpp"
 #include "solvers/contact/compliance.hpp"
 #include "solvers/contact/coulomb_law.hpp"
+#include "solvers/contact/proximal_points.hpp"
 #include "tests/support/packings.hpp"
 
 namespace airybench::sparse_contact_test {
@@ -22,12 +24,12 @@ contact::Problem condensed(const Packing& of, const CondensationLimit& limit = {
   return problem;
 }
 
-contact::Problem dense(const Packing& of) {
-  contact::Problem problem = of.problem();
+contact::Problem dense(contact::Problem problem) {
   problem.D = problem.rows;
   problem.rows.resize(0, 0);
   return problem;
 }
+contact::Problem dense(const Packing& of) { return dense(of.problem()); }
 
 ContactResult iterated(const contact::Problem& problem, ContactSolver solver, int times) {
   return solve_contact(problem, {.solver = solver, .most_iterations = times});
@@ -105,6 +107,22 @@ TEST(SparseContact, NewtonSolvesHyperstaticWalls) {
       EXPECT_TRUE(result.converged) << components << " " << result.natural_map_residual;
       EXPECT_LT(relative_natural_map(dense(wall), result.F_C), 1e-11);
     }
+  }
+}
+
+// Where active sets alone do not end.
+TEST(SparseContact, ProximalPointsSolveWhatActiveSetsAloneDoNot) {
+  for (const auto& [shape, contacts, seed] : {std::tuple(Packed::brick_wall, 500, 1),
+                                              {Packed::periodic_box, 500, 1},
+                                              {Packed::flow, 300, 1}}) {
+    const contact::Problem problem = packing(shape, 2, contacts, seed).problem();
+    ContactResult result = iterated(problem, ContactSolver::gauss_seidel, 10);
+    finish_by_active_set(problem, {}, {}, result);
+    EXPECT_FALSE(result.converged) << contacts;
+    const double before = result.natural_map_residual;
+    finish_by_proximal_points(problem, {}, {}, result);
+    EXPECT_TRUE(result.converged) << contacts << ": " << before;
+    EXPECT_LT(relative_natural_map(dense(problem), result.F_C), 1e-11);
   }
 }
 

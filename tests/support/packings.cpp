@@ -13,13 +13,13 @@ using Vector = Eigen::Vector3d;  // in the plane the last component is zero
 constexpr int wall = -1;
 
 struct Touch {
-  int below, above;  // bodies; below may be the wall
+  int below, above;                     // bodies; below may be the wall
   Vector arm_below, arm_above, normal;  // from the centres to the point; from below to above
 };
 
-class Dice {
+class PackingDice {
  public:
-  explicit Dice(unsigned seed) : generator_(seed) {}
+  explicit PackingDice(unsigned seed) : generator_(seed) {}
   double between(double low, double high) {
     return low + (high - low) * static_cast<double>(generator_()) / 4294967296.0;
   }
@@ -63,7 +63,8 @@ std::vector<Touch> brick_wall(int components, int contacts, int& bodies) {
 // Neighbours in the plane of a triangular lattice, in space of a cubic one with half of the
 // diagonals of its faces; some 30 % are left out. on_wall: its lowest bodies touch a wall, and it
 // does not go on below.
-std::vector<Touch> lattice(int components, int contacts, bool on_wall, Dice& dice, int& bodies) {
+std::vector<Touch> lattice(int components, int contacts, bool on_wall, PackingDice& dice,
+                           int& bodies) {
   constexpr double left_out = 0.3;
   const bool space = components == 3;
   std::vector<Eigen::Vector3i> steps = {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}};
@@ -92,14 +93,13 @@ std::vector<Touch> lattice(int components, int contacts, bool on_wall, Dice& dic
           if (!space) normal.x() -= 0.5 * step.y();  // of the triangles
           normal = (normal + jitter).normalized();
           const int there = at(i + step.x(), j + step.y(), k + step.z());
-          touches.push_back(
-              {here, there, radius[here] * normal, -radius[there] * normal, normal});
+          touches.push_back({here, there, radius[here] * normal, -radius[there] * normal, normal});
         }
       }
   return touches;
 }
 
-Eigen::Matrix3d frame_of(const Vector& normal, int components, Dice& dice) {
+Eigen::Matrix3d frame_of(const Vector& normal, int components, PackingDice& dice) {
   Eigen::Matrix3d frame;
   const Vector other = components == 2 ? Vector(0, 0, 1) : dice.direction(3);
   const Vector t = other.cross(normal).normalized();
@@ -122,7 +122,7 @@ void add_columns(int first_row, int first_column, double sign, const Vector& arm
 }
 
 // r and u of a contact that is open, sticks or slips, one time in three each.
-void choose(double mu, int components, Dice& dice, Eigen::Ref<Eigen::VectorXd> r,
+void choose(double mu, int components, PackingDice& dice, Eigen::Ref<Eigen::VectorXd> r,
             Eigen::Ref<Eigen::VectorXd> u) {
   const double which = dice.between(0, 3);
   const Eigen::VectorXd direction = [&] {
@@ -146,7 +146,7 @@ void choose(double mu, int components, Dice& dice, Eigen::Ref<Eigen::VectorXd> r
 }  // namespace
 
 Packing packing(Packed shape, int components, int contacts, unsigned seed) {
-  Dice dice(seed);
+  PackingDice dice(seed);
   int bodies = 0;
   const std::vector<Touch> touches =
       shape == Packed::brick_wall
@@ -161,8 +161,7 @@ Packing packing(Packed shape, int components, int contacts, unsigned seed) {
   for (int b = 0; b < bodies; ++b) {
     const double mass = dice.between(0.5, 2);
     for (int i = 0; i < per_body; ++i)
-      masses.emplace_back(per_body * b + i, per_body * b + i,
-                          i < components ? mass : 0.4 * mass);
+      masses.emplace_back(per_body * b + i, per_body * b + i, i < components ? mass : 0.4 * mass);
   }
   for (int p = 0; p < points.count; ++p) {
     const Touch& touch = touches[static_cast<std::size_t>(p)];

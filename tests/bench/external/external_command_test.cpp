@@ -173,6 +173,14 @@ TEST_F(ExternalCommand, EndlessOutputIsEnded) {
       << reason;
 }
 
+TEST_F(ExternalCommand, OtherComponentsAreSkipped) {
+  declare("space", "condensed", "exec yes", {{"components", {3}}});
+  EXPECT_EQ(bench_.run("--external=space.json --method='EXTERNAL:*' --mesh=Mesh0 --out=o").code, 0);
+  EXPECT_EQ(bench_.records()[0]["status"], "skipped");
+  EXPECT_EQ(bench_.records()[0]["status_reason"],
+            "2 components per contact (allowed by the program: 3)");
+}
+
 TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
   write_right();
   declare("condensed", "condensed", "cp right/* $2");
@@ -292,6 +300,8 @@ TEST_F(ExternalCommand, WrongDeclarationsAreRefused) {
   refused(with({{"format", "xml"}}), "format: \"xml\" (allowed: matrix-market");
   refused(with({{"reads", "airy"}, {"returns", "airy_function"}, {"format", "fclib"}}),
           "format: \"fclib\" (allowed: matrix-market");
+  for (const Json& components : {Json(2), Json::array(), Json::array({2, 4}), Json::array({"2"})})
+    refused(with({{"components", components}}), "components: " + components.dump() + " (allowed: ");
   refused(with({{"command", nullptr}}),
           "command: is missing (allowed: a list of texts, the program first)");
   for (const Json& command :

@@ -20,11 +20,12 @@ const std::string dense = "0\n4\n4\n4\t4\n2 0 0.5 0\n0 3 0 0\n0.5 0 4 0\n0 0 0 5
                       "1\n4\n4\n4\n2\n2\n2\t4\n2\t4\n3\n4\n0\t2\t4\n0\t1\t0\t1\n"
                       "0\n2\n0\n0\n3\n1\n0.5\n0\n0\n0\n2\n0.5\n0\n0\n0\n3\n4\n0\n0\n5\n",
                   header = "2\n4\n4\n2\nCSparse Version 4.0.0, some date\n",
-                  columns = header +
-                            "4-by-4, nzmax: 6 nnz: 6, 1-norm: 5\n    col 0 : locations 0 to 1\n"
-                            "      0 : 2\n      2 : 0.5\n    col 1 : locations 2 to 2\n      1 : 3\n"
-                            "    col 2 : locations 3 to 4\n      0 : 0.5\n      2 : 4\n"
-                            "    col 3 : locations 5 to 5\n      3 : 5\n",
+                  columns =
+                      header +
+                      "4-by-4, nzmax: 6 nnz: 6, 1-norm: 5\n    col 0 : locations 0 to 1\n"
+                      "      0 : 2\n      2 : 0.5\n    col 1 : locations 2 to 2\n      1 : 3\n"
+                      "    col 2 : locations 3 to 4\n      0 : 0.5\n      2 : 4\n"
+                      "    col 3 : locations 5 to 5\n      3 : 5\n",
                   triplets = header +
                              "triplet: 4-by-4, nzmax: 6 nnz: 6\n    0 0 : 2\n    2 0 : 0.5\n"
                              "    1 1 : 3\n    0 2 : 0.5\n    2 2 : 4\n    3 3 : 5\n";
@@ -89,8 +90,7 @@ TEST_F(SiconosText, WrongFilesAreRefusedInOneLine) {
   refused("2\n2\n" + dense + "1 2 x 4\n0.3 0\n", "11: x (allowed: a finite number)");
   refused("2\n2\n" + dense + "1 2 nan 4\n0.3 0\n", "11: nan (allowed: a finite number)");
   refused("2\n2\n" + dense + "1 2 3 4\n0.3 -1\n", " mu: [1] is -1 (allowed: at least 0)");
-  refused("2\n2\n" + dense + "1 2 3 4\n0.3\n",
-          "13: the file ends (allowed: a finite number)");
+  refused("2\n2\n" + dense + "1 2 3 4\n0.3\n", "13: the file ends (allowed: a finite number)");
   refused("3\n2\n" + dense + vectors, " W: 4 x 4 (allowed: 6 x 6)");
   refused("2\n2\n" + dense + vectors + "1 0.5 x", "13: x (allowed: a finite number)");
   refused("2\n2\n1\n4\n4\n4\n2\n2\n2 5\n", "9: 5 (allowed: a whole number from 3 to 4)");

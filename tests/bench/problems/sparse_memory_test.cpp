@@ -30,22 +30,20 @@ TEST_P(SparseMemory, IsTenTimesTheFileAtMost) {
     return heap::peak_bytes() - before + static_cast<std::int64_t>(problem.bytes());
   };
   Eigen::VectorXd F;
-  EXPECT_LT(most_of([&] {
-              F = solve_contact_by_gauss_seidel(problem, {.most_iterations = 3}).F_C;
-            }),
-            2 * file_bytes);
+  EXPECT_LT(
+      most_of([&] { F = solve_contact_by_gauss_seidel(problem, {.most_iterations = 3}).F_C; }),
+      2 * file_bytes);
   EXPECT_LT(most_of([&] { active_set_step(problem, F, problem.rows * F - problem.G); }),
             10 * file_bytes);
   EXPECT_LT(most_of([&] { solve_contact_by_admm(problem, {.most_iterations = 3}); }),
             10 * file_bytes);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, SparseMemory,
-    ::testing::Values(std::tuple(Packed::brick_wall, 2, 20'000),
-                      std::tuple(Packed::periodic_box, 2, 20'000),
-                      std::tuple(Packed::brick_wall, 3, 7'000),
-                      std::tuple(Packed::periodic_box, 3, 7'000)));
+INSTANTIATE_TEST_SUITE_P(Of, SparseMemory,
+                         ::testing::Values(std::tuple(Packed::brick_wall, 2, 20'000),
+                                           std::tuple(Packed::periodic_box, 2, 20'000),
+                                           std::tuple(Packed::brick_wall, 3, 7'000),
+                                           std::tuple(Packed::periodic_box, 3, 7'000)));
 
 TEST(SparseAllocations, NoneInsideASweep) {
   for (const int components : {2, 3}) {
