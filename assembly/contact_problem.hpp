@@ -18,7 +18,7 @@ namespace airybench {
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 struct ContactPoints {
-  int count = 0;                 // for a body `per_edge` on each contact edge, from its start on
+  int count = 0;  // for a body `per_edge` on each contact edge, from its start on
   int per_edge = 2;
   int components = 2;            // per point: 1 (normal, μ = 0), 2 (plane) or 3 (space)
   std::vector<double> friction;  // μ per point; empty with one component

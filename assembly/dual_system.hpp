@@ -6,7 +6,8 @@
 //   ⎣ 0    0   −I    0 ⎦ ⎣ F_C⎦   ⎣ ū_C ⎦     λ' = −ū_C    contact displacements, mm
 //
 // with the contact law (contact_problem.hpp) between F_C and r = ū_C − ḡ at every contact point,
-// two per edge, its ends (k + 1 for stresses of degree k). ū_C belongs to w; ḡ contains g0 and the rigid motion (problem.hpp).
+// two per edge, its ends (k + 1 for stresses of degree k). ū_C belongs to w; ḡ contains g0 and the
+// rigid motion (problem.hpp).
 //
 // edge_forces.hpp defines forces and displacements on edges. The unknown here is x = φ/scale: S is
 // equilibrated to the diagonal 1; q, C_F and C_C are scaled alike. Rows are numbered by
@@ -56,7 +57,8 @@ struct DualSystem {
 enum class Blocks { airy, contact_points };
 // Why a body lacks these blocks; empty: it has them. Around a hole whose forces have a resultant or
 // a moment φ changes by an affine function (Michell 1899): three unknowns per hole that are not
-// here. Without them a hole's rows of C are dependent. Above degree 1 a contact edge has one normal.
+// here. Without them a hole's rows of C are dependent. Above degree 1 a contact edge has one
+// normal.
 std::string why_no_blocks(const Problem& problem, Blocks blocks, int degree = 1);
 // Throws std::invalid_argument with the reason of why_no_blocks(). degree: of the stresses; above 1
 // only with Blocks::contact_points.

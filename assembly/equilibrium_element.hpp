@@ -55,13 +55,13 @@ inline constexpr int highest_stress_degree = std::max({AIRYBENCH_STRESS_DEGREES(
 
 template <int k>
 struct StressDegree {
-  static constexpr int points = k + 1;                 // control values per edge
-  static constexpr int size = 6 * points;              // of K: three edges, x and y
-  static constexpr int third = bernstein_count(k);     // coefficients of P_k on a third
-  static constexpr int coefficients = 3 * third;       // of one component
-  static constexpr int inner = 3 * k * (k - 1) / 2;    // modes without edge forces
-  static constexpr int outer = 6 * k + 3;              // the others
-  static constexpr int modes = inner + outer;          // 9, 18, 30, 45
+  static constexpr int points = k + 1;               // control values per edge
+  static constexpr int size = 6 * points;            // of K: three edges, x and y
+  static constexpr int third = bernstein_count(k);   // coefficients of P_k on a third
+  static constexpr int coefficients = 3 * third;     // of one component
+  static constexpr int inner = 3 * k * (k - 1) / 2;  // modes without edge forces
+  static constexpr int outer = 6 * k + 3;            // the others
+  static constexpr int modes = inner + outer;        // 9, 18, 30, 45
 };
 
 // The constant parts, on (0,0) (1,0) (0,1). Modes: the inner ones first. All matrices by columns.

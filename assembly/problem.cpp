@@ -94,8 +94,8 @@ EdgeMoments Problem::prescribed_moments(int boundary_row, int degree) const {
   if (!u0) return moments;
   const auto [start, end] = mesh.boundary[boundary_row].vertices;
   const auto &a = mesh.vertices[start], &b = mesh.vertices[end];
-  const std::array<Eigen::Vector2d, 3> coefficients = edge_coefficients(
-      u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
+  const std::array<Eigen::Vector2d, 3> coefficients =
+      edge_coefficients(u0(a, boundary_row), u0((a + b) / 2, boundary_row), u0(b, boundary_row));
   for (int j = 0; j <= degree; ++j) moments.col(j) = moment_of_quadratic(degree, j, coefficients);
   if (is_roller(boundary_row)) {
     const Eigen::Vector2d n = edge_frame(a, b).normal;

@@ -50,8 +50,8 @@ double stress_product(const Problem& problem, int triangle,
                       const Eigen::Ref<const Eigen::Matrix3Xd>& tau) {
   const double area = problem.area_mm2(triangle);
   const Eigen::Matrix3d& C = problem.compliance_of(triangle);
-#define AIRYBENCH_CASE(k)         \
-  case 3 * bernstein_count(k):    \
+#define AIRYBENCH_CASE(k)      \
+  case 3 * bernstein_count(k): \
     return product<k>(sigma.data(), tau.data(), area, C);
   switch (sigma.cols()) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
 #undef AIRYBENCH_CASE

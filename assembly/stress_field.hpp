@@ -11,8 +11,8 @@
 
 namespace airybench {
 
-// Linear on each third. Columns: the nine corners of the three thirds as in HctStress; rows: xx, yy,
-// xy in MPa.
+// Linear on each third. Columns: the nine corners of the three thirds as in HctStress; rows: xx,
+// yy, xy in MPa.
 template <typename Scalar>
 using ElementStressIn = Eigen::Matrix<Scalar, 3, 9>;
 using ElementStress = ElementStressIn<double>;
@@ -41,8 +41,8 @@ class StressField {
     ElementStress corners;
     const auto own = (*this)[triangle];
     for (Eigen::Index t = 0; t < 3; ++t)
-      corners.middleCols<3>(3 * t) << own.col(t * columns_ / 3), own.col(t * columns_ / 3 + degree_),
-          own.col((t + 1) * columns_ / 3 - 1);
+      corners.middleCols<3>(3 * t) << own.col(t * columns_ / 3),
+          own.col(t * columns_ / 3 + degree_), own.col((t + 1) * columns_ / 3 - 1);
     return corners;
   }
   // Of all triangles, one after the other.

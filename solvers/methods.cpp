@@ -7,6 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "assembly/equilibrium_element.hpp"
 #include "solvers/names/general_names.hpp"
 #include "support/shortened.hpp"
 
@@ -49,6 +50,7 @@ static Method method_of_general_name(const std::string& text) {
   return method;
 }
 
+const int highest_degree = highest_stress_degree;
 std::string hybrid_of_degree(int degree) {
   return degree == 1 ? "HYBRID" : "HYBRID:k=" + std::to_string(degree);
 }

@@ -30,8 +30,9 @@ Method condensed_contact();
 std::vector<Method> select_methods(std::string_view selection,
                                    const std::vector<Method>& others = {});
 
-// "HYBRID", "HYBRID:k=2", …
+// "HYBRID", "HYBRID:k=2", …, up to the highest degree of stresses.
 std::string hybrid_of_degree(int degree);
+extern const int highest_degree;
 
 // Whether a name is of a family: "SYMMLQ:…", not "3STEPD:FILE".
 bool is_general_name(const std::string& name);

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "assembly/equilibrium_element.hpp"
 #include "bench/commands/command_line.hpp"
 #include "bench/measure/build_info.hpp"
 #include "bench/run/runner.hpp"
@@ -277,10 +276,10 @@ void read_degree(const std::string& text, bool is_given, Options& options) {
   if (text == "auto") {
     for (const AdaptGoal& goal : options.adapt)
       if (goal.error.value_or(1) < low_error) degree = 3;
-  } else if (text.size() == 1 && text[0] >= '1' && text[0] - '0' <= highest_stress_degree) {
+  } else if (text.size() == 1 && text[0] >= '1' && text[0] - '0' <= highest_degree) {
     degree = text[0] - '0';
   } else {
-    refuse("--degree", text, fmt::format("1 to {}, auto", highest_stress_degree));
+    refuse("--degree", text, fmt::format("1 to {}, auto", highest_degree));
   }
   options.adapt_by = hybrid_of_degree(degree);
   if (!is_given) options.methods = options.adapt_by;

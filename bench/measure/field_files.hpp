@@ -31,8 +31,8 @@
 
 namespace airybench {
 
-// The contact points in Problem::frame_of_moment(), from start to end of each edge. Gap and slip are the contact law's:
-// moments over the edge (edge_forces.hpp), from the load step before.
+// The contact points in Problem::frame_of_moment(), from start to end of each edge. Gap and slip
+// are the contact law's: moments over the edge (edge_forces.hpp), from the load step before.
 struct ContactPicture {
   std::vector<Eigen::Vector2d> at_mm;
   std::vector<EdgeFrame> frame;

@@ -166,7 +166,8 @@ void Judge::write_fields_of(const Method& method, const DualSystem& system,
                             const Solution& solution, const Record& record,
                             const std::filesystem::path& file) {
   const std::optional<Bound> bound = bound_for(method);
-  const Discretisation* known = bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
+  const Discretisation* known =
+      bound && !record.other_solution ? discretisation(*bound, method.degree) : nullptr;
   SolvedFields fields = own_fields(system, solution);
   if (!has_own_displacement(solution) && known != nullptr && known->u.allFinite())
     fields.w = known->u;

@@ -22,7 +22,8 @@ struct ReferencePath {
   std::vector<Reference> steps;  // all, or none
   std::string missing;           // why there are none
 };
-// degree: of the stresses. error_at_most: limits each reference's own error estimate and equilibrium residual.
+// degree: of the stresses. error_at_most: limits each reference's own error estimate and
+// equilibrium residual.
 ReferencePath references_along(const std::shared_ptr<const Problem>& first, int degree,
                                double error_at_most);
 

@@ -67,7 +67,9 @@ AssembledBlocks assemble_and_measure(const std::shared_ptr<const Problem>& probl
     const std::int64_t before = heap::live_bytes();
     const auto start = std::chrono::steady_clock::now();
     const OwnerScope scope(MemoryOwner::blocks);
-    if (problem) blocks.system.reset(new DualSystem(assemble(problem, method.blocks, method.degree)));  // no copy
+    if (problem)
+      blocks.system.reset(
+          new DualSystem(assemble(problem, method.blocks, method.degree)));  // no copy
     blocks.assembly_samples_s.push_back(seconds_since(start));
     blocks.blocks_heap_bytes = if_probed(heap::live_bytes() - before);
     blocks.assembly_peak_heap_bytes = if_probed(heap::peak_bytes() - before);

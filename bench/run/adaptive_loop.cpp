@@ -151,8 +151,8 @@ BisectedMesh AdaptiveLoop::marked_and_bisected() const {
   const AdaptGoal& goal = settings_.goals[goal_];
   const auto& [unknowns, error] = history_.back();
   const double rate = 2. / (method_.degree + 1);  // e ~ N^−(k+1)/2
-  const double needed = goal.error ? margin * unknowns * std::pow(error / *goal.error, rate)
-                                   : *goal.unknowns;
+  const double needed =
+      goal.error ? margin * unknowns * std::pow(error / *goal.error, rate) : *goal.unknowns;
   double marking = *settings_.marking;
   BisectedMesh finer = bisected(mesh_, cuts_of(parts_Nmm_, marking));
   while (mesh_sizes(finer.mesh).n_phi > needed && marking > least_marking) {

@@ -61,7 +61,8 @@ struct ResultantLifts {
 };
 ResultantLifts resultant_lifts(const Problem& problem);
 
-// Empty without contact, and above degree 1. stress, F_C and u are those that `error` was computed from.
+// Empty without contact, and above degree 1. stress, F_C and u are those that `error` was computed
+// from.
 std::optional<ContactIntervals> contact_intervals(
     const DualSystem& system, const StressField& stress, const Eigen::VectorXd& F_C,
     const DisplacementField& u, const ConstitutiveError& error, const ResultantLifts& lifts);

@@ -60,7 +60,8 @@ std::vector<AtVertex> look_at_vertices(const Mesh& mesh, const MeshEdges& edges,
     for (const int edge : edges.of_triangle[t]) of_edge[edge][of_edge[edge][0] >= 0] = t;
   const auto add = [&](Ring& ring, int t, int v) {
     const Corners x = corners_of(mesh, t);
-    ring.add(std::max(0.0, parts[t]), area_of(x), power, (centroid_of(x) - mesh.vertices[v]).norm());
+    ring.add(std::max(0.0, parts[t]), area_of(x), power,
+             (centroid_of(x) - mesh.vertices[v]).norm());
   };
   for (int t = 0; t < triangles; ++t)
     for (int k = 0; k < 3; ++k) {

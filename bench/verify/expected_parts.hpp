@@ -3,9 +3,9 @@
 //
 // Stresses have degree k on thirds of a triangle T of area A, so its part of e² is e_T² ~
 // |∇^(k+1) σ|² A^(k+2). Where the stress is smooth, κ = e_T² / A^(k+2) depends on the solution and
-// not on the mesh: a half of T has 2^−(k+2) of its part. Near a vertex v where the stress is singular
-// like r^(λ−1), κ ~ r^−s with s = 2k + 4 − 2λ. A part of T with area A' and centroid x is expected to
-// have
+// not on the mesh: a half of T has 2^−(k+2) of its part. Near a vertex v where the stress is
+// singular like r^(λ−1), κ ~ r^−s with s = 2k + 4 − 2λ. A part of T with area A' and centroid x is
+// expected to have
 //
 //   κ_T (|x − v| / |x_T − v|)^−s A'^(k+2)     x_T: centroid of T
 //
@@ -15,8 +15,8 @@
 // so they wait for the next mesh.
 //
 // Of all meshes with a given number of triangles the one with equal parts has the least error (e² ~
-// Σ κ A^(k+2) for given Σ 1; bulk marking leads there too). So triangles are cut until no expected part
-// exceeds a common threshold.
+// Σ κ A^(k+2) for given Σ 1; bulk marking leads there too). So triangles are cut until no expected
+// part exceeds a common threshold.
 #pragma once
 
 #include <array>

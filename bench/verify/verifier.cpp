@@ -24,13 +24,16 @@ struct EdgeBalance {
   double largest = 0;   // largest single force, N
   double interior = 0;  // largest force that is not balanced inside a triangle, N
 
-  auto of(int edge) const { return sum.middleCols(static_cast<Eigen::Index>(points) * edge, points); }
+  auto of(int edge) const {
+    return sum.middleCols(static_cast<Eigen::Index>(points) * edge, points);
+  }
 };
 
 // Largest of what ∇·σ + b leaves on a third, and of the jumps of tractions between thirds, N: the
 // divergence's Bernstein coefficients times the third's area, and the spokes' control forces.
-double unbalanced_inside(const TriangleVertices& v, const Eigen::Ref<const Eigen::Matrix3Xd>& stress,
-                         int degree, const Eigen::Vector2d& body_force) {
+double unbalanced_inside(const TriangleVertices& v,
+                         const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int degree,
+                         const Eigen::Vector2d& body_force) {
   const Eigen::Vector2d centroid = v.rowwise().mean();
   const double third_area = cross_area(v.col(0), v.col(1), v.col(2)) / 6;
   const int third = bernstein_count(degree);
@@ -49,18 +52,17 @@ double unbalanced_inside(const TriangleVertices& v, const Eigen::Ref<const Eigen
       for (int i = 0; i < degree - j; ++i) {
         Eigen::Vector2d resultant = third_area * body_force;
         for (int p = 0; p < 3; ++p)
-          resultant -= degree / 2. *
-                       traction(of_third.col(ring_place(degree, i + (p == 1), j + (p == 2))),
-                                opposite[p]);
+          resultant -=
+              degree / 2. *
+              traction(of_third.col(ring_place(degree, i + (p == 1), j + (p == 2))), opposite[p]);
         largest = std::max(largest, resultant.cwiseAbs().maxCoeff());
       }
     const auto before = stress.middleCols(third * other, third);  // it shares the spoke from a
     for (int j = 0; j <= degree; ++j) {
-      const Eigen::Vector2d jump =
-          traction(of_third.col(ring_place(degree, 0, j)) -
-                       before.col(ring_place(degree, degree - j, j)),
-                   opposite[1]) /
-          (degree + 1);
+      const Eigen::Vector2d jump = traction(of_third.col(ring_place(degree, 0, j)) -
+                                                before.col(ring_place(degree, degree - j, j)),
+                                            opposite[1]) /
+                                   (degree + 1);
       largest = std::max(largest, jump.cwiseAbs().maxCoeff());
     }
   }
@@ -87,9 +89,9 @@ EdgeBalance edge_balance(const Problem& problem, const StressField& stress) {
       else
         sum += force.rowwise().reverse();
     }
-    balance.interior = std::max(balance.interior,
-                                unbalanced_inside(v, of_triangle, stress.degree(),
-                                                  problem.loads.body_force_N_per_mm3));
+    balance.interior = std::max(
+        balance.interior,
+        unbalanced_inside(v, of_triangle, stress.degree(), problem.loads.body_force_N_per_mm3));
   }
   return balance;
 }
@@ -121,8 +123,7 @@ double equilibrium_residual(const DualSystem& system, const Solution& solution,
       const Eigen::Vector2d start = problem.loads.traction_MPa(a, frame.normal, row),
                             end = problem.loads.traction_MPa(b, frame.normal, row);
       for (int j = 0; j <= degree; ++j)
-        off.col(j) -=
-            frame.length_mm / balance.points * ((degree - j) * start + j * end) / degree;
+        off.col(j) -= frame.length_mm / balance.points * ((degree - j) * start + j * end) / degree;
     } else if (role == BoundaryRole::contact) {
       const int m = system.contact.components;
       for (int j = 0; j <= degree; ++j, ++point) {

@@ -105,11 +105,11 @@ struct Kernels {
 
 template <typename Scalar>
 const DegreeKernels<Scalar>& degree_kernels(int degree) {
-#define AIRYBENCH_CASE(k)                                                                     \
-  case k: {                                                                                   \
-    static const DegreeKernels<Scalar> kernels = {Kernels<Scalar, k>::stiffness,              \
-                                                  Kernels<Scalar, k>::stress};                \
-    return kernels;                                                                           \
+#define AIRYBENCH_CASE(k)                                                        \
+  case k: {                                                                      \
+    static const DegreeKernels<Scalar> kernels = {Kernels<Scalar, k>::stiffness, \
+                                                  Kernels<Scalar, k>::stress};   \
+    return kernels;                                                              \
   }
   switch (degree) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
   throw std::invalid_argument("stresses of degree " + std::to_string(degree) + " (allowed: 1 to " +

@@ -12,8 +12,8 @@ template <typename Scalar>
 struct DegreeInput {
   TriangleVerticesFor<Scalar> vertices;
   Eigen::Matrix3<Data<Scalar>> compliance;
-  Eigen::Matrix3<Scalar> particular;                   // σ_p at the vertices
-  std::array<bool, 3> from_start;                      // the edge's moments follow the element's walk
+  Eigen::Matrix3<Scalar> particular;  // σ_p at the vertices
+  std::array<bool, 3> from_start;     // the edge's moments follow the element's walk
   std::array<std::optional<EdgeFrameIn<Scalar>>, 3> frame;  // else its components are x and y
 };
 

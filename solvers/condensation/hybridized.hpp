@@ -38,18 +38,18 @@ namespace airybench {
 template <typename Scalar>
 struct HybridizedSystemIn {
   EdgeUnknowns unknown;
-  Eigen::MatrixXd displacement;  // prescribed_displacements()
-  ElementMatricesIn<Scalar> K;   // N/mm
-  Eigen::VectorX<Scalar> b;      // N, without the contact forces
-  int n_c = 0;                   // the last unknowns
+  Eigen::MatrixXd displacement;                            // prescribed_displacements()
+  ElementMatricesIn<Scalar> K;                             // N/mm
+  Eigen::VectorX<Scalar> b;                                // N, without the contact forces
+  int n_c = 0;                                             // the last unknowns
   int degree() const { return unknown.length() / 2 - 1; }  // of the stresses
-  std::size_t bytes() const;                  // of K and b
+  std::size_t bytes() const;                               // of K and b
 };
 using HybridizedSystem = HybridizedSystemIn<double>;
 
-// `contact` is contact_points() of a degree: it says that of the stresses and which contact unknowns
-// there are. Throws Breakdown naming the triangle whose flexibility is not positive definite to
-// rounding.
+// `contact` is contact_points() of a degree: it says that of the stresses and which contact
+// unknowns there are. Throws Breakdown naming the triangle whose flexibility is not positive
+// definite to rounding.
 template <typename Scalar = double>
 HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
                                                const ContactPoints& contact);

@@ -44,8 +44,7 @@ void element_displacement(const Problem& problem, const HybridizedSystemIn<Scala
   for (int k = 0; k < 3; ++k) {
     const int edge = problem.edges.of_triangle[t][k];
     if (system.displacement.cols() > 0)
-      local.segment(per_edge * k, per_edge) =
-          system.displacement.col(edge).template cast<Scalar>();
+      local.segment(per_edge * k, per_edge) = system.displacement.col(edge).template cast<Scalar>();
     if (u.size() > 0)
       for (int i = 0; i < per_edge; ++i)
         if (const int unknown = system.unknown[edge][i]; unknown != prescribed_unknown)
@@ -166,12 +165,12 @@ HybridizedSystemIn<Scalar> assemble_hybridized(const Problem& problem,
   system.K.reserve(problem.mesh.triangles.size());
 
   std::vector<int> unknown;
-  visit_stiffness<Scalar>(
-      problem, system.degree(), [&](int t, const StiffnessOfTriangle<Scalar>& element) {
-        element_unknowns(problem, system.unknown, t, unknown);
-        system.K.add(unknown, centre_of(problem.vertices_of(t)), element.lower);
-        subtract_load(unknown, element.load, system.b);
-      });
+  visit_stiffness<Scalar>(problem, system.degree(),
+                          [&](int t, const StiffnessOfTriangle<Scalar>& element) {
+                            element_unknowns(problem, system.unknown, t, unknown);
+                            system.K.add(unknown, centre_of(problem.vertices_of(t)), element.lower);
+                            subtract_load(unknown, element.load, system.b);
+                          });
   if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
   return system;
@@ -182,10 +181,10 @@ void set_load_case(const Problem& problem, HybridizedSystemIn<Scalar>& system) {
   system.displacement = prescribed_displacements(problem, system.degree());
   system.b.setZero();
   if (problem.loads.has_body_force())
-    visit_stiffness<Scalar>(
-        problem, system.degree(), [&](int t, const StiffnessOfTriangle<Scalar>& element) {
-          subtract_load(system.K.unknown[t], element.load, system.b);
-        });
+    visit_stiffness<Scalar>(problem, system.degree(),
+                            [&](int t, const StiffnessOfTriangle<Scalar>& element) {
+                              subtract_load(system.K.unknown[t], element.load, system.b);
+                            });
   if (system.displacement.cols() > 0) subtract_prescribed(problem, system);
   add_tractions(problem, system.unknown, system.b);
 }
@@ -203,9 +202,9 @@ void visit_stresses(const Problem& problem, const HybridizedSystemIn<Scalar>& sy
         stress(9 * bernstein_count(system.degree()));
     for (int t = 0; t < static_cast<int>(problem.mesh.triangles.size()); ++t) {
       element_displacement<Scalar>(problem, system, u, t, local);
-      const Scalar energy = kernels.stress(degree_input<Scalar>(problem, rows, t), loaded,
-                                           local.data(), stress.data(), forces.data(),
-                                           defect.data());
+      const Scalar energy =
+          kernels.stress(degree_input<Scalar>(problem, rows, t), loaded, local.data(),
+                         stress.data(), forces.data(), defect.data());
       visit(t, StressOfTriangle<Scalar>{stress.data(), forces.data(), defect.data(), energy});
     }
     return;

@@ -16,12 +16,11 @@ namespace {
 
 using Slid = std::vector<std::array<double, 3>>;
 
-// The linear slip that has an edge's two moments; for stresses of degree 2 the quadratic one that has
-// its three.
+// The linear slip that has an edge's two moments; for stresses of degree 2 the quadratic one that
+// has its three.
 void add_of_contact_points(const ContactPoints& contact, const Eigen::VectorXd& slip, Slid& slid) {
   for (int p = 0; p < contact.count; p += contact.per_edge) {
-    const Eigen::VectorXd moments =
-        slip(Eigen::seqN(2 * p + 1, contact.per_edge, 2));
+    const Eigen::VectorXd moments = slip(Eigen::seqN(2 * p + 1, contact.per_edge, 2));
     auto& edge = slid[static_cast<std::size_t>(contact.boundary[p])];
     Eigen::Map<Eigen::Vector3d> coefficients(edge.data());
     if (contact.per_edge == 2) {

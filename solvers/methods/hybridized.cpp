@@ -80,16 +80,16 @@ constexpr Factors factors[] = {
 
 Method hybrid_method(const Factors& of, int degree = 1) {
   const std::string first = of.name;
-  Method method = {
-      .name = "HYBRID" + (first.empty() ? "" : ":" + first),
-      .family = "HYBRID",
-      .summary = of.summary,
-      .blocks = Blocks::contact_points,
-      .degree = degree,
-      .solve = [make = of.make](
-                   const DualSystem& airy,
-                   const RunControl& control) { return solve_hybridized(airy, control, make); },
-      .knob = AccuracyKnob::contact_sweeps};
+  Method method = {.name = "HYBRID" + (first.empty() ? "" : ":" + first),
+                   .family = "HYBRID",
+                   .summary = of.summary,
+                   .blocks = Blocks::contact_points,
+                   .degree = degree,
+                   .solve =
+                       [make = of.make](const DualSystem& airy, const RunControl& control) {
+                         return solve_hybridized(airy, control, make);
+                       },
+                   .knob = AccuracyKnob::contact_sweeps};
   if (degree > 1) {
     method.name += (first.empty() ? ":k=" : ",k=") + std::to_string(degree);
     method.summary = "stresses of degree " + std::to_string(degree) + ": " + method.summary;

@@ -6,8 +6,8 @@
 #include "assembly/equilibrium_element.hpp"
 #include "mesh/bisection.hpp"
 #include "solvers/condensation/degree_element.hpp"
-#include "solvers/condensation/hybridized.hpp"
 #include "solvers/condensation/hybrid_element_templates.hpp"
+#include "solvers/condensation/hybridized.hpp"
 #include "solvers/loading/load_steps.hpp"
 #include "solvers/methods.hpp"
 #include "tests/support/exact_fields.hpp"
@@ -63,10 +63,8 @@ TEST(Degrees, TheGeneralElementOfDegreeOneIsHybrids) {
   rolling.boundary["displacement"].support = BoundaryValues::Support::normal;
   const Mesh tooth = small_tooth(3, 2),
              guided = testing::with_role(tooth, BoundaryRole::force, BoundaryRole::displacement);
-  for (const auto& [scene, mesh] : {std::pair(Scene{}, tooth),
-                                    {loaded_scene(), tooth},
-                                    {rolling, guided},
-                                    {inclined, tooth}}) {
+  for (const auto& [scene, mesh] :
+       {std::pair(Scene{}, tooth), {loaded_scene(), tooth}, {rolling, guided}, {inclined, tooth}}) {
     const auto problem = testing::posed(scene, mesh);
     const bool loaded = problem->loads.has_body_force();
     const HybridizedSystem system = assemble_hybridized(*problem, contact_points(*problem));
@@ -92,9 +90,8 @@ TEST(Degrees, LinearStressesAreExactForEveryDegree) {
   const Mesh mesh =
       testing::with_role(small_tooth(2, 2), BoundaryRole::contact, BoundaryRole::force);
   for (const testing::ExactField& exact : testing::exact_fields(young, poisson)) {
-    const auto problem = std::make_shared<const Problem>(
-        make_problem(mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact),
-                     0));
+    const auto problem = std::make_shared<const Problem>(make_problem(
+        mesh, {compliance({young, poisson}, Plane::stress)}, testing::loads_of(exact), 0));
     for (int k = 1; k <= highest_stress_degree; ++k) {
       const StressField stress = solved(problem, k).solution.stress;
       double off = 0, size = 0;
@@ -195,9 +192,7 @@ TEST(Degrees, AreRefusedWhereTheyAreNot) {
   socket.wall = CircularWall{{-390, 0}, 400.01, CircularWall::Bodies::inside};
   EXPECT_EQ(of_scene(socket, 2),
             "stresses of degree 2 need walls whose normal does not turn along an edge");
-  const auto of_name = [&](const char* name) {
-    return complaint([&] { select_methods(name); });
-  };
+  const auto of_name = [&](const char* name) { return complaint([&] { select_methods(name); }); };
   EXPECT_EQ(of_name("HYBRID:k=5"),
             "method 'HYBRID:k=5': k='5' (allowed: a whole number from 1 to 4)");
   EXPECT_EQ(of_name("HYBRID:k=1.5"),

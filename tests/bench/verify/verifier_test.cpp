@@ -73,7 +73,8 @@ TEST_F(Verifier, JudgesStressesOfEveryDegree) {
   for (const int k : {2, 3, 4}) {
     Scene scene{.friction = 0.2};
     scene.body_force_N_per_mm3 = {0.4, -0.2};
-    system_ = assemble(testing::posed(scene, testing::small_tooth(4, 3)), Blocks::contact_points, k);
+    system_ =
+        assemble(testing::posed(scene, testing::small_tooth(4, 3)), Blocks::contact_points, k);
     reference_ = compute_reference(system_);
     const Solution right = run(select_methods(hybrid_of_degree(k)).front(), system_, {});
     ASSERT_EQ(right.status, Status::ok) << right.message;
@@ -84,9 +85,9 @@ TEST_F(Verifier, JudgesStressesOfEveryDegree) {
       solution_.stress[7](0, column) += 1;
       return verified().equilibrium_residual.value();
     };
-    EXPECT_GT(unbalanced_by(1), 1e-4) << k;                        // on an edge of the mesh
-    EXPECT_GT(unbalanced_by(ring_place(k, 0, 1)), 1e-4) << k;      // between thirds
-    EXPECT_GT(unbalanced_by(bernstein_count(k) - 1), 1e-4) << k;   // at the centroid
+    EXPECT_GT(unbalanced_by(1), 1e-4) << k;                       // on an edge of the mesh
+    EXPECT_GT(unbalanced_by(ring_place(k, 0, 1)), 1e-4) << k;     // between thirds
+    EXPECT_GT(unbalanced_by(bernstein_count(k) - 1), 1e-4) << k;  // at the centroid
     solution_ = right;
     solution_.F_C(2) *= 1.001;
     EXPECT_GT(verified().equilibrium_residual, 1e-5) << k;
