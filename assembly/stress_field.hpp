@@ -36,6 +36,7 @@ class StressField {
   auto operator[](std::size_t triangle) const {
     return values_.middleCols(static_cast<Eigen::Index>(triangle) * columns_, columns_);
   }
+  bool operator==(const StressField& other) const = default;
   // At the nine corners of its thirds.
   ElementStress corners(std::size_t triangle) const {
     ElementStress corners;

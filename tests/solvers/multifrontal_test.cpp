@@ -169,8 +169,7 @@ TEST(Multifrontal, ByInnerColumnsTheLastUnknownsAreTheSchurComplements) {
 TEST(Multifrontal, AnotherMatrixOnTheSameElements) {
   ElementMatrices K = grid_elements(5);
   MultifrontalFactor cholesky = factored(K);
-  for (auto& element : K.lower)
-    for (double& entry : element) entry *= 4;
+  for (double& entry : K.lower.entries()) entry *= 4;
   cholesky.factor(K);
   Eigen::MatrixXd x = Eigen::VectorXd::Ones(K.order);
   cholesky.solve_in_place(x);
