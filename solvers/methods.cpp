@@ -116,7 +116,8 @@ std::vector<std::string> split_selection(std::string_view selection) {
 std::string valid_names(const std::vector<Method>& table) {
   std::string names;
   for (const Method& method : table)
-    if (!is_general_name(method.name)) names += (names.empty() ? "" : ", ") + method.name;
+    if (method.preconditioner.empty() || !is_general_name(method.name))
+      names += (names.empty() ? "" : ", ") + method.name;
   return names;
 }
 
