@@ -28,6 +28,7 @@ struct Compared {
   Names like, unlike;          // mistakes that the answer is, and is not, the one of
   std::string unnamed;         // what to say if no mistake is like it
   bool has_no_forces = false;  // as many mistakes lead to
+  bool has_friction = false;
 };
 
 // The condensed problem in the rows of the program's F_C, and its solution.
@@ -98,6 +99,7 @@ Compared check_case(const Method& program, const PosedScene& scene, const Option
   c.seen.verdict = name_of(record.status);
   c.seen.passed = record.status == Status::ok;
   const Condensed condensed = condensed_of(program, scene);
+  c.has_friction = condensed.problem.points.components > 1;
   if (F.size() != condensed.F_C.size())
     c.unnamed = in_short(record.status_reason);
   else if (!F.allFinite())
@@ -134,6 +136,14 @@ CheckReport conclude(std::vector<Compared>& all) {
     for (const std::string& name : c.unlike) explain.erase(name);
   CheckReport report;
   report.conclusion = text_of(explain);
+  const auto failed = [](const Compared& c) { return !c.seen.passed; };
+  const auto fails_with_friction = [](const Compared& c) {
+    return c.seen.passed || c.has_friction || c.seen.name == case_without_solution;
+  };
+  const auto passes_without = [](const Compared& c) { return c.seen.passed && !c.has_friction; };
+  if (explain.empty() && std::ranges::any_of(all, failed) &&
+      std::ranges::all_of(all, fails_with_friction) && std::ranges::any_of(all, passes_without))
+    report.conclusion = "something in the friction law: what has no friction is right";
   const auto passed = [&](const char* name) {
     return std::ranges::any_of(
         all, [&](const Compared& c) { return c.seen.name == name && c.seen.passed; });

@@ -76,7 +76,7 @@ struct Collector {
     Law wrong;
     wrong.limit = [mu](int point, double F_n) {
       const double friction = mu(point);
-      return friction == endless ? endless : friction * std::abs(F_n);
+      return F_n == 0 ? 0 : friction * std::abs(F_n);
     };
     law(name, wrong);
   }
@@ -164,7 +164,13 @@ void add_laws(Collector& to) {
   to.friction("friction: twice mu", [=](int p) { return 2 * mu(p); });
   to.friction("friction: half of mu", [=](int p) { return mu(p) / 2; });
   to.friction("friction: none", [](int) { return 0.0; });
-  to.friction("friction: without a limit, all points stick", [](int) { return endless; });
+  to.friction("friction: mu squared", [=](int p) { return mu(p) * mu(p); });
+  to.friction("friction: the sine of its angle for the tangent",
+              [=](int p) { return mu(p) / std::hypot(1, mu(p)); });
+  to.friction("friction: without a limit, all closed points stick", [](int) { return endless; });
+  Law sticks;
+  sticks.limit = [](int, double) { return endless; };
+  to.law("friction: without a limit, open points stick, too", sticks);
   to.friction("friction: the first point's mu for all", [=](int) { return mu(0); });
   to.friction("friction: the last point's mu for all",
               [=, last = points.count - 1](int) { return mu(last); });

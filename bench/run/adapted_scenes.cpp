@@ -60,10 +60,11 @@ std::string definition_on(const Mesh& mesh, const std::string& definition,
   return json_text(json);
 }
 
-Json answer_for(AdaptiveLevel& level, const Options& options, const std::string& mesh_name,
-                const std::filesystem::path& folder) {
-  level.mesh.name =
-      fmt::format("{}+{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt", level.number);
+// MESH+adapt3, for stresses of degree 2 MESH+adapt3k2: runs of several degrees can be joined.
+Json answer_for(AdaptiveLevel& level, const Options& options, int degree,
+                const std::string& mesh_name, const std::filesystem::path& folder) {
+  level.mesh.name = fmt::format("{}+{}{}{}", mesh_name, options.marking == 1. ? "refined" : "adapt",
+                                level.number, degree > 1 ? fmt::format("k{}", degree) : "");
   const std::filesystem::path file = folder / (level.mesh.name + ".msh");
   write_file_atomically(file, msh_text(level.mesh));
   return {{"file", file.string()},         {"number", level.number},
@@ -77,13 +78,15 @@ void serve_loop(Channel& channel, const Scene& scene, const Mesh& mesh, const Op
   tell_refused_memory_at_exit();
   set_threads(options.threads);
   const heap::Backstop backstop(options.memory_limit_bytes);
-  AdaptiveLoop loop(scene, mesh, adapting_method(options.adapt_by),
+  const Method method = adapting_method(options.adapt_by);
+  AdaptiveLoop loop(scene, mesh, method,
                     {options.adapt, options.marking, options.timeout_s, options.memory_limit_bytes,
                      options.threads});
   while (channel.receive()) {
     Json answer = Json::object();
     try {
-      if (auto level = loop.next()) answer = answer_for(*level, options, mesh.name, folder);
+      if (auto level = loop.next())
+        answer = answer_for(*level, options, method.degree, mesh.name, folder);
       answer["reached"] = loop.reached();
       answer["ended"] = loop.why_ended();
     } catch (const InputError& error) {

@@ -1,7 +1,8 @@
 // The levels of an adaptive loop as scenes of a plan. The loop runs in a separate process, so that
 // a crash, a hang or a lack of memory does not end the run, which keeps the levels made so far.
 // Each level is an ordinary mesh with a scene file:
-//   OUT/meshes/SCENE/MESH+adaptK.msh   (MESH+refinedK.msh after uniform refinement)
+//   OUT/meshes/SCENE/MESH+adaptK.msh   (MESH+refinedK.msh after uniform refinement;
+//   for stresses of degree 2 MESH+adaptKk2.msh)
 //   OUT/meshes/SCENE/SCENE.json        the scene without its changes to the mesh
 #pragma once
 

@@ -14,7 +14,7 @@ if mistake == "CRASH":
     sys.exit(3)
 
 
-def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False):
+def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False, sticks=False):
     """F with r = D F + b; None: no convergence."""
     components, F = len(b) // len(mu), np.zeros(len(b))
     for _ in range(50000):
@@ -26,6 +26,8 @@ def sweeps(D, b, mu, tolerance, absolute, opens=True, box=False):
                 F[n] = min(F[n], 0)
             if components == 2:
                 most = friction if box else friction * abs(F[n])
+                if sticks and F[n] < 0:
+                    most = np.inf
                 F[n + 1] = np.clip(F[n + 1] - (D[n + 1] @ F + b[n + 1]) / D[n + 1, n + 1], -most, most)
         change = np.linalg.norm(F - before)
         if change <= (tolerance if absolute else tolerance * np.linalg.norm(F)):
@@ -42,8 +44,13 @@ def answer(D, G, gap, mu):
     b = -G - gap
     if mistake == "friction_factor":
         mu = 2 * mu
+    if mistake == "sine":
+        mu = mu / np.sqrt(1 + mu**2)
+    if mistake == "unlike_any":
+        mu = 0.9 * mu
     F = sweeps(D, b, mu, 1e-7 if mistake == "absolute_tolerance" else 1e-12,
-               mistake == "absolute_tolerance", mistake != "tension", mistake == "box")
+               mistake == "absolute_tolerance", mistake != "tension", mistake == "box",
+               mistake == "no_cone")
     if F is None:
         return np.zeros(len(b)) if mistake == "always_ok" else None
     if mistake == "sign_of_tangent" and components == 2:

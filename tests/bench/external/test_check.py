@@ -27,6 +27,8 @@ MISTAKES = {
               "the order of the forces: all normal ones, then all tangential ones"),
     "box": ("06_friction_cone", "friction: a box, |F_t| <= mu without F_n"),
     "friction_factor": ("06_friction_cone", "friction: twice mu"),
+    "sine": ("06_friction_cone", "friction: the sine of its angle for the tangent"),
+    "no_cone": ("06_friction_cone", "friction: without a limit, all closed points stick"),
     "tension": ("07_opening", "points do not open: F_n > 0"),
     "always_two_components": ("08_no_friction", "F_C has one row per point, the normal force"),
     "always_ok": ("09_no_solution", "an answer where there is none"),
@@ -79,6 +81,11 @@ class Check(unittest.TestCase):
             with self.subTest(mistake):
                 _, _, out = self.check(mistake)
                 self.assertIn(f"all its answers look like: {MISTAKES[mistake][1]}\n", out)
+
+    def test_a_mistake_of_friction_that_is_none_of_the_known_is_said_to_be_one(self) -> None:
+        _, lines, out = self.check("unlike_any")
+        self.assertRegex(lines["08_no_friction"], r" ok +-$")
+        self.assertIn("all its answers look like: something in the friction law", out)
 
     def test_a_new_program_runs_and_passes(self) -> None:
         made = self.bench("--new-external=mine")
