@@ -110,8 +110,9 @@ void write_problem(hid_t file, const contact::Problem& problem, const Eigen::Vec
   const ContactPoints& points = problem.points;
   const Handle local = group(file, "fclib_local");
   write(local, "spacedim", std::max(2, points.components));
-  const SparseRows W =
-      s * (problem.is_dense() ? rows_of(with_tangents(points, problem.D)) : problem.rows);
+  const SparseRows W = problem.is_dense()
+                           ? rows_of(with_tangents(points, Eigen::MatrixXd(s * problem.D)))
+                           : SparseRows(s * problem.rows);
   write_matrix(local, W);
   const Eigen::VectorXd q = s * contact_offset(problem);
   {
