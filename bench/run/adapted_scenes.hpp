@@ -16,8 +16,8 @@ struct AdaptedScenes {
   std::string why_not_reached;     // one line; empty if all goals are reached
 };
 
-// Prints progress to standard error. Throws UsageError (options.adapt_by), FileError, Interrupted.
-void check_adapting_method(const Options& options);  // throws UsageError
+void check_adapting_method(const Options& options);  // throws UsageError (options.adapt_by)
+// Prints progress to standard error. Throws UsageError, FileError, Interrupted.
 AdaptedScenes adapted_scenes(const PosedScene& start, const Options& options);
 
 // Refines level 0 uniformly once; writes the mesh next to it, MESH+refined1.msh.

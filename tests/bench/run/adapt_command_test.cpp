@@ -58,6 +58,27 @@ TEST_F(AdaptCommand, LevelsAreCasesWithTheirErrorTimeAndMesh) {
   EXPECT_EQ(bench("replay 'o:" + level + "/default/HYBRID' --out=replayed"), 0) << complaint();
 }
 
+TEST_F(AdaptCommand, DegreesHaveLevelsOfTheirOwnThatCanBeJoined) {
+  const std::string adapt = "--mesh=Mesh0 --adapt=1%,levels=last --repetitions=1 ";
+  for (const auto& [degree, method, folder] : std::vector<std::array<std::string, 3>>{
+           {"1", "HYBRID", "one"}, {"2", "HYBRID:k=2", "two"}, {"auto", "HYBRID:k=2", "same"}}) {
+    ASSERT_EQ(bench(adapt + "--degree=" + degree + " --out=" + folder), 0) << complaint();
+    const auto records = bench_.records(folder);
+    ASSERT_EQ(records.size(), 1u);
+    EXPECT_EQ(records[0]["method"], method);
+    EXPECT_EQ(records[0]["degree"], degree == "1" ? 1 : 2);
+    EXPECT_LE(records[0]["error_total"].get<double>(), 0.01);
+  }
+  EXPECT_LT(bench_.records("two")[0]["n_phi"], bench_.records("one")[0]["n_phi"]);
+  ASSERT_EQ(bench("merge --runs one two --out=both"), 0) << complaint();
+  EXPECT_EQ(bench("--mesh=Mesh0 --adapt=0.05% --degree=auto --dry-run --out=o"), 0) << complaint();
+  EXPECT_NE(bench_.content("out.txt").find("HYBRID:k=3"), std::string::npos);
+  for (const char* wrong : {"0", "5", "22", "two"}) {
+    EXPECT_EQ(bench("--mesh=Mesh0 --degree=" + std::string(wrong)), 2);
+    EXPECT_NE(complaint().find("allowed: 1 to 4, auto"), std::string::npos) << complaint();
+  }
+}
+
 TEST_F(AdaptCommand, MergedRunsHaveTheirMeshes) {
   namespace fs = std::filesystem;
   ASSERT_EQ(bench("--mesh=Mesh0 --method=HYBRID --adapt=1000 --repetitions=1 --out=o"), 0)
