@@ -12,9 +12,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <stdexcept>
-#include <string>
-#include <type_traits>
 
 #include "assembly/bernstein.hpp"
 #include "assembly/equilibrium_element.hpp"
@@ -26,18 +23,6 @@ constexpr int displacement_place(int p, int a, int b, int c) {
   if (a == 0) return c == p ? 2 : p + 1 + c;
   if (b == 0) return 2 * p + a;
   return 3 * p + ring_place(p - 3, b - 1, c - 1);
-}
-
-// Calls run(std::integral_constant<int, k>()) for a degree k of stresses.
-template <typename Run>
-auto with_degree(int k, Run run) {
-#define AIRYBENCH_CASE(degree) \
-  case degree:                 \
-    return run(std::integral_constant<int, degree>());
-  switch (k) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
-#undef AIRYBENCH_CASE
-  throw std::invalid_argument("stresses of degree " + std::to_string(k) + " (allowed: 1 to " +
-                              std::to_string(highest_stress_degree) + ")");
 }
 
 struct TriangleShape {

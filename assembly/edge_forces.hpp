@@ -45,12 +45,4 @@ template <typename Scalar = double>
 EdgeForcesIn<Scalar> edge_forces(const Eigen::Vector2<Data<Scalar>>& a,
                                  const Eigen::Vector2<Data<Scalar>>& b, Data<Scalar> outward);
 
-// ū_a, ū_b of a field sampled at the edge's start, middle and end; Simpson's rule, exact for
-// quadratic fields:
-//   ū_a = u_a/3 + 2 u_m/3,  ū_b = 2 u_m/3 + u_b/3
-template <typename Value>
-std::pair<Value, Value> edge_moments(const Value& start, const Value& middle, const Value& end) {
-  return {Value(start / 3 + 2 * middle / 3), Value(2 * middle / 3 + end / 3)};
-}
-
 }  // namespace airybench

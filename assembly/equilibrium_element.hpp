@@ -36,22 +36,15 @@
 // Templates over the scalar are instantiated for double and long double.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <type_traits>
 
 #include "assembly/bernstein.hpp"
 #include "assembly/hct.hpp"
 #include "assembly/small_cholesky.hpp"
-
-// The degrees there are; X(k) for each. A further one is an entry here.
-#define AIRYBENCH_STRESS_DEGREES(X) X(1) X(2) X(3) X(4)
+#include "assembly/stress_degrees.hpp"
 
 namespace airybench {
-
-#define AIRYBENCH_LISTED(k) k,
-inline constexpr int highest_stress_degree = std::max({AIRYBENCH_STRESS_DEGREES(AIRYBENCH_LISTED)});
-#undef AIRYBENCH_LISTED
 
 template <int k>
 struct StressDegree {

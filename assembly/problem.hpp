@@ -24,6 +24,7 @@
 #include "assembly/elasticity.hpp"
 #include "assembly/hct.hpp"
 #include "assembly/rigid_motion.hpp"
+#include "assembly/stress_degrees.hpp"
 #include "assembly/wall_gap.hpp"
 #include "mesh/mesh.hpp"
 
@@ -83,7 +84,8 @@ struct ContactOffset {
 
 // The moments ū_j of an edge, k + 1 for stresses of degree k (edge_forces.hpp for k = 1,
 // equilibrium_element.hpp), from its start on. Columns: their x and y.
-using EdgeMoments = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 8>;
+using EdgeMoments =
+    Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, highest_stress_degree + 1>;
 
 struct Problem {
   Mesh mesh;

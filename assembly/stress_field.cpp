@@ -1,9 +1,8 @@
 #include "assembly/stress_field_templates.hpp"
 
 #include <cmath>
-#include <stdexcept>
 
-#include "assembly/equilibrium_element.hpp"
+#include "assembly/stress_degrees.hpp"
 
 namespace airybench {
 
@@ -45,23 +44,19 @@ double product(const double* sigma, const double* tau, double area_mm2, const Ei
 
 }  // namespace
 
-double stress_product(const Problem& problem, int triangle,
-                      const Eigen::Ref<const Eigen::Matrix3Xd>& sigma,
-                      const Eigen::Ref<const Eigen::Matrix3Xd>& tau) {
-  const double area = problem.area_mm2(triangle);
-  const Eigen::Matrix3d& C = problem.compliance_of(triangle);
-#define AIRYBENCH_CASE(k)      \
-  case 3 * bernstein_count(k): \
-    return product<k>(sigma.data(), tau.data(), area, C);
-  switch (sigma.cols()) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
-#undef AIRYBENCH_CASE
-  throw std::logic_error("stresses of no degree that there is");
+double stress_product(const Problem& problem, int triangle, const StressField& sigma,
+                      const StressField& tau) {
+  const auto t = static_cast<std::size_t>(triangle);
+  return with_degree(sigma.degree(), [&](auto k) {
+    return product<k>(sigma[t].data(), tau[t].data(), problem.area_mm2(triangle),
+                      problem.compliance_of(triangle));
+  });
 }
 
 double stress_norm_squared(const Problem& problem, const StressField& stress) {
   double sum = 0;
   for (int t = 0; t < static_cast<int>(stress.size()); ++t)
-    sum += stress_product(problem, t, stress[t], stress[t]);
+    sum += stress_product(problem, t, stress, stress);
   return sum;
 }
 

@@ -73,10 +73,9 @@ ElementStressIn<Scalar> stress_dual(const Eigen::Matrix<Scalar, 3, 9>& stress,
                                     std::type_identity_t<Scalar> area_mm2,
                                     const Eigen::Matrix3<Data<Scalar>>& compliance);
 
-// ∫ σ : C : τ over a triangle, 1 mm thick, N mm: of one degree, as StressField has them.
-double stress_product(const Problem& problem, int triangle,
-                      const Eigen::Ref<const Eigen::Matrix3Xd>& sigma,
-                      const Eigen::Ref<const Eigen::Matrix3Xd>& tau);
+// ∫ σ : C : τ over a triangle, 1 mm thick, N mm, of fields of one degree.
+double stress_product(const Problem& problem, int triangle, const StressField& sigma,
+                      const StressField& tau);
 
 // ∫ σ : compliance : σ over the body, 1 mm thick, N mm: twice the strain energy.
 double stress_norm_squared(const Problem& problem, const StressField& stress);
@@ -91,7 +90,7 @@ Eigen::Matrix2<Scalar> element_edge_forces(const TriangleVerticesFor<Scalar>& v,
                                            const Eigen::Matrix<Scalar, 3, 9>& stress, int k);
 // The same for a triangle of a StressField of any degree; columns: the control values' forces F_j
 // (equilibrium_element.hpp).
-using ForcesOnEdge = Eigen::Matrix<double, 2, Eigen::Dynamic, Eigen::ColMajor, 2, 8>;
+using ForcesOnEdge = EdgeMoments;
 ForcesOnEdge element_edge_forces(const TriangleVertices& v,
                                  const Eigen::Ref<const Eigen::Matrix3Xd>& stress, int k);
 

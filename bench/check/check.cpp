@@ -137,12 +137,12 @@ CheckReport conclude(std::vector<Compared>& all) {
   CheckReport report;
   report.conclusion = text_of(explain);
   const auto failed = [](const Compared& c) { return !c.seen.passed; };
-  const auto fails_with_friction = [](const Compared& c) {
+  const auto right_or_with_friction = [](const Compared& c) {
     return c.seen.passed || c.has_friction || c.seen.name == case_without_solution;
   };
   const auto passes_without = [](const Compared& c) { return c.seen.passed && !c.has_friction; };
   if (explain.empty() && std::ranges::any_of(all, failed) &&
-      std::ranges::all_of(all, fails_with_friction) && std::ranges::any_of(all, passes_without))
+      std::ranges::all_of(all, right_or_with_friction) && std::ranges::any_of(all, passes_without))
     report.conclusion = "something in the friction law: what has no friction is right";
   const auto passed = [&](const char* name) {
     return std::ranges::any_of(

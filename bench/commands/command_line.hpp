@@ -16,6 +16,9 @@ namespace airybench {
 // unknown). Refuses "--out=", because CLI11 would take the next argument as its value.
 void parse_command_line(CLI::App& app, int argc, const char* const* argv);
 
+// Throws UsageError for an option of an earlier version: names what it is now.
+void refuse_replaced(int argc, const char* const* argv);
+
 // Parse numbers (support/numbers.hpp). Throw UsageError: option, value, allowed values.
 enum class Least { zero, above_zero };
 double read_number(const std::string& option, const std::string& text, Least least, double most);

@@ -66,10 +66,8 @@ std::optional<Bracket> resultant(const Problem& problem, const StressField& mean
   if (!v) return {};
   const StressField strained = stress_of_displacement(problem, *v);
   double work = -work_of_loads(problem, *v);
-  for (std::size_t t = 0; t < mean.size(); ++t) {
-    const int triangle = static_cast<int>(t);
-    work += stress_product(problem, triangle, mean[t], strained[t]);
-  }
+  for (int t = 0; t < static_cast<int>(mean.size()); ++t)
+    work += stress_product(problem, t, mean, strained);
   const double half = error * std::sqrt(stress_norm_squared(problem, strained));
   return Bracket{work - half, work + half};
 }

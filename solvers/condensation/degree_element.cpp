@@ -1,8 +1,6 @@
 #include "solvers/condensation/degree_element.hpp"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 #include "solvers/condensation/edge_unknowns.hpp"
 
@@ -105,15 +103,11 @@ struct Kernels {
 
 template <typename Scalar>
 const DegreeKernels<Scalar>& degree_kernels(int degree) {
-#define AIRYBENCH_CASE(k)                                                        \
-  case k: {                                                                      \
-    static const DegreeKernels<Scalar> kernels = {Kernels<Scalar, k>::stiffness, \
-                                                  Kernels<Scalar, k>::stress};   \
-    return kernels;                                                              \
-  }
-  switch (degree) { AIRYBENCH_STRESS_DEGREES(AIRYBENCH_CASE) }
-  throw std::invalid_argument("stresses of degree " + std::to_string(degree) + " (allowed: 1 to " +
-                              std::to_string(highest_stress_degree) + ")");
+  return with_degree(degree, [](auto k) -> const DegreeKernels<Scalar>& {
+    static const DegreeKernels<Scalar> kernels = {Kernels<Scalar, k>::stiffness,
+                                                  Kernels<Scalar, k>::stress};
+    return kernels;
+  });
 }
 
 template DegreeInput<double> degree_input(const Problem&, const std::vector<int>&, int);

@@ -1,6 +1,5 @@
 #include "solvers/names/general_names.hpp"
 
-#include <cmath>
 #include <sstream>
 #include <stdexcept>
 
@@ -64,8 +63,8 @@ double GeneralName::positive(const std::string& key) {
 
 int GeneralName::whole(const std::string& key, int otherwise, int least, int most) {
   const std::string text = take(key, std::to_string(otherwise));
-  const std::optional<double> value = parse_number(text);
-  if (!value || !(*value >= least && *value <= most) || *value != std::floor(*value))
+  const std::optional<std::int64_t> value = parse_whole(text);
+  if (!value || *value < least || *value > most)
     refuse(key + "='" + text + "' (allowed: a whole number from " + std::to_string(least) + " to " +
            std::to_string(most) + ")");
   return static_cast<int>(*value);
