@@ -3,17 +3,15 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <iostream>
 #include <set>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "assembly/scene.hpp"
+#include "bench/plan/contact_faces.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/records/json.hpp"
 #include "mesh/mesh.hpp"
@@ -65,45 +63,49 @@ std::string label_of(const Json& curve) {
   return part.empty() ? perhaps : fmt::format("{}:{}", perhaps, part);
 }
 
-// Without the rounding of a mesher.
-Json rounded(const Eigen::Vector2d& mm) {
-  const auto to_pm = [](double x) { return std::round(x * 1e9) / 1e9 + 0.; };
-  return {to_pm(mm.x()), to_pm(mm.y())};
+struct NamedCurve {
+  std::string number;
+  std::vector<std::string> names;
+  std::string face, label;  // the model's or a proposed one; an arc may take one of its own
+  FaceCurve shape;
+};
+
+std::vector<FaceCurve> shapes_of(const std::vector<NamedCurve>& curves,
+                                 std::string NamedCurve::*name, const std::string& value) {
+  std::vector<FaceCurve> shapes;
+  for (const NamedCurve& curve : curves)
+    if (curve.*name == value) shapes.push_back(curve.shape);
+  return shapes;
 }
 
-using Walks = std::vector<std::vector<Eigen::Vector2d>>;
+bool is_contact(const std::string& label) {
+  return parse_boundary_label(label)->role == BoundaryRole::contact;
+}
 
-// What a contact face just touches, drawn with the body on its left: a flat wall against its mean
-// outward normal; a pin in a hole.
-Json wall_at(const Walks& walks) {
-  Eigen::Vector2d outward(0, 0), centre(0, 0);
-  double length = 0;
-  std::vector<Eigen::Vector2d> places;
-  for (const auto& walk : walks)
-    for (std::size_t k = 1; k < walk.size(); ++k) {
-      const Eigen::Vector2d along = walk[k] - walk[k - 1], middle = (walk[k] + walk[k - 1]) / 2;
-      outward += Eigen::Vector2d(along.y(), -along.x());
-      centre += along.norm() * middle;
-      length += along.norm();
-      places.insert(places.end(), {walk[k - 1], middle, walk[k]});
+std::vector<NamedCurve> curves_of(const Json& shown) {
+  std::vector<NamedCurve> curves;
+  for (const Json& curve : shown["curves"]) {
+    NamedCurve& named = curves.emplace_back();
+    named.number = std::to_string(curve["number"].get<int>());
+    named.names = curve["names"];
+    named.face = named.label = label_of(curve);
+    for (const Json& walk : curve["walks_mm"]) {
+      Walk& places = named.shape.walks.emplace_back();
+      for (const Json& place : walk) places.emplace_back(place[0], place[1]);
     }
-  constexpr double closed = 1e-3;
-  if (outward.norm() < closed * length) {
-    centre /= length;
-    const auto distance = [&](const Eigen::Vector2d& p) { return (p - centre).norm(); };
-    return {{"circle",
-             {{"centre_mm", rounded(centre)},
-              {"radius_mm", distance(*std::ranges::min_element(places, {}, distance))},
-              {"bodies", "outside"}}}};
+    named.shape.circle = circle_of(named.shape.walks);
   }
-  outward.normalize();
-  const auto how_far = [&](const Eigen::Vector2d& p) { return p.dot(outward); };
-  return {{"flat",
-           {{"point_mm", rounded(*std::ranges::max_element(places, {}, how_far))},
-            {"normal", rounded(-outward)}}}};
+  // "contact:curve_2", "contact:sole_curve_2": a face has one shape.
+  for (NamedCurve& curve : curves)
+    if (is_contact(curve.face) && curve.shape.circle &&
+        !common_circle(shapes_of(curves, &NamedCurve::face, curve.face)))
+      curve.label +=
+          (curve.face.find(':') == curve.face.npos ? ":curve_" : "_curve_") + curve.number;
+  return curves;
 }
 
-Json values_to_fill_in(const std::string& label, const Walks& walks) {
+Json values_to_fill_in(const std::string& label, const std::vector<FaceCurve>& curves,
+                       const std::vector<FaceCurve>& whole_face) {
   switch (parse_boundary_label(label)->role) {
     case BoundaryRole::displacement:
       return {{"support", "full"}};  // a displacement would take the place of the scene's
@@ -112,7 +114,10 @@ Json values_to_fill_in(const std::string& label, const Walks& walks) {
     case BoundaryRole::contact:
       break;
   }
-  return {{"friction", Scene().friction}, {"clearance_mm", 0}, {"wall", wall_at(walks)}};
+  Json values = {
+      {"friction", Scene().friction}, {"clearance_mm", 0}, {"wall", wall_at(whole_face)}};
+  if (const std::optional<Circle> circle = common_circle(curves)) values["face"] = face_on(*circle);
+  return values;
 }
 
 void note_missing_roles(const Json& boundary, const std::string& name) {
@@ -136,20 +141,16 @@ std::string new_scene_text(const std::filesystem::path& model, const Options& op
   const Material material;
   const Json of_material = {{"young_MPa", material.young_MPa}, {"poisson", material.poisson}};
   Json roles = Json::object(), boundary = Json::object(), materials = Json::object();
-  std::vector<std::pair<std::string, Walks>> groups;
-  for (const Json& curve : shown["curves"]) {
-    const std::string label = label_of(curve);
-    const std::vector<std::string> names = curve["names"];
-    if (std::ranges::find(names, label) == names.end())
-      roles[names.empty() ? std::to_string(curve["number"].get<int>()) : names.front()] = label;
-    auto group = std::ranges::find(groups, label, [](const auto& g) { return g.first; });
-    if (group == groups.end()) group = groups.insert(group, {label, {}});
-    for (const Json& walk : curve["walks_mm"]) {
-      auto& places = group->second.emplace_back();
-      for (const Json& place : walk) places.emplace_back(place[0], place[1]);
-    }
+  const std::vector<NamedCurve> curves = curves_of(shown);
+  for (const NamedCurve& curve : curves) {
+    if (std::ranges::find(curve.names, curve.label) == curve.names.end())
+      roles[curve.names.empty() || curve.label != curve.face ? curve.number : curve.names.front()] =
+          curve.label;
+    if (!boundary.contains(curve.label))
+      boundary[curve.label] =
+          values_to_fill_in(curve.label, shapes_of(curves, &NamedCurve::label, curve.label),
+                            shapes_of(curves, &NamedCurve::face, curve.face));
   }
-  for (const auto& [label, walks] : groups) boundary[label] = values_to_fill_in(label, walks);
   for (const Json& body : shown["bodies"]) materials[body.get<std::string>()] = of_material;
   note_missing_roles(boundary, model_name(model) + ".json");
   std::vector<std::string> lines = {

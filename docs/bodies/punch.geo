@@ -9,5 +9,7 @@ Line(5) = {7, 8};  Line(6) = {8, 1};
 Curve Loop(1) = {1 : 6};  Plane Surface(1) = {1};
 Physical Curve("displacement:head") = {6};
 Physical Curve("force")   = {1, 5};
-Physical Curve("contact") = {2, 3, 4};
+Physical Curve("contact:left")  = {2};   // arcs have groups of their own, for their `face` in punch.json
+Physical Curve("contact:sole")  = {3};
+Physical Curve("contact:right") = {4};
 Physical Surface("steel") = {1};

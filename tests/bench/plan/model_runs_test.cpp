@@ -239,9 +239,37 @@ Physical Curve("contact") = {5, 6};
       Json::parse(bench_.content("plate.json"))["boundary"]["contact"]["wall"]["circle"];
   EXPECT_EQ(pin["bodies"], "outside");
   EXPECT_EQ(pin["centre_mm"], Json({3., 3.}));
-  EXPECT_NEAR(pin["radius_mm"].get<double>(), 0.97, 0.03);
+  EXPECT_EQ(pin["radius_mm"], 1);
   const testing::CommandResult planned = run("--mesh=plate.geo --scene=plate.json --dry-run");
   EXPECT_EQ(planned.code, 0) << planned.err;
+}
+
+// Without its face a round body is the polygon of its mesh, and no refinement makes it round.
+TEST_F(ModelRuns, ANewSceneKnowsArcs) {
+  testing::write_text(bench_.path("shoe.geo"), R"(
+Point(1) = {-4, 6, 0, 1}; Point(2) = {-4, 1, 0, 0.3}; Point(3) = {-3, 1, 0, 1};
+Point(4) = {-3, 0, 0, 0.3}; Point(5) = {4, 0, 0, 0.3}; Point(6) = {4, 6, 0, 1};
+Line(1) = {1, 2}; Circle(2) = {2, 3, 4}; Line(3) = {4, 5}; Line(4) = {5, 6}; Line(5) = {6, 1};
+Curve Loop(1) = {1:5}; Plane Surface(1) = {1};
+Physical Curve("displacement") = {5};
+Physical Curve("contact:sole") = {2, 3};
+)");
+  ASSERT_EQ(run("--new-scene=shoe.geo").code, 0);
+  const Json scene = Json::parse(bench_.content("shoe.json"));
+  const std::string arc = "contact:sole_curve_2";
+  EXPECT_EQ(scene["roles"]["2"], arc) << scene;
+  EXPECT_EQ(scene["boundary"][arc]["face"],
+            Json({{"circle", {{"centre_mm", {-3., 1.}}, {"radius_mm", 1.}}}}));
+  EXPECT_FALSE(scene["boundary"]["contact:sole"].contains("face")) << scene;
+  const auto corners = [&](const std::string& file) {
+    const std::string err = run("--mesh=shoe.geo --scene=" + file + " --dry-run").err;
+    return err.find("contact:sole_curve_2: a polygon with") != err.npos;
+  };
+  EXPECT_FALSE(corners("shoe.json"));
+  Json without = scene;
+  without["boundary"][arc].erase("face");
+  testing::write_text(bench_.path("polygon.json"), without.dump());
+  EXPECT_TRUE(corners("polygon.json"));
 }
 
 TEST_F(ModelRuns, ABodyWithoutAWallIsNoted) {

@@ -1,0 +1,139 @@
+#include "bench/plan/contact_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "assembly/wall.hpp"
+
+namespace airybench {
+namespace {
+
+// Without the rounding of a mesher.
+double to_pm(double mm) { return std::round(mm * 1e9) / 1e9 + 0.; }
+
+Json rounded(const Eigen::Vector2d& mm) { return {to_pm(mm.x()), to_pm(mm.y())}; }
+
+std::optional<Circle> circle_through(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                                     const Eigen::Vector2d& c) {
+  constexpr double straight = 1e-6;  // height of the triangle against its sides
+  const Eigen::Vector2d ab = b - a, ac = c - a;
+  const double area = cross(ab, ac);
+  if (std::abs(area) <= straight * ab.norm() * ac.norm()) return {};
+  const Eigen::Vector2d to_centre =
+      Eigen::Vector2d(ac.y() * ab.squaredNorm() - ab.y() * ac.squaredNorm(),
+                      ab.x() * ac.squaredNorm() - ac.x() * ab.squaredNorm()) /
+      (2 * area);
+  return Circle{a + to_centre, to_centre.norm()};
+}
+
+struct Sums {
+  Eigen::Vector2d normal = {0, 0}, moment = {0, 0};  // integrals of n and x over the length
+  double length = 0, area = 0;                       // twice the area on the left of closed curves
+};
+
+Sums sums_of(const std::vector<FaceCurve>& curves) {
+  Sums sums;
+  for (const FaceCurve& curve : curves)
+    for (const Walk& walk : curve.walks)
+      for (std::size_t k = 1; k < walk.size(); ++k) {
+        const Eigen::Vector2d along = walk[k] - walk[k - 1];
+        sums.normal += Eigen::Vector2d(along.y(), -along.x());
+        sums.moment += along.norm() * (walk[k] + walk[k - 1]) / 2;
+        sums.length += along.norm();
+        sums.area += cross(walk[k - 1] - curves.front().walks.front().front(), along);
+      }
+  return sums;
+}
+
+// How far the curve reaches along a direction: at a vertex, or at an arc's outermost point.
+Eigen::Vector2d farthest_of(const FaceCurve& curve, const Eigen::Vector2d& outward) {
+  const auto how_far = [&](const Eigen::Vector2d& p) { return p.dot(outward); };
+  Eigen::Vector2d farthest = curve.walks.front().front();
+  for (const Walk& walk : curve.walks)
+    for (std::size_t k = 0; k < walk.size(); ++k) {
+      if (how_far(walk[k]) > how_far(farthest)) farthest = walk[k];
+      if (k == 0 || !curve.circle) continue;
+      // It lies on this edge's arc if the edge's ends lie on either side of it.
+      const Eigen::Vector2d apex = curve.circle->centre_mm + curve.circle->radius_mm * outward;
+      const Eigen::Vector2d a = walk[k - 1] - curve.circle->centre_mm,
+                            b = walk[k] - curve.circle->centre_mm;
+      if (a.dot(outward) > 0 && b.dot(outward) > 0 && cross(a, outward) * cross(outward, b) > 0)
+        farthest = apex;
+    }
+  return farthest;
+}
+
+// Of a circle around a disc, or in a hole, that the edges just touch.
+double radius_touching(const std::vector<FaceCurve>& curves, const Eigen::Vector2d& centre,
+                       bool is_disc) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (const FaceCurve& curve : curves)
+    for (const Walk& walk : curve.walks)
+      for (std::size_t k = 1; k < walk.size(); ++k) {
+        most = std::max(most, (walk[k] - centre).norm());
+        least = std::min(least, ((walk[k - 1] + walk[k]) / 2 - centre).norm());
+      }
+  return is_disc ? most : least;
+}
+
+}  // namespace
+
+std::optional<Circle> circle_of(const std::vector<Walk>& walks) {
+  constexpr double allowed = 1e-6, longest_side = 0.9;  // a square's vertices lie on a circle, too
+  constexpr std::size_t least = 4;
+  const Walk& longest = *std::ranges::max_element(walks, {}, &Walk::size);
+  if (longest.size() < least) return {};
+  const std::size_t third = (longest.size() - 1) / 3;
+  const auto circle = circle_through(longest[0], longest[third], longest[2 * third]);
+  if (!circle) return {};
+  for (const Walk& walk : walks)
+    for (std::size_t k = 0; k < walk.size(); ++k) {
+      const double off = (walk[k] - circle->centre_mm).norm() - circle->radius_mm;
+      if (std::abs(off) > allowed * circle->radius_mm) return {};
+      if (k > 0 && (walk[k] - walk[k - 1]).norm() > longest_side * circle->radius_mm) return {};
+    }
+  return circle;
+}
+
+std::optional<Circle> common_circle(const std::vector<FaceCurve>& curves) {
+  constexpr double same = 1e-6;
+  const std::optional<Circle>& first = curves.front().circle;
+  if (!first) return {};
+  const auto is_other = [&](const FaceCurve& curve) {
+    return !curve.circle || (curve.circle->centre_mm - first->centre_mm).norm() +
+                                    std::abs(curve.circle->radius_mm - first->radius_mm) >
+                                same * first->radius_mm;
+  };
+  if (std::ranges::any_of(curves, is_other)) return {};
+  return first;
+}
+
+Json face_on(const Circle& circle) {
+  return {{"circle",
+           {{"centre_mm", rounded(circle.centre_mm)}, {"radius_mm", to_pm(circle.radius_mm)}}}};
+}
+
+Json wall_at(const std::vector<FaceCurve>& curves) {
+  constexpr double closed = 1e-3;
+  const Sums sums = sums_of(curves);
+  const Eigen::Vector2d middle = sums.moment / sums.length;
+  const std::optional<Circle> face = common_circle(curves);
+  const bool is_closed = sums.normal.norm() < closed * sums.length,
+             is_hollow = face && (face->centre_mm - middle).dot(sums.normal) > 0;
+  if (is_closed || is_hollow) {
+    const bool is_disc = is_closed && sums.area > 0;
+    const Circle round = face ? *face : Circle{middle, radius_touching(curves, middle, is_disc)};
+    Json wall = face_on(round);
+    wall["circle"]["bodies"] = is_disc ? "inside" : "outside";
+    return wall;
+  }
+  const Eigen::Vector2d outward = sums.normal.normalized();
+  Eigen::Vector2d point = farthest_of(curves.front(), outward);
+  for (const FaceCurve& curve : curves)
+    if (const Eigen::Vector2d p = farthest_of(curve, outward); p.dot(outward) > point.dot(outward))
+      point = p;
+  return {{"flat", {{"point_mm", rounded(point)}, {"normal", rounded(-outward)}}}};
+}
+
+}  // namespace airybench

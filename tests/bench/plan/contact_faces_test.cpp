@@ -1,0 +1,71 @@
+// What --new-scene proposes for contact faces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "bench/plan/contact_faces.hpp"
+
+namespace airybench {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// From one angle to another; the body is inside if they ascend.
+FaceCurve arc(Eigen::Vector2d centre, double radius, double from, double to, int sides) {
+  Walk walk;
+  for (int k = 0; k <= sides; ++k) {
+    const double angle = from + (to - from) * k / sides;
+    walk.emplace_back(centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  return {{walk}, circle_of({walk})};
+}
+
+TEST(ContactFaces, ACircleIsFoundWhereThereIsOne) {
+  const FaceCurve quarter = arc({3, -2}, 1.5, -pi / 2, 0, 3);
+  ASSERT_TRUE(quarter.circle.has_value());
+  EXPECT_NEAR((quarter.circle->centre_mm - Eigen::Vector2d(3, -2)).norm(), 0, 1e-12);
+  EXPECT_NEAR(quarter.circle->radius_mm, 1.5, 1e-12);
+  EXPECT_TRUE(arc({0, 0}, 5, 0, 2 * pi, 60).circle);
+  EXPECT_FALSE(arc({0, 0}, 5, 0, 2 * pi, 4).circle) << "a square";
+  EXPECT_FALSE(arc({0, 0}, 5, 0, 0.5, 2).circle) << "three points";
+  EXPECT_FALSE(circle_of({{{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}}})) << "straight";
+  EXPECT_FALSE(circle_of({{{-2, 4}, {-1, 1}, {0, 0}, {1, 1}, {2, 4}}})) << "a parabola";
+  Walk bent = quarter.walks.front();
+  bent[1] += Eigen::Vector2d(1e-4, 0);
+  EXPECT_FALSE(circle_of({bent}));
+}
+
+TEST(ContactFaces, WallsJustTouch) {
+  const Json around = wall_at({arc({1, 2}, 5, 0, 2 * pi, 60)})["circle"];
+  EXPECT_EQ(around["bodies"], "inside");
+  EXPECT_EQ(around["radius_mm"], 5);
+  EXPECT_EQ(wall_at({arc({1, 2}, 5, 2 * pi, 0, 60)})["circle"]["bodies"], "outside");
+  // Half a hole, of a model that is cut at its symmetry.
+  EXPECT_EQ(wall_at({arc({1, 2}, 5, pi, 0, 30)})["circle"]["bodies"], "outside");
+  // The lowest point of an arc lies between two vertices.
+  const Json below = wall_at({arc({1, 2}, 5, 1.2 * pi, 1.8 * pi, 7)})["flat"];
+  EXPECT_EQ(below["point_mm"], Json({1., -3.}));
+  EXPECT_EQ(below["normal"], Json({0., 1.}));
+  // A fillet ends where its straight sole begins.
+  const FaceCurve sole{{{{0, 0}, {9, 0}}}, {}};
+  const Json mixed =
+      wall_at({arc({0, 1}, 1, pi, 1.5 * pi, 8), sole, arc({9, 1}, 1, 1.5 * pi, 2 * pi, 8)});
+  EXPECT_EQ(mixed["flat"]["normal"], Json({0., 1.}));
+  EXPECT_NEAR(mixed["flat"]["point_mm"][1].get<double>(), 0, 1e-9);
+  // A square hole.
+  const Walk hole = {{0, 0}, {0, 2}, {2, 2}, {2, 0}, {0, 0}};
+  EXPECT_EQ(wall_at({{{hole}, circle_of({hole})}})["circle"]["radius_mm"], 1);
+}
+
+TEST(ContactFaces, AFaceHasOneShape) {
+  const FaceCurve left = arc({0, 0}, 1, pi, 1.5 * pi, 8),
+                  right = arc({0, 0}, 1, 1.5 * pi, 2 * pi, 8),
+                  far = arc({3, 0}, 1, 1.5 * pi, 2 * pi, 8);
+  EXPECT_TRUE(common_circle({left, right}));
+  EXPECT_FALSE(common_circle({left, far}));
+  EXPECT_FALSE(common_circle({left, {{{{0, 0}, {1, 0}}}, {}}}));
+}
+
+}  // namespace
+}  // namespace airybench
