@@ -109,6 +109,9 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
     record.status_reason = reason;
   };
   const Verification& v = steps.back().seen();
+  // A path may end unloaded.
+  const bool is_unstressed =
+      std::ranges::all_of(steps, [](const JudgedStep& step) { return step.seen().unstressed; });
   const std::size_t at = worst_step(steps);
   const WorstMeasure worst = worst_measure(steps[at].seen());
   const auto other =
@@ -130,7 +133,7 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
                      references(method.degree).missing, *record.error_estimate));
   } else if (!v.error_stress && !method.in_displacements && problem_) {
     give(Status::inaccurate, "its error is not known: " + references(method.degree).missing);
-  } else if (v.unstressed) {
+  } else if (is_unstressed) {
     give(Status::unstressed, method.in_displacements
                                  ? "its displacements have no stress: nothing touches or loads "
                                    "what is free of them"

@@ -56,6 +56,24 @@ TEST(LoadStepRuns, EveryStepIsInTheRecordAndTheLastInItsColumns) {
   }
 }
 
+TEST(LoadStepRuns, APathMayEndUnloaded) {
+  Scene lifted;
+  lifted.displacement_mm = {0.02, 0};
+  lifted.later_steps.resize(2);
+  lifted.later_steps[1].displacement_mm = Eigen::Vector2d(-0.1, 0);
+  for (const Method& method : select_methods("HYBRID,P2,3STEPD:CHOLMOD")) {
+    Record record = testing::measured(testing::posed(lifted), method);
+    summarise(record);
+    EXPECT_EQ(record.outcome, "ok") << method.name << ": " << record.status_reason;
+    EXPECT_EQ(record.normal_resultant_N, 0) << method.name;
+    Scene never = lifted;
+    never.displacement_mm = {-0.1, 0};
+    record = testing::measured(testing::posed(never), method);
+    summarise(record);
+    EXPECT_EQ(record.outcome, "unstressed") << method.name << ": " << record.status_reason;
+  }
+}
+
 TEST(LoadStepRuns, APathWithFrictionIsSolvedInHalfStepsToo) {
   Scene scene;
   const auto examined_in = [&](int steps, double friction, const char* method = "HYBRID") {
