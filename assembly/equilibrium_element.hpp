@@ -111,11 +111,12 @@ class EquilibriumElement {
 
  private:
   using Modes = Eigen::Matrix<Scalar, Degree::modes, 1>;
+  using Components = Eigen::Matrix<Scalar, Degree::coefficients, 3>;  // Stress, transposed
   using Root = Eigen::Matrix<Scalar, Degree::outer, Degree::size, Eigen::RowMajor>;
   static const ReferenceElement<Scalar>& reference();  // computed at the first call
   void factorise_root();
   void factorise_product(const Eigen::Matrix3<Scalar>& compliance_in_tau);
-  Factor suitable_factor(const Scalar& trace_of_compliance_in_tau) const;
+  Factor suitable_factor(const Eigen::Matrix3<Scalar>& compliance_in_tau) const;
   Root root() const;                                 // R = L⁻¹ Tᵀ: K = RᵀR
   Modes modes_load(const Stress& particular) const;  // ∫ σ(modes) : C : σ_p
   Modes work_of(const OnEdges& displacement) const;  // Tᵀ ū

@@ -171,23 +171,25 @@ EquilibriumElement<Scalar, k>::EquilibriumElement(const TriangleVerticesFor<Scal
   to_stress_ = equilibrium_formulas::stress_map(B_, determinant_);
   const Eigen::Matrix3<Scalar> strain = compliance_.lazyProduct(to_stress_) * determinant_;
   const Eigen::Matrix3<Scalar> c = to_stress_.transpose().lazyProduct(strain);  // in τ̂
-  if (factor == Factor::by_condition) factor = suitable_factor(c.trace());
+  if (factor == Factor::by_condition) factor = suitable_factor(c);
   if (factor == Factor::of_root)
     factorise_root();
   else
     factorise_product(c);
 }
 
-// tr³ ≥ det cond for the three eigenvalues of the compliance in τ̂, and the map from τ̂ has the
-// determinant 1. 50 on a right triangle with ν = 0.3, 700 with ν = 0.49; more than the limit loses
-// more than 1e-12.
+// With λ1 ≥ λ2 ≥ λ3 of the compliance c in τ̂, tr c ≥ λ1 and the sum of its 2 × 2 minors ≥ λ1 λ2:
+// their product over det c = λ1 λ2 λ3 is at least the condition, λ1/λ3, at most 9 times as much.
+// The map from τ̂ has the determinant 1. More than the limit loses more than 1e-12.
 template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Factor EquilibriumElement<Scalar, k>::suitable_factor(
-    const Scalar& trace) const {
+    const Eigen::Matrix3<Scalar>& c) const {
   const SmallCholesky<Scalar, 3> of_compliance(compliance_);
   const Scalar pivots = of_compliance.L().diagonal().prod();
   const Scalar determinant = pivots * pivots * determinant_ * determinant_ * determinant_;
-  return trace * trace * trace < Scalar(2000) * determinant ? Factor::of_product : Factor::of_root;
+  const Scalar minors = c(0, 0) * c(1, 1) - c(0, 1) * c(0, 1) + c(0, 0) * c(2, 2) -
+                        c(0, 2) * c(0, 2) + c(1, 1) * c(2, 2) - c(1, 2) * c(1, 2);
+  return c.trace() * minors < Scalar(5000) * determinant ? Factor::of_product : Factor::of_root;
 }
 
 template <typename Scalar, int k>
@@ -213,11 +215,13 @@ void EquilibriumElement<Scalar, k>::factorise_product(const Eigen::Matrix3<Scala
   using std::min;
   using std::sqrt;
   Eigen::Matrix<Scalar, Degree::modes, Degree::modes> S;
-  const auto& M = reference().flexibility;
-  for (int j = 0; j < Degree::modes; ++j)
+  for (int j = 0; j < Degree::modes; ++j) {
+    const Scalar* M[6];
+    for (int m = 0; m < 6; ++m) M[m] = &reference().flexibility[m](0, j);
     for (int i = j; i < Degree::modes; ++i)  // its lower triangle is read
-      S(i, j) = c(0, 0) * M[0](i, j) + c(1, 1) * M[1](i, j) + c(2, 2) * M[2](i, j) +
-                c(0, 1) * M[3](i, j) + c(0, 2) * M[4](i, j) + c(1, 2) * M[5](i, j);
+      S(i, j) = c(0, 0) * M[0][i] + c(1, 1) * M[1][i] + c(2, 2) * M[2][i] + c(0, 1) * M[3][i] +
+                c(0, 2) * M[4][i] + c(1, 2) * M[5][i];
+  }
   flexibility_ = SmallCholesky<Scalar, Degree::modes>(S);
   independence_ = 1;
   for (int j = 0; j < Degree::modes; ++j)  // in this order min() keeps a NaN
@@ -245,8 +249,11 @@ template <typename Scalar, int k>
 typename EquilibriumElement<Scalar, k>::Stiffness EquilibriumElement<Scalar, k>::stiffness() const {
   const Root R = root();
   Stiffness K = Stiffness::Zero();
-  for (int i = 0; i < Degree::outer; ++i)
-    for (int j = 0; j < Degree::size; ++j) K.col(j) += R(i, j) * R.row(i).transpose();
+  for (int j = 0; j < Degree::size; ++j) {
+    for (int m = 0; m < Degree::outer; ++m)
+      for (int i = j; i < Degree::size; ++i) K(i, j) += R(m, j) * R(m, i);
+    for (int i = j + 1; i < Degree::size; ++i) K(j, i) = K(i, j);
+  }
   return K;
 }
 
@@ -271,13 +278,14 @@ typename EquilibriumElement<Scalar, k>::Modes EquilibriumElement<Scalar, k>::mod
     const Stress& particular) const {
   if (particular.isZero(0)) return Modes::Zero();
   const Eigen::Matrix3<Scalar> dual = to_stress_.transpose().lazyProduct(compliance_);
-  const Stress strain = determinant_ * dual.lazyProduct(equilibrium_formulas::in_orthonormal(
-                                           reference().mass_root, particular));
+  const Components strain = determinant_ * dual.lazyProduct(equilibrium_formulas::in_orthonormal(
+                                                                reference().mass_root, particular))
+                                               .transpose();
   Modes load = Modes::Zero();
   for (int component = 0; component < 3; ++component)
     for (int mode = 0; mode < Degree::modes; ++mode)
-      for (int i = 0; i < Degree::coefficients; ++i)
-        load(mode) += reference().weighted[component](i, mode) * strain(component, i);
+      load(mode) += in_four_sums(&reference().weighted[component](0, mode), &strain(0, component),
+                                 0, Degree::coefficients);
   return load;
 }
 
@@ -313,13 +321,12 @@ typename EquilibriumElement<Scalar, k>::Defect EquilibriumElement<Scalar, k>::de
   Modes correction = g;
   flexibility_.solve(correction);
   Defect result{OnEdges::Zero(), g.dot(correction)};
-  for (int j = 0; j < Degree::size; j += 2) {
-    Eigen::Vector2<Scalar> f = Eigen::Vector2<Scalar>::Zero();
-    for (int i = 0; i < Degree::outer; ++i)
-      f += correction(Degree::inner + i) *
-           reference().forces.row(i).template segment<2>(j).transpose();
-    result.forces.template segment<2>(j) = B_.lazyProduct(f);
-  }
+  const auto force = [&](int j) {
+    return in_four_sums(&reference().forces(0, j), &correction(Degree::inner), 0, Degree::outer);
+  };
+  for (int j = 0; j < Degree::size; j += 2)
+    result.forces.template segment<2>(j) =
+        B_.lazyProduct(Eigen::Vector2<Scalar>(force(j), force(j + 1)));
   return result;
 }
 
@@ -328,12 +335,13 @@ typename EquilibriumElement<Scalar, k>::Stress EquilibriumElement<Scalar, k>::st
     const OnEdges& displacement, const Stress& particular) const {
   Modes modes = work_of(displacement) - modes_load(particular);
   flexibility_.solve(modes);
-  Stress tau = Stress::Zero();
+  Components tau = Components::Zero();
   for (int component = 0; component < 3; ++component)
-    for (int mode = 0; mode < Degree::modes; ++mode)
-      for (int i = 0; i < Degree::coefficients; ++i)
-        tau(component, i) += reference().stress[component](i, mode) * modes(mode);
-  return particular + to_stress_.lazyProduct(tau);
+    for (int mode = 0; mode < Degree::modes; ++mode) {
+      const Scalar* of_mode = &reference().stress[component](0, mode);
+      for (int i = 0; i < Degree::coefficients; ++i) tau(i, component) += of_mode[i] * modes(mode);
+    }
+  return particular + to_stress_.lazyProduct(tau.transpose());
 }
 
 template <typename Scalar, int k>

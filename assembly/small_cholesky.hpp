@@ -8,6 +8,18 @@
 
 namespace airybench {
 
+// Σ a_i b_i by four sums, so that no addition waits for the previous one.
+template <typename Scalar>
+Scalar in_four_sums(const Scalar* a, const Scalar* b, int first, int end) {
+  constexpr int sums = 4;
+  Scalar sum[sums] = {0, 0, 0, 0};
+  int i = first;
+  for (; i + sums <= end; i += sums)
+    for (int s = 0; s < sums; ++s) sum[s] += a[i + s] * b[i + s];
+  for (; i < end; ++i) sum[0] += a[i] * b[i];
+  return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 template <typename Scalar, int n>
 class SmallCholesky {
  public:
@@ -15,16 +27,14 @@ class SmallCholesky {
   // S: symmetric; its lower triangle is read.
   explicit SmallCholesky(const Eigen::Matrix<Scalar, n, n>& S) {
     using std::sqrt;
-    for (int j = 0; j < n; ++j) {
-      Scalar pivot = 0;
-      for (int k = 0; k < j; ++k) pivot += L_(j, k) * L_(j, k);
-      L_(j, j) = sqrt(S(j, j) - pivot);
-      for (int i = j + 1; i < n; ++i) {
-        Scalar sum = 0;
-        for (int k = 0; k < j; ++k) sum += L_(i, k) * L_(j, k);
-        L_(i, j) = (S(i, j) - sum) / L_(j, j);
-      }
+    for (int j = 0; j < n; ++j)
+      for (int i = j; i < n; ++i) L_(i, j) = S(i, j);
+    for (int j = 0; j < n; ++j) {  // down columns, which lie in one piece
+      L_(j, j) = sqrt(L_(j, j));
       reciprocal_(j) = 1 / L_(j, j);
+      for (int i = j + 1; i < n; ++i) L_(i, j) *= reciprocal_(j);
+      for (int c = j + 1; c < n; ++c)
+        for (int i = c; i < n; ++i) L_(i, c) -= L_(c, j) * L_(i, j);
     }
   }
   // S = MᵀM without forming it, which would square M's condition number: M = Q Lᵀ by modified
@@ -66,27 +76,23 @@ class SmallCholesky {
   void solve_lower(Eigen::Matrix<Scalar, n, columns>& X) const {
     for (int c = 0; c < columns; ++c)
       for (int i = 0; i < n; ++i) {
-        for (int k = 0; k < i; ++k) X(i, c) -= L_(i, k) * X(k, c);
         X(i, c) *= reciprocal_(i);
+        for (int k = i + 1; k < n; ++k) X(k, c) -= L_(k, i) * X(i, c);
       }
   }
   template <int columns>
   void solve_upper(Eigen::Matrix<Scalar, n, columns>& X) const {
     for (int c = 0; c < columns; ++c)
       for (int i = n - 1; i >= 0; --i) {
-        for (int k = i + 1; k < n; ++k) X(i, c) -= L_(k, i) * X(k, c);
+        X(i, c) -= in_four_sums(&L_(0, i), &X(0, c), i + 1, n);
         X(i, c) *= reciprocal_(i);
       }
   }
 
  private:
-  // Four independent sums, so that no addition waits for the previous one.
   template <int rows>
   static Scalar dot(const Eigen::Matrix<Scalar, rows, n>& M, int a, int b) {
-    constexpr int sums = 4;
-    Scalar sum[sums] = {0, 0, 0, 0};
-    for (int i = 0; i < rows; ++i) sum[i % sums] += M(i, a) * M(i, b);
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+    return in_four_sums(&M(0, a), &M(0, b), 0, rows);
   }
 
   Eigen::Matrix<Scalar, n, n> L_ = Eigen::Matrix<Scalar, n, n>::Zero();
