@@ -33,8 +33,8 @@ from case_names import words_of_file
 from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
-from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
-                         layout_of, slenderness, view_of, width_of)
+from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
+                         label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
 from load_path_drawing import draw_path, frames, frames_of, write_gif
@@ -50,6 +50,7 @@ STRESS = (r"Colour: the largest shear stress in the plane, "
           "linear stresses on each third of a triangle, not averaged.")
 FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points (two per "
          "edge), pressure, friction.")
+CUT = "Of a face that is open for the most part: where it touches, and a little more."
 WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
          "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
 # Pictures of the error: inches, of a map and of levels of a loop.
@@ -95,6 +96,8 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
         places = sorted({"next to" if is_tall(s) else "below" for s in touching})
         body = "each body" if len(solutions) > 1 else "the body"
         lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}"))
+        if any(map(is_cut, touching)):
+            lines.append(CUT)
     if touching and scales.times is not None:
         lines.append(WALLS)
     return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
