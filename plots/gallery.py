@@ -108,6 +108,11 @@ def share_of_worst(share: np.ndarray) -> float:
     return float(worst.sum() / share.sum())
 
 
+def most_of(part: float) -> str:
+    """0.81 -> 81 %; of less than all never 100 %."""
+    return "more than 99 %" if 0.995 <= part < 1 else f"{100 * part:.0f} %"
+
+
 def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades: Colormap,
                 **edges: object) -> None:
     axes.add_collection(PolyCollection(s.placed(s.triangles), array=np.maximum(values, norm.vmin),
@@ -136,9 +141,9 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     text_at(figure, 0.1, 0.1, plain(title), weight="bold",
             fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
     text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
-            f"has {100 * share_of_worst(share):.0f} % of the squared error.")
-    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "a triangle's share of the squared error")
+            f"has {most_of(share_of_worst(share))} of the squared error.")
+    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7, "a triangle's share of the squared error" +
+             "; darkest: this or less" * bool(share.min() < norm.vmin))
     return figure
 
 
@@ -191,7 +196,7 @@ def draw_levels(levels: list[Level]) -> Figure:
     bar_below(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
              "largest shear stress in the plane, MPa; brightest: this or more")
     bar_below(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "squared error of a triangle, relative to the mean")
+             "squared error of a triangle over the mean; ends: or beyond")
     return figure
 
 
