@@ -266,11 +266,12 @@ int advise_command(int argc, const char* const* argv) {
   std::vector<Record> uniform;
   Options next = options;
   if (is_refined) {
-    uniform = run_cases(plan_cases({adapted.levels.front(),
-                                    refined_scene(adapted.levels.front(), options)},
-                                   select_methods(uniform_candidate)),
-                        options, context)
-                  .records();
+    uniform =
+        run_cases(
+            plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
+                       select_methods(uniform_candidate)),
+            options, context)
+            .records();
     next.append = true;
     const double factor = time_of_machine(uniform.back(), past);
     for (Record& record : past)
@@ -282,8 +283,7 @@ int advise_command(int argc, const char* const* argv) {
 
   const double goal = *options.adapt.front().error;
   std::vector<Advice> rows;
-  for (const Record& record : records)
-    rows.push_back(advice_of(record, options, is_refined));
+  for (const Record& record : records) rows.push_back(advice_of(record, options, is_refined));
   std::ranges::stable_sort(
       rows, {}, [&](const Advice& row) { return std::pair(!row.meets(goal), row.whole_time_s()); });
   const bool met = rows.front().meets(goal);
@@ -304,8 +304,8 @@ int advise_command(int argc, const char* const* argv) {
   fmt::print("best: {}, {}{}:\n  {}\nalso in {}\n", best.mesh, best.method, ties_of(rows, goal),
              rows.front().command, (options.out / "advice.csv").string());
 
-  const auto planned = std::ranges::find(compared, best.method,
-                                         [](const Case& c) -> const auto& { return c.method.name; });
+  const auto planned = std::ranges::find(
+      compared, best.method, [](const Case& c) -> const auto& { return c.method.name; });
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;
   with_fields.repetitions = 1;

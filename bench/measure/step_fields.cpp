@@ -40,8 +40,7 @@ std::array<Eigen::MatrixXd, 4> loads_of_steps(const Problem& first) {
       const Eigen::Vector2d& x = at % 4 == 0 ? a : b;
       if (role == BoundaryRole::displacement) {
         all[0].col(step).segment<2>(at) = motion.at(x);
-        if (loads.displacement_mm)
-          all[0].col(step).segment<2>(at) += loads.displacement_mm(x, row);
+        if (loads.displacement_mm) all[0].col(step).segment<2>(at) += loads.displacement_mm(x, row);
       } else if (role == BoundaryRole::force && loads.traction_MPa) {
         all[1].col(step).segment<2>(at) = loads.traction_MPa(x, edge_frame(a, b).normal, row);
       } else if (role == BoundaryRole::contact && loads.gap_mm) {

@@ -10,8 +10,8 @@
 //
 // held, loaded: mean displacement of Γ_D, and of the edges of Γ_F with a traction in any step;
 // empty if unknown. same_loads_as: the first step with the loads, prescribed displacements and gaps
-// of this one, itself if they are new. fields: body or contact. Series and table are replaced after each step, when
-// its files are complete: a killed process leaves those of the steps so far.
+// of this one, itself if they are new. fields: body or contact. Series and table are replaced after
+// each step, when its files are complete: a killed process leaves those of the steps so far.
 #pragma once
 
 #include <filesystem>

@@ -57,8 +57,9 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
 
-// Time and memory of a measured case on a mesh of n_phi unknowns: its own, times what the records of
-// its method say that they grow by, however fast their machine was. Empty values: they cannot say.
+// Time and memory of a measured case on a mesh of n_phi unknowns: its own, times what the records
+// of its method say that they grow by, however fast their machine was. Empty values: they cannot
+// say.
 Prediction grown(const Record& measured, std::int64_t n_phi, const std::vector<Record>& records);
 
 // What a measured case takes of the time that the records predict for it; 1 if they cannot.

@@ -162,8 +162,8 @@ std::string Progress::left(double elapsed_s) {
 std::string Progress::line(const Record& r) {
   done_.insert(name_of(r).text());
   const double elapsed = seconds_since(start_);
-  return fmt::format("[{}/{}] {}: {}, {}, {}, {}  (elapsed {}{})\n", done_.size(),
-                     planned_.size(), name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
+  return fmt::format("[{}/{}] {}: {}, {}, {}, {}  (elapsed {}{})\n", done_.size(), planned_.size(),
+                     name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
                      show_bytes(r.peak_heap_bytes), error_of(r), show_duration(elapsed),
                      left(elapsed));
 }

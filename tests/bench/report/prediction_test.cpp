@@ -313,9 +313,9 @@ TEST(PastRecords, DirectMethodsArePredictedFromSmallerMeshes) {
 
 // Before, the exponent between the two coarsest meshes was taken for all sizes: 3.5 times too fast.
 TEST(PastRecords, AMeasuredCaseGrowsAsTheRecordsDoOnAnyMachine) {
-  const PastRecords past = read_past_records(
-      {testing::results_folder() / "paper", testing::results_folder() / "direct",
-       testing::results_folder() / "size"});
+  const PastRecords past =
+      read_past_records({testing::results_folder() / "paper", testing::results_folder() / "direct",
+                         testing::results_folder() / "size"});
   const PastRecords held_out = read_past_records({testing::results_folder() / "growth"});
   for (const char* method : {"HYBRID", "P2"}) {
     const auto recorded = [&](const std::string& mesh) {

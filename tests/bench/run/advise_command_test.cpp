@@ -50,7 +50,8 @@ TEST_F(AdviseCommand, TheCommandRunsAsItIsPrinted) {
 }
 
 TEST_F(AdviseCommand, RefiningEverywhereIsForecastWithARange) {
-  const auto advice = bench_.run("advise --mesh=Mesh0 --error=1% --method=HYBRID,HYBRID:k=2 --out=o");
+  const auto advice =
+      bench_.run("advise --mesh=Mesh0 --error=1% --method=HYBRID,HYBRID:k=2 --out=o");
   ASSERT_EQ(advice.code, 0) << advice.err;
   std::smatch found;
   const std::regex row(R"(\nMesh0\+refine(\d) +HYBRID +(\d+) .* forecast: \S+ m?s to \S+ m?s\n)");

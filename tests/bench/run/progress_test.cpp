@@ -39,8 +39,7 @@ TEST(Progress, TheTimeLeftOfARecordedRunIsRightToAFactorOfTwo) {
     if (whole_s - elapsed_s < 0.05 * whole_s) break;
     const double left_s = seconds_left(elapsed_s, done_s, all_s - done_s);
     EXPECT_LT(std::abs(std::log(left_s / (whole_s - elapsed_s))), std::log(2))
-        << run[k].mesh << " " << run[k].method << ": " << left_s << ", not "
-        << whole_s - elapsed_s;
+        << run[k].mesh << " " << run[k].method << ": " << left_s << ", not " << whole_s - elapsed_s;
     ++shown;
   }
   EXPECT_GT(shown, 15);
