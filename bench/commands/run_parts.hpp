@@ -15,6 +15,7 @@ namespace airybench {
 // Writes converted meshes unless the command only plans. Throws UsageError and errors of reading.
 std::vector<PosedScene> posed_scenes(const Options& options);
 PosedScene one_posed_scene(const Options& options);  // throws UsageError unless there is one
+
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
 bool is_named_after_catalogue(const std::string& mesh);
 
