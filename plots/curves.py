@@ -24,7 +24,8 @@ from records import RecordsError
 from words import plain
 
 FAINT = dict(facecolors="0.93", edgecolors="0.8", linewidths=0.3)
-COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:purple")
+COLOURS = ("tab:blue", "tab:orange", "tab:green", "tab:purple", "tab:red", "tab:cyan", "tab:brown",
+           "tab:olive", "tab:pink", "black")
 HIGHEST, LEGEND = 7.0, 0.5  # inches: the body's picture; below it
 
 
@@ -50,8 +51,10 @@ def draw(model: dict) -> Figure:
                             (size[1] - LEGEND - 0.6) / size[1]))
     axes.set_aspect("equal")
     axes.add_collection(PolyCollection(vertices[np.array(model["triangles"])], **FAINT))
-    for k, curve in enumerate(model["curves"]):
-        colour = COLOURS[k % len(COLOURS)]
+    colours: dict[object, str] = {}  # curves of one group share theirs
+    for curve in model["curves"]:
+        group = tuple(curve["names"]) or curve["number"]
+        colour = colours.setdefault(group, COLOURS[len(colours) % len(COLOURS)])
         style = ROLE[curve["role"].partition(":")[0]] | {"color": colour}
         for walk in curve["walks_mm"]:
             axes.plot(*np.array(walk).T, **style)

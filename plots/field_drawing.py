@@ -254,10 +254,10 @@ def runs(states: np.ndarray) -> list[tuple[str, list[int]]]:
 
 def draw_states(axes: Axes, s: Fields, outside: float) -> None:
     place = halves(s.edges[..., 1])
-    box = axes.get_window_extent()
+    box, limits = axes.get_window_extent(), axes.get_xlim()
     pt_per_mm = 72 / axes.figure.dpi * box.width / np.diff(axes.get_xlim())[0]
     for state, run in runs(s.state):
-        left, right = place[run[0], 0], place[run[-1], 1]
+        left, right = np.clip((place[run[0], 0], place[run[-1], 1]), *limits)
         axes.add_patch(Rectangle((left, 0.25 * outside), right - left, 0.65 * outside,
                                  **band(state)))
         if width_of(state, SMALLEST_PT) + 4 < (right - left) * pt_per_mm:

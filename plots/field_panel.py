@@ -87,6 +87,12 @@ def is_tall(s: Fields) -> bool:
     return slenderness(s) > TALL and len(s.edges) > 0
 
 
+def is_cut(s: Fields) -> bool:
+    """Some face is drawn in part."""
+    lines = [(face, unrolled(s.edges[face])) for face in s.faces()]
+    return any(s.shown_of(face, line) != (line.along[0, 0], line.along[-1, 1]) for face, line in lines)
+
+
 def strip_of(width: float) -> float:
     return BEHIND * width / (1 + 2 * BESIDE) + MARKERS
 
@@ -155,7 +161,7 @@ def letter_of(k: int) -> str:
 def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place: Place,
               scales: drawing.Scales, letter: str) -> None:
     line = unrolled(s.edges[face])
-    start, end = line.along[0, 0], line.along[-1, 1]
+    start, end = s.shown_of(face, line)
     limits = (start - BESIDE * (end - start), end + BESIDE * (end - start))
     per_mm = place.width / (limits[1] - limits[0])
 
@@ -163,7 +169,7 @@ def draw_face(body: Axes, s: Fields, face: np.ndarray, add_axes: AddAxes, place:
                      yticks=[], ylim=(MARKERS / per_mm, (MARKERS - place.strip) / per_mm))
     strip.spines[:].set_color("0.5")
     strip.spines["bottom"].set_visible(False)
-    spacing_pt = 72 * per_mm * (end - start) / len(face)
+    spacing_pt = 72 * per_mm * (line.along[-1, 1] - line.along[0, 0]) / len(face)
     local = line.seen(s, face, place.strip / per_mm)
     drawing.draw_strip(strip, local, min(MARKER_PT, 0.67 * spacing_pt), scales)
 

@@ -23,6 +23,7 @@ ERROR = "triangle,error_share"
 STATES = ("open", "stick", "slip")
 ROLES = ("displacement", "force", "contact")
 BY_LENGTH = "distance along the face from its dot, mm"
+AROUND, MOST_SHOWN = 0.25, 0.75  # of the part of a face that touches; of the face
 STRAIGHT = 0.999  # cosine of the angle between a straight face and its axis, at least
 
 
@@ -45,6 +46,7 @@ class Fields:
     moved: np.ndarray | None = None  # (B, 2, 2) mm: displacement of start, end
     normal: np.ndarray | None = None  # (P/2, 2, 2): of the contact points, to the wall
     gap: np.ndarray | None = None    # (P/2, 2) mm: along it, a mean around the point; NaN: unknown
+    touched: np.ndarray | None = None  # (P/2, 2) the point touches in some load step; None: see state
 
     @property
     def triangles(self) -> np.ndarray:
@@ -55,6 +57,10 @@ class Fields:
         """(..., 2) -> to the right and along the vertical axis of a picture: x and y as they are, a
         face from its start to the right."""
         return points[..., ::-1] if self.of_face else points
+
+    def shown_of(self, face: np.ndarray, line: "Unrolled") -> tuple[float, float]:
+        touched = self.state[face] != "open" if self.touched is None else self.touched[face]
+        return part_shown(halves(line.along), touched.ravel())
 
     def faces(self) -> list[np.ndarray]:
         """Numbers of the contact edges, a chain for each face; one around a hole begins where its y is
@@ -155,6 +161,18 @@ def halves(along: np.ndarray) -> np.ndarray:
     """(edges, 2) -> (points of the face, 2): start and end of the half edge of each point."""
     a, b = along.T
     return np.stack([a, (a + b) / 2, (a + b) / 2, b], 1).reshape(-1, 2)
+
+
+def part_shown(along: np.ndarray, touched: np.ndarray) -> tuple[float, float]:
+    """Limits of the part of a face that a picture shows: where its points touch and a little more, if the
+    rest is large. along (P, 2) mm: half edge of each point; touched (P,)."""
+    start, end = along[0, 0], along[-1, 1]
+    if not touched.any():
+        return start, end
+    low, high = along[touched, 0].min(), along[touched, 1].max()
+    margin = AROUND * (high - low)
+    low, high = max(start, low - margin), min(end, high + margin)
+    return (low, high) if high - low < MOST_SHOWN * (end - start) else (start, end)
 
 
 def unrolled(edges: np.ndarray) -> Unrolled:

@@ -33,8 +33,8 @@ from case_names import words_of_file
 from drawing import PAGE_WIDTH, axes_at, bar_below, text_at, write_small_png
 from field_drawing import (COLORMAP, Scales, areas, draw_body, draw_boundary, enlargement,
                            largest_load, scales_of)
-from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_tall, label_body,
-                         layout_of, slenderness, view_of, width_of)
+from field_panel import (body_height, contact_points, draw_legend, draw_panel, is_cut, is_tall,
+                         label_body, layout_of, slenderness, view_of, width_of)
 from fields import Fields, names_in, read_error_share, read_fields, recorded
 from load_path import read_path, table_of
 from load_path_drawing import draw_path, frames, frames_of, write_gif
@@ -50,6 +50,7 @@ STRESS = (r"Colour: the largest shear stress in the plane, "
           "linear stresses on each third of a triangle, not averaged.")
 FACES = ("{}: contact faces, enlarged and straightened, with elements, states of the points (two per "
          "edge), pressure, friction.")
+CUT = "Of a face that is open for the most part: where it touches, and a little more."
 WALLS = ("Dashed: the outline with enlarged displacements. A wall keeps its shape: it meets the outline "
          "where the body\ntouches it, on average; elsewhere the enlarged outline may cross it.")
 # Pictures of the error: inches, of a map and of levels of a loop.
@@ -95,6 +96,8 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
         places = sorted({"next to" if is_tall(s) else "below" for s in touching})
         body = "each body" if len(solutions) > 1 else "the body"
         lines.append(FACES.format(f"{' or '.join(places).capitalize()} {body}"))
+        if any(map(is_cut, touching)):
+            lines.append(CUT)
     if touching and scales.times is not None:
         lines.append(WALLS)
     return [*lines, plain(f"Scene and method: {words_of_file(solutions[0].name).partition(', ')[2]}")]
@@ -103,6 +106,11 @@ def heading(solutions: list[Fields], scales: Scales) -> list[str]:
 def share_of_worst(share: np.ndarray) -> float:
     worst = np.sort(share)[::-1][:max(1, round(TENTH * len(share)))]
     return float(worst.sum() / share.sum())
+
+
+def most_of(part: float) -> str:
+    """0.81 -> 81 %; of less than all never 100 %."""
+    return "more than 99 %" if 0.995 <= part < 1 else f"{100 * part:.0f} %"
 
 
 def draw_shares(axes: Axes, s: Fields, values: np.ndarray, norm: LogNorm, shades: Colormap,
@@ -133,9 +141,9 @@ def draw_map(s: Fields, share: np.ndarray) -> Figure:
     text_at(figure, 0.1, 0.1, plain(title), weight="bold",
             fontsize=10 * min(1, 72 * (width - 0.2) / words_width(title, 10, "bold")))
     text_at(figure, 0.1, 0.32, f"{len(share)} triangles; the worst tenth of them "
-            f"has {100 * share_of_worst(share):.0f} % of the squared error.")
-    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7,
-             "a triangle's share of the squared error")
+            f"has {most_of(share_of_worst(share))} of the squared error.")
+    bar_below(figure, ScalarMappable(norm, shades), 0.15, 0.7, "a triangle's share of the squared error" +
+             "; darkest: this or less" * bool(share.min() < norm.vmin))
     return figure
 
 
@@ -188,7 +196,7 @@ def draw_levels(levels: list[Level]) -> Figure:
     bar_below(figure, ScalarMappable(scales.shear, COLORMAP), 0.08, 0.38,
              "largest shear stress in the plane, MPa; brightest: this or more")
     bar_below(figure, ScalarMappable(norm, shades), 0.56, 0.38,
-             "squared error of a triangle, relative to the mean")
+             "squared error of a triangle over the mean; ends: or beyond")
     return figure
 
 

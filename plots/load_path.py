@@ -2,20 +2,22 @@
 
 N steps, P contact points of one face in its order, two per edge. Forces in N per mm of thickness.
 """
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from fields import CONTACT, STATES, chains, halves, read_table, unrolled
+from fields import CONTACT, STATES, chains, halves, part_shown, read_table, unrolled
 from records import RecordsError
 from words import csv_of
 
 STEPS = ("step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
-         "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,fields")
+         "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,same_loads_as,fields")
+WITHOUT_RETURNS = STEPS.replace("same_loads_as,", "")  # of an earlier bench
 PARTS = ("body", "contact")
-CLOSED = 1e-3  # of the range of a force: a cycle that returns to it
-SAME = 1e-6  # of the range of a displacement: two steps at the same place
+CLOSED = 1e-3  # of the range of a force or displacement: a cycle that returns to it
+SLIGHT = 0.1  # tangential motion, of the normal one: the loop shows the normal one
 
 
 @dataclass(frozen=True)
@@ -23,11 +25,13 @@ class LoadPath:
     name: str
     step: np.ndarray         # (N,) from 1
     has_body: np.ndarray     # (N,) whether the stresses of the step are in files
-    push: np.ndarray         # (N,) N: force on the wall along the face's mean tangent
+    is_normal: bool          # push and moved are normal to the face, else along its mean tangent
+    push: np.ndarray         # (N,) N: force on the wall in that direction
     normal: np.ndarray       # (N,) N: force on the wall along its mean normal
     dissipated: np.ndarray   # (N,) N mm, in each step
-    moved: np.ndarray | None  # (N,) mm: displacement along that tangent; None: unknown
+    moved: np.ndarray | None  # (N,) mm: displacement in that direction; None: unknown
     moved_what: str          # whose: held or loaded boundary
+    loads: np.ndarray        # (N,) number of the first step with these loads
     face: int                # which is shown, from 0, of
     faces: int
     axis: str
@@ -35,27 +39,43 @@ class LoadPath:
     state: np.ndarray        # (N, P) of STATES
     traction: np.ndarray     # (N, P, 2) MPa: pressure > 0, friction on the body along the tangent
 
-    @property
-    def cycle(self) -> int | None:
-        """The last step but the end, from 0, at the end's displacement, if others lie between."""
-        if self.moved is None or not np.ptp(self.moved):
-            return None
-        same = np.flatnonzero(np.abs(self.moved - self.moved[-1]) < SAME * np.ptp(self.moved))
-        before = same[same < len(self.moved) - 2]
-        return int(before[-1]) if before.size else None
+    @cached_property
+    def cycle(self) -> slice | None:
+        """The last steps at whose end the loads of their beginning return after others. They return on
+        the way they came from, if they ever do: to and fro is one cycle, not two."""
+        for last in range(len(self.loads) - 1, 1, -1):
+            same = [k for k in range(last - 1) if self.loads[k] == self.loads[last]
+                    and (self.loads[k:last] != self.loads[last]).any()]
+            if same:
+                again = [k for k in same if k and self.loads[k - 1] == self.loads[last - 1]]
+                return slice(again[-1] if again else same[0], last + 1)
+        return None
 
     @property
-    def force_returns(self) -> bool:
-        """The force at the end is that of the cycle's beginning."""
-        return bool(abs(self.push[-1] - self.push[self.cycle]) < CLOSED * np.ptp(self.push))
+    def turns(self) -> list[int]:
+        """Steps, from 0, after which the motion turns round."""
+        ways = np.sign(np.diff(self.push if self.moved is None else self.moved))
+        moves = np.flatnonzero(ways)
+        return [int(moves[k]) + 1 for k in np.flatnonzero(np.diff(ways[moves]))]
+
+    @property
+    def shown(self) -> tuple[float, float]:
+        """Limits of the part of the face that is drawn, mm."""
+        return part_shown(self.along, (self.state != "open").any(0))
 
     def dissipated_in_cycle(self) -> float:
-        return float(self.dissipated[self.cycle + 1:].sum())
+        return float(self.dissipated[self.cycle][1:].sum())
 
     def area(self) -> float:
         """∮ push d(moved) of the cycle, N mm, by the trapezoidal rule."""
-        push, moved = self.push[self.cycle:], self.moved[self.cycle:]
+        push, moved = self.push[self.cycle], self.moved[self.cycle]
         return float(((push[1:] + push[:-1]) / 2 * np.diff(moved)).sum())
+
+
+def returns(values: np.ndarray, cycle: slice) -> bool:
+    """The value at the end of the cycle is that of its beginning."""
+    of_cycle = values[cycle]
+    return bool(abs(of_cycle[-1] - of_cycle[0]) <= CLOSED * np.ptp(values))
 
 
 def contact_of(results: Path, name: str, step: int) -> tuple[np.ndarray, np.ndarray]:
@@ -65,7 +85,7 @@ def contact_of(results: Path, name: str, step: int) -> tuple[np.ndarray, np.ndar
 def read_path(results: Path, name: str) -> LoadPath | str:
     """The path, or why there is nothing to see; throws RecordsError."""
     table = results / "fields" / f"{name}.steps.csv"
-    numbers, parts = read_table(table, STEPS, PARTS)
+    numbers, parts = read_table(table, STEPS, PARTS, WITHOUT_RETURNS)
     if not np.array_equal(numbers[:, 0], np.arange(len(numbers)) + 1) or len(numbers) == 0:
         raise RecordsError(f"{table}: expected the steps 1, 2, 3 and so on, a row each")
     points = [contact_of(results, name, step) for step in range(1, len(numbers) + 1)]
@@ -86,16 +106,24 @@ def read_path(results: Path, name: str) -> LoadPath | str:
     tangents = np.stack([-normals[:, 1], normals[:, 0]], 1)
     on_body = force[..., :1] * normals + force[..., 1:] * tangents
     mean = unit((lengths[:, None] * normals)[chosen].sum(0))
-    along = np.array([-mean[1], mean[0]])
-    ways = {what: numbers[:, k:k + 2] @ along for what, k in
+    ways = {what: numbers[:, k:k + 2] @ np.stack([mean, (-mean[1], mean[0])], 1) for what, k in
             (("held", 7), ("loaded", 9)) if np.isfinite(numbers[:, k:k + 2]).all()}
-    moved_what = max(ways, key=lambda what: np.ptp(ways[what]), default="")
-    return LoadPath(
-        name, numbers[:, 0].astype(int), parts == "body", -on_body.sum(1) @ along,
-        -on_body.sum(1) @ mean, numbers[:, 3], ways.get(moved_what), moved_what, face, len(faces),
-        line.axis, halves(line.along),
+    moved_what = max(ways, key=lambda what: np.ptp(ways[what], axis=0).max(), default="")
+    moved = ways.get(moved_what)
+    push = -on_body.sum(1) @ np.stack([mean, (-mean[1], mean[0])], 1)
+    loads = numbers[:, 11] if numbers.shape[1] > 11 else numbers[:, 0]
+    path = LoadPath(
+        name, numbers[:, 0].astype(int), parts == "body", False, push[:, 1], push[:, 0],
+        numbers[:, 3], None if moved is None else moved[:, 1], moved_what, loads.astype(int), face,
+        len(faces), line.axis, halves(line.along),
         np.array([state for _, state in points])[:, chosen],
         force[:, chosen] * np.array([-1, 1]) / (lengths[chosen, None] / 2))  # F = (L/2) t
+    if moved is None:
+        return path
+    normal, tangential = np.ptp(moved[path.cycle or slice(None)], axis=0)
+    if tangential >= SLIGHT * normal:
+        return path
+    return replace(path, is_normal=True, push=push[:, 0], moved=moved[:, 0])
 
 
 def rows_of(edges: np.ndarray) -> np.ndarray:
@@ -115,6 +143,7 @@ def table_of(path: LoadPath) -> str:
                   ("moved_mm", lambda k: None if path.moved is None else float(path.moved[k])),
                   ("push_N", lambda k: float(path.push[k])),
                   ("normal_N", lambda k: float(path.normal[k])),
+                  ("same_loads_as", lambda k: int(path.loads[k])),
                   ("dissipated_Nmm", lambda k: float(path.dissipated[k])),
                   *((f"{state}_mm", lambda k, own=own: float(own[k]))
                     for state, own in shares.items()))

@@ -1,6 +1,7 @@
 """Draws a path of load steps: the contact face over the steps, and the force over the displacement."""
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +17,7 @@ from drawing import PAGE_WIDTH, axes_at, colour_bar, panel_at, sheet, text_at
 from field_drawing import COLORMAP, STATE, Scales, scales_of
 from field_panel import draw_legend, draw_panel, layout_of
 from fields import STATES, Fields
-from load_path import LoadPath
+from load_path import LoadPath, returns
 from words import plain
 
 LEFT, TOP, GAP, HEIGHT, BAR, BOTTOM = 0.6, 0.38, 0.34, 2.9, 0.55, 0.5  # inches, of the maps
@@ -27,6 +28,7 @@ MOST_FRAMES, MOST_BYTES, FRAME_MS = 60, 2_000_000, 250
 FRAME_WIDTH, FRAME_TOP, FRAME_FOOT = 8.3, 0.4, 0.62
 FRAME_DPI, LEAST_SCALE = 80, 0.6
 COLOURS = 112
+ONE_PLACE, MOST_TURNS = 0.03, 8  # of the loop: labels as near as this are joined; turns with labels
 FIXED = ("white", "black", *(STATE[state][key] for state in ("stick", "slip")
                               for key in ("color", "fill")),
          *colormaps[COLORMAP].resampled(32).colors)
@@ -36,10 +38,11 @@ def draw_path(path: LoadPath) -> Figure:
     """Maps of state, pressure and friction, places to the right and steps upwards; the loop below."""
     top = TOP + HEIGHT + BOTTOM + BAR
     words = [f"Contact face{which(path)} over the load steps: where its points are open, stick or slip, "
-             "pressure, and friction (on the body, positive to the right). Below left: force Q of the "
-             f"body along the wall over {whose(path)}, with numbers of steps. Below right: energy that "
-             "friction dissipates, Σ\u00a0−F_t\u00a0Δr_t over all contact points. Forces and energies "
-             "are per mm of thickness.", *words_of_cycle(path)]
+             "pressure, and friction (on the body, positive to the right)." + part_of(path) +
+             f" Below left: force Q of the body {way_of(path)} over {whose(path)}, with numbers of steps: "
+             "the first, the last, and where the motion turns. Below right: energy that friction "
+             "dissipates, Σ\u00a0−F_t\u00a0Δr_t over all contact points. Forces and energies are per mm of "
+             "thickness.", *words_of_cycle(path)]
     figure = sheet(top + LOOP_TOP + LOOP_HEIGHT + BOTTOM, title_of(path), *words)
     width = (PAGE_WIDTH - LEFT - 0.15 - 2 * GAP) / 3
     pressure, friction = path.traction[..., 0], path.traction[..., 1]
@@ -53,6 +56,7 @@ def draw_path(path: LoadPath) -> Figure:
         axes = axes_at(figure, LEFT + k * (width + GAP), TOP, width, HEIGHT)
         drawn = axes.pcolormesh(*corners_of(path), values, cmap=colours, norm=norm, rasterized=True)
         axes.set_xlabel(path.axis.replace(" from its dot", ""), labelpad=1)
+        axes.set_xlim(path.shown)
         axes.set_ylabel("" if k else "load step")
         axes.tick_params(labelleft=k == 0, length=2)
         axes.yaxis.get_major_locator().set_params(integer=True)
@@ -75,16 +79,25 @@ def words_of_cycle(path: LoadPath) -> Iterator[str]:
     """Work put in and energy dissipated: ∮ Q dU = D + ΔW, with the energy W stored in the body."""
     if path.cycle is None:
         return
-    first, last = path.step[path.cycle], path.step[-1]
-    area, lost = path.area(), path.dissipated_in_cycle()
-    yield (f"From step {first} to step {last}, which has the same displacement U, friction dissipates "
-           f"{lost:.3g} N mm/mm. That is not the shaded area: ∮\u00a0Q\u00a0dU = {area:.3g} N mm/mm is the "
+    first, *_, last = path.step[path.cycle]
+    lost = path.dissipated_in_cycle()
+    dissipates = (f"From step {first} to step {last}, when the loads of step {first} return, friction "
+                  f"dissipates {lost:.3g} N mm/mm.")
+    if path.moved is None:
+        yield dissipates
+        return
+    area = path.area()
+    ends = [f"{what} ({1e3**k * values[path.cycle][0]:.4g} and {1e3**k * values[path.cycle][-1]:.4g} {unit})"
+            for k, what, values, unit in ((0, "force", path.push, "N/mm"),
+                                          (1, "displacement", path.moved, "µm"))
+            if not returns(values, path.cycle)]
+    yield (f"{dissipates} That is not the shaded area: ∮\u00a0Q\u00a0dU = {area:.3g} N mm/mm is the "
            "work of Q, with straight lines between the steps. " +
-           ("The force returns as well; the difference is the error of the straight lines, the work of "
-            "other loads and energy stored in the body." if path.force_returns else
-            f"The force does not return ({path.push[path.cycle]:.4g} and {path.push[-1]:.4g} N/mm): the "
-            f"cycle is not closed, and the difference of {area - lost:.2g} N mm/mm is mainly energy "
-            "stored in the body. Over a closed cycle in small steps the two are equal."))
+           (f"The {' and the '.join(ends)} {'does' if len(ends) == 1 else 'do'} not return: the cycle is "
+            f"not closed, and the difference of {area - lost:.2g} N mm/mm is mainly energy stored in the "
+            "body. Over a closed cycle in small steps the two are equal." if ends else
+            "Force and displacement return as well; the difference is the error of the straight lines, "
+            "the work of other loads and energy stored in the body."))
 
 
 def title_of(path: LoadPath) -> str:
@@ -96,10 +109,22 @@ def which(path: LoadPath) -> str:
     return f" {path.face + 1} of {path.faces}, which is pressed most," if path.faces > 1 else ""
 
 
+def part_of(path: LoadPath) -> str:
+    start, end = path.along[0, 0], path.along[-1, 1]
+    if path.shown == (start, end):
+        return ""
+    return f" The face is {end - start:.3g} mm long; what is left out of it stays open."
+
+
+def way_of(path: LoadPath) -> str:
+    return "on the wall, normal to it," if path.is_normal else "along the wall"
+
+
 def whose(path: LoadPath) -> str:
-    return {"held": "the mean displacement of the held boundary along it",
-            "loaded": "the mean displacement of the loaded boundary along it",
-            "": "the steps (displacements are unknown)"}[path.moved_what]
+    if not path.moved_what:
+        return "the steps (displacements are unknown)"
+    way = "towards" if path.is_normal else "along"
+    return f"the mean displacement of the {path.moved_what} boundary {way} it"
 
 
 def corners_of(path: LoadPath) -> tuple[np.ndarray, np.ndarray]:
@@ -110,8 +135,8 @@ def corners_of(path: LoadPath) -> tuple[np.ndarray, np.ndarray]:
 def draw_loop(axes: Axes, path: LoadPath, until: int | None = None) -> None:
     """until: the step, from 0, that a dot marks; the others lie in grey."""
     x = path.step if path.moved is None else 1e3 * path.moved
-    if path.cycle is not None:
-        axes.fill(x[path.cycle:], path.push[path.cycle:], color=CYCLE, alpha=0.6, linewidth=0)
+    if path.cycle is not None and path.moved is not None:
+        axes.fill(x[path.cycle], path.push[path.cycle], color=CYCLE, alpha=0.6, linewidth=0)
     axes.plot(x, path.push, color=PATH if until is None else "0.6", linewidth=1.1, marker="o",
               markersize=2.2)
     if until is not None:
@@ -123,12 +148,24 @@ def draw_loop(axes: Axes, path: LoadPath, until: int | None = None) -> None:
     axes.set_ylabel("force on the wall, N/mm", labelpad=2)
     axes.margins(0.08)
     if until is None:
-        ends = {} if path.cycle is None else {len(path.step) - 1: f"{path.step[path.cycle]}, "}
-        for k in {0, len(path.step) - 1, int(path.push.argmax()), int(path.push.argmin())}:
-            if path.cycle is not None and k == path.cycle:
-                continue  # where the path ends
-            axes.annotate(f"{ends.get(k, '')}{path.step[k]}", (x[k], path.push[k]), weight="bold",
-                          xytext=(5, 3 if path.push[k] >= 0 else -9), textcoords="offset points")
+        middle = (path.push.min() + path.push.max()) / 2
+        for places in labelled(path, x):
+            k = places[-1]
+            axes.annotate(", ".join(str(path.step[place]) for place in places), (x[k], path.push[k]),
+                          weight="bold", xytext=(5, 3 if path.push[k] >= middle else -9),
+                          textcoords="offset points")
+
+
+def labelled(path: LoadPath, x: np.ndarray) -> list[list[int]]:
+    """Steps, from 0, whose numbers are drawn, those together that are nearly at one place."""
+    ends = {0, len(x) - 1, *(range(len(x))[path.cycle][::len(x[path.cycle]) - 1] if path.cycle else ())}
+    turns = path.turns
+    points = np.stack([values / (np.ptp(values) or 1) for values in (x, path.push)], 1)
+    found: list[list[int]] = []
+    for k in sorted(ends.union(turns if len(turns) <= MOST_TURNS else turns[:1] + turns[-1:])):
+        near = [group for group in found if np.hypot(*(points[group[0]] - points[k])) < ONE_PLACE]
+        near[0].append(k) if near else found.append([k])
+    return found
 
 
 def draw_dissipation(axes: Axes, path: LoadPath) -> None:
@@ -154,8 +191,9 @@ def frames_of(path: LoadPath) -> list[int]:
 def frames(path: LoadPath, of_steps: dict[int, Fields]) -> Iterator[Figure]:
     """All with the same scales, factor of displacements and legend."""
     scales = scales_of(list(of_steps.values()))
+    touched = np.any([s.state != "open" for s in of_steps.values()], axis=0)
     for step, s in of_steps.items():
-        figure = draw_frame(path, step, s, scales)
+        figure = draw_frame(path, step, replace(s, touched=touched), scales)
         draw_legend(figure, scales, list(of_steps.values()))
         yield figure
 

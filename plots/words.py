@@ -51,9 +51,10 @@ def short(value: float) -> str:
 
 
 def percent(value: float) -> str:
-    """0.0712 -> 7.1 %; what is too small for that as 1e-6."""
-    return f"{100 * value:.2g}\u00a0%" if 1e-4 <= value < 1 else f"{value:.2g}" \
-        if 1 <= value < 100 else short(value)
+    """0.0712 -> 7.1 %; what is too small for that as 1e-6, what is nearly all or more as 0.997, 1.2."""
+    if not 1e-4 <= value < 100:
+        return short(value)
+    return f"{100 * value:.2g}\u00a0%" if value < 0.995 else f"{value:.{3 if value < 1 else 2}g}"
 
 
 def seconds(value: float) -> str:

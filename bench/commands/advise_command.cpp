@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <limits>
 #include <numeric>
 
 #include "bench/commands/command_line.hpp"
@@ -31,8 +30,9 @@ namespace {
 
 constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
-Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond by
-power laws. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes,
+Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond, with
+a range, by the growth of earlier records; its error by a power law. Earlier records are taken to be of this machine's
+speed after that measurement. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes,
 fields.
 
 Exit status  0  a measured row meets the error
@@ -56,7 +56,7 @@ Options parse_advise(int argc, const char* const* argv, double& budget_s) {
   options.methods = candidates;
   options.out = "results/advice";
   options.timeout_s = 20;
-  options.repetitions = 3;
+  options.repetitions = fewest_to_tell_apart;
   std::string error;
   CLI::App app("Which mesh and method give a total error, how long they take, in how much memory.",
                "{bench} advise");
@@ -116,36 +116,39 @@ Advice advice_of(const Record& r, const Options& options, bool is_adapted) {
   return advice;
 }
 
-std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error) {
-  constexpr double most_unknowns = 1e9;
-  if (!coarse.error_total || !fine.error_total || !coarse.time_s || !fine.time_s ||
-      !coarse.peak_heap_bytes || !fine.peak_heap_bytes || *fine.error_total >= *coarse.error_total)
+// Refining uniformly makes four triangles and four inner edges of each triangle, two of each edge:
+//   n_φ(k) = a 4^k + b 2^k + constant.
+double unknowns_after(const Record& coarse, const Record& fine, double steps) {
+  const double n_0 = static_cast<double>(*coarse.n_phi), n_1 = static_cast<double>(*fine.n_phi);
+  const double a = (n_1 - 2 * n_0) / 2, b = n_0 - a;
+  return a * std::pow(4, steps) + b * std::pow(2, steps);
+}
+
+std::optional<Advice> forecast_uniform(const Record& coarse, const Record& fine, double error,
+                                       const std::vector<Record>& past) {
+  constexpr double most_unknowns = 1e9, widest = 30;  // highest over lowest time that are of use
+  if (!coarse.error_total || !fine.error_total || *fine.error_total >= *coarse.error_total)
     return {};
-  const double per_step = static_cast<double>(*fine.n_phi) / static_cast<double>(*coarse.n_phi);
   const double gain = *fine.error_total / *coarse.error_total;
-  const double steps = std::ceil(std::log(error / *fine.error_total) / std::log(gain));
-  const double n_phi = static_cast<double>(*fine.n_phi) * std::pow(per_step, steps);
-  if (steps < 1 || n_phi > most_unknowns) return {};
-  const int n = static_cast<int>(n_phi);
-  const auto at_n = [&](double of_coarse, double of_fine, double least_exponent) {
-    const SizedValue first{static_cast<int>(*coarse.n_phi), of_coarse},
-        second{static_cast<int>(*fine.n_phi), of_fine};
-    const double exponent = std::max(*pooled_exponent({{first, second}}, n), least_exponent);
-    return extrapolate({second}, n, exponent, 0).value;
-  };
-  // Small meshes cost more per unknown; beyond them, growth is at least proportional.
-  const double proportional = 1, any = -std::numeric_limits<double>::infinity();
+  const double more = std::ceil(std::log(error / *fine.error_total) / std::log(gain));
+  const double n_phi = unknowns_after(coarse, fine, 1 + more);
+  if (more < 1 || !(n_phi < most_unknowns)) return {};
   Record forecast;
   forecast.status = Status::ok;
-  forecast.mesh = fmt::format("refined {:g} times", steps + 1);
+  const std::string mesh = coarse.mesh.substr(0, coarse.mesh.rfind('+'));
+  forecast.mesh = fmt::format("{}+refine{:g}", mesh, 1 + more);
   forecast.method = fine.method;
-  forecast.n_phi = n;
-  forecast.error_total = at_n(*coarse.error_total, *fine.error_total, any);
-  forecast.time_s = at_n(*coarse.time_s, *fine.time_s, proportional);
-  forecast.peak_heap_bytes =
-      std::llround(at_n(static_cast<double>(*coarse.peak_heap_bytes),
-                        static_cast<double>(*fine.peak_heap_bytes), proportional));
-  return Advice{forecast, "forecast", ""};
+  forecast.n_phi = std::llround(n_phi);
+  forecast.error_total = *fine.error_total * std::pow(gain, more);
+  const Prediction expected = grown(fine, *forecast.n_phi, past);
+  const std::optional<Estimate>&time_s = expected.time_s, &heap = expected.peak_heap_bytes;
+  if (!time_s || !heap || time_s->high > widest * time_s->low)
+    return Advice{forecast, "forecast: no earlier record is nearly as large", ""};
+  forecast.time_s = time_s->value;
+  forecast.peak_heap_bytes = std::llround(heap->value);
+  return Advice{
+      forecast,
+      fmt::format("forecast: {} to {}", show_seconds(time_s->low), show_seconds(time_s->high)), ""};
 }
 
 // Why a method is not worth a measurement next to the fastest one; empty: it is.
@@ -163,10 +166,10 @@ std::string why_hopeless(const Prediction& expected, const Prediction& fastest,
 // Removes hopeless cases, then the longest ones until earlier records say that the rest fits into
 // the budget; keeps the shortest case and cases without records. Returns a row for each removed
 // case.
-std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s) {
+std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, double budget_s,
+                              const std::vector<Record>& past) {
   std::vector<Record> planned;
   for (const Case& c : plan) planned.push_back(blank_record(c, options));
-  const std::vector<Record> past = read_committed_records(planned, options.out).records;
   const std::vector<Prediction> expected = forecast(planned, past, limits_of(options)).cases;
   std::vector<std::size_t> order(plan.size());
   std::iota(order.begin(), order.end(), 0);
@@ -191,21 +194,25 @@ std::vector<Advice> leave_out(std::vector<Case>& plan, const Options& options, d
   return rows;
 }
 
-// " (P2 ties with it: ...)" for methods whose times are not apart from the best row's; rows: it
-// first.
+// " (...; ties with it: P2, ...)" for methods whose times are not apart from the best row's; rows:
+// it first. Of few samples, times that overlap do not make a tie.
 std::string ties_of(const std::vector<Advice>& rows, double error) {
   const Record& best = rows.front().record;
   const auto shown = [](const Record& r) {
     return fmt::format("{} ± {}", show_seconds(r.time_s), show_seconds(r.time_mad_s));
   };
-  std::string ties;
+  std::string ties, unclear;
   for (const Advice& row : rows) {
     const Record& r = row.record;
-    if (&row == &rows.front() || !row.meets(error) || r.mesh != best.mesh || !times_tie(best, r))
-      continue;
-    ties += fmt::format("{}{}, {}", ties.empty() ? "" : "; ", r.method, shown(r));
+    if (&row == &rows.front() || !row.meets(error) || r.mesh != best.mesh) continue;
+    if (has_few_samples(best) || has_few_samples(r))
+      unclear += fmt::format("{}{}", unclear.empty() ? "" : ", ", r.method);
+    else if (times_tie(best, r))
+      ties += fmt::format("{}{}, {}", ties.empty() ? "" : "; ", r.method, shown(r));
   }
-  return ties.empty() ? "" : fmt::format(" ({}; ties with it: {})", shown(best), ties);
+  if (!ties.empty()) ties = fmt::format(" ({}; ties with it: {})", shown(best), ties);
+  if (!unclear.empty()) ties += fmt::format(" (too few samples to compare with: {})", unclear);
+  return ties;
 }
 
 std::string table_of(const std::vector<Advice>& rows) {
@@ -251,31 +258,38 @@ int advise_command(int argc, const char* const* argv) {
   if (adapted.levels.empty()) return some_case_failed;
 
   const bool is_refined = adapted.levels.size() > 1;
-  std::vector<Case> plan;
-  if (is_refined)
-    plan = plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
-                      select_methods(uniform_candidate));
-  const std::size_t uniform = plan.size();
-  std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen);
-  const std::vector<Advice> left_out = leave_out(compared, options, budget_s);
-  for (Case& c : compared) {
-    c.number = static_cast<int>(plan.size()) + 1;
-    plan.push_back(std::move(c));
-  }
   set_threads(options.threads);
   const Context context = context_of_run(options);
-  const std::vector<Record> records = run_cases(plan, options, context).records();
+  std::vector<Case> compared = plan_cases({adapted.levels.back()}, chosen);
+  std::vector<Record> past =
+      read_committed_records({blank_record(compared.front(), options)}, options.out).records;
+  std::vector<Record> uniform;
+  Options next = options;
+  if (is_refined) {
+    uniform =
+        run_cases(
+            plan_cases({adapted.levels.front(), refined_scene(adapted.levels.front(), options)},
+                       select_methods(uniform_candidate)),
+            options, context)
+            .records();
+    next.append = true;
+    const double factor = time_of_machine(uniform.back(), past);
+    for (Record& record : past)
+      for (std::optional<double>* time : {&record.time_s, &record.extrapolated_time_s})
+        if (*time) **time *= factor;
+  }
+  const std::vector<Advice> left_out = leave_out(compared, options, budget_s, past);
+  std::vector<Record> records = run_cases(compared, next, context).records();
 
   const double goal = *options.adapt.front().error;
   std::vector<Advice> rows;
-  for (std::size_t k = uniform; k < records.size(); ++k)
-    rows.push_back(advice_of(records[k], options, is_refined));
+  for (const Record& record : records) rows.push_back(advice_of(record, options, is_refined));
   std::ranges::stable_sort(
       rows, {}, [&](const Advice& row) { return std::pair(!row.meets(goal), row.whole_time_s()); });
   const bool met = rows.front().meets(goal);
-  for (std::size_t k = 0; k < uniform; ++k) rows.push_back(advice_of(records[k], options, false));
+  for (const Record& record : uniform) rows.push_back(advice_of(record, options, false));
   if (is_refined)
-    if (const auto forecast = forecast_uniform(records[0], records[1], goal))
+    if (const auto forecast = forecast_uniform(uniform[0], uniform[1], goal, past))
       rows.push_back(*forecast);
   rows.insert(rows.end(), left_out.begin(), left_out.end());
   fmt::print("\n{}\n", table_of(rows));
@@ -290,9 +304,8 @@ int advise_command(int argc, const char* const* argv) {
   fmt::print("best: {}, {}{}:\n  {}\nalso in {}\n", best.mesh, best.method, ties_of(rows, goal),
              rows.front().command, (options.out / "advice.csv").string());
 
-  const auto planned = std::ranges::find_if(plan, [&](const Case& c) {
-    return c.method.name == best.method && mesh_name_of(c.posed.problem) == best.mesh;
-  });
+  const auto planned = std::ranges::find(
+      compared, best.method, [](const Case& c) -> const auto& { return c.method.name; });
   Options with_fields = options;
   with_fields.fields = with_fields.append = true;
   with_fields.repetitions = 1;

@@ -136,6 +136,8 @@ std::vector<Method> methods_for(const std::vector<PosedScene>& scenes, const Opt
   };
   if (options.study.name.empty() && std::ranges::any_of(scenes, is_own))
     names = std::ranges::all_of(scenes, is_own) ? own_body_methods : names + "," + own_body_methods;
+  if (!others.empty() && options.study.name.empty())  // next to what they are to beat
+    names = std::ranges::any_of(scenes, is_own) ? own_body_methods : "HYBRID";
   if (!others.empty()) names += ",EXTERNAL:*";
   return select_methods(names, others);
 }

@@ -88,8 +88,10 @@ void add_cases(CLI::App& app, Options& options, Texts& texts) {
   app.add_option("--degree", texts.degree,
                  "1 to 4, or auto: of HYBRID's stresses, instead of --method and --adapt=...,by= "
                  "(auto: 3 for goals below 0.1%, else 2)");
-  app.add_option("--method", options.methods,
-                 "names or globs; default: the paper's, for your own bodies HYBRID and P2");
+  app.add_option(
+      "--method", options.methods,
+      "names or globs; default: the paper's, for your own bodies HYBRID and P2, next to other "
+      "programs HYBRID");
   add_files(app, "--external", options.externals,
             "declarations of other programs, files or globs: methods EXTERNAL:name "
             "(docs/external-solvers.md)");

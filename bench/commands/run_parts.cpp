@@ -220,11 +220,6 @@ bool is_named_after_catalogue(const std::string& mesh) {
   return std::ranges::find(catalogue_mesh_names, body) != catalogue_mesh_names.end();
 }
 
-RunLimits limits_of(const Options& options) {
-  return {least_repetitions(options), options.timeout_s, options.long_case_s,
-          options.memory_limit_bytes, options.study.once};
-}
-
 void end_run(const RunResult& result, const fs::path& out, bool has_fields) {
   std::fflush(stdout);
   const char* const then = std::getenv("AIRYBENCH_THEN");

@@ -16,8 +16,6 @@ namespace airybench {
 std::vector<PosedScene> posed_scenes(const Options& options);
 PosedScene one_posed_scene(const Options& options);  // throws UsageError unless there is one
 
-RunLimits limits_of(const Options& options);
-
 // Of the paper's meshes, also adapted or refined: "Mesh0+adapt3".
 bool is_named_after_catalogue(const std::string& mesh);
 

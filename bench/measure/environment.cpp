@@ -21,6 +21,7 @@
 #include "bench/measure/build_info.hpp"
 #include "bench/measure/heap_probe.hpp"
 #include "bench/records/robust.hpp"
+#include "bench/records/summary.hpp"
 #include "solvers/base/blas_library.hpp"
 #include "solvers/condensation/hybrid_kernels.hpp"
 #include "support/errors.hpp"
@@ -145,7 +146,6 @@ Context context_of_run(const Options& options) {
 std::vector<std::string> machine_warnings(const Context& environment, int repetitions,
                                           const std::vector<double>& noise_kernel_s) {
   constexpr double most_load_per_cpu = 0.2, most_noise = 0.05;
-  constexpr int fewest_repetitions = 5;  // two samples of five differ at p < 0.01, of four never
   const auto known = [&](const char* key) {
     const std::string word = context_word(environment, key);
     return word == "unknown" ? "" : word;
@@ -171,11 +171,11 @@ std::vector<std::string> machine_warnings(const Context& environment, int repeti
         fmt::format("times scatter by {:.1f} % in a loop that is always the same (quiet: at most "
                     "{:.0f} %)",
                     100 * noise, 100 * most_noise));
-  if (repetitions < fewest_repetitions)
+  if (repetitions < fewest_to_tell_apart)
     lines.push_back(fmt::format(
         "--repetitions={}: too few for a sound interval, and for two methods to differ at "
         "p < 0.01 (both from {} on)",
-        repetitions, fewest_repetitions));
+        repetitions, fewest_to_tell_apart));
   if (known("heap_probe") != "on")
     lines.push_back("the heap is not counted: this build has no heap probe");
   if (!build_type.empty() && build_type != "Release")

@@ -137,7 +137,8 @@ void Judge::judge_method_error(const Method& method, const std::vector<JudgedSte
     give(Status::unstressed, method.in_displacements
                                  ? "its displacements have no stress: nothing touches or loads "
                                    "what is free of them"
-                                 : "the body has no stress: nothing touches or loads it");
+                                 : "the body has no stress: nothing touches or loads it" +
+                                       words_of_least_gap(*problem_));
   } else if (problem_) {
     note_what_is_idle(*problem_, record);
     note_large_strains(*problem_, solution.stress, record);

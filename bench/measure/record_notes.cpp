@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -134,6 +135,21 @@ void note(const Solution& solution, Record& record) {
   }
 }
 
+std::string words_of_least_gap(const Problem& problem) {
+  double least_mm = std::numeric_limits<double>::infinity();
+  for (int row = 0; row < static_cast<int>(problem.mesh.boundary.size()); ++row) {
+    if (problem.mesh.boundary[row].role != BoundaryRole::contact) continue;
+    const auto [start, end] = problem.mesh.boundary[row].vertices;
+    const Eigen::Vector2d &a = problem.mesh.vertices[start], &b = problem.mesh.vertices[end];
+    for (int node = 0; node < 3; ++node)
+      least_mm = std::min(least_mm, problem.offset_at(a + node * (b - a) / 2, row)
+                                        .along(problem.frame_at_node(row, node).normal)
+                                        .x());
+  }
+  if (std::isinf(least_mm)) return "";
+  return fmt::format("; the least gap to the wall, before it deforms, is {:.3g} mm", least_mm);
+}
+
 void note_what_is_idle(const Problem& problem, Record& record) {
   const MeshSizes sizes = mesh_sizes(problem.mesh);
   if (sizes.contact_edges + sizes.force_edges == 0) {
@@ -142,8 +158,8 @@ void note_what_is_idle(const Problem& problem, Record& record) {
     record.status_reason = "there is no contact boundary";
   } else if (const std::int64_t points = record.n_open.value_or(0);
              points > 0 && record.n_stick.value_or(0) + record.n_slip.value_or(0) == 0) {
-    record.status_reason =
-        fmt::format("nothing touches the wall: all {} contact points are open", points);
+    record.status_reason = fmt::format("nothing touches the wall: all {} contact points are open{}",
+                                       points, words_of_least_gap(problem));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "support/atomic_file.hpp"
@@ -20,6 +21,56 @@ bool is_loaded(const Loads& loads, const Mesh& mesh, int row) {
   const Eigen::Vector2d normal = edge_frame(a, b).normal;
   return loads.traction_MPa && !(loads.traction_MPa(a, normal, row).isZero(0) &&
                                  loads.traction_MPa(b, normal, row).isZero(0));
+}
+
+// A column per step: displacements of Γ_D, tractions of Γ_F, gaps of Γ_C, at the ends of their
+// edges, and the body force.
+std::array<Eigen::MatrixXd, 4> loads_of_steps(const Problem& first) {
+  const Mesh& mesh = first.mesh;
+  std::array<Eigen::MatrixXd, 4> all;
+  const auto ends = 4 * static_cast<Eigen::Index>(mesh.boundary.size());
+  for (Eigen::MatrixXd& kind : all) kind.setZero(ends, count_of_steps(first));
+  const auto take = [&](const Loads& loads, const RigidMotion& motion, int step) {
+    all[3].col(step).head<2>() = loads.body_force_N_per_mm3;
+    for (Eigen::Index at = 0; at < ends; at += 2) {
+      const int row = static_cast<int>(at / 4);
+      const BoundaryRole role = mesh.boundary[row].role;
+      const auto [start, end] = mesh.boundary[row].vertices;
+      const Eigen::Vector2d &a = mesh.vertices[start], &b = mesh.vertices[end];
+      const Eigen::Vector2d& x = at % 4 == 0 ? a : b;
+      if (role == BoundaryRole::displacement) {
+        all[0].col(step).segment<2>(at) = motion.at(x);
+        if (loads.displacement_mm) all[0].col(step).segment<2>(at) += loads.displacement_mm(x, row);
+      } else if (role == BoundaryRole::force && loads.traction_MPa) {
+        all[1].col(step).segment<2>(at) = loads.traction_MPa(x, edge_frame(a, b).normal, row);
+      } else if (role == BoundaryRole::contact && loads.gap_mm) {
+        all[2](at, step) = loads.gap_mm(x, row);
+      }
+    }
+  };
+  take(first.loads, first.motion, 0);
+  for (int step = 1; step < count_of_steps(first); ++step)
+    take(first.later_steps[step - 1], {}, step);
+  return all;
+}
+
+// Per step the first one, from 0, with its loads; roundings aside.
+std::vector<int> first_with_loads(const Problem& problem) {
+  constexpr double rounding = 1e-9;  // of the largest of a kind
+  const std::array<Eigen::MatrixXd, 4> loads = loads_of_steps(problem);
+  std::vector<int> first;
+  for (int step = 0; step < count_of_steps(problem); ++step) {
+    const auto is_like = [&](int other) {
+      return std::ranges::all_of(loads, [&](const Eigen::MatrixXd& kind) {
+        return (kind.col(step) - kind.col(other)).lpNorm<Eigen::Infinity>() <=
+               rounding * kind.lpNorm<Eigen::Infinity>();
+      });
+    };
+    int like = 0;
+    while (like < step && !(first[like] == like && is_like(like))) ++like;
+    first.push_back(like);
+  }
+  return first;
 }
 
 // "x,y", or "," if unknown.
@@ -85,7 +136,8 @@ StepFields::StepFields(fs::path folder, std::string name, const Problem& first)
       count_(count_of_steps(first)),
       table_(
           "step,normal_resultant_N,tangential_resultant_N,dissipation_Nmm,n_open,n_stick,n_slip,"
-          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,fields\n") {
+          "held_x_mm,held_y_mm,loaded_x_mm,loaded_y_mm,same_loads_as,fields\n"),
+      first_with_loads_(first_with_loads(first)) {
   remove_step_fields(folder_, name_);
   const Mesh& mesh = first.mesh;
   for (int row = 0; row < static_cast<int>(mesh.boundary.size()); ++row) {
@@ -113,10 +165,10 @@ std::string StepFields::write(int step, const SolvedFields& fields, const Judged
   const Problem& problem = *fields.system.problem;
   const Verification& v = judged.seen();
   table_ +=
-      fmt::format("{},{},{},{},{},{},{},{},{},{}\n", step + 1, or_empty(v.normal_resultant_N),
+      fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", step + 1, or_empty(v.normal_resultant_N),
                   or_empty(v.tangential_resultant_N), judged.dissipation_Nmm, or_empty(v.n_open),
                   or_empty(v.n_stick), or_empty(v.n_slip), mean_on(held_, problem, fields.w),
-                  mean_on(loaded_, problem, fields.w), word);
+                  mean_on(loaded_, problem, fields.w), first_with_loads_[step] + 1, word);
   write_file_atomically(folder_ / (name_ + ".pvd"), pvd_text(series_));
   write_file_atomically(folder_ / (name_ + ".contact.pvd"), pvd_text(contact_series_));
   write_file_atomically(folder_ / (name_ + ".steps.csv"), table_);

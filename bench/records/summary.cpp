@@ -106,6 +106,10 @@ bool times_tie(const Record& a, const Record& b) {
          *b.time_low_s <= *a.time_high_s;
 }
 
+bool has_few_samples(const Record& record) {
+  return std::ssize(record.samples_s) < fewest_to_tell_apart;
+}
+
 void summarise(Record& r) {
   summarise_times(r);
   summarise_stages(r);

@@ -13,5 +13,8 @@ std::string outcome_of(const Record& record);
 
 // Whether the intervals of both median times overlap, so that neither is known to be faster.
 bool times_tie(const Record& a, const Record& b);
+inline constexpr int fewest_to_tell_apart =
+    5;  // two samples of five differ at p < 0.01, of four never
+bool has_few_samples(const Record& record);
 
 }  // namespace airybench

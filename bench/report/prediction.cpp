@@ -311,6 +311,31 @@ Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& r
   return result;
 }
 
+Prediction grown(const Record& measured, std::int64_t n_phi, const std::vector<Record>& records) {
+  const Past past(records);
+  Record here = measured;
+  here.mesh.clear();  // the power law, not the record of the same case
+  Record there = here;
+  there.n_phi = n_phi;
+  const auto value = [&](const Quantity& quantity) -> std::optional<Estimate> {
+    const auto from = past.estimate(here, quantity), to = past.estimate(there, quantity);
+    const std::optional<double> own = quantity.of(measured);
+    if (!from || !to || !own) return {};
+    const auto deviation = [](const Estimate& e) { return std::log(e.high / e.value) / 2; };
+    return estimate_of(*own * to->estimate.value / from->estimate.value,
+                       std::hypot(deviation(from->estimate), deviation(to->estimate)));
+  };
+  Prediction result;
+  result.time_s = value(time_quantity);
+  result.peak_heap_bytes = value(heap_quantity);
+  return result;
+}
+
+double time_of_machine(const Record& measured, const std::vector<Record>& records) {
+  const auto expected = Past(records).estimate(measured, time_quantity);
+  return expected && measured.time_s ? *measured.time_s / expected->estimate.value : 1;
+}
+
 std::string prediction_table(const std::vector<Record>& cases, const Forecast& forecast,
                              const RunLimits& limits) {
   std::vector<std::vector<std::string>> rows = {

@@ -57,6 +57,14 @@ PastRecords read_committed_records(const std::vector<Record>& cases,
 Forecast forecast(const std::vector<Record>& cases, const std::vector<Record>& records,
                   const RunLimits& limits);
 
+// Time and memory of a measured case on a mesh of n_phi unknowns: its own, times what the records
+// of its method say that they grow by, however fast their machine was. Empty values: they cannot
+// say.
+Prediction grown(const Record& measured, std::int64_t n_phi, const std::vector<Record>& records);
+
+// What a measured case takes of the time that the records predict for it; 1 if they cannot.
+double time_of_machine(const Record& measured, const std::vector<Record>& records);
+
 // Seconds per case: tuning, the detail run, and for a solve up to long_case_s the memory run and
 // repetitions until they add up to that. A solve ends at its --timeout.
 double run_seconds(double time_s, double tuning_s, const RunLimits& limits);

@@ -136,7 +136,7 @@ PosedScene refined_scene(const PosedScene& level_0, const Options& options) {
   PosedScene refined = level_0;
   refined.adapted.reset();
   Mesh mesh = uniformly_refined(level_0.body()->mesh);
-  mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refined1";
+  mesh.name = mesh.name.substr(0, mesh.name.rfind('+')) + "+refine1";
   const std::filesystem::path file =
       options.out / "meshes" / level_0.scene_name / (mesh.name + ".msh");
   write_file_atomically(file, msh_text(mesh));

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <sstream>
 
 #include "bench/records/robust.hpp"
@@ -122,23 +121,51 @@ std::string error_of(const Record& r) {
   return worst->second ? fmt::format("{} {}", worst->first, show_error(worst->second)) : "error -";
 }
 
-double cost(std::int64_t n_phi) {
-  return std::pow(static_cast<double>(std::max<std::int64_t>(n_phi, 1)), 1.7);
-}
-
 }  // namespace
 
-Progress::Progress(std::vector<std::int64_t> n_phi_of_cases) : cases_(n_phi_of_cases.size()) {
-  for (const std::int64_t n_phi : n_phi_of_cases) total_ += cost(n_phi);
+std::vector<std::optional<double>> expected_seconds(const Forecast& forecast) {
+  constexpr double process_s = 0.1;  // of a case: its process, its fields, its lines
+  std::vector<std::optional<double>> result;
+  for (const Prediction& p : forecast.cases)
+    result.push_back(p.run_s ? std::optional(*p.run_s + process_s) : std::nullopt);
+  return result;
+}
+
+double seconds_left(double elapsed_s, double expected_done_s, double expected_left_s) {
+  constexpr double trusted = 0.05;  // of the whole run: it goes as expected
+  const double prior = trusted * (expected_done_s + expected_left_s);
+  return expected_left_s * (elapsed_s + prior) / (expected_done_s + prior);
+}
+
+Progress::Progress(std::vector<Record> planned, Expect expect)
+    : planned_(std::move(planned)), expect_(std::move(expect)) {}
+
+std::string Progress::left(double elapsed_s) {
+  constexpr double short_s = 2;
+  if (elapsed_s < short_s || done_.size() >= planned_.size()) return "";
+  if (expected_s_.empty()) {
+    const std::vector<std::optional<double>> expected = expect_(planned_);
+    for (std::size_t k = 0; k < planned_.size(); ++k)
+      expected_s_[name_of(planned_[k]).text()] = expected[k];
+  }
+  double done_s = 0, left_s = 0;
+  for (const auto& [name, seconds] : expected_s_)
+    if (done_.contains(name))
+      done_s += seconds.value_or(0);
+    else if (seconds)
+      left_s += *seconds;
+    else
+      return "";
+  return fmt::format(", about {} left", show_duration(seconds_left(elapsed_s, done_s, left_s)));
 }
 
 std::string Progress::line(const Record& r) {
-  done_ += cost(r.n_phi.value_or(0));
+  done_.insert(name_of(r).text());
   const double elapsed = seconds_since(start_);
-  return fmt::format("[{}/{}] {}: {}, {}, {}, {}  (elapsed {}, about {} left)\n", ++ended_, cases_,
+  return fmt::format("[{}/{}] {}: {}, {}, {}, {}  (elapsed {}{})\n", done_.size(), planned_.size(),
                      name_of(r).text(), name_of(r.status), show_seconds(r.time_s),
                      show_bytes(r.peak_heap_bytes), error_of(r), show_duration(elapsed),
-                     show_duration(elapsed * std::max(0.0, total_ - done_) / done_));
+                     left(elapsed));
 }
 
 }  // namespace airybench

@@ -2,11 +2,15 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "bench/records/record.hpp"
+#include "bench/report/prediction.hpp"
 
 namespace airybench {
 
@@ -23,15 +27,28 @@ class ResultsTable {
   std::set<std::string> said_;  // reasons that all methods on a mesh share
 };
 
-// Estimates the time to come from the cases done, with cost ∝ n_φ^1.7 (as measured for 3STEPD).
+// Seconds that each case takes by earlier records; empty: unknown.
+std::vector<std::optional<double>> expected_seconds(const Forecast& forecast);
+
+// The time to come: what is expected of the cases left, times how the cases done took longer or
+// shorter than expected. The fewer are done, the less that counts.
+double seconds_left(double elapsed_s, double expected_done_s, double expected_left_s);
+
 class Progress {
  public:
-  explicit Progress(std::vector<std::int64_t> n_phi_of_cases);
+  using Expect = std::function<std::vector<std::optional<double>>(const std::vector<Record>&)>;
+
+  // expect is asked once, and not in a short run.
+  Progress(std::vector<Record> planned, Expect expect);
   std::string line(const Record& record);
 
  private:
-  std::size_t cases_, ended_ = 0;
-  double done_ = 0, total_ = 0;
+  std::string left(double elapsed_s);  // empty: unknown
+
+  std::vector<Record> planned_;
+  Expect expect_;
+  std::map<std::string, std::optional<double>> expected_s_;  // of the cases left and done, by name
+  std::set<std::string> done_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

@@ -266,6 +266,11 @@ int most_repetitions(const Options& options) {
   return options.precision ? options.max_repetitions : options.repetitions;
 }
 
+RunLimits limits_of(const Options& options) {
+  return {least_repetitions(options), options.timeout_s, options.long_case_s,
+          options.memory_limit_bytes, options.study.once};
+}
+
 bool is_repeated(const Record& record, const Options& options) {
   const std::vector<double>& samples = record.samples_s;
   if (samples.empty()) return true;
@@ -303,9 +308,9 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
   NoiseWatch watch(options.retry_noisy, machine);
   RunResult result;
   std::vector<std::vector<const Case*>> scenes;
-  std::vector<std::int64_t> n_phi;
+  std::vector<Record> planned;
   for (const Case& c : plan) {
-    const Record blank = blank_record(c, options);
+    Record blank = blank_record(c, options);
     if (const auto earlier = files->finished(blank)) {
       watch.learn(*earlier);
       ++result.earlier;
@@ -314,9 +319,12 @@ RunResult run_cases(const std::vector<Case>& plan, const Options& options, const
     if (scenes.empty() || scenes.back().front()->posed.problem != c.posed.problem)
       scenes.emplace_back();
     scenes.back().push_back(&c);
-    n_phi.push_back(blank.n_phi.value_or(0));
+    planned.push_back(std::move(blank));
   }
-  Progress progress(std::move(n_phi));
+  Progress progress(std::move(planned), [&options](const std::vector<Record>& cases) {
+    const PastRecords past = read_committed_records(cases, options.out);
+    return expected_seconds(forecast(cases, past.records, limits_of(options)));
+  });
   for (const auto& cases : scenes) {
     SceneRunner run(cases, options, *files, progress, watch, result.times);
     try {

@@ -19,6 +19,7 @@
 #include "bench/records/context.hpp"
 #include "bench/records/record.hpp"
 #include "bench/records/record_files.hpp"
+#include "bench/report/prediction.hpp"
 #include "bench/run/noise_watch.hpp"
 
 namespace airybench {
@@ -51,6 +52,7 @@ std::vector<Case> matching(std::vector<Case> plan, const std::string& filter, bo
 
 int least_repetitions(const Options& options);
 int most_repetitions(const Options& options);
+RunLimits limits_of(const Options& options);
 // False after the most repetitions or long_case_s, and after the least if the precision is reached.
 bool is_repeated(const Record& record, const Options& options);
 

@@ -1,4 +1,5 @@
 """Total error against unknowns and time: adapted meshes next to the meshes as they are."""
+import re
 from collections.abc import Callable, Iterator
 
 from matplotlib.axes import Axes
@@ -18,6 +19,7 @@ ALL_LEVELS = "#B00020"
 COLOURS = {"as they are": "0.35", "refined everywhere": "#4B6BC8", "adapted": ALL_LEVELS}  # of kinds
 DASHES = {"as they are": (0, (4, 2)), "refined everywhere": (0, (1, 1)), "adapted": "-"}
 LOOKS = {"as they are": "open, dashed", "refined everywhere": "open, dotted", "adapted": "filled, solid"}
+LEVEL_OF_DEGREE = re.compile(r"\+adapt\d+k(\d+)")  # of stresses
 HIGHEST = 1.0  # total errors above are not drawn
 
 
@@ -41,9 +43,32 @@ def best_of(rows: list[Row]) -> list[Row]:
     return [min(own, key=lambda row: row.error_total) for own in by_mesh(rows).values()]
 
 
+def adapting(row: Row) -> str:
+    """The method that solved the levels of its loop."""
+    degree = LEVEL_OF_DEGREE.search(row.mesh)
+    return (row.context or {}).get("adapt_by") or (f"HYBRID:k={degree[1]}" if degree else "HYBRID")
+
+
+def solved_by(method: str, rows: list[Row]) -> list[Row]:
+    """A row per mesh; of the method, or of all if it is not there."""
+    return best_of([row for row in rows if method in (row.method, row.general_name)] or rows)
+
+
+def loops_in(rows: list[Row]) -> dict[str, list[Row]]:
+    """A loop's levels, solved by the method of the loop, by its name."""
+    adapted = grouped([row for row in rows if kind_of(row) == "adapted"], adapting)
+    return {method: solved_by(method, own) for method, own in adapted.items()}
+
+
 def kinds_in(rows: list[Row]) -> str:
     kinds = {kind_of(row) for row in rows}
     return ", ".join(f"{kind} ({look})" for kind, look in LOOKS.items() if kind in kinds)
+
+
+def words_of_loops(rows: list[Row]) -> str:
+    methods = {row.method for loop in loops_in(rows).values() for row in loop}
+    return f"Above, and red: errors of {' and '.join(sorted(methods))}, which solves the levels. " \
+        if methods <= set(loops_in(rows)) else ""
 
 
 def why(row: Row) -> str:
@@ -58,7 +83,7 @@ def draw(rows: list[Row], run: list[Row]) -> Figure:
         TOP + 2 * HEIGHT + BETWEEN + BOTTOM, "Adapted meshes",
         f"Scene {rows[0].scene}. Total error, discretisation and method together. Meshes: "
         f"{kinds_in(every)}. Below: the time of one solve on the mesh; red: of the whole adaptive loop, "
-        "all levels and estimates of the error. "
+        f"all levels and estimates of the error. {words_of_loops(every)}"
         "N^p: power law by least squares of logarithms, of adapted meshes with at least 1.5 times "
         f"the first one's unknowns. {threads(rows)}.", left_out(run, every, why), width=WIDTH)
     times = [t for row in every for t in (row.time_s, row.adapt_time_s) if t]
@@ -84,23 +109,28 @@ def style(row: Row, marker: str, colour: str) -> dict[str, object]:
 
 def draw_unknowns(axes: Axes, rows: list[Row]) -> None:
     labels = Labels(axes)
-    for kind, colour in COLOURS.items():
-        best = best_of([row for row in rows if kind_of(row) == kind])
-        late = [row for row in best if kind != "adapted" or row.n_phi >= 1.5 * best[0].n_phi]
+    loops = loops_in(rows)
+    first = next(iter(loops))
+    lines = [(kind, solved_by(first, [row for row in rows if kind_of(row) == kind]))
+             for kind in COLOURS if kind != "adapted"]
+    lines += [("adapted" + f" by {by}" * (len(loops) > 1), own) for by, own in loops.items()]
+    for name, own in filter(lambda line: line[1], lines):
+        kind = kind_of(own[0])
+        late = [row for row in own if kind != "adapted" or row.n_phi >= 1.5 * own[0].n_phi]
         power = exponent(*line_of(late, "n_phi", "error_total"), least=2)
-        if best:
-            labels.line(kind if power is None else f"{kind}: $N^{{{power:.2f}}}$",
-                        *line_of(best, "n_phi", "error_total"), colour, formula=True,
-                        **style(best[0], "o", colour))
+        labels.line(name if power is None else f"{name}: $N^{{{power:.2f}}}$",
+                    *line_of(own, "n_phi", "error_total"), COLOURS[kind], formula=True,
+                    **style(own[0], own[0].look.marker if len(loops) > 1 else "o", COLOURS[kind]))
     labels.name_lines(weight="bold")
 
 
 def draw_times(axes: Axes, rows: list[Row]) -> None:
     labels = draw_over_time(axes, rows, lambda row: row.time_s)
-    loop = [(row.adapt_time_s, row.error_total)
-            for row in best_of([row for row in rows if kind_of(row) == "adapted"]) if row.adapt_time_s]
-    if loop:
-        labels.line("whole loop", *zip(*loop), ALL_LEVELS, linewidth=2, zorder=6)
+    loops = loops_in(rows)
+    for by, own in loops.items():
+        if loop := [(row.adapt_time_s, row.error_total) for row in own if row.adapt_time_s]:
+            labels.line("whole loop" + f" of {by}" * (len(loops) > 1), *zip(*loop), ALL_LEVELS,
+                        linewidth=2, zorder=6)
     labels.name_lines(weight="bold")
 
 

@@ -85,6 +85,22 @@ class UprightTest(unittest.TestCase):
 
 
 class FacesTest(unittest.TestCase):
+    def test_a_face_that_is_open_for_the_most_part_is_drawn_where_it_touches(self) -> None:
+        s = bar(10, 8, 1, edges=20)
+        state = np.full_like(s.state, "open")
+        state[8:12] = "stick"
+        few = replace(s, state=state)
+        figure = gallery.compose([[few]])
+        length = s.edges[-1, 1, 1] - s.edges[0, 0, 1]
+        shown = np.ptp(figure.axes[1].get_xlim())
+        self.assertLess(shown, 0.4 * length)
+        words = "where it touches, and a little more"
+        self.assertIn(words, drawn.words_of(figure))
+        always = replace(few, touched=np.full(s.state.shape, True))  # in some other step
+        for whole in (gallery.compose([[s]]), gallery.compose([[always]])):
+            self.assertGreater(np.ptp(whole.axes[1].get_xlim()), length)
+            self.assertNotIn(words, drawn.words_of(whole))
+
     def test_faces_do_not_cover_each_other_or_the_body(self) -> None:
         for s, width in ((bar(10, 8, 1), 2.7), (bar(10, 8, 3), 2.7), (bar(10, 8, 9), 8.3),
                          (bar(10, 60, 5), 8.3), (bar(10, 60, 1), 8.3)):

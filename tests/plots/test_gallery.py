@@ -256,6 +256,8 @@ class ErrorMapTest(unittest.TestCase):
         share = np.r_[np.full(90, 1.0), np.full(10, 9.0)]
         self.assertAlmostEqual(gallery.share_of_worst(share), 0.5)
         self.assertAlmostEqual(gallery.share_of_worst(np.array([3.0, 1.0])), 0.75)
+        self.assertEqual([gallery.most_of(part) for part in (0.75, 0.994, 0.997, 1)],
+                         ["75 %", "99 %", "more than 99 %", "100 %"])
 
     def test_every_triangle_has_its_colour(self) -> None:
         s = solution()

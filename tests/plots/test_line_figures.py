@@ -32,6 +32,29 @@ class AdaptiveTest(unittest.TestCase):
         for expected in ("adapted: $N^{-1.00}$", "as they are", "whole loop", "one tooth"):
             self.assertIn(expected, words)
 
+    def test_a_loop_has_the_errors_of_the_method_that_solves_its_levels(self) -> None:
+        others = [made_up.case(f"Mesh0+adapt{level}", "P2", n_phi=1000 * 2**level, adapt_level=level,
+                               adapt_time_s=0.1 * 2**level, error_total=0.01 / 2**level)
+                  for level in range(4)]
+        uniform = [made_up.case(mesh, method, error_total=error) for mesh in ("Mesh0", "Mesh1")
+                   for method, error in (("HYBRID", 0.04), ("P2", 0.004))]
+        figure = drawn.plan(made_up.read([*levels("Mesh0", 4), *others, *uniform]), "adaptive").figure()
+        self.assertIn("errors of HYBRID, which solves the levels", drawn.words_of(figure).replace("\n", " "))
+        unknowns, times = figure.axes[:2]
+        errors = [line.get_ydata().tolist() for line in unknowns.lines]
+        self.assertEqual(errors, [[0.04, 0.04], [0.1, 0.05, 0.025, 0.0125]])
+        loop, = (line for line in times.lines if line.get_linewidth() == 2)
+        self.assertEqual(loop.get_ydata().tolist(), errors[1])
+
+    def test_loops_of_several_degrees_are_told_apart(self) -> None:
+        higher = [made_up.case(f"Mesh0+adapt{level}k2", "HYBRID:k=2", n_phi=1100 * 2**level, degree=2,
+                               adapt_level=level, adapt_time_s=0.2 * 2**level, error_total=0.05 / 4**level)
+                  for level in range(4)]
+        words = drawn.words_of(drawn.plan(made_up.read([*levels("Mesh0", 4), *higher]), "adaptive").figure())
+        for expected in ("adapted by HYBRID: $N^{-1.00}$", "adapted by HYBRID:k=2: $N^{-2.00}$",
+                         "whole loop of HYBRID:k=2"):
+            self.assertIn(expected, words)
+
     def test_without_two_levels_there_is_none(self) -> None:
         self.assertEqual([], list(adaptive_figure.drawings(made_up.read(levels("Mesh0", 1)))))
         self.assertEqual([], list(adaptive_figure.drawings(made_up.read([made_up.case("Mesh0", "ALM")]))))

@@ -23,6 +23,7 @@ from records import RecordsError
 NAME = "Mesh0--default--3STEPD"
 # Height and friction of a rectangle: 2 um wide, 12 N high, walked once from its first corner.
 MOVED_UM, FORCE_N, DISSIPATED = (0, 0, 2, 2, 0, 0), (0, -6, -6, 6, 6, -6), (0, 0, 0.012, 0, 0.012, 0)
+LOADS = (1, 2, 3, 4, 5, 2)
 
 
 def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
@@ -38,7 +39,8 @@ def write_path(results: Path, bodies: tuple[bool, ...] = (True,) * 6) -> None:
         state = "stick" if k % 2 else "slip"
         points = [f"0.125,{y},1,0,2,-30,{force / 2},0,0,{state}" for y in (0, 2)]
         (steps / f"{k:04}.contact.csv").write_text("\n".join([fields.CONTACT, *points]) + "\n")
-        rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,{'body' if body else 'contact'}")
+        rows.append(f"{k},-60,{force},{lost},0,2,0,0,{moved / 1000},,,{LOADS[k - 1]},"
+                    f"{'body' if body else 'contact'}")
     (folder / f"{NAME}.steps.csv").write_text("\n".join(rows) + "\n")
 
 
@@ -60,7 +62,7 @@ class LoadPathTest(FolderTest):
         np.testing.assert_allclose(path.traction[1], [[30, -3], [30, -3]])  # F = (L/2) t, L = 2
         self.assertEqual(path.state[:2].tolist(), [["stick"] * 2, ["slip"] * 2])
         # The rectangle of 2 um and 12 N is walked clockwise from step 2 to its end.
-        self.assertEqual(path.cycle, 1)
+        self.assertEqual((path.cycle, path.is_normal), (slice(1, 6), False))
         self.assertAlmostEqual(path.area(), 0.024)
         self.assertAlmostEqual(path.dissipated_in_cycle(), 0.024)
 
@@ -71,6 +73,61 @@ class LoadPathTest(FolderTest):
         self.assertIsNone(path.cycle)
         words = drawn.words_of(load_path_drawing.draw_path(path))
         self.assertNotIn("shaded", words)
+
+    def test_a_cycle_is_that_of_the_loads(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        for what, loads, cycle in (
+                ("loaded, unloaded", "abcba", (1, 5)),
+                ("pressed, then to and fro", "pabcbadeda", (2, 10)),  # not 6 to 10, half of it
+                ("to and fro, once more", "pabcbadedabcb", (5, 13)),
+                ("from turn to turn", "pabcbadedabc", (4, 12)),
+                ("a larger cycle after a smaller one", "abacdca", (1, 7)),  # from another side: the longest
+                ("a larger cycle after a smaller one, in steps", "abababcba", (5, 9)),
+                ("and goes on", "abcbax", (1, 5)),
+                ("held where it turns", "abbba", (1, 5)),
+                ("held alone", "abbb", None)):
+            with self.subTest(what):
+                numbers = np.array([loads.index(load) + 1 for load in loads])
+                found = replace(path, loads=numbers).cycle
+                self.assertEqual(found and (found.start + 1, found.stop), cycle)
+
+    def test_of_a_normal_motion_the_loop_is_the_normal_one(self) -> None:
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        numbered = [line.split(",") for line in table.read_text().splitlines()]
+        for line, moved in zip(numbered[1:], (0, 3, 6, 6, 3, 0)):
+            line[7], line[8] = str(moved / 1000), "0"
+        table.write_text("\n".join(map(",".join, numbered)) + "\n")
+        path = load_path.read_path(self.results, NAME)
+        self.assertTrue(path.is_normal)
+        np.testing.assert_allclose(path.push, 60)
+        np.testing.assert_allclose(path.moved, [0, 0.003, 0.006, 0.006, 0.003, 0])
+        self.assertEqual(path.turns, [2])
+        words = drawn.words_of(load_path_drawing.draw_path(path))
+        self.assertIn("on the wall, normal to it", words.replace("\n", " "))
+
+    def test_turning_points_have_their_steps_and_one_place_one_label(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        turned = replace(path, moved=np.array([0, 1, 2, 1, 0, 2]) / 1e3, push=np.array([0, 1, 2, 0, -2, 2.01]))
+        self.assertEqual(turned.turns, [2, 4])
+        self.assertEqual(load_path_drawing.labelled(turned, turned.moved), [[0], [1], [2, 5], [4]])
+
+    def test_maps_show_where_the_face_touches(self) -> None:
+        path = load_path.read_path(self.results, NAME)
+        along = np.stack([np.arange(20), np.arange(1, 21)], 1) / 10
+        state = np.full((6, 20), "open", dtype=object)
+        state[2:, 8:12] = "stick"
+        wide = replace(path, along=along, state=state, traction=np.zeros((6, 20, 2)))
+        figure = load_path_drawing.draw_path(wide)
+        np.testing.assert_allclose(figure.axes[0].get_xlim(), (0.7, 1.3))
+        self.assertIn("2 mm long; what is left out of it stays open",
+                      drawn.words_of(figure).replace("\n", " "))
+        self.assertEqual(path.shown, (0, 2))  # all of it touches
+
+    def test_a_table_of_an_earlier_bench_has_no_loop(self) -> None:
+        table = self.results / "fields" / f"{NAME}.steps.csv"
+        table.write_text("\n".join(",".join(cells[:11] + cells[12:]) for cells in
+                                   (line.split(",") for line in table.read_text().splitlines())) + "\n")
+        self.assertIsNone(load_path.read_path(self.results, NAME).cycle)
 
     def test_the_picture_and_its_table(self) -> None:
         status, out, err = run(gallery, self.results)
@@ -86,7 +143,7 @@ class LoadPathTest(FolderTest):
         figure = load_path_drawing.draw_path(load_path.read_path(self.results, NAME))
         words = drawn.words_of(figure)
         for part in ("6 load steps", "From step 2 to step 6", "dissipates 0.024 N", "dU = 0.024 N",
-                     "force returns"):
+                     "Force and displacement return"):
             self.assertIn(part, words)
         self.assertNotIn("not closed", words)
         painted, renderer = drawn.paint(figure)

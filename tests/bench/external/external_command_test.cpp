@@ -7,6 +7,7 @@
 #include "tests/bench/external/programs.hpp"
 #include "tests/support/background_run.hpp"
 #include "tests/support/environment_variable.hpp"
+#include "tests/support/places.hpp"
 
 namespace airybench::external_command_test {
 namespace {
@@ -191,6 +192,21 @@ TEST_F(ExternalCommand, WithoutAFolderForFilesTheMachineIsAtFault) {
   EXPECT_EQ(bench_.records().at(0)["status"], "machine_fault");
   EXPECT_EQ(bench_.records().at(0)["status_reason"],
             "TMPDIR: /none: no folder can be made there: No such file or directory");
+}
+
+TEST_F(ExternalCommand, ByDefaultItIsComparedWithHybridAndOnOnesOwnBodyWithP2) {
+  write_right();
+  declare("airy", "airy", "cp right/* $2");
+  std::filesystem::copy_file(testing::mesh_file("Mesh0"), bench_.path("part.msh"));
+  const std::string options = " --external=airy.json --dry-run";
+  for (const auto& [mesh, cases] : {std::pair("Mesh0", 2), std::pair("part.msh", 3)}) {
+    const auto plan = bench_.run(std::string("--mesh=") + mesh + options);
+    ASSERT_EQ(plan.code, 0) << plan.err;
+    EXPECT_NE(plan.out.find("/HYBRID "), std::string::npos) << plan.out;
+    EXPECT_NE(plan.out.find("/EXTERNAL:airy "), std::string::npos) << plan.out;
+    EXPECT_EQ(plan.out.find("/P2 ") != std::string::npos, cases == 3) << plan.out;
+    EXPECT_EQ(plan.out.find("3STEPD"), std::string::npos) << plan.out;
+  }
 }
 
 TEST_F(ExternalCommand, ItIsListedAndReplayRefusesIt) {

@@ -97,6 +97,7 @@ TEST(StepFields, EveryStepIsInFilesThatAgreeWithTheRecord) {
 
     const fs::path table = folder / (name + ".steps.csv");
     EXPECT_EQ(column(table, "step"), (std::vector<double>{1, 2, 3}));
+    EXPECT_EQ(column(table, "same_loads_as"), (std::vector<double>{1, 2, 1}));
     for (const char* key : {"normal_resultant_N", "tangential_resultant_N", "dissipation_Nmm",
                             "n_open", "n_stick", "n_slip"})
       for (std::size_t k = 0; k < 3; ++k)

@@ -311,5 +311,40 @@ TEST(PastRecords, DirectMethodsArePredictedFromSmallerMeshes) {
   }
 }
 
+// Before, the exponent between the two coarsest meshes was taken for all sizes: 3.5 times too fast.
+TEST(PastRecords, AMeasuredCaseGrowsAsTheRecordsDoOnAnyMachine) {
+  const PastRecords past =
+      read_past_records({testing::results_folder() / "paper", testing::results_folder() / "direct",
+                         testing::results_folder() / "size"});
+  const PastRecords held_out = read_past_records({testing::results_folder() / "growth"});
+  for (const char* method : {"HYBRID", "P2"}) {
+    const auto recorded = [&](const std::string& mesh) {
+      return *std::ranges::find_if(held_out.records, [&](const Record& r) {
+        return r.mesh == mesh && r.method == method && r.scene == "default";
+      });
+    };
+    Record measured = recorded("Mesh3+refine1");
+    for (const char* mesh : {"Mesh3+refine2", "Mesh3+refine3", "Mesh3+refine4"}) {
+      const Record larger = recorded(mesh);
+      const Prediction p = grown(measured, *larger.n_phi, past.records);
+      ASSERT_TRUE(p.time_s && p.peak_heap_bytes);
+      const std::string name = fmt::format("{} {}: {}", mesh, method, p.time_s->value);
+      EXPECT_TRUE(p.time_s->low <= *larger.time_s && *larger.time_s <= p.time_s->high) << name;
+      EXPECT_LT(p.time_s->high / p.time_s->low, 5) << name;
+      EXPECT_LT(std::abs(std::log(p.time_s->value / *larger.time_s)), std::log(1.6)) << name;
+      const double heap = static_cast<double>(*larger.peak_heap_bytes);
+      EXPECT_LT(std::abs(std::log(p.peak_heap_bytes->value / heap)), std::log(1.3)) << name;
+    }
+    const double here = time_of_machine(measured, past.records);
+    const Prediction p = grown(measured, 97859, past.records);
+    *measured.time_s *= 6;
+    EXPECT_NEAR(time_of_machine(measured, past.records), 6 * here, 1e-9 * here);
+    EXPECT_NEAR(grown(measured, 97859, past.records).time_s->value, 6 * p.time_s->value,
+                1e-9 * p.time_s->value);
+  }
+  EXPECT_FALSE(grown(made_up("HYBRID", small, 1), 1000, {}).time_s);
+  EXPECT_EQ(time_of_machine(made_up("HYBRID", small, 1), {}), 1);
+}
+
 }  // namespace
 }  // namespace airybench::prediction_test

@@ -52,6 +52,8 @@ TEST(Robust, TimesTieWhoseIntervalsOverlap) {
   EXPECT_FALSE(times_tie(fast, slow));
   EXPECT_FALSE(times_tie(slow, fast));
   EXPECT_FALSE(times_tie(fast, timed({1})));  // not known
+  EXPECT_TRUE(has_few_samples(timed({1, 1, 1, 1})));
+  EXPECT_FALSE(has_few_samples(timed({1, 1, 1, 1, 1})));
 }
 
 // Le Boudec, Tab. A.1, where it is symmetric: ranks j and k of n sorted samples.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 
 #include "tests/support/bench_command.hpp"
 
@@ -26,7 +27,7 @@ TEST_F(AdviseCommand, TheFirstRowMeetsTheErrorAndItsFieldsAreThere) {
       header,
       "mesh,method,n_phi,error_total,time_s,adapt_time_s,peak_heap_bytes,basis,status,command");
   EXPECT_NE(best.find(" --mesh=Mesh0 --adapt=2%,levels=last --method="), std::string::npos) << best;
-  EXPECT_NE(bench_.content("o/advice.csv").find("Mesh0+refined1"), std::string::npos);
+  EXPECT_NE(bench_.content("o/advice.csv").find("\"Mesh0+refine1\""), std::string::npos);
   const auto records = bench_.records();
   const auto meeting = std::ranges::count_if(
       records, [](const Json& r) { return r["error_total"].get<double>() <= 0.02; });
@@ -46,6 +47,19 @@ TEST_F(AdviseCommand, TheCommandRunsAsItIsPrinted) {
       "cd '" + bench_.path("").string() + "' && " + command + " --repetitions=1 --out=again";
   EXPECT_EQ(std::system((copied + " >/dev/null 2>&1").c_str()), 0) << copied;
   EXPECT_TRUE(std::filesystem::exists(bench_.path("again/records.jsonl")));
+}
+
+TEST_F(AdviseCommand, RefiningEverywhereIsForecastWithARange) {
+  const auto advice =
+      bench_.run("advise --mesh=Mesh0 --error=1% --method=HYBRID,HYBRID:k=2 --out=o");
+  ASSERT_EQ(advice.code, 0) << advice.err;
+  std::smatch found;
+  const std::regex row(R"(\nMesh0\+refine(\d) +HYBRID +(\d+) .* forecast: \S+ m?s to \S+ m?s\n)");
+  ASSERT_TRUE(std::regex_search(advice.out, found, row)) << advice.out;
+  ASSERT_EQ(found[1], "3") << advice.out;
+  EXPECT_NEAR(std::stod(found[2]), 44035, 0.01 * 44035);  // bench --mesh=Mesh0+refine3
+  EXPECT_NE(advice.out.find("Mesh0+adapt2   HYBRID:k=2 "), std::string::npos) << advice.out;
+  EXPECT_EQ(bench_.records().size(), 4u);
 }
 
 TEST_F(AdviseCommand, HopelessMethodsAreLeftOutByForecast) {
