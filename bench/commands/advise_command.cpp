@@ -32,8 +32,8 @@ constexpr const char* advise_footer = R"(
 The mesh is adapted until the error is met; on what it becomes, methods are measured, as far as the budget goes.
 Next to it is what refining everywhere would take: measured on the mesh as it is and refined once, forecast beyond, with
 a range, by the growth of earlier records; its error by a power law. Earlier records are taken to be of this machine's
-speed after that measurement. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv, records, meshes,
-fields.
+speed after that measurement. The fastest row that meets the error is run again, with its fields. In OUT: advice.csv,
+records, meshes, fields.
 
 Exit status  0  a measured row meets the error
              1  none does

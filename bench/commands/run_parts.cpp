@@ -4,15 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <iostream>
 #include <map>
-#include <numbers>
 #include <set>
 
-#include "assembly/wall.hpp"
+#include "bench/plan/contact_faces.hpp"
 #include "bench/plan/mesh_files.hpp"
 #include "bench/plan/scene_file.hpp"
 #include "bench/plan/stages.hpp"
@@ -66,33 +64,12 @@ void note_no_wall(const Mesh& mesh, const Scene& scene) {
                              scene.name, fmt::join(without, ", "));
 }
 
-// The corners of a meshed curve have peaks of stress that the curve has not; refinement finds them.
 void note_polygons(const Mesh& mesh, const Scene& scene) {
-  constexpr double degree = std::numbers::pi / 180, least = 0.2 * degree, most = 35 * degree;
-  constexpr int few = 2;  // corners that a body may well have
-  std::map<std::string, std::vector<double>> turns;
-  for (const std::vector<int>& chain : boundary_chains(mesh, BoundaryRole::contact))
-    for (std::size_t k = 1; k < chain.size(); ++k) {
-      const BoundaryEdge& edge = mesh.boundary[chain[k]];
-      const std::string label = boundary_label(mesh, edge);
-      const auto values = scene.boundary.find(label);
-      const ContactValues own =
-          values == scene.boundary.end() ? ContactValues() : values->second.contact;
-      if (own.face || scene.face || !(own.wall || scene.wall)) continue;
-      const auto along = [&](const BoundaryEdge& e) -> Eigen::Vector2d {
-        return mesh.vertices[e.vertices[1]] - mesh.vertices[e.vertices[0]];
-      };
-      const Eigen::Vector2d before = along(mesh.boundary[chain[k - 1]]), after = along(edge);
-      const double turn = std::abs(std::atan2(cross(before, after), before.dot(after)));
-      if (turn > least && turn < most) turns[label].push_back(turn / degree);
-    }
-  for (const auto& [label, degrees] : turns)
-    if (degrees.size() > few)
-      std::cerr << fmt::format(
-          "note: {}/{}: {}: a polygon with {} corners of up to {:.2g} degrees, each with its peak "
-          "of "
-          "stress (a curve: give its \"face\")\n",
-          mesh.name, scene.name, label, degrees.size(), std::ranges::max(degrees));
+  for (const auto& [label, degrees] : corners_of_curves(mesh, scene))
+    std::cerr << fmt::format(
+        "note: {}/{}: {}: a polygon with {} corners of up to {:.2g} degrees, each with its peak of "
+        "stress (a curve: give its \"face\")\n",
+        mesh.name, scene.name, label, degrees.size(), std::ranges::max(degrees));
 }
 
 // A folder stands for its files of contact problems. Throws UsageError if it has none.

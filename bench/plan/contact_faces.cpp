@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "assembly/wall.hpp"
 
@@ -134,6 +135,31 @@ Json wall_at(const std::vector<FaceCurve>& curves) {
     if (const Eigen::Vector2d p = farthest_of(curve, outward); p.dot(outward) > point.dot(outward))
       point = p;
   return {{"flat", {{"point_mm", rounded(point)}, {"normal", rounded(-outward)}}}};
+}
+
+std::map<std::string, std::vector<double>> corners_of_curves(const Mesh& mesh, const Scene& scene) {
+  constexpr double degree = std::numbers::pi / 180, least = 0.2, most = 35;
+  std::map<std::string, std::vector<double>> corners;
+  for (const std::vector<int>& chain : boundary_chains(mesh, BoundaryRole::contact))
+    for (std::size_t k = 1; k < chain.size(); ++k) {
+      const std::string label = boundary_label(mesh, mesh.boundary[chain[k]]);
+      const auto given = scene.boundary.find(label);
+      const ContactValues own =
+          given == scene.boundary.end() ? ContactValues() : given->second.contact;
+      if (own.face || scene.face || !(own.wall || scene.wall)) continue;
+      const auto along = [&](int row) -> Eigen::Vector2d {
+        const auto [start, end] = mesh.boundary[row].vertices;
+        return mesh.vertices[end] - mesh.vertices[start];
+      };
+      const Eigen::Vector2d before = along(chain[k - 1]), after = along(chain[k]);
+      const double turn = std::abs(std::atan2(cross(before, after), before.dot(after))) / degree;
+      if (turn > least && turn < most) corners[label].push_back(turn);
+    }
+  std::erase_if(corners, [](const auto& of_group) {
+    constexpr std::size_t few = 2;  // a body may well have them
+    return of_group.second.size() <= few;
+  });
+  return corners;
 }
 
 }  // namespace airybench

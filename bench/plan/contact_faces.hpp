@@ -1,11 +1,16 @@
-// The true shape of a model's contact faces, and what they just touch: what --new-scene proposes.
+// The true shape of a model's contact faces, and what they just touch: what --new-scene proposes
+// and a run notes where it is missing.
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
+#include "assembly/scene.hpp"
 #include "bench/records/json.hpp"
+#include "mesh/mesh.hpp"
 
 namespace airybench {
 
@@ -36,5 +41,10 @@ Json face_on(const Circle& circle);
 // A scene's "wall" that the curves just touch: a pin in a hole, a socket around a disc, else a flat
 // wall against their mean outward normal.
 Json wall_at(const std::vector<FaceCurve>& curves);
+
+// Groups of contact edges that meet a wall as the polygon of a meshed curve: the turns at their
+// corners in degrees, three at least. Their peaks of stress are the polygon's, not the curve's, and
+// refinement finds them.
+std::map<std::string, std::vector<double>> corners_of_curves(const Mesh& mesh, const Scene& scene);
 
 }  // namespace airybench
