@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""Draws performance profiles of contact problems (bench --problem), at two precisions.
+"""Draws performance profiles of contact problems, at two precisions.
 
+    bench --problem=FOLDER --study=contact --out=RESULTS_DIR
     contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv
 
-Of a problem p and a solver s with time t_ps and error e_ps, both of one record,
+A precision has runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
+the error e_ps,
 
     c_ps = t_ps if e_ps <= precision, else infinite;   rho_s(tau) = |{p : c_ps <= tau min_s c_ps}| / P
 
@@ -38,11 +40,13 @@ def solver_of(record: dict) -> str:
 
 
 def costs_of(records: list[dict], precision: float) -> pd.DataFrame:
-    """Problems x solvers, in the order of the records: seconds; infinite: not solved."""
+    """Problems x solvers, in the order of the records: seconds; infinite: not solved. Of the runs to
+    this precision."""
     table = pd.DataFrame(
         {"problem": record["mesh"], "solver": solver_of(record),
-         "cost": record["time_s"] if record.get("time_s") and record.get("siconos_error") is not None
-         and record["siconos_error"] <= precision else np.inf} for record in records)
+         "cost": record["time_s"] if record["knob_value"] == precision and record.get("time_s")
+         and record.get("siconos_error") is not None and record["siconos_error"] <= precision
+         else np.inf} for record in records)
     wide = table.pivot_table("cost", "problem", "solver", "min", sort=False).fillna(np.inf)
     return wide[list(dict.fromkeys(table.solver))]
 
@@ -71,7 +75,7 @@ def draw(records: list[dict]) -> Figure:
                    f"Profiles: {len(solvers)} contact solvers on {len(problems)} problems",
                    "The share of problems that a solver solves within a factor of the fastest "
                    "solver's time. Solved: Siconos' error of the answer is at most the precision, "
-                   "whatever the solver says of it.")
+                   "whatever the solver says of it. Each precision has its own runs, which stop there.")
     for k, precision in enumerate(PRECISIONS):
         axes = panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 1.9, PANEL)
         draw_panel(axes, costs_of(records, precision), precision)
@@ -94,9 +98,12 @@ def draw_panel(axes: Axes, costs: pd.DataFrame, precision: float) -> None:
 
 def make(args: argparse.Namespace) -> None:
     source = args.results / "records.jsonl"
-    records = [record for record in read_lines(source) if is_without_body(record)]
+    records = [record for record in read_lines(source)
+               if is_without_body(record) and record.get("knob_value") in PRECISIONS
+               and record.get("status") != "skipped"]
     if not records:
-        raise RecordsError(f"{source}: no contact problems; expected records of bench --problem")
+        raise RecordsError(f"{source}: no runs to {' or '.join(map(str, PRECISIONS))} of contact "
+                           "problems; expected records of bench --problem=... --study=contact")
     table = table_of(records).to_csv(index=False)
     with matplotlib.rc_context(STYLE):
         out = args.out or args.results / "figures"
