@@ -67,10 +67,11 @@ Eigen::VectorXd active_set_step(const contact::Problem& problem, const Eigen::Ve
                                 const Eigen::VectorXd& r) {
   if (problem.is_dense()) return active_set_step(problem.D, problem.points, F, r);
   const Eigen::VectorXd diagonal = D_diagonal(problem);
+  const double added = shift * diagonal.mean();
   return step_from(
       problem.points, diagonal, F, r, [&](const Eigen::VectorXd& x) { return D_times(problem, x); },
       [&](std::vector<Freedom> freedoms, const Eigen::VectorXd& rest) {
-        for (Freedom& freedom : freedoms) freedom.diagonal += shift * diagonal.mean();
+        for (Freedom& freedom : freedoms) freedom.diagonal += added;
         return solve_sparse_freedoms(problem, freedoms, rest);
       });
 }
