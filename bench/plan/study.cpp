@@ -134,7 +134,8 @@ std::vector<TurnedMethod> precision_points(const Method& method) {
     for (const TurnedMethod& by : contact_points(method)) {
       points.push_back(turned(by.method, {"tolerance", precision, {}, by.knob.contact},
                               [precision](RunControl& control) {
-                                control.tolerance = control.target_error = precision;
+                                control.target_error = precision;
+                                control.tolerance = precision / 10;
                                 control.contact.tolerance = precision / 10;
                                 control.contact.acceptable = precision / 10;
                               }));

@@ -25,7 +25,8 @@ def records() -> list[dict]:
     return [{"mesh": f"problem{k}", "scene": "fclib", "n_phi": None, "n_c": 30, "study": "contact",
              "method": solver if ":" in solver else "CONDENSED", "knob": "tolerance",
              "knob_value": precision, "contact_solver": None if ":" in solver else solver,
-             "time_s": seconds, "siconos_error": error}
+             "time_s": seconds, "siconos_error": error, "natural_map_residual": error,
+             "contact_matrix": "sparse", "status": "ok" if error else "timeout"}
             for precision, solvers in SOLVED.items()
             for solver, own in solvers.items() for k, (seconds, error) in enumerate(own)]
 
@@ -59,6 +60,16 @@ class ContactProfilesTest(unittest.TestCase):
             table = Path(folder, "figures/contact_profiles.csv").read_text().splitlines()
             self.assertEqual(table[0], "precision,solver,factor_of_best,share_solved")
             self.assertIn("0.0001,nsgs,9.0,0.6666666666666666", table)
+
+    def test_the_table_has_times_where_the_precision_is_reached_and_else_how_far(self) -> None:
+        head, _, first, _, last = contact_profiles.markdown_of(records()).splitlines()
+        self.assertEqual(head.split(" | ")[1:7], ["W", "rows", "newton", "admm", "nsgs", "theirs / ours"])
+        self.assertEqual(first, "| problem0 | sparse | 30 | 3 s | 6 s | ok, 1e-07 |  | 1e-09, 1e-09 |  |")
+        self.assertEqual(last, "| problem2 | sparse | 30 | timeout | 40 s | timeout |  | 1e-10, 1e-10 |  |")
+        nsgs = [record | {"siconos_error": 1e-9} if ":" in record["method"] else record
+                for record in records()]
+        first = contact_profiles.markdown_of(nsgs).splitlines()[2]
+        self.assertIn("| 3 s | 6 s | 500 ms | 0.17 |", first)
 
     def test_what_it_cannot_draw_is_one_line(self) -> None:
         with tempfile.TemporaryDirectory() as folder:
