@@ -5,7 +5,7 @@
     contact_profiles.py RESULTS_DIR [--out DIR]     contact_profiles.png and .csv,
                                                     contact_table.md
 
-A precision has runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
+A precision has separate runs that stop there. Of a problem p and a solver s, whose run takes t_ps and leaves
 the error e_ps,
 
     c_ps = t_ps if e_ps <= precision, else infinite;   rho_s(tau) = |{p : c_ps <= tau min_s c_ps}| / P
@@ -123,7 +123,8 @@ def draw(records: list[dict]) -> Figure:
                    f"Profiles: {len(solvers)} contact solvers on {len(problems)} problems",
                    "The share of problems that a solver solves within a factor of the fastest "
                    "solver's time. Solved: Siconos' error of the answer is at most the precision, "
-                   "whatever the solver says of it. Each precision has its own runs, which stop there.")
+                   "whatever the solver says of it. Each precision has its own runs, which stop there. "
+                   "Problems that a program does not take count as not solved.")
     for k, precision in enumerate(PRECISIONS):
         axes = panel_at(figure, LEFT, TOP + k * (PANEL + BETWEEN), PAGE_WIDTH - LEFT - 1.9, PANEL)
         draw_panel(axes, costs_of(records, precision), precision)
