@@ -146,7 +146,7 @@ ContactResult solve_contact_by_newton(const contact::Problem& problem,
     history.insert(history.end(), swept.history.begin(), swept.history.end());
     ContactResult result = swept;
     finish_by_active_set(problem, options, deadline, result);
-    if (!result.converged && problem.rows.size() > 0 && result.F_C.allFinite())
+    if (!result.converged && !problem.bodies && result.F_C.allFinite())
       finish_by_proximal_points(problem, options, deadline, result);
     steps += result.active_set_steps;
     if (best.F_C.size() == 0 || result.natural_map_residual < best.natural_map_residual)
